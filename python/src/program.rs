@@ -35,7 +35,6 @@ impl Compiling {
     fn options(self, py: Python<'_>, session: &Session, watch: &Watch) -> PyResult<CompileOptions> {
         let robots = match self.library.as_deref() {
             None => None,
-            Some("shipped") => Some(session.shipped().clone()),
             Some(folder) => Some(session.library(folder).map_err(|found| diagnosed(py, &found))?),
         };
         let objective = match self.objective.as_str() {

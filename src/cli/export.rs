@@ -88,8 +88,7 @@ impl ExportArguments {
     }
 
     fn library(&self) -> Result<Library, Failure> {
-        let found =
-            if self.what == "shipped" { store::shipped_library() } else { robots::robots(Path::new(&self.what))? };
+        let found = robots::robots(Path::new(&self.what))?;
         if found.robots.is_empty() {
             return Err(UsageError::NothingToExport { path: self.what.clone() }.into());
         }

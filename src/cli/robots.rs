@@ -25,9 +25,9 @@ pub(super) fn named(name: &str, library: Option<&Path>) -> Result<Robot, Failure
 pub(super) fn behavior(word: &str) -> Result<Behavior, String> {
     let function = || Function::parse(word).map(Behavior::from);
     let expected = || {
-        let near = nearest(word, Function::all().map(Function::name));
+        let near = nearest(word, Function::named().map(Function::name));
         let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        format!("expected four letters such as `RRRL`, or a function such as `nand`{near}")
+        format!("expected four or eight letters such as `RRRL`, or a function such as `nand`{near}")
     };
     word.parse().ok().or_else(function).ok_or_else(expected)
 }
@@ -71,8 +71,11 @@ pub(super) fn robots_of(path: &Path) -> Result<Library, Failure> {
     Ok(found)
 }
 
-/// The robots of a file, or of every robot file of a folder.
+/// The robots of a file, of every robot file of a folder, or of a library in the program.
 pub(super) fn robots(path: &Path) -> Result<Library, Failure> {
+    if let Some(library) = path.to_str().and_then(store::built_in) {
+        return Ok(library);
+    }
     let mut sources = Sources::default();
     let mut found = Vec::new();
     for path in robot_paths(path)? {

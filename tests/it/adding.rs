@@ -86,7 +86,7 @@ fn the_folder_of_a_run_stands_for_its_seeds_and_a_function_for_its_behavior() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert_eq!(written(&bench), ["zero_3x1.yaml"]);
     add(&bench, &["--behavior", "nnad"])
-        .expect_fault(&["expected four letters such as `RRRL`", "did you mean `nand`?"]);
+        .expect_fault(&["expected four or eight letters such as `RRRL`", "did you mean `nand`?"]);
     let listed = bench.run(&["library", "list", "robots"]);
     assert!(listed.status == 0 && listed.out.contains("zero_3x1") && !listed.out.contains("nand"), "{}", listed.out);
     for arguments in [&["zero_3x1", "robots"][..], &["zero", "robots"], &["robots/zero_3x1.yaml"]] {

@@ -145,7 +145,7 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
     for (picture, cycle) in pictures.iter().zip(&trace.cycles) {
         for (i, color) in [one, two].into_iter().enumerate() {
             // A frame of two pixels around twelve by twelve, which are filled while the stimulus is present.
-            let present = cycle.sensed.iter().filter(|sensed| sensed[i]).count();
+            let present = cycle.sensed.iter().filter(|sensed| sensed.has(i)).count();
             assert_eq!(count(picture, color, 0..60), 5 * (16 * 16 - 12 * 12) + present * 12 * 12);
         }
         // Far from the robots, whose edges may have any color; ticks cover some columns.

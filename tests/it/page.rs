@@ -8,7 +8,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use nbc_base::model::{
-    Base, Body, Character, CircuitTest, Function, PhysicsWorld, Provenance, Robot, Stimulation, TestRow,
+    Base, Body, Character, CircuitTest, Displacements, Function, PhysicsWorld, Provenance, Robot, Stimulation, TestRow,
 };
 use nbc_base::source::{FileId, Span};
 use nbc_session::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
@@ -26,7 +26,7 @@ pub fn robot(name: &str, function: Function) -> Robot {
         name: name.to_owned(),
         behavior: function.into(),
         body: Body::parse(&rows, &nbc_base::model::Palette::paper()).unwrap(),
-        displacement: [1.0; 4],
+        displacement: Displacements::under(2, |_| 1.0),
         character: Character {
             clock: 4,
             switches: 1000,
@@ -93,7 +93,7 @@ pub fn assembly(trace: &SwarmTrace) -> Assembly {
     let member = |k: usize| Member {
         net: trace.robots[k].net.clone(),
         robot: robot(&trace.robots[k].robot, trace.robots[k].function),
-        senses: trace.robots[k].senses,
+        senses: trace.robots[k].senses.clone(),
         start: false,
         held: Default::default(),
     };

@@ -182,7 +182,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
         let found = bench.run(&["simulate", file, "--schedule", &schedule, "--format", "json"]).expect_json();
         found["displacement"][0].as_f64().unwrap()
     };
-    assert_eq!(["00", "01", "10", "11"].map(|pattern| walked(&file, pattern)), robot.displacement);
+    assert_eq!(["00", "01", "10", "11"].map(|pattern| walked(&file, pattern)), *robot.displacement);
     let rows = serde_json::to_string(&robot.body.rows()).unwrap();
     if Body::parse(&robot.body.rows(), &Palette::paper()).is_ok() {
         bench.file("paper.json", format!("{{\"body\": {rows}}}"));
@@ -215,9 +215,9 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     let member = |robot: &Robot| Member {
         net: robot.name.clone(),
         robot: robot.clone(),
-        senses: [StimulusSource::Input(0), StimulusSource::Constant(false)],
+        senses: vec![StimulusSource::Input(0), StimulusSource::Constant(false)],
         start: false,
-        held: Default::default(),
+        held: vec![Vec::new(); 2],
     };
     let assembly = Assembly {
         circuit: "both".to_owned(),

@@ -1,7 +1,7 @@
 //! Plots of evolution: heat maps, progress, champions, comparisons.
 
 use nbc::Session;
-use nbc_base::model::{Axis, Behavior, Body, Count, Trajectory};
+use nbc_base::model::{Axis, Behavior, Body, Count, Displacements, Trajectory};
 use nbc_base::source::MemoryWorld;
 use nbc_session::report::{self, ArchiveMap, Champions, Course};
 use nbc_swarm::evolve::{Archive, Champion, Elite, NicheKey};
@@ -23,7 +23,7 @@ fn elite(rows: &[&str], behavior: &str, fitness: f64) -> Elite {
     Elite {
         fitness: [fitness, fitness],
         behavior: behavior.parse().unwrap(),
-        displacement: [1.0; 4],
+        displacement: Displacements::under(2, |_| 1.0),
         body: Body::parse(rows, &nbc_base::model::Palette::paper()).unwrap(),
         genotype: None,
         generation: 0,
@@ -62,7 +62,7 @@ fn a_heat_map_colors_the_niches_that_are_filled() {
 fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
     let best = |elites: &[Elite]| elites.iter().map(|elite| elite.fitness[0]).fold(0.0, f64::max);
     let niches: Vec<(&NicheKey, f64)> = archive.niches().map(|(key, elites)| (key, best(elites))).collect();
-    let archive_map = ArchiveMap { unit: "distance (voxels)", axes: &axes(), niches: &niches };
+    let archive_map = ArchiveMap { unit: "distance (voxels)", axes: &axes(), stimuli: 2, niches: &niches };
     report::draw_heatmap("gates", &archive_map, x, y).finish()
 }
 

@@ -16,7 +16,7 @@ use crate::support::root;
 /// Robots of a swarm with random outputs until they have settled.
 struct RandomSwarm<'a> {
     assembly: &'a Assembly,
-    sensed: Vec<([bool; 2], usize)>,
+    sensed: Vec<(Vec<bool>, usize)>,
     /// The output, and whether it is certain: it has been correct since the robot settled.
     bits: Vec<(bool, bool)>,
     cycles: usize,
@@ -26,22 +26,23 @@ impl<'a> RandomSwarm<'a> {
     fn new(assembly: &'a Assembly) -> Self {
         let members = &assembly.members;
         let bits = members.iter().map(|member| (member.start, false)).collect();
-        Self { assembly, sensed: vec![([false; 2], 0); members.len()], bits, cycles: 0 }
+        Self { assembly, sensed: vec![(Vec::new(), 0); members.len()], bits, cycles: 0 }
     }
 
     fn cycle(&mut self, inputs: &[bool], random: &mut ChaCha8Rng) {
         let starting = self.cycles < self.assembly.start_cycles();
         let before = self.bits.clone();
         for (i, member) in self.assembly.members.iter().enumerate() {
-            let sensed = member.senses.map(|signal| match signal {
+            let sense = |signal: &StimulusSource| match *signal {
                 StimulusSource::Input(input) => inputs[input],
                 StimulusSource::Robot(other) if starting => self.assembly.members[other].start,
                 StimulusSource::Robot(other) => before[other].0,
                 StimulusSource::Constant(value) => value,
-            });
+            };
+            let sensed: Vec<bool> = member.senses.iter().map(sense).collect();
             let held = if self.cycles > 0 && sensed == self.sensed[i].0 { self.sensed[i].1 + 1 } else { 1 };
+            let right = member.robot.function().at(sensed.iter().copied());
             self.sensed[i] = (sensed, held);
-            let right = member.robot.function().output(sensed[0], sensed[1]);
             let character = &member.robot.character;
             let keeps = before[i] == (right, true) && character.glitch_rate == 0.0;
             let is_certain =

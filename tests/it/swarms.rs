@@ -91,8 +91,8 @@ fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
 fn a_robot_never_reaches_the_end_of_its_ground() {
     let fastest = |a: &&Robot, b: &&Robot| a.displacement[0].total_cmp(&b.displacement[0]);
     let robot = shipped_library().robots.iter().max_by(fastest).unwrap().clone();
-    let (net, senses) = ("y".to_owned(), [StimulusSource::Constant(false); 2]);
-    let member = Member { net, robot, senses, start: true, held: Default::default() };
+    let (net, senses) = ("y".to_owned(), vec![StimulusSource::Constant(false); 2]);
+    let member = Member { net, robot, senses, start: true, held: vec![Vec::new(); 2] };
     let (outputs, shown) = (vec![crate::support::traces::port("y")], vec![StimulusSource::Robot(0)]);
     let (inputs, world) = (Vec::new(), PhysicsWorld::default());
     let assembly =
@@ -112,9 +112,9 @@ fn poses_are_recorded_while_a_swarm_is_simulated() {
     let member = |robot: &Robot| Member {
         net: robot.name.clone(),
         robot: robot.clone(),
-        senses: [StimulusSource::Constant(true), StimulusSource::Robot(0)],
+        senses: vec![StimulusSource::Constant(true), StimulusSource::Robot(0)],
         start: false,
-        held: Default::default(),
+        held: vec![Vec::new(); 2],
     };
     let assembly = Assembly {
         beat: 1,

@@ -12,8 +12,9 @@ pub struct CellKind {
     pub cost: u32,
     /// Cycles for which its inputs must be held so that its output is correct, for any earlier inputs.
     pub clock: u32,
-    /// Cycles until the output is correct after a switch, `settle[from][to]`, with patterns numbered `2a + b`.
-    pub settle: [[u32; 4]; 4],
+    /// Cycles until the output is correct after a switch, `settle[from][to]`, with patterns numbered as the rows of the
+    /// function's truth table: `2a + b`, or `4a + 2b + c`.
+    pub settle: [[u32; 8]; 8],
     /// Smallest displacement in the correct direction at the end of a hold, in voxels per cycle.
     pub margin: f64,
     /// How far a world may differ before it makes errors; 0 if that was not measured.
@@ -25,19 +26,20 @@ pub struct CellKind {
 impl CellKind {
     /// A kind without glitches whose output is correct `clock` cycles after every switch.
     pub const fn uniform(clock: u32, margin: f64) -> Self {
-        Self { cost: 1, clock, settle: [[clock; 4]; 4], margin, radius: 0.0, glitches: false }
+        Self { cost: 1, clock, settle: [[clock; 8]; 8], margin, radius: 0.0, glitches: false }
     }
 
-    /// Cycles from a change of `pin` (0 or 1) to `value` until the output stays at `output`; none if that cannot
+    /// Cycles from a change of `pin` (from 0) to `value` until the output stays at `output`; none if that cannot
     /// follow.
     ///
     /// The longest settle time of all transitions to this output, including those that start from it, because the
     /// output may change in between.
     pub(crate) fn settle_time(&self, function: Function, pin: usize, value: bool, output: bool) -> Option<u32> {
-        let bit = |pattern: usize| (if pin == 0 { pattern >> 1 } else { pattern }) & 1 == 1;
-        let ends = |to: usize| bit(to) == value && function.output(to >> 1 == 1, to & 1 == 1) == output;
-        let transitions = (0..4).flat_map(|from| (0..4).map(move |to| (from, to)));
-        transitions.filter(|&(from, to)| ends(to) && bit(from) != value).map(|(from, to)| self.settle[from][to]).max()
+        let bit = |row: usize| function.input_at(pin, row) == value;
+        let ends = |to: usize| bit(to) && function.row(to) == output;
+        let rows = 1 << function.inputs();
+        let transitions = (0..rows).flat_map(|from| (0..rows).map(move |to| (from, to)));
+        transitions.filter(|&(from, to)| ends(to) && !bit(from)).map(|(from, to)| self.settle[from][to]).max()
     }
 }
 
@@ -45,6 +47,8 @@ impl CellKind {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellLibrary {
     kinds: BTreeMap<Function, CellKind>,
+    /// Those of three inputs.
+    wide: BTreeMap<Function, CellKind>,
 }
 
 impl CellLibrary {
@@ -55,12 +59,16 @@ impl CellLibrary {
 
     /// Adds or replaces the cell of a function.
     pub fn insert(&mut self, function: Function, kind: CellKind) {
-        self.kinds.insert(function, kind);
+        self.of_mut(function).insert(function, kind);
+    }
+
+    fn of_mut(&mut self, function: Function) -> &mut BTreeMap<Function, CellKind> {
+        if function.inputs() == 3 { &mut self.wide } else { &mut self.kinds }
     }
 
     /// The cell of a function.
     pub fn get(&self, function: Function) -> Option<&CellKind> {
-        self.kinds.get(&function)
+        self.kinds.get(&function).or_else(|| self.wide.get(&function))
     }
 
     /// The kind of each cell of a netlist; a cell of no kind takes one cycle.
@@ -69,19 +77,30 @@ impl CellLibrary {
         move |id| netlist.cell(id).and_then(|cell| self.get(cell.function)).unwrap_or(&OTHER)
     }
 
-    /// The functions in order of their bits.
+    /// The functions of two inputs, in order of their bits.
     pub fn functions(&self) -> impl Iterator<Item = Function> + '_ {
         self.kinds.keys().copied()
     }
 
-    /// The functions with their cells, in order of their bits.
+    /// Whether it has cells of three inputs.
+    pub fn is_wide(&self) -> bool {
+        !self.wide.is_empty()
+    }
+
+    /// The functions of three inputs with their cells, in order of their bits.
+    pub fn wide(&self) -> impl Iterator<Item = (Function, &CellKind)> {
+        self.wide.iter().map(|(&function, kind)| (function, kind))
+    }
+
+    /// The functions of two inputs with their cells, in order of their bits.
     pub fn kinds(&self) -> impl Iterator<Item = (Function, &CellKind)> {
         self.kinds.iter().map(|(&function, kind)| (function, kind))
     }
 
     /// The cells for which a quality is at least `least`.
     pub(crate) fn with(&self, quality: fn(&CellKind) -> f64, least: f64) -> Self {
-        self.kinds().filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
+        let kinds = self.kinds().chain(self.wide());
+        kinds.filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
     /// Whether these cells and constants can make every boolean function.
@@ -132,7 +151,9 @@ pub(crate) fn compose(function: Function, a: u8, b: u8) -> u8 {
 
 impl FromIterator<(Function, CellKind)> for CellLibrary {
     fn from_iter<I: IntoIterator<Item = (Function, CellKind)>>(kinds: I) -> Self {
-        Self { kinds: kinds.into_iter().collect() }
+        let mut library = Self::default();
+        kinds.into_iter().for_each(|(function, kind)| library.insert(function, kind));
+        library
     }
 }
 

@@ -16,11 +16,11 @@ pub struct Delayed {
     past: VecDeque<Vec<bool>>,
 }
 
-/// A cell with the slots of its pins; of one pin, both are that.
-#[derive(Clone, Copy, Debug)]
+/// A cell with the slots of its function's inputs.
+#[derive(Clone, Debug)]
 struct DelayedCell {
     function: Function,
-    pins: [usize; 2],
+    pins: Vec<usize>,
     slot: usize,
     delay: usize,
 }
@@ -43,8 +43,7 @@ impl Delayed {
                 Node::Input(_) | Node::Constant(_) => start[id.index()] = before.value(id),
                 Node::Cell(cell) => {
                     start[id.index()] = before.value(id);
-                    let pins = netlist.pins(id);
-                    let pins = [pins[0], pins[pins.len() - 1]].map(|pin| pin.index());
+                    let pins = netlist.operands(id).into_iter().map(|pin| pin.index()).collect();
                     cells.push(DelayedCell { function: cell.function, pins, slot: id.index(), delay: delay(id) });
                 }
             }
@@ -70,7 +69,7 @@ impl Delayed {
             self.inputs.iter().zip(inputs).for_each(|(&slot, &value)| now[slot] = value);
             for cell in &self.cells {
                 let heard = &self.past[cell.delay - 1];
-                now[cell.slot] = cell.function.output(heard[cell.pins[0]], heard[cell.pins[1]]);
+                now[cell.slot] = cell.function.at(cell.pins.iter().map(|&pin| heard[pin]));
             }
             self.past.pop_back();
             self.past.push_front(now);

@@ -3,6 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::known::{TernaryBit, answer};
 use crate::loops::Loops;
 use crate::{NetId, Netlist, Node};
 
@@ -119,11 +120,8 @@ fn controls_of(netlist: &Netlist, element: &[NetId], guards: &BTreeSet<NetId>) -
 fn fixes(netlist: &Netlist, id: NetId, net: NetId, value: bool) -> bool {
     let Node::Cell(cell) = netlist.node(id) else { return false };
     let function = cell.function;
-    let pins = netlist.pins(id);
-    let ends = |pin: usize| if pins[pin.min(pins.len() - 1)] == net { vec![value] } else { vec![false, true] };
-    let outputs: BTreeSet<bool> =
-        ends(0).into_iter().flat_map(|a| ends(1).into_iter().map(move |b| function.output(a, b))).collect();
-    outputs.len() == 1
+    let bits: Vec<TernaryBit> = netlist.operands(id).iter().map(|&pin| (pin == net).then_some(value)).collect();
+    answer(function, &bits).is_some()
 }
 
 #[cfg(test)]

@@ -6,9 +6,14 @@ use nbc_base::model::Function;
 pub type TernaryBit = Option<bool>;
 
 /// The value of a function where its inputs determine it.
-pub fn answer(function: Function, [a, b]: [TernaryBit; 2]) -> TernaryBit {
-    let either = |bit: TernaryBit| bit.map_or([false, true], |bit| [bit; 2]);
-    let mut outputs = either(a).into_iter().flat_map(|a| either(b).map(|b| function.output(a, b)));
+///
+/// # Panics
+/// When there is not a bit for each input.
+pub fn answer(function: Function, inputs: &[TernaryBit]) -> TernaryBit {
+    assert_eq!(inputs.len(), function.inputs(), "a bit for each input");
+    let agrees =
+        |row: usize| inputs.iter().enumerate().all(|(i, bit)| bit.is_none_or(|bit| bit == function.input_at(i, row)));
+    let mut outputs = (0..1 << function.inputs()).filter(|&row| agrees(row)).map(|row| function.row(row));
     let first = outputs.next();
     if outputs.all(|output| Some(output) == first) { first } else { None }
 }
@@ -19,8 +24,10 @@ mod tests {
 
     #[test]
     fn one_input_may_decide() {
-        assert_eq!(answer(Function::NAND, [Some(false), None]), Some(true));
-        assert_eq!(answer(Function::NAND, [Some(true), None]), None);
-        assert_eq!(answer(Function::XOR, [None, None]), None);
+        assert_eq!(answer(Function::NAND, &[Some(false), None]), Some(true));
+        assert_eq!(answer(Function::NAND, &[Some(true), None]), None);
+        assert_eq!(answer(Function::XOR, &[None, None]), None);
+        assert_eq!(answer(Function::MAJ, &[Some(true), None, Some(true)]), Some(true));
+        assert_eq!(answer(Function::MUX, &[None, Some(false), Some(false)]), Some(false));
     }
 }

@@ -15,10 +15,10 @@ pub struct Logic {
     next: Vec<bool>,
 }
 
-/// A cell with the slots of its pins; of one pin, both are that.
+/// A cell with the slots of its function's inputs.
 struct Gate {
     function: Function,
-    pins: [u32; 2],
+    pins: Vec<u32>,
     slot: u32,
 }
 
@@ -42,8 +42,7 @@ impl Logic {
             match netlist.node(id) {
                 Node::Constant(value) => logic.values[id.index()] = *value,
                 Node::Cell(cell) => {
-                    let pins = netlist.pins(id);
-                    let pins = [pins[0], pins[pins.len() - 1]].map(|pin| driver(netlist, pin));
+                    let pins = netlist.operands(id).into_iter().map(|pin| driver(netlist, pin)).collect();
                     logic.cells.push(Gate { function: cell.function, pins, slot: id.index() as u32 });
                     held.extend(start(netlist, id).map(|start| (id.index(), start)));
                 }
@@ -80,7 +79,8 @@ impl Logic {
     fn step(&mut self) -> bool {
         self.next.clear();
         let value = |slot: u32| self.values[slot as usize];
-        self.next.extend(self.cells.iter().map(|gate| gate.function.output(value(gate.pins[0]), value(gate.pins[1]))));
+        let output = |gate: &Gate| gate.function.at(gate.pins.iter().map(|&pin| value(pin)));
+        self.next.extend(self.cells.iter().map(output));
         let mut changed = false;
         for (gate, &next) in self.cells.iter().zip(&self.next) {
             changed |= std::mem::replace(&mut self.values[gate.slot as usize], next) != next;

@@ -11,7 +11,7 @@ use crate::options::{MapOptions, MappingObjective};
 use crate::passes::{self, DissolveWires, Pass, Sweep};
 use crate::proof::core_names;
 use crate::recipes::{Operand, Recipe, Recipes};
-use crate::synth::reduce;
+use crate::synth::{CellNetwork, reduce, widen};
 use crate::{MapError, NetId, Netlist, Node};
 use nbc_base::model::Function;
 
@@ -108,7 +108,8 @@ impl<'a> Mapper<'a> {
         let (network, sinks) = self.logic(&view);
         let reduced =
             reduce(&network, &self.stages(), self.library, options).map_err(|missing| self.missing(missing))?;
-        let nets = self.copy(&reduced);
+        let cells = widen(&network, &reduced, &self.stages(), self.library, options);
+        let nets = self.copy(&cells);
         let shown: BTreeMap<NetId, NetId> = sinks.into_iter().zip(nets).collect();
         for &id in &self.kept.clone() {
             let pins: Vec<_> = self.source.pins(id).iter().map(|pin| shown[pin]).collect();
@@ -145,8 +146,8 @@ impl<'a> Mapper<'a> {
         self.source.inputs().iter().chain(&self.kept).map(|id| stages[id]).collect()
     }
 
-    /// Adds the gates of a network whose inputs are the ports and the kept nets; returns the nets of its outputs.
-    fn copy(&mut self, network: &Network) -> Vec<NetId> {
+    /// Adds the cells of a network whose inputs are the ports and the kept nets; returns the nets of its outputs.
+    fn copy(&mut self, network: &CellNetwork) -> Vec<NetId> {
         let mut constants = [None; 2];
         let mut nets: Vec<Option<NetId>> = vec![None, None];
         nets.extend(self.source.inputs().iter().chain(&self.kept).map(|id| Some(self.net[id])));
@@ -155,10 +156,9 @@ impl<'a> Mapper<'a> {
             nets[signal as usize]
                 .unwrap_or_else(|| *constants[signal as usize].get_or_insert_with(|| mapped.add_constant(signal == 1)))
         };
-        for gate in &network.gates {
-            let pins = gate.pins.map(|pin| net(mapped, &nets, pin));
-            let used = if gate.function.depends_on(1) { 2 } else { 1 };
-            nets.push(Some(mapped.add_gate(gate.function, &pins[..used])));
+        for cell in &network.cells {
+            let pins: Vec<NetId> = cell.pins.iter().map(|&pin| net(mapped, &nets, pin)).collect();
+            nets.push(Some(mapped.add_gate(cell.function, &pins)));
         }
         network.outputs.iter().map(|&output| net(mapped, &nets, output)).collect()
     }
@@ -334,5 +334,35 @@ mod tests {
         let driver = mapped.pins(mapped.outputs()[0])[0];
         assert_eq!(mapped.node(driver), &Node::Constant(true));
         assert_eq!(mapped.cells().count(), 0);
+    }
+
+    /// The functions with these names, with their inputs in any order.
+    fn wide(cells: &str) -> CellLibrary {
+        CellLibrary::uniform(cells.split(' ').flat_map(|name| Function::parse(name).unwrap().arrangements()))
+    }
+
+    #[test]
+    fn cells_of_three_inputs_make_a_full_adder_of_three_cells_or_two() {
+        for (cells, expected) in
+            [("nand xor maj", 3), ("nand xor maj xor3", 2), ("nand not and or xor mux", 3), ("and3 nand", 9)]
+        {
+            let library = wide(cells);
+            let mapped = map(&full_adder(), &library).unwrap();
+            assert!(mapped.cells().count() <= expected, "{cells}\n{mapped}");
+            assert!(mapped.cells().all(|(_, cell)| library.get(cell.function).is_some()), "{cells}\n{mapped}");
+            prove(&full_adder(), &mapped).unwrap();
+        }
+    }
+
+    #[test]
+    fn slow_cells_of_three_inputs_are_left_out_where_the_delay_counts() {
+        let mut library = wide("nand xor and or not");
+        library.insert(Function::MAJ, CellKind::uniform(9, 1.0));
+        let cells = |objective| {
+            let mapped = map_with(&full_adder(), &library, &MapOptions { objective, ..MapOptions::default() }).unwrap();
+            (mapped.cells().count(), count(&mapped, Function::MAJ))
+        };
+        assert_eq!(cells(MappingObjective::Area), (3, 1));
+        assert_eq!(cells(MappingObjective::Delay).1, 0);
     }
 }

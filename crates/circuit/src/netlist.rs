@@ -17,7 +17,7 @@ pub type NetId = NodeIndex;
 /// An instance of a gate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
-    /// Its function of pins 0 and 1; a function of one input reads pin 0 only, and has no pin 1.
+    /// Its function of its pins, pin 0 first; a function of one input reads pin 0 only, and has no pin 1.
     pub function: Function,
     /// The name of the net it drives, if the source has one.
     pub name: Option<String>,
@@ -53,7 +53,7 @@ pub enum Node {
 /// The graph of a netlist: the weight of an edge is the listener's pin.
 pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;
 
-/// A circuit as a graph: an edge runs from a driver to the pin (0 or 1) that listens.
+/// A circuit as a graph: an edge runs from a driver to the pin (0, 1 or 2) that listens.
 #[derive(Clone, Debug, Default)]
 pub struct Netlist {
     /// The name of the circuit.
@@ -97,9 +97,9 @@ impl Netlist {
     /// Adds a cell whose pins 0, 1, … listen to `pins`.
     ///
     /// # Panics
-    /// When the number of pins is not one or two.
+    /// When the number of pins is not one, two or three.
     pub fn add_cell(&mut self, cell: Cell, pins: &[NetId]) -> NetId {
-        assert!(matches!(pins.len(), 1 | 2), "a cell has one pin or two");
+        assert!(matches!(pins.len(), 1..=3), "a cell has one pin, two or three");
         let id = self.graph.add_node(Node::Cell(cell));
         for (pin, &net) in pins.iter().enumerate() {
             self.graph.add_edge(net, id, pin as u8);
@@ -180,6 +180,16 @@ impl Netlist {
             self.graph.edges_directed(id, Incoming).map(|edge| (*edge.weight(), edge.source())).collect();
         pins.sort_unstable();
         pins.into_iter().map(|(_, net)| net).collect()
+    }
+
+    /// The net of each input of a cell's function. A cell of one pin has it at both.
+    ///
+    /// # Panics
+    /// When the node is no cell, or a pin has no driver.
+    pub fn operands(&self, id: NetId) -> Vec<NetId> {
+        let inputs = self.cell(id).expect("only cells have operands").function.inputs();
+        let pins = self.pins(id);
+        (0..inputs).map(|input| pins[input.min(pins.len() - 1)]).collect()
     }
 
     /// The listeners of a net with their pins, in order of their numbers.

@@ -54,6 +54,50 @@ impl Network {
         signal
     }
 
+    /// Adds gates for a function of these signals, which may be three, and returns the signal of its output.
+    ///
+    /// # Panics
+    /// When there is not a signal for each input of the function, or one is not an earlier signal.
+    pub fn add_function(&mut self, function: Function, pins: &[Signal]) -> Signal {
+        let &[a, b, c] = pins else { return self.add(function, [pins[0], pins[1]]) };
+        // If `a` is 0, the function is one of `b` and `c`; if it is 1, another.
+        let [low, high] = function.halves();
+        match (low, high) {
+            (Function::ZERO, Function::ONE) => return a,
+            (Function::ONE, Function::ZERO) => return self.add(Function::NOT, [a, a]),
+            _ if low == high => return self.half(low, [b, c]),
+            _ => {}
+        }
+        if high == low.inverted() {
+            let first = self.half(low, [b, c]);
+            return self.add(Function::XOR, [a, first]);
+        }
+        let [absent, present] = [low, high].map(|half| self.half(half, [b, c]));
+        let unless = |network: &mut Self| network.add(Function::AND.with_input_inverted(0), [a, absent]);
+        let when = |network: &mut Self| network.add(Function::AND, [a, present]);
+        match (low, high) {
+            (Function::ZERO, _) => when(self),
+            (_, Function::ZERO) => unless(self),
+            (Function::ONE, _) => self.add(Function::OR.with_input_inverted(0), [a, present]),
+            (_, Function::ONE) => self.add(Function::OR, [a, absent]),
+            _ => {
+                let pins = [unless(self), when(self)];
+                self.add(Function::OR, pins)
+            }
+        }
+    }
+
+    /// The signal of a function of two signals, with a gate if it needs one.
+    fn half(&mut self, function: Function, [b, c]: [Signal; 2]) -> Signal {
+        match function {
+            Function::ZERO => 0,
+            Function::ONE => 1,
+            Function::BUF => b,
+            Function::BUF_B => c,
+            _ => self.add(function, [b, c]),
+        }
+    }
+
     /// The number of signals, including constants and inputs.
     pub fn signals(&self) -> usize {
         2 + self.inputs + self.gates.len()
@@ -196,9 +240,8 @@ fn add(netlist: &Netlist, network: &mut Network, signal: &BTreeMap<NetId, Signal
     match netlist.node(id) {
         Node::Constant(value) => Some(Signal::from(*value)),
         Node::Cell(cell) => {
-            let pins = netlist.pins(id);
-            let pin = |pin: usize| signal[&pins[pin.min(pins.len() - 1)]];
-            Some(network.add(cell.function, [pin(0), pin(1)]))
+            let pins: Vec<Signal> = netlist.operands(id).iter().map(|pin| signal[pin]).collect();
+            Some(network.add_function(cell.function, &pins))
         }
         Node::Input(_) | Node::Output(_) | Node::Wire { .. } => None,
     }

@@ -119,7 +119,10 @@ fn settle(netlist: &Netlist, loops: &Loops, values: &mut Values, merge: impl Fn(
 fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
     let pins: Vec<_> = netlist.pins(id).iter().map(|pin| values[pin]).collect();
     match netlist.node(id) {
-        Node::Cell(cell) => of_cell(cell.function, pins[0], *pins.get(1).unwrap_or(&pins[0])),
+        Node::Cell(cell) => {
+            let inputs: Vec<Ternary> = netlist.operands(id).iter().map(|pin| values[pin]).collect();
+            of_cell(cell.function, &inputs)
+        }
         Node::Constant(value) => Ternary::known(0u64.wrapping_sub(u64::from(*value))),
         Node::Input(_) => values[&id],
         Node::Output(_) | Node::Wire { .. } => pins[0],
@@ -127,11 +130,11 @@ fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
 }
 
 /// The possible outputs of a cell for the possible values of its pins.
-fn of_cell(function: Function, a: Ternary, b: Ternary) -> Ternary {
+fn of_cell(function: Function, inputs: &[Ternary]) -> Ternary {
     let mut made = Ternary::default();
-    for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
-        let here = a.of(x) & b.of(y);
-        let (zero, one) = if function.output(x, y) { (0, here) } else { (here, 0) };
+    for row in 0..1 << function.inputs() {
+        let here = inputs.iter().enumerate().fold(!0, |all, (i, input)| all & input.of(function.input_at(i, row)));
+        let (zero, one) = if function.row(row) { (0, here) } else { (here, 0) };
         made = made.or(Ternary { zero, one });
     }
     made

@@ -29,11 +29,11 @@ pub fn rings(netlist: &Netlist) -> Vec<NetId> {
 /// The only net that a node depends on.
 fn driver(netlist: &Netlist, id: NetId) -> Option<NetId> {
     match (netlist.cell(id), &netlist.pins(id)[..]) {
-        (Some(cell), pins) => match (cell.function.arity(), cell.function.depends_on(0)) {
-            (1, true) => pins.first().copied(),
-            (1, false) => pins.last().copied(),
-            _ => None,
-        },
+        (Some(cell), _) => {
+            let operands = netlist.operands(id).into_iter().enumerate();
+            let mut read = operands.filter(|&(input, _)| cell.function.depends_on(input)).map(|(_, net)| net);
+            read.next().filter(|_| read.next().is_none())
+        }
         (None, [pin]) => Some(*pin),
         _ => None,
     }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::bits::{pack, unpack};
 use crate::message::{MessageFault, TaskKey, decode, encode};
-use nbc_base::model::{Behavior, Character, Fault, FaultKind, Transition};
+use nbc_base::model::{Character, Displacements, Fault, FaultKind, Transition};
 use nbc_swarm::evolve::{CandidateOutcome, Scores};
 use nbc_swarm::{Evaluated, Measurement, SwarmBits, TaskResult, Work};
 
@@ -27,13 +27,13 @@ struct AnswerRecord {
 enum ResultRecord {
     Evaluation { outcome: OutcomeRecord, env_steps: u64, left_out: u64 },
     Screening(Result<Option<(u32, f64)>, FaultRecord>),
-    Measurement(Result<([f64; 4], CharacterRecord), FaultRecord>),
+    Measurement(Result<(Displacements, CharacterRecord), FaultRecord>),
     Swarm { cycles: u32, robots: u32, bits: Vec<u8> },
 }
 
 #[derive(Serialize, Deserialize)]
 enum OutcomeRecord {
-    Measured { fitness: [f64; 2], displacement: [f64; 4] },
+    Measured { fitness: [f64; 2], displacement: Displacements },
     Surpassed,
     Inconsistent,
     Faulty(FaultRecord),
@@ -88,9 +88,9 @@ impl AnswerMessage {
             }
             ResultRecord::Screening(screened) => TaskResult::Screening(screened.map_err(FaultRecord::fault)),
             ResultRecord::Measurement(measured) => {
-                let measurement = |(displacement, record): ([f64; 4], CharacterRecord)| {
+                let measurement = |(displacement, record): (Displacements, CharacterRecord)| {
                     let character = record.character();
-                    let behavior = Behavior::of(&displacement);
+                    let behavior = displacement.behavior();
                     Measurement { displacement, behavior, character }
                 };
                 TaskResult::Measurement(measured.map(measurement).map_err(FaultRecord::fault))
@@ -125,7 +125,7 @@ impl OutcomeRecord {
     fn outcome(self) -> CandidateOutcome {
         match self {
             Self::Measured { fitness, displacement } => {
-                CandidateOutcome::Measured(Scores { fitness, behavior: Behavior::of(&displacement), displacement })
+                CandidateOutcome::Measured(Scores { fitness, behavior: displacement.behavior(), displacement })
             }
             Self::Surpassed => CandidateOutcome::Surpassed,
             Self::Inconsistent => CandidateOutcome::Inconsistent,

@@ -182,7 +182,7 @@ impl Queue {
                 self.checker.set_used(workers);
             }
             Verdict::Differs { worker: first, result } => {
-                self.check(key, vec![(first, result), (worker.to_owned(), answer.result)]);
+                self.check(key, vec![(first, *result), (worker.to_owned(), answer.result)]);
             }
             Verdict::Implausible | Verdict::Wrong => {
                 self.reject(worker, "its result cannot be right");

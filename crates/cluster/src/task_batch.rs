@@ -51,7 +51,7 @@ pub enum Verdict {
     /// It differs from the result that was checked here.
     Wrong,
     /// It differs from the first result, which came from this worker. Only doing the task here can decide.
-    Differs { worker: String, result: TaskResult },
+    Differs { worker: String, result: Box<TaskResult> },
 }
 
 impl TaskBatch {
@@ -95,7 +95,7 @@ impl TaskBatch {
         match (first.result == answer.result, first.trust) {
             (true, _) => Verdict::Again,
             (false, Trust::Verified) => Verdict::Wrong,
-            (false, _) => Verdict::Differs { worker: first.worker.clone(), result: first.result.clone() },
+            (false, _) => Verdict::Differs { worker: first.worker.clone(), result: Box::new(first.result.clone()) },
         }
     }
 
@@ -227,7 +227,7 @@ mod tests {
         let (mut batch, answers) = batch();
         let wrong = wrong(&answers[0]);
         assert_eq!(batch.take("liar", &wrong), Verdict::Taken, "it could be right");
-        let differs = Verdict::Differs { worker: "liar".to_owned(), result: wrong.result.clone() };
+        let differs = Verdict::Differs { worker: "liar".to_owned(), result: Box::new(wrong.result.clone()) };
         assert_eq!(batch.take("good", &answers[0]), differs);
         batch.verify(answers[0].key, answers[0].result.clone());
         assert_eq!(batch.take("liar", &wrong), Verdict::Wrong);

@@ -1,5 +1,6 @@
 //! The message with which a worker receives a task.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
@@ -43,7 +44,7 @@ struct TaskRecord {
 #[derive(Serialize, Deserialize)]
 enum WorkRecord {
     Evaluation(EvaluationRecord),
-    Screening { body: BodyRecord, function: u8, most: u32 },
+    Screening { body: BodyRecord, behavior: BehaviorRecord, most: u32 },
     Measurement(BodyRecord),
     Swarm(SwarmRecord),
 }
@@ -51,8 +52,7 @@ enum WorkRecord {
 #[derive(Serialize, Deserialize)]
 struct EvaluationRecord {
     objective: SearchObjective,
-    /// The bits of the functions.
-    behaviors: Vec<u8>,
+    behaviors: Vec<BehaviorRecord>,
     /// Stimuli as bits, and env steps.
     variable: Vec<(u32, u32)>,
     fixed_steps: u32,
@@ -60,8 +60,15 @@ struct EvaluationRecord {
     others: Vec<PhysicsWorld>,
     body: BodyRecord,
     pareto: Option<u32>,
-    rivals: Vec<Vec<Vec<[f64; 2]>>>,
+    /// Each set of rivals once: many behaviors lead to the same niches.
+    fronts: Vec<Vec<[f64; 2]>>,
+    /// The places of those that a body must beat, for each behavior.
+    rivals: Vec<Vec<u16>>,
 }
+
+/// The stimuli of a behavior, and the bits of its function.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+struct BehaviorRecord(u8, u8);
 
 #[derive(Serialize, Deserialize)]
 struct BodyRecord {
@@ -91,10 +98,10 @@ struct MemberRecord {
     /// Its place among the bodies.
     body: u32,
     clock: u32,
-    senses: [SourceRecord; 2],
+    senses: Vec<SourceRecord>,
     start: bool,
-    /// For each pin, for how many cycles it is held, and its bits then.
-    held: [(u32, Vec<u8>); 2],
+    /// For each stimulus, for how many cycles it is held, and its bits then.
+    held: Vec<(u32, Vec<u8>)>,
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -129,8 +136,8 @@ impl WorkRecord {
         match task {
             Task::Evaluation(protocol, task) => Self::Evaluation(EvaluationRecord::of(protocol, task)),
             Task::Screening { body, behavior, most } => {
-                let (body, function) = (BodyRecord::of(body), behavior.function().bits());
-                Self::Screening { body, function, most: *most }
+                let (body, behavior) = (BodyRecord::of(body), BehaviorRecord::of(*behavior));
+                Self::Screening { body, behavior, most: *most }
             }
             Task::Measurement(body) => Self::Measurement(BodyRecord::of(body)),
             Task::Swarm(swarm) => Self::Swarm(SwarmRecord::of(swarm)),
@@ -142,10 +149,10 @@ impl TaskRecord {
     fn check(self) -> Option<TaskMessage> {
         let task = match self.work {
             WorkRecord::Evaluation(record) => record.check()?,
-            WorkRecord::Screening { body, function, most } => {
-                let behavior = Behavior::all().nth(function.into())?;
-                (1..=MOST_CLOCK).contains(&most).then_some(())?;
-                Task::Screening { body: body.check()?, behavior, most }
+            WorkRecord::Screening { body, behavior, most } => {
+                let (body, behavior) = (body.check()?, behavior.check()?);
+                let fits = behavior.stimuli() == body.palette().inputs() && (1..=MOST_CLOCK).contains(&most);
+                fits.then_some(Task::Screening { body, behavior, most })?
             }
             WorkRecord::Measurement(body) => Task::Measurement(body.check()?),
             WorkRecord::Swarm(record) => Task::Swarm(record.check()?),
@@ -155,15 +162,36 @@ impl TaskRecord {
     }
 }
 
+impl BehaviorRecord {
+    fn of(behavior: Behavior) -> Self {
+        Self(behavior.stimuli() as u8, behavior.function().bits())
+    }
+
+    fn check(self) -> Option<Behavior> {
+        let Self(stimuli, bits) = self;
+        matches!(stimuli, 2 | 3).then(|| Behavior::all(stimuli.into()).nth(bits.into()))?
+    }
+}
+
 impl EvaluationRecord {
     fn of(protocol: &EvaluationProtocol, task: &EvaluationTask) -> Self {
         let spell = |spell: &Spell| {
             let bits = (0..Pattern::MAX_STIMULI).map(|i| u32::from(spell.pattern.has(i)) << i).sum();
             (bits, spell.steps)
         };
+        let mut fronts: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut places: BTreeMap<Vec<[u64; 2]>, u16> = BTreeMap::new();
+        let mut place = |front: &Vec<[f64; 2]>| {
+            *places.entry(front.iter().map(|two| two.map(f64::to_bits)).collect()).or_insert_with(|| {
+                fronts.push(front.clone());
+                (fronts.len() - 1) as u16
+            })
+        };
+        let rivals = task.rivals.behaviors();
+        let rivals = rivals.iter().map(|niches| niches.iter().map(&mut place).collect()).collect();
         Self {
             objective: protocol.objective,
-            behaviors: protocol.behaviors.iter().map(|behavior| behavior.function().bits()).collect(),
+            behaviors: protocol.behaviors.iter().map(|&behavior| BehaviorRecord::of(behavior)).collect(),
             variable: protocol.variable.spells.iter().map(spell).collect(),
             fixed_steps: protocol.fixed_steps,
             world: protocol.world,
@@ -173,7 +201,8 @@ impl EvaluationRecord {
                 Niche::Dominance => None,
                 Niche::Pareto(most) => Some(most as u32),
             },
-            rivals: task.rivals.behaviors().to_vec(),
+            fronts,
+            rivals,
         }
     }
 
@@ -181,13 +210,14 @@ impl EvaluationRecord {
         let steps = self.variable.iter().map(|&(_, steps)| u64::from(steps)).sum::<u64>();
         let body = self.body.check()?;
         validate(&body).ok()?;
+        let stimuli = body.palette().inputs();
         let is_bounded =
             steps.max(self.fixed_steps.into()) <= MOST_STEPS && self.others.len() <= SampledWorlds::MOST as usize;
         let are_possible = self.world.is_possible() && self.others.iter().all(PhysicsWorld::is_possible);
         if !is_bounded
             || !are_possible
-            || self.rivals.len() != Behavior::all().count()
-            || self.behaviors.len() > Behavior::all().count()
+            || self.rivals.len() != Behavior::all(stimuli).count()
+            || self.behaviors.len() > Behavior::all(stimuli).count()
         {
             return None;
         }
@@ -198,10 +228,12 @@ impl EvaluationRecord {
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
         let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
         let Self { objective, behaviors, fixed_steps, world, others, .. } = self;
-        let behavior = |bits: &u8| Behavior::all().nth(usize::from(*bits));
-        let behaviors: Vec<Behavior> = behaviors.iter().map(behavior).collect::<Option<_>>()?;
-        let protocol = EvaluationProtocol { objective, behaviors, variable, fixed_steps, world, others };
-        let task = EvaluationTask { body, rivals: Rivals::new(niche, self.rivals) };
+        let behavior = |record: BehaviorRecord| record.check().filter(|behavior| behavior.stimuli() == stimuli);
+        let behaviors: Vec<Behavior> = behaviors.into_iter().map(behavior).collect::<Option<_>>()?;
+        let protocol = EvaluationProtocol { stimuli, objective, behaviors, variable, fixed_steps, world, others };
+        let front = |place: &u16| self.fronts.get(usize::from(*place)).cloned();
+        let rivals = self.rivals.iter().map(|places| places.iter().map(front).collect());
+        let task = EvaluationTask { body, rivals: Rivals::new(niche, rivals.collect::<Option<_>>()?) };
         Some(Task::Evaluation(Arc::new(protocol), task))
     }
 }
@@ -240,9 +272,9 @@ impl SwarmRecord {
             members.push(MemberRecord {
                 body: place as u32,
                 clock: member.robot.character.clock,
-                senses: member.senses.map(SourceRecord::of),
+                senses: member.senses.iter().map(|&source| SourceRecord::of(source)).collect(),
                 start: member.start,
-                held: member.held.each_ref().map(|bits| (bits.len() as u32, pack(bits.iter().copied()))),
+                held: member.held.iter().map(|bits| (bits.len() as u32, pack(bits.iter().copied()))).collect(),
             });
         }
         let inputs = &task.conditions.inputs;
@@ -271,11 +303,13 @@ impl SwarmRecord {
         let bodies = self.bodies.into_iter().map(BodyRecord::check).collect::<Option<Vec<Body>>>()?;
         let inputs = unpack(&self.inputs, cycles, width)?;
         let member = |record: MemberRecord| {
-            let [first, second] = record.senses.map(|source| source.check(width, robots));
-            let (body, senses) = (bodies.get(record.body as usize)?.clone(), [first?, second?]);
-            let [one, two] =
-                record.held.map(|(held, bits)| unpack(&bits, 1, held as usize).map(|mut rows| rows.remove(0)));
-            Some(PlainMember { body, clock: record.clock, senses, start: record.start, held: [one?, two?] })
+            let body = bodies.get(record.body as usize)?.clone();
+            let senses = record.senses.into_iter().map(|source| source.check(width, robots));
+            let senses = senses.collect::<Option<Vec<StimulusSource>>>()?;
+            let bits = |(held, bits): (u32, Vec<u8>)| unpack(&bits, 1, held as usize).map(|mut rows| rows.remove(0));
+            let held = record.held.into_iter().map(bits).collect::<Option<Vec<_>>>()?;
+            let fits = matches!(senses.len(), 2 | 3) && held.len() == senses.len();
+            fits.then_some(PlainMember { body, clock: record.clock, senses, start: record.start, held })
         };
         let members = self.members.into_iter().map(member).collect::<Option<Vec<_>>>()?;
         let mut task = SwarmTask::new(members, self.world, inputs, self.window as usize);
@@ -332,12 +366,12 @@ pub(super) mod tests {
     /// A swarm of two robots that sense each other and two inputs.
     fn swarm() -> Task {
         let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
-        let member = |senses, start| PlainMember {
+        let member = |senses: [StimulusSource; 2], start| PlainMember {
             body: body.clone(),
             clock: 2,
-            senses,
+            senses: senses.to_vec(),
             start,
-            held: [vec![start; 3], Vec::new()],
+            held: vec![vec![start; 3], Vec::new()],
         };
         let members = vec![
             member([StimulusSource::Input(0), StimulusSource::Robot(1)], true),
@@ -382,7 +416,8 @@ pub(super) mod tests {
 
     #[test]
     fn a_swarm_whose_robots_sense_what_is_not_there_is_a_fault() {
-        for senses in [[SourceRecord::Input(2); 2], [SourceRecord::Robot(2); 2]] {
+        let missing = [SourceRecord::Input(2), SourceRecord::Robot(2)].map(|source| vec![source; 2]);
+        for senses in missing.into_iter().chain([vec![SourceRecord::Input(0)]]) {
             let Task::Swarm(task) = swarm() else { unreachable!() };
             let mut record = SwarmRecord::of(&task);
             record.members[0].senses = senses;

@@ -10,8 +10,8 @@ use crate::refusal::Refused;
 use crate::request::KeepRequest;
 use crate::served::SCHEME;
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, Character, Fault, Library, Material, Palette, Pattern, Provenance, Robot, Schedule,
-    Setting,
+    Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Library, Material, Palette, Pattern, Provenance,
+    Robot, Schedule, Setting,
 };
 use nbc_circuit::formats::is_word;
 use nbc_session::report::{self, Looks, Stage, describe_material};
@@ -96,15 +96,15 @@ fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
     Stage::of_trial(&Setting::default(), body, &schedule, CYCLE_STEPS / FRAMES)
 }
 
-/// Simulates a body under the four patterns, and measures it as a gate.
+/// Simulates a body under each pattern, and measures it as a gate.
 ///
 /// # Errors
 /// When it cannot be simulated.
 pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> JobEnd {
     let body = body(rows)?;
     let cycles = cycles.clamp(1, MOST_CYCLES);
-    let gaits: Vec<Recorded> =
-        Pattern::PAIRS.map(|pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0)).into();
+    let gait = |pattern| stage(&body, pattern, cycles).record(1).robots.swap_remove(0);
+    let gaits: Vec<Recorded> = Pattern::all(body.palette().inputs()).map(gait).collect();
     job.check()?;
     let (displacement, behavior, sketched) = measured(&body, is_whole, job)?;
     let shown = Looks::of([&body], SCHEME);
@@ -113,7 +113,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
         gaits: gaits.iter().map(gait).collect(),
         letters: behavior.to_string(),
         function: behavior.function().name(),
-        displacement,
+        displacement: displacement.to_vec(),
         character: sketched.as_ref().map(character),
         points: gaits[0].points,
         voxels: report::voxel_data(&gaits[0], &body, &shown),
@@ -122,11 +122,11 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
 }
 
 /// Displacements and behavior of a body; if `is_whole`, also a rough measurement of its character, which takes longer.
-fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<([f64; 4], Behavior, Option<Character>), Refused> {
+fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<(Displacements, Behavior, Option<Character>), Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let simulator = job.simulator();
     let displacement = walk(&simulator, std::slice::from_ref(body)).remove(0).map_err(stopped)?;
-    let behavior = Behavior::of(&displacement);
+    let behavior = displacement.behavior();
     let character = is_whole.then(|| sketch(&simulator, body, behavior)).transpose().map_err(stopped)?;
     Ok((displacement, behavior, character))
 }

@@ -8,7 +8,7 @@ use crate::jobs::{Job, JobEnd};
 use crate::message::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry, PlayEvent, RequestResult};
 use crate::refusal::Refused;
 use crate::request::EvolveRequest;
-use nbc_base::model::{Axis, Behavior, Body, Evolution, Fault};
+use nbc_base::model::{Axis, Body, Displacements, Evolution, Fault};
 use nbc_base::source::MemoryWorld;
 use nbc_session::report::axis_word;
 use nbc_session::{Observer, Session};
@@ -68,8 +68,8 @@ fn declared(width: usize, height: usize, generations: u32) -> Evolution {
 fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Scores)> {
     let bodies: Vec<Body> = measured.iter().map(|(body, _)| body.clone()).collect();
     let walked = walk(simulator, &bodies);
-    let is_steady = |scores: &Scores, walked: Result<[f64; 4], Fault>| {
-        walked.is_ok_and(|displacement| Behavior::of(&displacement) == scores.behavior)
+    let is_steady = |scores: &Scores, walked: Result<Displacements, Fault>| {
+        walked.is_ok_and(|displacement| displacement.behavior() == scores.behavior)
     };
     let both = measured.into_iter().zip(walked);
     both.filter(|((_, scores), walked)| is_steady(scores, *walked)).map(|(measured, _)| measured).collect()
@@ -135,10 +135,7 @@ impl Tending {
     }
 
     fn change(&self, id: u64, generation: u32, changed: &[NicheKey]) -> ArchiveChange {
-        let axis = |&axis: &Axis| match axis {
-            Axis::Count { bins, .. } => AxisEntry(axis_word(axis), bins),
-            Axis::Behavior => AxisEntry(axis_word(axis), 16),
-        };
+        let axis = |&axis: &Axis| AxisEntry(axis_word(axis), axis.bins(self.evolution.palette.inputs()));
         let niche = |(key, elite): (&NicheKey, &Elite)| NicheEntry {
             place: key.0.clone(),
             fitness: elite.fitness,

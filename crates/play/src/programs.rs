@@ -141,7 +141,7 @@ fn robot(recorded: &Recorded, trace: &SwarmTrace, assembly: &Assembly, looks: &L
         function: robot.function.name(),
         robot: robot.robot.clone(),
         about: report::about_robot(robot, member),
-        senses: robot.senses.map(Into::into),
+        senses: robot.senses.iter().map(|&source| source.into()).collect(),
         body: body.rows(),
         size: [body.width(), body.height()],
         voxels: report::voxel_data(recorded, body, looks),

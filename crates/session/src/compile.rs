@@ -90,6 +90,7 @@ pub(super) fn map(
     match plan.registers {
         RegisterStyle::MasterSlave => map(),
         RegisterStyle::Pulsed => map().map(Mapping::pulsed),
+        RegisterStyle::Mux => map()?.held().ok_or_else(|| vec![for_circuit(ChoiceError::NoMultiplexer.into(), place)]),
         RegisterStyle::Waves => {
             let source = elaborate(program, &plan.circuit)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);

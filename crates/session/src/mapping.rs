@@ -1,6 +1,6 @@
 //! A circuit as cells of a library.
 
-use nbc_circuit::timing::{Delays, Pulsed, PulsedRegisters};
+use nbc_circuit::timing::{Delays, Held, Pulsed, PulsedRegisters};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{CellLibrary, Netlist, Proof, Timing};
 
@@ -13,9 +13,10 @@ pub struct Mapping {
     pub netlist: Netlist,
     /// The available cells.
     pub cells: CellLibrary,
-    /// How the two netlists were proved equal, before registers became pulsed latches; or the steps of a wave machine.
+    /// How the two netlists were proved equal, before registers became latches of another form; or the steps of a wave
+    /// machine.
     pub proof: Proof,
-    /// The registers, if they were to be pulsed latches.
+    /// The registers, if they were to be pulsed latches or latches of one robot.
     pub registers: Option<PulsedRegisters>,
     /// The wave machine, if the circuit was to be one.
     pub waves: Option<WaveMachine>,
@@ -26,6 +27,13 @@ impl Mapping {
     pub(super) fn pulsed(self) -> Self {
         let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
         Self { netlist, registers: Some(registers), ..self }
+    }
+
+    /// The same circuit with latches of one robot; none if the library has no robot for them.
+    pub(super) fn held(self) -> Option<Self> {
+        let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
+        let registers = PulsedRegisters { pulses: Vec::new(), kept };
+        Some(Self { netlist, registers: Some(registers), ..self })
     }
 
     /// When each net has settled; the hold of a wave machine is the length of a step.

@@ -31,6 +31,7 @@ impl<'a> RobotSources<'a> {
     pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
         let mut library = match &declared.from {
             Origin::Shipped => self.shipped().clone(),
+            Origin::Three => store::three_library(),
             Origin::Folder(folder) => self.folder(folder, declared, None)?,
             Origin::Evolution(name) => {
                 let (run, file) = (format!("{runs}/{name}"), self.file);

@@ -107,6 +107,9 @@ impl Session {
     /// # Errors
     /// When the folder or one of its robot files cannot be read.
     pub fn library(&self, folder: &str) -> Result<Library, Diagnostics> {
+        if let Some(library) = store::built_in(folder) {
+            return Ok(library);
+        }
         let read = store::read_library(self.documents.world(), folder);
         read.map_err(|list| Diagnostics { list, sources: Sources::default() })
     }

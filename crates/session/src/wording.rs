@@ -22,6 +22,8 @@ pub(super) enum ChoiceError {
     OtherCircuit { swarm: String, own: String, circuit: String },
     /// A circuit that cannot be made of the library's cells.
     Unmapped(MapError),
+    /// Registers of multiplexers with a library that has no steady one.
+    NoMultiplexer,
     /// A circuit that cannot be a wave machine.
     NoWaves(WaveError),
 }
@@ -56,6 +58,12 @@ impl From<ChoiceError> for Diagnostic {
                 };
                 let fault = Self::without_place(code, error.to_string());
                 error.help().into_iter().fold(fault, Self::with_help)
+            }
+            ChoiceError::NoMultiplexer => {
+                let message =
+                    "the library has no multiplexer without glitches, of which `registers: mux` makes latches";
+                Self::without_place(Code::IncompleteLibrary, message)
+                    .with_help("write `library: three`, or `registers: pulsed`")
             }
             ChoiceError::NoWaves(WaveError::Unmapped(error)) => ChoiceError::Unmapped(error).into(),
             ChoiceError::NoWaves(error) => {

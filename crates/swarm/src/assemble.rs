@@ -42,12 +42,12 @@ pub struct Member {
     pub net: String,
     /// The robot that drives it.
     pub robot: Robot,
-    /// The sources of stimulus 1 and stimulus 2.
-    pub senses: [StimulusSource; 2],
+    /// The source of each of its stimuli.
+    pub senses: Vec<StimulusSource>,
     /// Its output before the first cycle.
     pub start: bool,
     /// What it senses in the first cycles instead of each source; empty in swarms that are no wave machines.
-    pub held: [Vec<bool>; 2],
+    pub held: Vec<Vec<bool>>,
 }
 
 /// A swarm ready to be simulated.
@@ -121,10 +121,11 @@ pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
 /// Chooses a robot for each cell of a netlist of ports, constants and cells, and wires the robots as the cells are
 /// wired.
 ///
-/// A cell is assigned the first robot of the library that computes its function, or else one that computes it with
-/// exchanged inputs. A cell of one input is connected to the stimulus that its robot depends on; the other stimulus
-/// stays absent. Robots without a start value start as if the circuit had settled with all inputs 0. Otherwise both
-/// robots of a memory element would be driven, and could keep switching each other forever.
+/// A cell is assigned the first robot of the library that computes its function, or else one that computes it with its
+/// inputs in another order, or else one of three stimuli that computes it while some of them are constant. A cell of
+/// one input is connected to the stimulus that its robot depends on; the other stimulus stays absent. Robots without a
+/// start value start as if the circuit had settled with all inputs 0. Otherwise both robots of a memory element would
+/// be driven, and could keep switching each other forever.
 ///
 /// # Errors
 /// [`AssembleError::MissingFunction`] when no robot fits a cell.
@@ -138,13 +139,10 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
     for (id, cell) in netlist.cells() {
         let pins: Vec<StimulusSource> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
         let missing = AssembleError::MissingFunction { function: cell.function };
-        let (robot, exchange) = choose(library, cell.function).ok_or(missing)?;
-        let mut senses = [pins[0], pins.get(1).copied().unwrap_or(StimulusSource::Constant(false))];
-        if exchange {
-            senses.reverse();
-        }
-        let (net, start, held) = (netlist.net_name(id), before.value(id), [const { Vec::new() }; 2]);
-        members.push(Member { net, robot: robot.clone(), senses, start, held });
+        let fit = choose(library, cell.function).ok_or(missing)?;
+        let senses = fit.stimuli(&pins, StimulusSource::Constant);
+        let (net, start, held) = (netlist.net_name(id), before.value(id), vec![Vec::new(); senses.len()]);
+        members.push(Member { net, robot: fit.robot.clone(), senses, start, held });
     }
     Ok(Assembly {
         circuit: netlist.name.clone(),
@@ -165,12 +163,9 @@ pub fn assemble_waves(machine: &WaveMachine, library: &Library) -> Result<Assemb
     let mut assembly = assemble(&machine.netlist, library)?;
     assembly.beat = machine.beat;
     for ((id, cell), member) in machine.netlist.cells().zip(&mut assembly.members) {
-        member.held = [0, 1].map(|pin| machine.held_bits(id, pin));
-        // A robot of one input may listen with its second stimulus.
-        let (_, exchange) = choose(library, cell.function).expect("the cell has a robot");
-        if exchange {
-            member.held.reverse();
-        }
+        let pins = (0..).zip(machine.netlist.pins(id)).map(|(pin, _)| machine.held_bits(id, pin)).collect::<Vec<_>>();
+        let fit = choose(library, cell.function).expect("the cell has a robot");
+        member.held = fit.stimuli(&pins, |_| Vec::new());
     }
     Ok(assembly)
 }
@@ -213,14 +208,14 @@ mod tests {
         let plain = PlainMember {
             body,
             clock: 1,
-            senses: [StimulusSource::Constant(false); 2],
+            senses: vec![StimulusSource::Constant(false); function.inputs()],
             start: false,
-            held: Default::default(),
+            held: vec![Vec::new(); function.inputs()],
         };
         Robot { name: function.name().to_owned(), behavior: function.into(), ..plain.nameless().robot }
     }
 
-    fn check(function: Function, robots: &[Function], expected: Result<(&str, [StimulusSource; 2]), AssembleError>) {
+    fn check(function: Function, robots: &[Function], expected: Result<(&str, &[StimulusSource]), AssembleError>) {
         let mut netlist = Netlist::new("one");
         let pins: Vec<_> = (0..function.arity()).map(|i| netlist.add_input(format!("i{i}"))).collect();
         let gate = netlist.add_gate(function, &pins);
@@ -229,21 +224,21 @@ mod tests {
         let found = assemble(&netlist, &library).map(|assembly| {
             assert_eq!(assembly.outputs, [Column { name: "y".to_owned(), width: 1 }]);
             assert_eq!(assembly.shown, [StimulusSource::Robot(0)]);
-            (assembly.members[0].robot.name.clone(), assembly.members[0].senses)
+            (assembly.members[0].robot.name.clone(), assembly.members[0].senses.clone())
         });
-        assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses)));
+        assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses.to_vec())));
     }
 
     #[test]
     fn a_cell_gets_the_robot_of_its_function() {
         let senses = [StimulusSource::Input(0), StimulusSource::Input(1)];
-        check(Function::NAND, &[Function::AND, Function::NAND], Ok(("nand", senses)));
+        check(Function::NAND, &[Function::AND, Function::NAND], Ok(("nand", &senses)));
     }
 
     #[test]
     fn a_robot_with_exchanged_inputs_is_accepted() {
         let (here, there) = (Function::new(0b0100), Function::new(0b0010));
-        check(here, &[there], Ok(("nota_and_b", [StimulusSource::Input(1), StimulusSource::Input(0)])));
+        check(here, &[there], Ok(("nota_and_b", &[StimulusSource::Input(1), StimulusSource::Input(0)])));
     }
 
     #[test]
@@ -251,12 +246,12 @@ mod tests {
         check(
             Function::NOT,
             &[Function::NOT],
-            Ok(("not", [StimulusSource::Input(0), StimulusSource::Constant(false)])),
+            Ok(("not", &[StimulusSource::Input(0), StimulusSource::Constant(false)])),
         );
         check(
             Function::NOT,
             &[Function::NOT_B],
-            Ok(("notb", [StimulusSource::Constant(false), StimulusSource::Input(0)])),
+            Ok(("notb", &[StimulusSource::Constant(false), StimulusSource::Input(0)])),
         );
     }
 

@@ -44,30 +44,92 @@ pub fn within_beat(library: &Library, beat: u32, objective: MappingObjective) ->
     prefer(quick, if objective == MappingObjective::Margin { objective } else { MappingObjective::Sturdy })
 }
 
-/// The cells of a library: for each function its first robot, or else the first that computes it with exchanged inputs.
-/// [`super::assemble`] makes the same choice.
+/// The cells of a library: for each function of two inputs, and each that depends on three, the robot that
+/// [`super::assemble`] takes for it.
 pub fn cells(library: &Library) -> CellLibrary {
-    Function::all().filter_map(|function| Some((function, kind(library, function)?))).collect()
+    let wide = Function::all_of(3).filter(|function| function.arity() == 3);
+    Function::all().chain(wide).filter_map(|function| Some((function, kind(library, function)?))).collect()
 }
 
-/// The robot for a function, and whether its stimuli must be exchanged.
-pub(super) fn choose(library: &Library, function: Function) -> Option<(&Robot, bool)> {
-    let straight = library.robots_for(function).next().map(|robot| (robot, false));
-    straight.or_else(|| library.robots_for(function.swapped()).next().map(|robot| (robot, true)))
+/// A robot as a cell of some function.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Fit<'a> {
+    pub robot: &'a Robot,
+    /// What each of its stimuli is.
+    pub uses: Vec<StimulusUse>,
+}
+
+/// What a stimulus of a robot is in a cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum StimulusUse {
+    /// A pin of the cell; absent if the cell does not have that pin.
+    Pin(usize),
+    /// Always or never present.
+    Constant(bool),
+}
+
+impl Fit<'_> {
+    /// What the robot senses in a cell with these pins.
+    pub(super) fn stimuli<T: Clone>(&self, pins: &[T], constant: impl Fn(bool) -> T) -> Vec<T> {
+        let stimulus = |one: &StimulusUse| match *one {
+            StimulusUse::Pin(pin) => pins.get(pin).cloned().unwrap_or_else(|| constant(false)),
+            StimulusUse::Constant(value) => constant(value),
+        };
+        self.uses.iter().map(stimulus).collect()
+    }
+
+    /// The pattern of the robot's stimuli in a row of the truth table of the cell's function.
+    fn pattern(&self, function: Function, row: usize) -> Pattern {
+        let pins: Vec<bool> = (0..function.inputs()).map(|input| function.input_at(input, row)).collect();
+        Pattern::new(&self.stimuli(&pins, |value| value))
+    }
+}
+
+/// The robot for a function: the first that computes it, or else the first that computes it with its inputs in another
+/// order, or else the first with three stimuli that computes it if one or two of them are constant.
+pub(super) fn choose(library: &Library, function: Function) -> Option<Fit<'_>> {
+    let straight: Vec<StimulusUse> = (0..function.inputs()).map(StimulusUse::Pin).collect();
+    let exact = library.robots_for(function).next().map(|robot| Fit { robot, uses: straight });
+    let other = || {
+        let uses = uses(function);
+        let fit = |robot| uses.iter().map(move |uses| Fit { robot, uses: uses.clone() });
+        let alike = |fit: &Fit<'_>| {
+            let own = fit.robot.function();
+            own.inputs() == fit.uses.len()
+                && (0..1 << function.inputs()).all(|row| own.under(fit.pattern(function, row)) == function.row(row))
+        };
+        library.robots.iter().flat_map(fit).find(alike)
+    };
+    exact.or_else(other)
+}
+
+/// The ways in which a robot may be a cell of a function other than that its stimuli are the inputs in their order.
+fn uses(function: Function) -> Vec<Vec<StimulusUse>> {
+    use StimulusUse::{Constant, Pin};
+    if function.inputs() == 3 {
+        return [[0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]].map(|order| order.map(Pin).into()).into();
+    }
+    let each = || [Pin(0), Pin(1), Constant(false), Constant(true)];
+    let threes = each()
+        .into_iter()
+        .flat_map(|one| each().into_iter().flat_map(move |two| each().map(|three| vec![one, two, three])));
+    let is_once =
+        |uses: &Vec<StimulusUse>| [Pin(0), Pin(1)].iter().all(|pin| uses.iter().filter(|one| *one == pin).count() < 2);
+    std::iter::once(vec![Pin(1), Pin(0)]).chain(threes.filter(is_once)).collect()
 }
 
 fn kind(library: &Library, function: Function) -> Option<CellKind> {
-    let (robot, exchanged) = choose(library, function)?;
-    let character = &robot.character;
+    let fit = choose(library, function)?;
+    let character = &fit.robot.character;
     let mut kind = CellKind::uniform(character.clock, character.margin);
     kind.glitches = character.glitch_rate != 0.0;
     kind.radius = radius(character);
+    let patterns: Vec<Pattern> = (0..1 << function.inputs()).map(|row| fit.pattern(function, row)).collect();
     for transition in &character.settle {
-        let index = |pattern: Pattern| {
-            let index = pattern.pair_index();
-            if exchanged { (index & 1) << 1 | index >> 1 } else { index }
-        };
-        kind.settle[index(transition.from)][index(transition.to)] = transition.cycles;
+        let rows = |pattern| patterns.iter().enumerate().filter(move |(_, own)| **own == pattern).map(|(row, _)| row);
+        for from in rows(transition.from) {
+            rows(transition.to).for_each(|to| kind.settle[from][to] = transition.cycles);
+        }
     }
     Some(kind)
 }

@@ -1,5 +1,7 @@
 //! The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
 
+use std::collections::BTreeSet;
+
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -190,8 +192,9 @@ impl<'a> Probe<'a> {
     fn random(&self, clock: u32, switches: usize) -> Result<Tally, Fault> {
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
         rng.set_stream(u64::from(clock));
-        let plans: Vec<HoldPlan> =
-            (0..LANES).map(|_| HoldPlan::random(switches + 1, clock..=clock + SLACK, &mut rng)).collect();
+        let plans: Vec<HoldPlan> = (0..LANES)
+            .map(|_| HoldPlan::random(self.behavior.stimuli(), switches + 1, clock..=clock + SLACK, &mut rng))
+            .collect();
         let (margin, toppled) = (f64::INFINITY, false);
         let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
         for holds in self.run(&plans)? {
@@ -201,11 +204,11 @@ impl<'a> Probe<'a> {
         Ok(tally)
     }
 
-    /// The settle times of the twelve transitions, the largest over all starts, and whether the body fell over in one.
+    /// The settle times of all transitions, the largest over all starts, and whether the body fell over in one.
     fn settle(&self) -> Result<(Vec<Transition>, bool), Fault> {
-        let pairs: Vec<(Pattern, Pattern)> = Pattern::PAIRS
-            .iter()
-            .flat_map(|&from| Pattern::PAIRS.iter().map(move |&to| (from, to)))
+        let stimuli = self.behavior.stimuli();
+        let pairs: Vec<(Pattern, Pattern)> = Pattern::all(stimuli)
+            .flat_map(|from| Pattern::all(stimuli).map(move |to| (from, to)))
             .filter(|(from, to)| from != to)
             .collect();
         let plan = |&(from, to): &_, before| HoldPlan(vec![(from, before), (to, SETTLE_AFTER)]);
@@ -215,7 +218,7 @@ impl<'a> Probe<'a> {
         let cycles =
             |place: usize| runs.iter().skip(place).step_by(pairs.len()).map(|holds| self.settled(&holds[1])).max();
         let transition =
-            |(place, &(from, to)): (usize, &_)| Transition { from, to, cycles: cycles(place).unwrap_or(0) };
+            |(place, &(from, to)): (usize, &_)| Transition { stimuli, from, to, cycles: cycles(place).unwrap_or(0) };
         Ok((pairs.iter().enumerate().map(transition).collect(), runs.iter().any(|holds| has_toppled(holds))))
     }
 
@@ -229,7 +232,8 @@ impl<'a> Probe<'a> {
 
 /// Whether the body is much lower in the last hold of some pattern than in its first.
 fn has_toppled(holds: &[PatternHold]) -> bool {
-    Pattern::PAIRS.iter().any(|&pattern| {
+    let patterns: BTreeSet<Pattern> = holds.iter().map(|hold| hold.pattern).collect();
+    patterns.into_iter().any(|pattern| {
         let mut heights = holds.iter().filter(|hold| hold.pattern == pattern).map(|hold| hold.height);
         heights.next().is_some_and(|first| heights.next_back().is_some_and(|last| last < TOPPLED * first))
     })
@@ -297,7 +301,7 @@ mod tests {
         let contrary: Behavior = if walks_right { "LLLL" } else { "RRRR" }.parse().unwrap();
         let (settle, _) = Probe::new(&simulator, &body, contrary).settle().unwrap();
         let pairs: std::collections::BTreeSet<_> =
-            settle.iter().map(|transition| (transition.from.pair_index(), transition.to.pair_index())).collect();
+            settle.iter().map(|transition| (transition.from.number(2), transition.to.number(2))).collect();
         assert!(pairs.len() == 12 && pairs.iter().all(|(from, to)| from != to));
         let back: Vec<u32> = settle.iter().filter(|t| t.to == Pattern::PAIRS[0]).map(|t| t.cycles).collect();
         assert_eq!(back, [SETTLE_AFTER + 1; 3], "wrong to the end");

@@ -5,7 +5,9 @@ use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Scores, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, gate};
-use nbc_base::model::{Behavior, Body, Direction, Evolution, Pattern, Schedule, SearchObjective, Trajectory, Trial};
+use nbc_base::model::{
+    Body, Direction, Displacements, Evolution, Pattern, Schedule, SearchObjective, Trajectory, Trial,
+};
 use nbc_sim::Simulator;
 
 /// Advances a search by one generation: asks, evaluates in parallel, tells.
@@ -48,38 +50,48 @@ pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
 /// The result of each body for an empty archive, so that nothing is left out. Bodies must be valid (see
 /// [`crate::evolve::validate`]).
 pub fn evaluate_bodies(simulator: &Simulator, evolution: &Evolution, bodies: Vec<Body>) -> Vec<CandidateOutcome> {
-    let tasks: Vec<EvaluationTask> =
-        bodies.into_iter().map(|body| EvaluationTask { body, rivals: Rivals::none() }).collect();
+    let tasks: Vec<EvaluationTask> = bodies
+        .into_iter()
+        .map(|body| EvaluationTask { body, rivals: Rivals::none(evolution.palette.inputs()) })
+        .collect();
     let done = evaluate_tasks(simulator, &EvaluationProtocol::of(evolution), &tasks);
     done.into_iter().map(|evaluated| evaluated.outcome).collect()
 }
 
-/// Displacements under the four constant patterns, in voxels, or the fault of a simulation.
+/// Displacements under each constant pattern, in voxels, or the fault of a simulation.
 ///
 /// # Errors
 /// The first fault.
-pub fn fixed_displacements(trajectories: &[Trajectory; 4]) -> Result<[f64; 4], nbc_base::model::Fault> {
+///
+/// # Panics
+/// When there is not one trajectory for each pattern of two or three stimuli.
+pub fn fixed_displacements(trajectories: &[Trajectory]) -> Result<Displacements, nbc_base::model::Fault> {
     if let Some(fault) = trajectories.iter().find_map(|trajectory| trajectory.fault) {
         return Err(fault);
     }
-    Ok([0, 1, 2, 3].map(|i| displacement(&trajectories[i].com_x, 0, trajectories[i].com_x.len() - 1)))
+    let moved: Vec<f64> = trajectories.iter().map(|one| displacement(&one.com_x, 0, one.com_x.len() - 1)).collect();
+    Ok(Displacements::try_from(moved).expect("a trajectory for each pattern"))
 }
 
-/// The trials of a body under the four constant patterns.
-pub fn fixed_trials(body: &Body, steps: u32) -> [Trial; 4] {
-    Pattern::PAIRS.map(|pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, steps) })
+/// The trials of a body under each constant pattern of its inputs.
+pub fn fixed_trials(body: &Body, steps: u32) -> Vec<Trial> {
+    let trial = |pattern| Trial { body: body.clone(), schedule: Schedule::constant(pattern, steps) };
+    Pattern::all(body.palette().inputs()).map(trial).collect()
 }
 
-/// The paper's two fitnesses: four fixed simulations, then the variable one for bodies whose fixed fitness can still
-/// win a niche.
+/// The paper's two fitnesses: a fixed simulation under each pattern, then the variable one for bodies whose fixed
+/// fitness can still win a niche.
 fn distance(simulator: &Simulator, protocol: &EvaluationProtocol, tasks: &[EvaluationTask]) -> Vec<Evaluated> {
     let (setting, noise) = (setting(&protocol.world), RobotNoise::new(&protocol.world.noise, 0));
     let body = |task: &EvaluationTask| noise.worn(&task.body);
     // Under a constant pattern there is nothing to miss.
     let trials: Vec<Trial> = tasks.iter().flat_map(|task| fixed_trials(&body(task), protocol.fixed_steps)).collect();
-    let trajectories = simulator.run_trials(&setting, &trials);
-    let first: Vec<Result<Scores, CandidateOutcome>> =
-        tasks.iter().zip(trajectories.chunks_exact(4)).map(|(task, four)| fixed_scores(task, four)).collect();
+    let mut trajectories = simulator.run_trials(&setting, &trials).into_iter();
+    let mut own = |task: &EvaluationTask| {
+        let own: Vec<Trajectory> = trajectories.by_ref().take(1 << protocol.stimuli).collect();
+        fixed_scores(task, &own)
+    };
+    let first: Vec<Result<Scores, CandidateOutcome>> = tasks.iter().map(&mut own).collect();
     let schedule = noise.sensed(&protocol.variable);
     let variable = |task: &EvaluationTask| Trial { body: body(task), schedule: schedule.clone() };
     let remaining: Vec<Trial> =
@@ -98,11 +110,10 @@ fn distance(simulator: &Simulator, protocol: &EvaluationProtocol, tasks: &[Evalu
 }
 
 /// The scores after the fixed simulations, with an upper bound for the first fitness.
-fn fixed_scores(task: &EvaluationTask, four: &[Trajectory]) -> Result<Scores, CandidateOutcome> {
-    let four = four.first_chunk::<4>().expect("four trials for each task");
-    let displacement = fixed_displacements(four).map_err(CandidateOutcome::Faulty)?;
+fn fixed_scores(task: &EvaluationTask, fixed: &[Trajectory]) -> Result<Scores, CandidateOutcome> {
+    let displacement = fixed_displacements(fixed).map_err(CandidateOutcome::Faulty)?;
     let least = displacement.iter().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
-    let scores = Scores { fitness: [f64::INFINITY, least], behavior: Behavior::of(&displacement), displacement };
+    let scores = Scores { fitness: [f64::INFINITY, least], behavior: displacement.behavior(), displacement };
     let admitted = task.rivals.admit(scores.behavior, &scores.fitness);
     if admitted { Ok(scores) } else { Err(CandidateOutcome::Surpassed) }
 }

@@ -8,6 +8,8 @@ use nbc_base::model::{Behavior, Body, Evolution, PhysicsWorld, Schedule, SearchO
 /// The simulations of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvaluationProtocol {
+    /// The stimuli of its bodies: two or three.
+    pub stimuli: usize,
     /// The objective.
     pub objective: SearchObjective,
     /// The behaviors as which gates are scored, the nearest of them; if there are none, what the body does.
@@ -60,6 +62,7 @@ impl EvaluationProtocol {
         });
         let behaviors = behaviors.clone();
         Self {
+            stimuli: evolution.palette.inputs(),
             objective: *objective,
             behaviors,
             variable: variable.clone(),
@@ -71,7 +74,8 @@ impl EvaluationProtocol {
 
     /// Env steps of a full evaluation of the distance objective.
     pub(super) fn distance_steps(&self) -> u64 {
-        4 * u64::from(self.fixed_steps) + self.variable.spells.iter().map(|spell| u64::from(spell.steps)).sum::<u64>()
+        (u64::from(self.fixed_steps) << self.stimuli)
+            + self.variable.spells.iter().map(|spell| u64::from(spell.steps)).sum::<u64>()
     }
 }
 

@@ -11,13 +11,16 @@ use nbc_base::model::{Behavior, CYCLE_STEPS, Direction, Pattern, Schedule, Spell
 pub(crate) struct HoldPlan(pub Vec<(Pattern, u32)>);
 
 impl HoldPlan {
-    /// `count` holds of random patterns, each different from the previous one, for a random number of cycles.
-    pub(crate) fn random<R: Rng>(count: usize, cycles: RangeInclusive<u32>, rng: &mut R) -> Self {
-        let mut pattern = rng.random_range(0..4u32);
+    /// `count` holds of random patterns of that many stimuli, each different from the previous one, for a random number
+    /// of cycles.
+    pub(crate) fn random<R: Rng>(stimuli: usize, count: usize, cycles: RangeInclusive<u32>, rng: &mut R) -> Self {
+        let patterns: Vec<Pattern> = Pattern::all(stimuli).collect();
+        let many = patterns.len() as u32;
+        let mut pattern = rng.random_range(0..many);
         let mut plan = Vec::with_capacity(count);
         for _ in 0..count {
-            plan.push((Pattern::PAIRS[pattern as usize], rng.random_range(cycles.clone())));
-            pattern = (pattern + rng.random_range(1..4u32)) % 4;
+            plan.push((patterns[pattern as usize], rng.random_range(cycles.clone())));
+            pattern = (pattern + rng.random_range(1..many)) % many;
         }
         Self(plan)
     }

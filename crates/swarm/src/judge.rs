@@ -132,9 +132,9 @@ fn wrong(trace: &SwarmTrace, cycles: Range<usize>, clocks: &[u32]) -> Vec<(Wrong
         robots().filter_map(move |(k, (robot, &clock))| {
             let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
             let (net, name) = (robot.net.clone(), robot.robot.clone());
-            let wrong = || WrongOutput { net, robot: name, cycle, sensed, output };
+            let wrong = || WrongOutput { net, robot: name, cycle, sensed: sensed.bits(robot.senses.len()), output };
             let settled = || cycle + 1 >= start && is_settled(trace, cycle, k, clock as usize);
-            (output != robot.function.output(sensed[0], sensed[1])).then(|| (wrong(), settled()))
+            (output != robot.function.under(sensed)).then(|| (wrong(), settled()))
         })
     };
     cycles.flat_map(of_cycle).collect()
@@ -146,10 +146,10 @@ pub(super) fn settled_margins(trace: &SwarmTrace, clocks: &[u32], window: usize)
     let start = start_cycles(clocks.iter().copied());
     let first = start.saturating_sub(1);
     let margin = |cycle: usize, k: usize| {
-        let (robot, [a, b]) = (&trace.robots[k], trace.cycles[cycle].sensed[k]);
+        let (robot, sensed) = (&trace.robots[k], trace.cycles[cycle].sensed[k]);
         let from = (cycle + 1).saturating_sub(window);
         let moved: f64 = (from..=cycle).map(|cycle| trace.displacement(k, cycle)).sum();
-        let sign = if robot.function.output(a, b) { 1.0 } else { -1.0 };
+        let sign = if robot.function.under(sensed) { 1.0 } else { -1.0 };
         (cycle, k, sign * moved / (cycle + 1 - from) as f64)
     };
     let settled = |cycle: usize, k: usize| is_settled(trace, cycle, k, clocks[k] as usize + window - 1);
@@ -167,7 +167,7 @@ fn is_settled(trace: &SwarmTrace, cycle: usize, k: usize, clock: usize) -> bool 
 mod tests {
     use super::*;
     use crate::{CycleTrace, Recording, RobotTrace, StimulusSource};
-    use nbc_base::model::{Base, Column, Function, Stimulation};
+    use nbc_base::model::{Base, Column, Function, Pattern, Stimulation};
     use nbc_base::source::{FileId, Span};
 
     fn port(name: &str) -> Column {
@@ -186,8 +186,8 @@ mod tests {
                 net: "y".to_owned(),
                 function: Function::NOT,
                 robot: "not_1".to_owned(),
-                senses: [StimulusSource::Input(0), StimulusSource::Constant(false)],
-                sensed_nets: ["a".to_owned(), "0".to_owned()],
+                senses: vec![StimulusSource::Input(0), StimulusSource::Constant(false)],
+                sensed_nets: vec!["a".to_owned(), "0".to_owned()],
                 com_x: vec![0.0; cycles.len() + 1],
                 fault: None,
             }],
@@ -195,7 +195,7 @@ mod tests {
                 .iter()
                 .map(|&(a, y)| CycleTrace {
                     inputs: vec![a],
-                    sensed: vec![[a, false]],
+                    sensed: vec![Pattern::new(&[a, false])],
                     bits: vec![y],
                     outputs: vec![y],
                 })

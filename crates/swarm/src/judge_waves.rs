@@ -63,12 +63,12 @@ impl WaveTest<'_> {
         let lapse = |(cycle, k): (usize, usize)| {
             let robot = &trace.robots[k];
             let (sensed, output) = (trace.cycles[cycle].sensed[k], trace.cycles[cycle].bits[k]);
-            let is_wrong = output != robot.function.output(sensed[0], sensed[1]);
+            let is_wrong = output != robot.function.under(sensed);
             (is_wrong && machine.thread_at(cells[k], cycle) == thread).then(|| WrongOutput {
                 net: robot.net.clone(),
                 robot: robot.robot.clone(),
                 cycle,
-                sensed,
+                sensed: sensed.bits(robot.senses.len()),
                 output,
             })
         };

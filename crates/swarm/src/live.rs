@@ -137,11 +137,10 @@ impl LiveSwarm {
     }
 
     /// Simulates a cycle under what the robots sense, from stop to stop.
-    fn advance(&mut self, sensed: &[[bool; 2]]) {
-        let patterns: Vec<Pattern> = sensed.iter().map(|bits| Pattern::new(bits)).collect();
+    fn advance(&mut self, sensed: &[Pattern]) {
         let mut done = 0;
         for &stop in &self.stops {
-            self.flock.advance(&patterns, stop - done);
+            self.flock.advance(sensed, stop - done);
             done = stop;
             if stop % SAMPLE_STRIDE == 0 {
                 for (i, robot) in self.trace.robots.iter_mut().enumerate() {

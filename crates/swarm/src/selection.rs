@@ -170,7 +170,7 @@ mod tests {
 
     use super::*;
     use crate::measure;
-    use nbc_base::model::{Body, Palette};
+    use nbc_base::model::{Body, Displacements, Palette};
     use nbc_sim::Simulator;
 
     const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };
@@ -179,7 +179,7 @@ mod tests {
         let elite = Elite {
             fitness: [fitness, 0.0],
             behavior: "RRRR".parse().unwrap(),
-            displacement: [0.0; 4],
+            displacement: Displacements::zero(2),
             body: Body::parse(rows, &Palette::paper()).unwrap(),
             genotype: None,
             generation: 1,

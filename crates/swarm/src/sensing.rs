@@ -1,8 +1,8 @@
 //! The stimuli of the robots of a swarm, which follow from the outputs of other robots.
 
 use crate::noise::RobotNoise;
-use crate::{Assembly, SwarmTrace};
-use nbc_base::model::WorldNoise;
+use crate::{Assembly, StimulusSource, SwarmTrace};
+use nbc_base::model::{Pattern, WorldNoise};
 
 /// The outputs that the robots sense.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,7 +14,7 @@ pub(super) struct Sensing {
     /// Each robot's output as sensed by the others.
     outputs: Vec<bool>,
     /// What each robot senses in the first cycles instead of its sources.
-    held: Vec<[Vec<bool>; 2]>,
+    held: Vec<Vec<Vec<bool>>>,
     /// The noise of their world.
     noise: WorldNoise,
 }
@@ -33,18 +33,21 @@ impl Sensing {
     }
 
     /// The stimuli of each robot during the cycle with this number, from 0, with these bits on the input ports.
-    pub fn sense(&self, trace: &SwarmTrace, cycle: usize, inputs: &[bool]) -> Vec<[bool; 2]> {
+    pub fn sense(&self, trace: &SwarmTrace, cycle: usize, inputs: &[bool]) -> Vec<Pattern> {
         (0..trace.robots.len()).map(|robot| self.sensed(trace, cycle, robot, inputs)).collect()
     }
 
     /// The stimuli of a robot. If it misses them, it keeps those of the cycle before.
-    fn sensed(&self, trace: &SwarmTrace, cycle: usize, robot: usize, inputs: &[bool]) -> [bool; 2] {
+    fn sensed(&self, trace: &SwarmTrace, cycle: usize, robot: usize, inputs: &[bool]) -> Pattern {
         match trace.cycles.last() {
             Some(last) if RobotNoise::new(&self.noise, robot).misses(cycle) => last.sensed[robot],
-            _ => [0, 1].map(|pin| {
-                let source = || trace.robots[robot].senses[pin].bit(inputs, &self.outputs);
-                self.held[robot][pin].get(cycle).copied().unwrap_or_else(source)
-            }),
+            _ => {
+                let stimulus = |(source, held): (&StimulusSource, &Vec<bool>)| {
+                    held.get(cycle).copied().unwrap_or_else(|| source.bit(inputs, &self.outputs))
+                };
+                let senses = trace.robots[robot].senses.iter().zip(&self.held[robot]);
+                Pattern::of(senses.map(stimulus))
+            }
         }
     }
 

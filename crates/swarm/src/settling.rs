@@ -19,7 +19,7 @@ pub struct Settling<'a> {
     /// Cycles at the start in which robots sense the start values of the others.
     start: usize,
     /// The stimuli of each robot, and the number of cycles for which they have been known and unchanged.
-    sensed: Vec<([TernaryBit; 2], usize)>,
+    sensed: Vec<(Vec<TernaryBit>, usize)>,
     bits: Vec<TernaryBit>,
     cycles: usize,
 }
@@ -33,7 +33,7 @@ impl<'a> Settling<'a> {
             members,
             clocks: members.iter().map(clock).collect(),
             start: assembly.start_cycles(),
-            sensed: vec![([None; 2], 0); members.len()],
+            sensed: members.iter().map(|member| (vec![None; member.senses.len()], 0)).collect(),
             bits: vec![None; members.len()],
             cycles: 0,
         }
@@ -75,21 +75,21 @@ impl<'a> Settling<'a> {
             false => self.bits.clone(),
         };
         for (i, member) in self.members.iter().enumerate() {
-            let pattern = member.senses.map(|signal| signal.bit(inputs, &others));
-            let (before, held) = self.sensed[i];
-            let held = match pattern {
-                [Some(_), Some(_)] if pattern == before => held + 1,
-                [Some(_), Some(_)] => 1,
-                _ => 0,
+            let pattern: Vec<TernaryBit> = member.senses.iter().map(|signal| signal.bit(inputs, &others)).collect();
+            let (before, held) = &self.sensed[i];
+            let held = match pattern.iter().all(Option::is_some) {
+                true if pattern == *before => held + 1,
+                true => 1,
+                false => 0,
             };
+            self.bits[i] = self.output(i, &pattern, held);
             self.sensed[i] = (pattern, held);
-            self.bits[i] = self.output(i, pattern, held);
         }
         self.cycles += 1;
     }
 
     /// The known output of a robot at the end of a cycle.
-    fn output(&self, robot: usize, pattern: [TernaryBit; 2], held: usize) -> TernaryBit {
+    fn output(&self, robot: usize, pattern: &[TernaryBit], held: usize) -> TernaryBit {
         let member = &self.members[robot];
         let answer = answer(member.robot.function(), pattern);
         let clock = self.clocks[robot];

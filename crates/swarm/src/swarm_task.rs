@@ -2,7 +2,7 @@
 
 use crate::sensing::Sensing;
 use crate::{Assembly, CycleTrace, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
-use nbc_base::model::{Behavior, Body, Character, Column, PhysicsWorld, Provenance, Robot};
+use nbc_base::model::{Body, Character, Column, Displacements, PhysicsWorld, Provenance, Robot};
 use nbc_sim::Simulator;
 
 /// The simulation of a swarm, without names: all that the resulting bits depend on.
@@ -28,12 +28,12 @@ pub struct PlainMember {
     pub body: Body,
     /// The clock of its character, in cycles.
     pub clock: u32,
-    /// The sources of stimulus 1 and stimulus 2.
-    pub senses: [StimulusSource; 2],
+    /// The source of each of its stimuli.
+    pub senses: Vec<StimulusSource>,
     /// Its output before the first cycle.
     pub start: bool,
     /// What it senses in the first cycles instead of each source.
-    pub held: [Vec<bool>; 2],
+    pub held: Vec<Vec<bool>>,
 }
 
 impl SwarmTask {
@@ -43,7 +43,7 @@ impl SwarmTask {
         let plain = |member: &Member| PlainMember {
             body: member.robot.body.clone(),
             clock: member.robot.character.clock,
-            senses: member.senses,
+            senses: member.senses.clone(),
             start: member.start,
             held: member.held.clone(),
         };
@@ -95,8 +95,8 @@ impl PlainMember {
         };
         let provenance =
             Provenance { program: none(), version: none(), evolution: none(), seed: 0, generation: 0, evaluations: 0 };
-        let behavior = Behavior::of(&[0.0; 4]);
-        let (name, displacement) = (none(), [0.0; 4]);
+        let displacement = Displacements::zero(self.senses.len());
+        let (name, behavior) = (none(), displacement.behavior());
         let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
         Member { net: none(), robot, senses: self.senses, start: self.start, held: self.held }
     }
@@ -134,9 +134,10 @@ mod tests {
     /// A latch of two robots, with a start value, in a world with everything that can go wrong.
     fn latch() -> Assembly {
         let body = Body::parse(&["343", "563"], &Palette::paper()).unwrap();
-        let member = |net: &str, senses, start| Member {
-            net: net.to_owned(),
-            ..PlainMember { body: body.clone(), clock: 3, senses, start, held: [vec![true; 3], Vec::new()] }.nameless()
+        let member = |net: &str, senses: [StimulusSource; 2], start| {
+            let (senses, held) = (senses.to_vec(), vec![vec![true; 3], Vec::new()]);
+            let plain = PlainMember { body: body.clone(), clock: 3, senses, start, held };
+            Member { net: net.to_owned(), ..plain.nameless() }
         };
         let column = |name: &str| Column { name: name.to_owned(), width: 1 };
         Assembly {

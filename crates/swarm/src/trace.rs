@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{Assembly, Member, Recording, StimulusSource};
-use nbc_base::model::{Column, Fault, Function, Value};
+use nbc_base::model::{Column, Fault, Function, Pattern, Value};
 
 /// A swarm's run from its start to the end of its stimulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -32,15 +32,15 @@ pub struct SwarmTrace {
 pub struct RobotTrace {
     /// The net whose bit it is.
     pub net: String,
-    /// The gate it plays, of `senses[0]` and `senses[1]`.
+    /// The gate it plays, of its stimuli in the order of `senses`.
     #[serde(serialize_with = "as_text")]
     pub function: Function,
     /// The robot's name in its library.
     pub robot: String,
-    /// The sources of stimulus 1 and stimulus 2.
-    pub senses: [StimulusSource; 2],
+    /// The source of each of its stimuli.
+    pub senses: Vec<StimulusSource>,
     /// The names of the nets it senses, likewise.
-    pub sensed_nets: [String; 2],
+    pub sensed_nets: Vec<String>,
     /// Horizontal place of the center of mass in voxels: the start, then `samples_per_cycle` samples a cycle.
     pub com_x: Vec<f64>,
     /// The fault that stopped it, if any; from then on it stands still.
@@ -52,8 +52,8 @@ pub struct RobotTrace {
 pub struct CycleTrace {
     /// The bits of the input ports during the cycle.
     pub inputs: Vec<bool>,
-    /// The stimuli of each robot during the cycle, stimulus 1 first.
-    pub sensed: Vec<[bool; 2]>,
+    /// The stimuli of each robot during the cycle.
+    pub sensed: Vec<Pattern>,
     /// Each robot's output at the cycle's end.
     pub bits: Vec<bool>,
     /// The bits of the output ports at the cycle's end.
@@ -76,8 +76,8 @@ impl SwarmTrace {
             net: member.net.clone(),
             function: member.robot.function(),
             robot: member.robot.name.clone(),
-            senses: member.senses,
-            sensed_nets: member.senses.map(net_name),
+            senses: member.senses.clone(),
+            sensed_nets: member.senses.iter().map(|&source| net_name(source)).collect(),
             com_x: Vec::new(),
             fault: None,
         };

@@ -94,7 +94,7 @@ pub struct WrongOutput {
     /// The cycle, from 0 at the test's start.
     pub cycle: usize,
     /// Its stimuli.
-    pub sensed: [bool; 2],
+    pub sensed: Vec<bool>,
     /// The bit that the robot showed.
     pub output: bool,
 }

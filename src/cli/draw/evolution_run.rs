@@ -38,10 +38,11 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
         if checkpoint.declared.axes.is_empty() {
             return Err(DrawError::NoAxes { path: place }.into());
         }
-        let Declared { name, axes, objective, .. } = checkpoint.declared;
-        let results =
-            results.get_or_insert(EvolutionResults { name, axes: axes.clone(), objective, runs: BTreeMap::new() });
-        if results.axes != axes || results.objective != objective {
+        let Declared { name, axes, objective, palette, .. } = checkpoint.declared;
+        let stimuli = palette.inputs();
+        let empty = EvolutionResults { name, axes: axes.clone(), stimuli, objective, runs: BTreeMap::new() };
+        let results = results.get_or_insert(empty);
+        if results.axes != axes || results.objective != objective || results.stimuli != stimuli {
             return Err(DrawError::OtherDeclaration { path: place }.into());
         }
         if results.runs.insert(seed, run).is_some() {
@@ -70,7 +71,7 @@ pub(super) fn each_champion(results: &EvolutionResults) -> TitledRobots {
         1 => format!("{}: the champion of each behavior", results.name),
         seeds => format!("{}: the champions of {seeds} seeds by behavior", results.name),
     };
-    TitledRobots { title, robots: Behavior::all().flat_map(one).collect() }
+    TitledRobots { title, robots: results.behaviors().into_iter().flat_map(one).collect() }
 }
 
 /// The best of each behavior over all seeds.
@@ -79,6 +80,6 @@ pub(super) fn best_champions(results: &EvolutionResults) -> TitledRobots {
         let body = results.champion(behavior)?.body.clone();
         Some(NamedBody { behavior, name: behavior.function().to_string(), body })
     };
-    let robots = Behavior::all().filter_map(one).collect();
+    let robots = results.behaviors().into_iter().filter_map(one).collect();
     TitledRobots { title: format!("{}: the champion of each behavior", results.name), robots }
 }

@@ -53,7 +53,7 @@ fn subject_kind(what: &str) -> SubjectKind {
     match () {
         () if what.ends_with(".nb") => SubjectKind::Program,
         () if evolution_run::is_run(path) => SubjectKind::Run,
-        () if what == "shipped" || path.is_dir() => SubjectKind::Library,
+        () if store::built_in(what).is_some() || path.is_dir() => SubjectKind::Library,
         () => SubjectKind::Robot,
     }
 }
@@ -79,7 +79,7 @@ fn draw(
 
 fn draw_library(kind: &dyn PictureKind, request: &DrawRequest) -> Result<Drawing, Failure> {
     let what = &request.what;
-    let library = if what == "shipped" { store::shipped_library() } else { robots::robots_of(Path::new(what))? };
+    let library = robots::robots_of(Path::new(what))?;
     let Some(behavior) = request.behavior else {
         return kind.of_library(&titled_robots::of_library(what, &library), request);
     };

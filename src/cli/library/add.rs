@@ -15,10 +15,10 @@ use crate::cli::options::queue::QueueArguments;
 use crate::cli::robots::behavior;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
-use nbc_base::model::{Behavior, Provenance, Robot};
+use nbc_base::model::{Axis, Behavior, Provenance, Robot};
 use nbc_session::report::{Answer, Schema};
 use nbc_session::store::{self, Checkpoint, ResultPlace};
-use nbc_swarm::evolve::Elite;
+use nbc_swarm::evolve::{self, Elite};
 use nbc_swarm::{RobotCandidate, Selected, Selection};
 
 /// Measure the best gates of evolution runs and write them as robot files
@@ -130,16 +130,26 @@ impl AddArguments {
         Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error: self.max_error }
     }
 
-    /// The requested behaviors, in order of their functions' bits, with the elites to screen.
+    /// The requested behaviors, in order of their functions, with the elites to screen. An archive of classes has an
+    /// elite for all behaviors of its class.
     fn asked(&self, selection: &Selection) -> Result<Vec<(Behavior, Vec<RobotCandidate>)>, Failure> {
-        let is_asked = |behavior: &Behavior| self.behavior.is_empty() || self.behavior.contains(behavior);
         let mut candidates: BTreeMap<Behavior, Vec<RobotCandidate>> =
-            Behavior::all().filter(is_asked).map(|behavior| (behavior, Vec::new())).collect();
+            self.behavior.iter().map(|&behavior| (behavior, Vec::new())).collect();
         for path in self.checkpoints()? {
             let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
+            if self.behavior.is_empty() {
+                for behavior in Behavior::all(checkpoint.declared.palette.inputs()).filter(|one| is_usual(*one)) {
+                    candidates.entry(behavior).or_default();
+                }
+            }
+            let has_classes = checkpoint.declared.axes.contains(&Axis::Class);
             for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
-                if let Some(found) = candidates.get_mut(&elite.behavior) {
-                    found.push(RobotCandidate { elite: elite.clone(), provenance: provenance(&checkpoint, elite) });
+                let shown = if has_classes { evolve::images(elite) } else { vec![elite.clone()] };
+                for elite in shown {
+                    if let Some(found) = candidates.get_mut(&elite.behavior) {
+                        let provenance = provenance(&checkpoint, &elite);
+                        found.push(RobotCandidate { elite, provenance });
+                    }
                 }
             }
         }
@@ -148,6 +158,13 @@ impl AddArguments {
         asked.sort_by_key(|(behavior, _)| behavior.function());
         Ok(asked)
     }
+}
+
+/// Whether a behavior is asked for if none is named: all of two stimuli; of those of three, those that depend on all of
+/// them, and one of each that differ in the order of their stimuli.
+fn is_usual(behavior: Behavior) -> bool {
+    let function = behavior.function();
+    behavior.stimuli() == 2 || function.arity() == 3 && function.arranged() == function
 }
 
 /// A share between 0 and 1.

@@ -3,23 +3,23 @@
 use std::collections::BTreeMap;
 
 use crate::cluster::server::Server;
-use crate::cluster::wire::{Seen, Wire, varint};
+use crate::cluster::wire::{Seen, VERSION, Wire, varint};
 use crate::cluster::{SMALL_STEPS, assert_same, bench, evolve, worker};
 
 /// The subject for an answer of a worker to the search that a task belongs to.
 fn answer_subject(task: &Seen, worker: &str) -> String {
     let search = task.subject.split('.').nth(4).unwrap();
-    format!("nbc.v2.answer.{search}.{worker}")
+    format!("nbc.v3.answer.{search}.{worker}")
 }
 
 /// An answer to a task that could be right, but is not: the simulation of the body becomes unstable in env step 1.
 fn unstable(task: &Seen) -> Vec<u8> {
     let key: Vec<u8> = task.subject.split('.').skip(5).flat_map(|number| varint(number.parse().unwrap())).collect();
-    [vec![2], key, vec![0, 3, 0, 1], varint(SMALL_STEPS), vec![0]].concat()
+    [vec![VERSION], key, vec![0, 3, 0, 1], varint(SMALL_STEPS), vec![0]].concat()
 }
 
 fn is_task(message: &Seen, run: u32, generation: u32) -> bool {
-    message.subject.starts_with("nbc.v2.task.") && message.subject.contains(&format!(".{run}.{generation}."))
+    message.subject.starts_with("nbc.v3.task.") && message.subject.contains(&format!(".{run}.{generation}."))
 }
 
 #[test]
@@ -30,15 +30,15 @@ fn garbage_repeated_late_and_oversized_answers_change_nothing() {
     let search = evolve(&bench, &server, &[]);
     let task = wire.wait_for(|message| is_task(message, 0, 0));
     let answer = |worker: &str| answer_subject(&task, worker);
-    wire.publish(&answer("garbage"), &[2, 255, 255, 255]);
+    wire.publish(&answer("garbage"), &[VERSION, 255, 255, 255]);
     wire.publish(&answer("empty"), &[]);
-    wire.publish(&answer("oversized"), &vec![2; 300_000]);
+    wire.publish(&answer("oversized"), &vec![VERSION; 300_000]);
     // A screening that found nothing, for a task that is an evaluation.
-    wire.publish(&answer("confused"), &[2, 0, 0, 0, 1, 0, 0]);
+    wire.publish(&answer("confused"), &[VERSION, 0, 0, 0, 1, 0, 0]);
     // An answer to the first task that has too few env steps: Surpassed, 3 and 0.
-    wire.publish(&answer("impossible"), &[2, 0, 0, 0, 0, 1, 3, 0]);
-    let note = |name: &str| [&[2, name.len() as u8], name.as_bytes(), &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
-    wire.publish("nbc.v2.worker", &note("foreign"));
+    wire.publish(&answer("impossible"), &[VERSION, 0, 0, 0, 0, 1, 3, 0]);
+    let note = |name: &str| [&[VERSION, name.len() as u8], name.as_bytes(), &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
+    wire.publish("nbc.v3.worker", &note("foreign"));
     let good = worker(&bench, &server, "good");
     // Every answer is sent again at once, and the first is sent again much later.
     let first = wire.wait_for(|message| message.is_answer_of("good"));
@@ -73,16 +73,16 @@ fn junk_in_the_name_of_a_worker_is_dropped_and_the_worker_stays() {
     let search = evolve(&bench, &server, &[]);
     let task = wire.wait_for(|message| is_task(message, 0, 0));
     let subject = answer_subject(&task, "good");
-    for junk in [&[][..], &[2, 255, 255, 255], b"hello", &[0; 300]] {
+    for junk in [&[][..], &[VERSION, 255, 255, 255], b"hello", &[0; 300]] {
         wire.publish(&subject, junk);
     }
     // Answers that can be read, but are wrong, one of them with a reply to somebody else.
-    wire.publish(&subject, &[2, 0, 0, 0, 0, 1, 3, 0]);
-    wire.publish(&format!("{subject} nbc.v2.reply.wire"), &unstable(&task));
+    wire.publish(&subject, &[VERSION, 0, 0, 0, 0, 1, 3, 0]);
+    wire.publish(&format!("{subject} nbc.v3.reply.wire"), &unstable(&task));
     let good = worker(&bench, &server, "good");
     // More junk between the answers of the worker, each from another connection.
     for number in 0..20 {
-        wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[2, 0]));
+        wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[VERSION, 0]));
         wire.publish(&format!("{subject} junk.{number}"), b"junk");
     }
     let ran = search.end();
@@ -123,7 +123,8 @@ fn a_worker_that_is_wrong_after_its_results_were_used_ends_the_search_with_a_che
     let (search, good) = (evolve(&first, &server, &["--seed", "1"]), worker(&first, &server, "good"));
     let mut right = BTreeMap::new();
     loop {
-        let answer = wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[2, 0]));
+        let answer =
+            wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[VERSION, 0]));
         let (generation, index) = (answer.payload[2], answer.payload[3]);
         if generation == 2 {
             break;

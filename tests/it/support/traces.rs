@@ -1,6 +1,6 @@
 //! Traces and netlists that are written by hand, for pictures and pages.
 
-use nbc_base::model::{Column, Function};
+use nbc_base::model::{Column, Function, Pattern};
 use nbc_circuit::{Cell, Netlist};
 use nbc_swarm::{CycleTrace, Recording, RobotTrace, StimulusSource, SwarmTrace};
 
@@ -29,8 +29,8 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
             StimulusSource::Robot(k) => bits[k],
             StimulusSource::Constant(value) => value,
         };
-        let sensed: Vec<[bool; 2]> = senses.iter().map(|pair| pair.map(value)).collect();
-        bits = functions.iter().zip(&sensed).map(|(function, s)| function.output(s[0], s[1])).collect();
+        let sensed: Vec<Pattern> = senses.iter().map(|pair| Pattern::new(&pair.map(value))).collect();
+        bits = functions.iter().zip(&sensed).map(|(function, &sensed)| function.under(sensed)).collect();
         for (path, &bit) in paths.iter_mut().zip(&bits) {
             let last = path[path.len() - 1];
             path.extend((1..=4).map(|i| last + if bit { 0.125 } else { -0.125 } * f64::from(i)));
@@ -46,8 +46,8 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
         net: names[k].to_owned(),
         function: functions[k],
         robot: format!("{}_1", functions[k]),
-        senses: senses[k],
-        sensed_nets: senses[k].map(net),
+        senses: senses[k].to_vec(),
+        sensed_nets: senses[k].map(net).to_vec(),
         com_x: paths[k].clone(),
         fault: None,
     });

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Behavior, Palette, PhysicsWorld, Schedule, Variation};
+use super::{Behavior, Function, Palette, PhysicsWorld, Schedule, Variation};
 
 /// A declared evolution run (paper, Methods).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -130,8 +130,25 @@ pub enum Axis {
         /// The number of bins.
         bins: usize,
     },
-    /// The sixteen behaviors, a bin for each.
+    /// The behaviors, a bin for each: sixteen of two stimuli, 256 of three.
     Behavior,
+    /// The classes of behaviors under inverting and exchanging stimuli and mirroring. The bin of a class is the lowest
+    /// bits of its functions.
+    Class,
+}
+
+impl Axis {
+    /// The number of bins that bodies with that many inputs can be in.
+    ///
+    /// # Panics
+    /// When there are neither two nor three inputs.
+    pub fn bins(&self, inputs: usize) -> usize {
+        match *self {
+            Self::Count { bins, .. } => bins,
+            Self::Behavior => Function::all_of(inputs).count(),
+            Self::Class => Function::all_of(inputs).filter(|function| function.class()[0] == *function).count(),
+        }
+    }
 }
 
 /// The kind of voxels on a count axis.

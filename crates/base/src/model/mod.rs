@@ -21,7 +21,7 @@ mod variation;
 mod wording;
 mod world;
 
-pub use behavior::{Behavior, Direction};
+pub use behavior::{Behavior, Direction, Displacements};
 pub use body::{Body, LEAST_ACTUATORS};
 pub use circuit::{
     Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, OutputValue,
@@ -48,7 +48,8 @@ pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
 pub use wording::{
-    BehaviorError, BodyError, MaterialError, MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
+    BehaviorError, BodyError, DisplacementsError, MaterialError, MaterialNumber, PaletteError, PatternError,
+    SettingError, VariationError,
 };
 pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Material, MaterialKind, PaletteError, Response};
+use super::{Drive, Function, Material, MaterialKind, PaletteError, Response};
 
 /// The materials of a body: code 0 is empty, code `k` is the `k`-th material.
 ///
@@ -71,6 +71,12 @@ impl Palette {
             _ => None,
         });
         sensed.fold(2, usize::max)
+    }
+
+    /// The number of inputs of bodies of these materials as gates: their stimuli, of which a gate has two or three. A
+    /// fourth one stays absent.
+    pub fn inputs(&self) -> usize {
+        self.stimuli().min(Function::MOST_INPUTS)
     }
 
     /// Names and numbers in an order that is total.

@@ -70,6 +70,8 @@ pub struct LibrarySource {
 pub enum Origin {
     /// The library that is built into the program.
     Shipped,
+    /// Those robots, and the built-in ones of three stimuli.
+    Three,
     /// The archive of the evolution run of that name.
     Evolution(String),
     /// Robot files in a folder; the path starts from the same place as that of the source file which names it.
@@ -107,6 +109,8 @@ pub enum RegisterStyle {
     MasterSlave,
     /// One latch each, and a generator of pulses for all, where that is proved safe.
     Pulsed,
+    /// Two latches each, of one multiplexer that reads itself.
+    Mux,
     /// Nothing: every loop takes the same time, and the state travels round it as a wave.
     Waves,
 }

@@ -4,19 +4,19 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Behavior, Body, Function, Genotype, Pattern};
+use super::{Behavior, Body, Displacements, Function, Genotype, Pattern, PatternError};
 
 /// A body with a known behavior and its provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// The robot's name, unique in its library.
     pub name: String,
-    /// The directions in which it walks, one for each pattern of two stimuli.
+    /// The directions in which it walks, one for each pattern of its stimuli.
     pub behavior: Behavior,
     /// The voxels, with the palette that says what they are made of.
     pub body: Body,
-    /// Displacement in voxels over the paper's fixed simulations, patterns 00, 01, 10, 11 (docs/physics.md 10).
-    pub displacement: [f64; 4],
+    /// Displacement in voxels over the paper's fixed simulations, one for each pattern (docs/physics.md 10).
+    pub displacement: Displacements,
     /// How reliable and how quick it is as a gate.
     pub character: Character,
     /// The run of evolution that made it.
@@ -49,7 +49,8 @@ pub struct Character {
     pub margin: f64,
     /// Whether the body ever fell over.
     pub topples: bool,
-    /// Settle times, one entry for each of the twelve transitions between different patterns.
+    /// Settle times, one entry for each of the transitions between different patterns: 12 of two stimuli, 56 of
+    /// three.
     pub settle: Vec<Transition>,
     /// How far a world may differ before the robot makes errors, if that was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -84,16 +85,44 @@ impl Character {
 
 /// The settle time of one input transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
+#[serde(try_from = "TransitionRecord", into = "TransitionRecord")]
 pub struct Transition {
-    /// The pattern of two stimuli before the switch.
-    #[serde(with = "pair")]
+    /// The number of stimuli: two or three.
+    pub stimuli: usize,
+    /// The pattern before the switch.
     pub from: Pattern,
-    /// The pattern of two stimuli after the switch.
-    #[serde(with = "pair")]
+    /// The pattern after the switch.
     pub to: Pattern,
     /// Cycles after the switch until the output is correct and stays correct.
     pub cycles: u32,
+}
+
+/// A [`Transition`] as it is written: the patterns are digits.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct TransitionRecord {
+    from: String,
+    to: String,
+    cycles: u32,
+}
+
+impl From<Transition> for TransitionRecord {
+    fn from(Transition { stimuli, from, to, cycles }: Transition) -> Self {
+        Self { from: from.digits(stimuli), to: to.digits(stimuli), cycles }
+    }
+}
+
+impl TryFrom<TransitionRecord> for Transition {
+    type Error = PatternError;
+
+    fn try_from(TransitionRecord { from, to, cycles }: TransitionRecord) -> Result<Self, PatternError> {
+        let stimuli = from.len();
+        let read = |digits: String| match Pattern::try_from(digits.clone()) {
+            Ok(pattern) if digits.len() == stimuli && (2..=Function::MOST_INPUTS).contains(&stimuli) => Ok(pattern),
+            _ => Err(PatternError::Senses { found: digits }),
+        };
+        Ok(Self { stimuli, from: read(from)?, to: read(to)?, cycles })
+    }
 }
 
 /// The provenance of a robot: enough to make it again.
@@ -125,24 +154,5 @@ impl Library {
     /// The robots that compute a function, best first.
     pub fn robots_for(&self, function: Function) -> impl Iterator<Item = &Robot> {
         self.robots.iter().filter(move |robot| robot.function() == function)
-    }
-}
-
-/// Patterns of two stimuli written as two digits.
-mod pair {
-    use serde::{Deserialize, Deserializer, Serializer, de::Error};
-
-    use crate::model::{Pattern, PatternError};
-
-    pub fn serialize<S: Serializer>(pattern: &Pattern, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.serialize_str(&pattern.to_string())
-    }
-
-    pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Pattern, D::Error> {
-        let word = String::deserialize(deserializer)?;
-        Pattern::PAIRS
-            .into_iter()
-            .find(|pattern| pattern.to_string() == word)
-            .ok_or_else(|| D::Error::custom(PatternError::Pair { found: word }))
     }
 }

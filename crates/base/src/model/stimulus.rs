@@ -23,8 +23,23 @@ impl Pattern {
     /// # Panics
     /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
     pub fn new(present: &[bool]) -> Self {
-        assert!(present.len() <= Self::MAX_STIMULI, "a pattern holds at most 32 stimuli");
-        Self(present.iter().enumerate().fold(0, |bits, (i, &on)| bits | (u32::from(on) << i)))
+        Self::of(present.iter().copied())
+    }
+
+    /// The pattern in which those stimuli are present for which an iterator has true, in their order.
+    ///
+    /// # Panics
+    /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
+    pub fn of(present: impl Iterator<Item = bool>) -> Self {
+        Self(present.enumerate().fold(0, |bits, (i, on)| {
+            assert!(i < Self::MAX_STIMULI, "a pattern holds at most 32 stimuli");
+            bits | u32::from(on) << i
+        }))
+    }
+
+    /// Whether each of the first stimuli is present, so many of them.
+    pub fn bits(self, stimuli: usize) -> Vec<bool> {
+        (0..stimuli).map(|i| self.has(i)).collect()
     }
 
     /// The patterns of so many stimuli, counted as binary numbers with stimulus 1 first.
@@ -42,9 +57,9 @@ impl Pattern {
         self.0 >> i & 1 == 1
     }
 
-    /// The place of a two-stimulus pattern in [`Pattern::PAIRS`]: twice stimulus 1 plus stimulus 2.
-    pub fn pair_index(self) -> usize {
-        usize::from(self.has(0)) * 2 + usize::from(self.has(1))
+    /// Its place among the patterns of so many stimuli ([`Pattern::all`]): the digits read as a binary number.
+    pub fn number(self, stimuli: usize) -> usize {
+        (0..stimuli).fold(0, |number, i| number << 1 | usize::from(self.has(i)))
     }
 
     /// The pattern as digits, stimulus 1 first, `stimuli` of them.
@@ -86,6 +101,7 @@ mod tests {
     #[test]
     fn patterns_are_counted_with_stimulus_1_first() {
         assert_eq!(Pattern::all(2).collect::<Vec<_>>(), Pattern::PAIRS);
+        assert!(Pattern::all(3).enumerate().all(|(number, pattern)| pattern.number(3) == number));
         let digits: Vec<String> = Pattern::all(3).map(|pattern| pattern.digits(3)).collect();
         assert_eq!(digits, ["000", "001", "010", "011", "100", "101", "110", "111"]);
         assert_eq!(Pattern::all(32).nth(1).map(|pattern| pattern.has(31)), Some(true));

@@ -187,11 +187,27 @@ pub struct BehaviorError(pub(super) String);
 
 impl fmt::Display for BehaviorError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "`{}` is not a behavior; expected four letters L or R such as `RRRL`", self.0)
+        write!(
+            f,
+            "`{}` is not a behavior; expected four letters L or R such as `RRRL`, or eight for three stimuli",
+            self.0
+        )
     }
 }
 
 impl Error for BehaviorError {}
+
+/// A number of displacements that are not one for each pattern.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct DisplacementsError(pub(super) usize);
+
+impl fmt::Display for DisplacementsError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} displacements, expected 4 of a body with two stimuli or 8 of one with three", self.0)
+    }
+}
+
+impl Error for DisplacementsError {}
 
 /// A text that is not a pattern.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -203,8 +219,8 @@ pub enum PatternError {
         /// The most stimuli.
         most: usize,
     },
-    /// Not a pattern of two stimuli.
-    Pair {
+    /// Not a pattern of two or three stimuli.
+    Senses {
         /// The text.
         found: String,
     },
@@ -217,7 +233,9 @@ impl fmt::Display for PatternError {
                 f,
                 "`{found}` is not a pattern; expected a digit 0 or 1 for each of at most {most} stimuli, such as `01`"
             ),
-            Self::Pair { found } => write!(f, "`{found}` is not a pattern; expected 00, 01, 10 or 11"),
+            Self::Senses { found } => {
+                write!(f, "`{found}` is not a pattern; expected two digits 0 or 1, or three for three stimuli")
+            }
         }
     }
 }

@@ -543,14 +543,10 @@ fn write_cell<'n>(text: &mut String, netlist: &Netlist, id: NetId, name: &impl F
     let pins = netlist.pins(id);
     let list: String = pins.iter().map(|&pin| format!(" {}", name(pin))).collect();
     let _ = writeln!(text, ".names{list} {}", name(id));
-    for (a, b) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-        if function.output(a == 1, b == 1) {
-            let _ = match pins.len() {
-                2 => writeln!(text, "{a}{b} 1"),
-                _ if b == 0 => writeln!(text, "{a} 1"),
-                _ => Ok(()),
-            };
-        }
+    // A cell of one pin does not depend on the others of its function.
+    let missing = function.inputs() - pins.len();
+    for row in (0..1usize << pins.len()).filter(|row| function.row(row << missing)) {
+        let _ = writeln!(text, "{row:0width$b} 1", width = pins.len());
     }
 }
 

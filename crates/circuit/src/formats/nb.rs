@@ -7,6 +7,7 @@ use crate::formats::names::cells_in_order;
 use crate::formats::nb_names::{NamedBit, NamedNet, NbNames, word};
 use crate::formats::{Design, Register, RegisterKind};
 use crate::{Loops, NetId, Node};
+use nbc_base::model::Function;
 
 /// The most bits of one call of a register: its start value must be a literal.
 const MOST_BITS: usize = 32;
@@ -118,9 +119,9 @@ impl Writer<'_> {
         let init = |start: Option<bool>| start.map_or(String::new(), |start| format!(" init {}", u8::from(start)));
         for id in cells_in_order(logic) {
             let cell = logic.cell(id).expect("the order holds cells");
-            let pins: Vec<_> = logic.pins(id).into_iter().map(|pin| self.bit(pin).text()).collect();
+            let pins: Vec<_> = logic.operands(id).into_iter().map(|pin| self.bit(pin).text()).collect();
             let start = init(cell.start.filter(|_| self.loops.contains(id)));
-            statements.push(format!("{}{start} = {}", self.bit(id).text(), expression(cell.function.bits(), &pins)));
+            statements.push(format!("{}{start} = {}", self.bit(id).text(), expression(cell.function, &pins)));
         }
         for id in logic.ids() {
             if let Node::Wire { start, .. } = logic.node(id) {
@@ -142,11 +143,13 @@ impl Writer<'_> {
     }
 }
 
-/// A function of pins in the words of the language.
-fn expression(bits: u8, pins: &[String]) -> String {
-    let a = &pins[0];
-    let b = pins.get(1).unwrap_or(a);
-    match bits {
+/// A function of pins, one for each of its inputs, in the words of the language.
+fn expression(function: Function, pins: &[String]) -> String {
+    let [a, b] = pins else {
+        let [low, high] = function.halves().map(|half| expression(half, &pins[1..]));
+        return format!("or(and({}, {high}), and(not {}, {low}))", pins[0], pins[0]);
+    };
+    match function.bits() {
         0b0000 => "0".to_owned(),
         0b1111 => "1".to_owned(),
         0b0011 => format!("not {a}"),

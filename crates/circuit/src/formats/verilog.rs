@@ -108,17 +108,17 @@ impl<'d> Writer<'d> {
         let function = logic.cell(id).expect("the order holds cells").function;
         let pins: Vec<String> = logic.pins(id).into_iter().map(|pin| self.name(pin)).collect();
         let net = self.name(id);
-        let (a, b) = (&pins[0], pins.last().expect("a cell has a pin"));
         if self.guarded.role(id).is_none() {
-            let _ = writeln!(text, "    assign {net} = {};", expression(function, a, b));
+            let inputs: Vec<&str> = (0..function.inputs()).map(|at| &*pins[at.min(pins.len() - 1)]).collect();
+            let _ = writeln!(text, "    assign {net} = {};", expression(function, &inputs));
             return;
         }
         let start =
             self.starts.get(&id).map_or(String::new(), |&start| format!("(* init = 1'b{} *) ", u8::from(start)));
         let module = &self.modules[&function].0;
         let instance = escaped(&free(&mut self.taken, format!("{}_cell", self.names.net(id))));
-        let b = if pins.len() > 1 { format!(", .b({b})") } else { String::new() };
-        let _ = writeln!(text, "    {start}{module} {instance}(.a({a}){b}, .y({net}));");
+        let ports: String = ["a", "b", "c"].iter().zip(&pins).map(|(port, pin)| format!(".{port}({pin}), ")).collect();
+        let _ = writeln!(text, "    {start}{module} {instance}({ports}.y({net}));");
     }
 
     fn outputs(&self, text: &mut String) {
@@ -162,12 +162,19 @@ fn is_constant(netlist: &Netlist, id: NetId) -> bool {
 
 /// The module of a function, which Yosys keeps as a module of its own.
 fn cell_module(function: Function, module: &str, pins: usize) -> String {
-    let (ports, b) = if pins > 1 { ("input a, input b", "b") } else { ("input a", "a") };
-    let logic = expression(function, "a", b);
+    let names = ["a", "b", "c"];
+    let ports = names[..pins].iter().map(|name| format!("input {name}")).collect::<Vec<_>>().join(", ");
+    let inputs: Vec<&str> = (0..function.inputs()).map(|input| names[input.min(pins - 1)]).collect();
+    let logic = expression(function, &inputs);
     format!("\n(* keep_hierarchy *)\nmodule {module}({ports}, output y);\n    assign y = {logic};\nendmodule\n")
 }
 
-fn expression(function: Function, a: &str, b: &str) -> String {
+/// A function of nets, one for each of its inputs.
+fn expression(function: Function, nets: &[&str]) -> String {
+    let &[a, b] = nets else {
+        let [low, high] = function.halves().map(|half| expression(half, &nets[1..]));
+        return format!("{} ? {high} : {low}", nets[0]);
+    };
     match function.bits() {
         0b0000 => "1'b0".to_owned(),
         0b1111 => "1'b1".to_owned(),

@@ -45,7 +45,9 @@ fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
         let wanted = match netlist.node(id) {
             Node::Input(_) | Node::Constant(_) => 0,
             Node::Output(_) | Node::Wire { .. } => 1,
-            Node::Cell(cell) => 1 + usize::from(cell.function.depends_on(1)),
+            Node::Cell(cell) => {
+                1 + (1..cell.function.inputs()).rfind(|&input| cell.function.depends_on(input)).unwrap_or(0)
+            }
         };
         if netlist.pins(id).len() < wanted {
             return Err(NetlistError::Undriven(netlist.net_name(id)));

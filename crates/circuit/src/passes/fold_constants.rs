@@ -45,6 +45,9 @@ impl Pass for FoldConstants {
 
 /// The result for a cell; an inverter may be bypassed if its net is `free`.
 fn fold(netlist: &Netlist, function: Function, pins: &[NetId], free: impl Fn(NetId) -> bool) -> Folded {
+    if function.inputs() > 2 {
+        return Folded::Cell(function, pins.to_vec());
+    }
     let a = pins[0];
     let b = pins.get(1).copied().unwrap_or(a);
     let outputs = [(false, false), (false, true), (true, false), (true, true)]

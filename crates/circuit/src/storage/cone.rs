@@ -46,20 +46,16 @@ fn only_pin(netlist: &Netlist, id: NetId, cell: &Cell) -> Option<(NetId, bool)> 
     if cell.start.is_some() {
         return None;
     }
-    let pins = netlist.pins(id);
-    let ends = [pins[0], pins[pins.len() - 1]];
+    let ends = netlist.operands(id);
     let constant = |pin: NetId| match netlist.node(pin) {
         Node::Constant(value) => Some(*value),
         _ => None,
     };
-    let free = ends.into_iter().find(|&pin| constant(pin).is_none())?;
+    let free = ends.iter().copied().find(|&pin| constant(pin).is_none())?;
     if ends.iter().any(|&pin| pin != free && constant(pin).is_none()) {
         return None;
     }
-    let output = |value: bool| {
-        let [a, b] = ends.map(|pin| constant(pin).unwrap_or(value));
-        cell.function.output(a, b)
-    };
+    let output = |value: bool| cell.function.at(ends.iter().map(|&pin| constant(pin).unwrap_or(value)));
     (output(false) != output(true)).then(|| (free, output(false)))
 }
 
@@ -159,9 +155,9 @@ impl<'a> Cone<'a> {
 
     /// The response of a cell to its pins.
     pub fn answer(&self, values: &Values, id: NetId) -> TernaryBit {
-        let pins = self.netlist.pins(id);
         let cell = self.netlist.cell(id).expect("elements and guards are cells");
-        answer(cell.function, [pins[0], pins[pins.len() - 1]].map(|pin| self.value(values, pin)))
+        let bits: Vec<TernaryBit> = self.netlist.operands(id).iter().map(|&pin| self.value(values, pin)).collect();
+        answer(cell.function, &bits)
     }
 
     /// The known value of a net.

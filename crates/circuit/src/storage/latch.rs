@@ -147,7 +147,20 @@ fn closing(cone: &Cone) -> Option<(NetId, bool)> {
     };
     let candidates = cone.near().filter(|net| !cone.entering.contains(net));
     let both = candidates.flat_map(|net| [(net, false), (net, true)]);
-    both.into_iter().find(|&(net, value)| closes(net, value) && !closes(net, !value))
+    both.into_iter().find(|&(net, value)| closes(net, value) && !closes(net, !value)).or_else(|| holding(cone))
+}
+
+/// The input of an element of one cell of three inputs with which the cell shows what it showed before, whatever its
+/// other input is, and the value of that input.
+fn holding(cone: &Cone) -> Option<(NetId, bool)> {
+    let &[cell] = cone.element else { return None };
+    let holds = |net: NetId, value: bool| {
+        let kept = |state: bool| cone.answer(&BTreeMap::from([(net, Some(value)), (cell, Some(state))]), cell);
+        [false, true].iter().all(|&state| kept(state) == Some(state))
+    };
+    let both = cone.entering.iter().flat_map(|&net| [(net, false), (net, true)]);
+    let mut both = both.filter(|_| cone.entering.len() == 2);
+    both.find(|&(net, value)| holds(net, value) && !holds(net, !value))
 }
 
 /// The behavior of an element when its enable opens and closes it.

@@ -12,7 +12,9 @@ mod samples;
 mod shared_pairs;
 mod surroundings;
 mod walk;
+mod wide;
 
 pub(crate) use candidates::below;
 pub use care::CareSet;
 pub use reduce::{alternative, reduce, reduce_within};
+pub use wide::{CellNetwork, Coverer, NetworkCell, widen};

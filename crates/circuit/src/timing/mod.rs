@@ -6,6 +6,7 @@
 
 mod arrivals;
 mod clock;
+mod held;
 mod phase;
 mod pulsed;
 mod update;
@@ -20,6 +21,7 @@ use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 
 pub use arrivals::Delays;
 pub use clock::{ClockPath, ClockTimes, InputTimes, PathEnds};
+pub use held::Held;
 pub use pulsed::{Pulse, Pulsed, PulsedRegisters, WhyKept};
 
 /// Arrival and required times in cycles after the inputs switched.
@@ -171,7 +173,7 @@ mod tests {
     fn settle_times_of_transitions_are_used() {
         let mut library = CellLibrary::uniform([Function::NAND]);
         let mut slow_rise = CellKind::uniform(9, 1.0);
-        slow_rise.settle = [[1; 4]; 4];
+        slow_rise.settle = [[1; 8]; 8];
         (0..3).for_each(|to| slow_rise.settle[3][to] = 3);
         library.insert(Function::NAND, slow_rise);
         let mut netlist = Netlist::new("chain");

@@ -263,8 +263,8 @@ fn response(netlist: &Netlist, values: &BTreeMap<NetId, Option<bool>>, id: NetId
     let value = |pin: NetId| values.get(&pin).copied().flatten();
     match netlist.node(id) {
         Node::Cell(cell) => {
-            let pins = netlist.pins(id);
-            answer(cell.function, [value(pins[0]), value(pins[pins.len() - 1])])
+            let bits: Vec<Option<bool>> = netlist.operands(id).into_iter().map(value).collect();
+            answer(cell.function, &bits)
         }
         Node::Constant(bit) => Some(*bit),
         _ => None,

@@ -57,7 +57,7 @@ pub struct Pulse {
     pub padding: usize,
 }
 
-/// Why a register stays a flip-flop of two latches.
+/// Why a register stays as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhyKept {
     /// It is not made of eight NAND cells as the standard circuits are, or its first latch is read elsewhere.
@@ -66,6 +66,8 @@ pub enum WhyKept {
     DerivedClock,
     /// Its data may change before a pulse has ended.
     FastData,
+    /// It is not a latch of one bit, so one cell cannot be in its place.
+    NotOneBit,
     /// Pulsed latches would not save cells.
     NoGain,
 }

@@ -1,4 +1,4 @@
-//! Why registers are not made of pulsed latches, in words.
+//! Why registers stay as they are, in words.
 
 use crate::timing::pulsed::WhyKept;
 
@@ -11,6 +11,7 @@ impl WhyKept {
             }
             Self::DerivedClock => "its clock is not an input",
             Self::FastData => "its data may change before a pulse has ended",
+            Self::NotOneBit => "it is not a latch of one bit",
             Self::NoGain => "pulsed latches would not save robots",
         }
     }

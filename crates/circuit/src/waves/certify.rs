@@ -96,10 +96,10 @@ impl<'a> Checker<'a> {
         let Ok(mut net) = net else { return (net, later) };
         while let Some(cell) = self.machine.netlist.cell(net) {
             let pins = self.machine.netlist.pins(net);
-            let (low, high) = (cell.function.output(false, false), cell.function.output(true, true));
+            let [low, high] = [false, true].map(|value| cell.function.at(vec![value; cell.function.inputs()]));
             let is_one_net = pins.iter().all(|&pin| pin == pins[0]);
             let Some(&steps) = self.later.get(&(net, 0)) else { break };
-            let reads_state = (0..2).any(|pin| self.machine.held.contains_key(&(net, pin)));
+            let reads_state = (0..).zip(&pins).any(|(pin, _)| self.machine.held.contains_key(&(net, pin)));
             if !is_one_net || low || !high || reads_state {
                 break;
             }

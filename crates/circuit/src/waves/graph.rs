@@ -1,6 +1,7 @@
 //! The gates of a step and the nets between them, each with the number of steps by which its listener is later.
 
-use crate::network::{Gate, Network, Signal};
+use crate::network::{Network, Signal};
+use crate::synth::{CellNetwork, NetworkCell};
 use crate::waves::clock_step::ClockStep;
 use nbc_base::model::Function;
 
@@ -74,15 +75,17 @@ impl WaveLogic {
     }
 
     /// The graph of a network that was mapped from this logic.
-    pub fn graph(&self, mapped: &Network) -> WaveGraph {
+    pub fn graph(&self, mapped: &CellNetwork) -> WaveGraph {
         let [ports, bits, outputs] = self.counts;
         let mut network = mapped.clone();
         self.show_state(&mut network);
         let tap = |signal: Signal| self.tap(&network, signal);
-        let gate = |gate: &Gate| match [0, 1].map(|pin| gate.function.depends_on(pin)) {
-            [true, true] => WaveGate { function: gate.function, pins: gate.pins.map(tap).to_vec() },
-            [false, true] => WaveGate { function: gate.function.swapped(), pins: vec![tap(gate.pins[1])] },
-            _ => WaveGate { function: gate.function, pins: vec![tap(gate.pins[0])] },
+        let gate = |cell: &NetworkCell| {
+            let (function, pins) = (cell.function, cell.pins.iter().map(|&pin| tap(pin)));
+            match function.inputs() == 2 && function.arity() < 2 && function.depends_on(1) {
+                true => WaveGate { function: function.swapped(), pins: pins.skip(1).collect() },
+                false => WaveGate { function, pins: pins.collect() },
+            }
         };
         let shown = |&output: &Signal| {
             let tap = tap(output);
@@ -90,9 +93,9 @@ impl WaveLogic {
         };
         WaveGraph {
             inputs: ports,
-            gates: network.gates.iter().map(gate).collect(),
+            gates: network.cells.iter().map(gate).collect(),
             outputs: network.outputs[..outputs].iter().map(shown).collect(),
-            state: (0..bits).map(|bit| tap(network.input(ports + bit))).collect(),
+            state: (0..bits).map(|bit| tap((2 + ports + bit) as Signal)).collect(),
         }
     }
 
@@ -102,17 +105,17 @@ impl WaveLogic {
         (signal as usize).checked_sub(2 + ports).filter(|&bit| bit < bits)
     }
 
-    fn next(&self, network: &Network, bit: usize) -> Signal {
+    fn next(&self, network: &CellNetwork, bit: usize) -> Signal {
         network.outputs[self.counts[2] + bit]
     }
 
     /// Adds a buffer where no gate would show a bit of the state: in rings of registers alone, and in registers of a
     /// port that an output shows.
-    fn show_state(&self, network: &mut Network) {
+    fn show_state(&self, network: &mut CellNetwork) {
         let [ports, bits, outputs] = self.counts;
-        let add_buffer = |network: &mut Network, bit: usize| {
+        let add_buffer = |network: &mut CellNetwork, bit: usize| {
             let next = self.next(network, bit);
-            network.outputs[outputs + bit] = network.add(Function::BUF, [next; 2]);
+            network.outputs[outputs + bit] = network.add(Function::BUF, vec![next]);
         };
         for first in 0..bits {
             let mut at = first;
@@ -138,7 +141,7 @@ impl WaveLogic {
     }
 
     /// What drives a signal, behind the registers that only store it.
-    fn tap(&self, network: &Network, signal: Signal) -> Tap {
+    fn tap(&self, network: &CellNetwork, signal: Signal) -> Tap {
         let [ports, bits, _] = self.counts;
         let (mut signal, mut starts) = (signal, Vec::new());
         while let Some(bit) = self.bit(signal) {

@@ -20,8 +20,8 @@ impl WaveMachine {
             }
         }
         let cells: Vec<_> = netlist.cells().map(|(id, cell)| (id, cell.function, netlist.pins(id))).collect();
-        let held: Vec<[Vec<bool>; 2]> =
-            cells.iter().map(|(id, ..)| [0, 1].map(|pin| self.held_bits(*id, pin))).collect();
+        let held_bits = |id: NetId, pins: &[NetId]| (0..).zip(pins).map(|(pin, _)| self.held_bits(id, pin)).collect();
+        let held: Vec<Vec<Vec<bool>>> = cells.iter().map(|(id, _, pins)| held_bits(*id, pins)).collect();
         let ports: Vec<NetId> = netlist.outputs().iter().map(|&id| netlist.pins(id)[0]).collect();
         let mut past: Vec<Vec<bool>> = Vec::new();
         for at in 0..self.cycles(rows.len()) / beat {
@@ -33,7 +33,7 @@ impl WaveMachine {
                 .zip(&held)
                 .map(|((_, function, pins), held)| {
                     let bit = |pin: usize| held[pin].get(at * beat).copied().unwrap_or(shown[pins[pin].index()]);
-                    function.output(bit(0), bit(pins.len() - 1))
+                    function.at((0..function.inputs()).map(|input| bit(input.min(pins.len() - 1))))
                 })
                 .collect();
             for ((id, ..), next) in cells.iter().zip(next) {

@@ -6,9 +6,9 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::cells::CellLibrary;
 use crate::network::Network;
-use crate::options::{Effort, MapOptions};
+use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::prices::Prices;
-use crate::synth::{alternative, below};
+use crate::synth::{CellNetwork, Coverer, alternative, below};
 use crate::waves::graph::{WaveGraph, WaveLogic};
 use crate::waves::phases::{Balancing, Phases};
 
@@ -36,8 +36,8 @@ pub struct Balanced {
 
 impl Balanced {
     /// Balances a network for steps of so many beats, or of the fewest; `Err` has the fewest if that is more.
-    pub fn of(logic: &WaveLogic, network: Network, period: Option<u32>) -> Result<Self, u32> {
-        let graph = logic.graph(&network);
+    pub fn of(logic: &WaveLogic, network: Network, cells: &WaveCells<'_>, period: Option<u32>) -> Result<Self, u32> {
+        let graph = logic.graph(&cells.of(&network));
         let balancing = Balancing::new(&graph);
         let found = period.and_then(|period| Some((period, balancing.fewest_buffers(period)?)));
         let (period, (phases, buffers)) = match (found, period) {
@@ -53,8 +53,22 @@ impl Balanced {
     }
 
     /// Whether a network may have a step of so many beats.
-    fn is_in_time(logic: &WaveLogic, network: &Network, period: u32) -> bool {
-        Balancing::new(&logic.graph(network)).is_enough(period)
+    fn is_in_time(logic: &WaveLogic, network: &Network, cells: &WaveCells<'_>, period: u32) -> bool {
+        Balancing::new(&logic.graph(&cells.of(network))).is_enough(period)
+    }
+}
+
+/// The cells that networks of gates are made of.
+pub struct WaveCells<'a>(Option<Coverer<'a>>);
+
+impl<'a> WaveCells<'a> {
+    /// Those of a library; gates are cells if it has none of three inputs.
+    pub fn new(library: &'a CellLibrary) -> Self {
+        Self(library.is_wide().then(|| Coverer::new(library, MappingObjective::Area)))
+    }
+
+    fn of(&self, network: &Network) -> CellNetwork {
+        self.0.as_ref().map_or_else(|| CellNetwork::of(network), |coverer| coverer.cover(network))
     }
 }
 
@@ -69,8 +83,9 @@ pub fn search(
     period: Option<u32>,
     options: &MapOptions,
 ) -> Result<Balanced, u32> {
+    let made = WaveCells::new(cells);
     let balanced: Vec<Result<Balanced, u32>> =
-        starts.into_iter().map(|network| Balanced::of(logic, network, period)).collect();
+        starts.into_iter().map(|network| Balanced::of(logic, network, &made, period)).collect();
     let shortest = balanced.iter().map(|one| one.as_ref().map_or_else(|&least| least, |one| one.weight.0)).min();
     let found = balanced.into_iter().filter_map(Result::ok).min_by_key(|one| one.weight);
     let best = found.ok_or(shortest.unwrap_or(0))?;
@@ -90,10 +105,10 @@ pub fn search(
         }
         let network = alternative(&now.network, &prices, 1 + below(&mut random, 6) as u64, &mut random);
         // A longer step is rarely worth the time to balance it.
-        if network == now.network || !Balanced::is_in_time(logic, &network, now.weight.0) {
+        if network == now.network || !Balanced::is_in_time(logic, &network, &made, now.weight.0) {
             continue;
         }
-        let Ok(next) = Balanced::of(logic, network, period) else { continue };
+        let Ok(next) = Balanced::of(logic, network, &made, period) else { continue };
         // Now and then the search takes a network that is a little larger, at first more of them.
         let slack = if below(&mut random, 6) == 0 { 3 * (rounds - round) / rounds } else { 0 };
         let is_taken = next.weight <= (now.weight.0, now.weight.1 + slack);
@@ -109,6 +124,6 @@ pub fn search(
     }
     // The walk may have left an inverter that is a larger gate with a constant; the robot of an inverter is sturdier.
     let plain = best.network.with_plain_inverters(|function| cells.get(function).is_some());
-    let plain = Balanced::of(logic, plain, period).ok();
+    let plain = Balanced::of(logic, plain, &made, period).ok();
     Ok(plain.filter(|plain| plain.weight <= best.weight).unwrap_or(best))
 }

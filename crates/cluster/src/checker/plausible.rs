@@ -1,11 +1,8 @@
 //! Checks of a result without simulating.
 
-use nbc_base::model::{Behavior, SearchObjective};
+use nbc_base::model::SearchObjective;
 use nbc_swarm::evolve::{CandidateOutcome, Scores};
 use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, Task, TaskResult, full_steps};
-
-/// The transitions between different patterns of two stimuli.
-const SETTLE_TIMES: usize = 12;
 
 /// Whether the task can have this result.
 pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
@@ -27,10 +24,16 @@ pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
 fn is_possible(Measurement { displacement, behavior, character }: &Measurement) -> bool {
     let rates = [character.error_rate, character.glitch_rate];
     displacement.iter().all(|number| number.is_finite())
-        && Behavior::of(displacement) == *behavior
+        && displacement.behavior() == *behavior
         && rates.iter().all(|rate| (0.0..=1.0).contains(rate))
         && !character.margin.is_nan()
-        && character.settle.len() == SETTLE_TIMES
+        && character.settle.len() == transitions(behavior.stimuli())
+}
+
+/// The number of transitions between different patterns of that many stimuli.
+fn transitions(stimuli: usize) -> usize {
+    let patterns = 1 << stimuli;
+    patterns * (patterns - 1)
 }
 
 /// Whether an evaluation of the task by the protocol can have this result.
@@ -51,26 +54,27 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
 
 /// Whether the numbers are finite, and the behavior is one that is asked for, or else the one that they show.
 fn is_sound(protocol: &EvaluationProtocol, scores: &Scores) -> bool {
-    let finite = scores.fitness.iter().chain(&scores.displacement).all(|number| number.is_finite());
+    let fits = scores.behavior.stimuli() == protocol.stimuli && scores.displacement.len() == 1 << protocol.stimuli;
+    let finite = scores.fitness.iter().chain(&*scores.displacement).all(|number| number.is_finite());
     let is_asked = match protocol.behaviors.as_slice() {
-        [] => Behavior::of(&scores.displacement) == scores.behavior,
+        [] => scores.displacement.behavior() == scores.behavior,
         asked => asked.contains(&scores.behavior),
     };
-    finite && is_asked
+    finite && fits && is_asked
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::task_message::tests::evolution;
-    use nbc_base::model::{Body, Evolution, Palette};
+    use nbc_base::model::{Body, Displacements, Evolution, Palette};
     use nbc_sim::Simulator;
     use nbc_swarm::evolve::Search;
     use nbc_swarm::{Work, evaluate_tasks, measure};
 
     /// Displacements of the opposite behavior.
-    fn opposite(displacement: [f64; 4]) -> [f64; 4] {
-        displacement.map(|d| if d > 0.0 { -1.0 } else { 1.0 })
+    fn opposite(displacement: Displacements) -> Displacements {
+        Displacements::under(2, |pattern| if displacement.at(pattern) > 0.0 { -1.0 } else { 1.0 })
     }
 
     #[test]

@@ -14,9 +14,9 @@ use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, Value
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::LEAST_ACTUATORS;
 use nbc_base::model::{
-    Axis, Behavior, Count, Evolution, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche, Palette,
-    Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell, StartBodies,
-    Symmetry, Variation,
+    Axis, Behavior, Count, Evolution, Function, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche,
+    Palette, Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell,
+    StartBodies, Symmetry, Variation,
 };
 use nbc_base::source::Span;
 
@@ -40,12 +40,12 @@ pub(crate) struct Known<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct NamedEvolution {
     evolution: Evolution,
-    /// The two stimuli of its schedule, as indices of [`Program::stimuli`], in ascending order.
+    /// The stimuli of its schedule, two or three, as indices of [`Program::stimuli`], in ascending order.
     stimuli: Vec<usize>,
 }
 
 impl NamedEvolution {
-    /// The evolution by itself: its two stimuli are the first and the second of its bodies.
+    /// The evolution by itself: its stimuli are the first two or three of its bodies.
     pub(crate) fn into_evolution(self) -> Evolution {
         let Self { evolution, stimuli } = self;
         let own = |material: &Material| match material.kind {
@@ -123,10 +123,44 @@ pub(crate) fn evolution(
     let sound = found.is_empty() && whole;
     faults.extend(found);
     let checked = NamedEvolution { evolution, stimuli };
-    let deaf = if sound { deaf_sensor(source, &checked, known.program) } else { None };
-    let is_deaf = deaf.is_some();
-    faults.extend(deaf);
-    if sound && !is_deaf { CheckState::Sound(Box::new(checked)) } else { CheckState::Faulty }
+    let misfit = if sound { misfit(source, &checked, known.program) } else { None };
+    let fits = misfit.is_none();
+    faults.extend(misfit);
+    if sound && fits { CheckState::Sound(Box::new(checked)) } else { CheckState::Faulty }
+}
+
+/// The error of a schedule, materials or behaviors that do not belong together.
+fn misfit(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
+    deaf_sensor(source, checked, program)
+        .or_else(|| unsensed(source, checked, program))
+        .or_else(|| foreign_behavior(source, checked))
+}
+
+/// The error of a third stimulus that no material senses, at the field that chose the schedule or the materials. The
+/// paper's two may be unsensed.
+fn unsensed(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
+    let is_sensed = |stimulus: usize| {
+        let kinds = checked.evolution.palette.materials().iter().map(|material| material.kind);
+        kinds.into_iter().any(|kind| matches!(kind, MaterialKind::Sensor(response) if response.stimulus == stimulus))
+    };
+    let unsensed = checked.stimuli.iter().copied().find(|&stimulus| !is_sensed(stimulus));
+    let stimulus = unsensed.filter(|_| checked.stimuli.len() > 2)?;
+    let error = EvolutionError::Unsensed { stimulus: program.stimuli.get(stimulus)?.clone() };
+    Some(error.at(chosen(source, &["materials", "variable"])))
+}
+
+/// The error of a behavior of another number of stimuli than the schedule's.
+fn foreign_behavior(source: &RecordDeclaration, checked: &NamedEvolution) -> Option<Diagnostic> {
+    let stimuli = checked.stimuli.len();
+    let behavior = checked.evolution.behaviors.iter().find(|behavior| behavior.stimuli() != stimuli)?;
+    let error = EvolutionError::ForeignBehavior { behavior: behavior.to_string(), found: behavior.stimuli(), stimuli };
+    Some(error.at(chosen(source, &["behaviors", "variable"])))
+}
+
+/// The place of the first of these fields that a declaration has, or else of its name.
+fn chosen(source: &RecordDeclaration, fields: &[&str]) -> Span {
+    let field = fields.iter().find_map(|field| source.record.field(field));
+    field.map_or(source.name.span, |field| field.value.span)
 }
 
 /// The error of a sensor whose stimulus is never given, at the field that chose the schedule or the materials.
@@ -135,8 +169,7 @@ fn deaf_sensor(source: &RecordDeclaration, checked: &NamedEvolution, program: &P
     let name = |stimulus: usize| program.stimuli.get(stimulus).cloned();
     let given = checked.stimuli.iter().filter_map(|&stimulus| name(stimulus)).collect();
     let error = EvolutionError::DeafSensor { material: material.name.clone(), stimulus: name(stimulus)?, given };
-    let field = ["variable", "materials"].into_iter().find_map(|field| source.record.field(field));
-    Some(error.at(field.map_or(source.name.span, |field| field.value.span)))
+    Some(error.at(chosen(source, &["variable", "materials"])))
 }
 
 /// The paper's evolution without its materials and stimuli, which the prelude declares.
@@ -174,7 +207,7 @@ fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObje
         _ => Err(EvolutionError::BehaviorsWithoutGate.at(value.span)),
     };
     let mut behaviors = fields.read_list("behaviors", read).unwrap_or(base);
-    behaviors.sort_unstable_by_key(|behavior| behavior.function().bits());
+    behaviors.sort_unstable_by_key(|behavior| behavior.function());
     behaviors.dedup();
     if is_gate { behaviors } else { Vec::new() }
 }
@@ -269,13 +302,13 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
     Ok(Arc::new(Palette::new(materials)))
 }
 
-/// A schedule of two stimuli: which ones, and the schedule as one of the first and the second of them.
+/// A schedule of two or three stimuli: which ones, and the schedule as one of the first two or three.
 fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
     let name = fields::word(value, Expected::Name("schedule"))?;
     let Some(found) = known.names.schedules.resolve(name, home)?.map(|at| &known.program.schedules[at]) else {
         return Ok(Default::default());
     };
-    if found.stimuli.len() != 2 {
+    if !(2..=Function::MOST_INPUTS).contains(&found.stimuli.len()) {
         let error = EvolutionError::WrongStimuli { schedule: name.text.clone(), stimuli: found.stimuli.len() };
         return Err(error.at(name.span));
     }
@@ -294,12 +327,13 @@ fn restricted(pattern: Pattern, stimuli: &[usize]) -> Pattern {
     Pattern::new(&stimuli.iter().map(|&stimulus| pattern.has(stimulus)).collect::<Vec<_>>())
 }
 
-/// A behavior is the response of a body to each of the four patterns of two stimuli.
+/// A behavior is the response of a body to each pattern of its stimuli.
 fn missing_patterns(schedule: &NamedSchedule, name: &NameSyntax) -> Option<Diagnostic> {
     let shown =
         |pattern| schedule.schedule.spells.iter().any(|spell| restricted(spell.pattern, &schedule.stimuli) == pattern);
-    let missing: Vec<String> =
-        Pattern::PAIRS.iter().filter(|&&pattern| !shown(pattern)).map(Pattern::to_string).collect();
+    let stimuli = schedule.stimuli.len();
+    let missing = Pattern::all(stimuli).filter(|&pattern| !shown(pattern));
+    let missing: Vec<String> = missing.map(|pattern| pattern.digits(stimuli)).collect();
     if missing.is_empty() {
         return None;
     }
@@ -317,7 +351,8 @@ fn axis(value: &ValueSyntax) -> Result<Axis, Diagnostic> {
     let ValueKind::Bins(name, bins) = &value.kind else {
         return match fields::word(value, Expected::Axis) {
             Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
-            _ => Err(fields::not_one_of(value, Expected::Axis, &["behavior"])),
+            Ok(name) if name.text == "class" => Ok(Axis::Class),
+            _ => Err(fields::not_one_of(value, Expected::Axis, &["behavior", "class"])),
         };
     };
     let of = match name.text.as_str() {

@@ -54,10 +54,12 @@ fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sou
         return Ok(Origin::Folder(beside(&sources.file(value.span.file).name, folder)));
     }
     let name = fields::word(value, Expected::Origin)?;
-    if name.text == "shipped" {
-        return Ok(Origin::Shipped);
+    match name.text.as_str() {
+        "shipped" => return Ok(Origin::Shipped),
+        "three" => return Ok(Origin::Three),
+        _ => {}
     }
-    evolutions.resolve_beside(name, home, &["shipped"]).map(|_| Origin::Evolution(name.text.clone()))
+    evolutions.resolve_beside(name, home, &["shipped", "three"]).map(|_| Origin::Evolution(name.text.clone()))
 }
 
 /// The name of a robot, also as text.
@@ -68,14 +70,14 @@ fn robot(value: &ValueSyntax) -> Result<(String, Span), Diagnostic> {
     }
 }
 
-/// A function by its name, or a behavior by its four letters.
+/// A function by its name, or a behavior by its four or eight letters.
 pub(crate) fn behavior(value: &ValueSyntax) -> Result<Behavior, Diagnostic> {
     let name = fields::word(value, Expected::Behavior)?;
     if let Some(function) = Function::parse(&name.text) {
         return Ok(function.into());
     }
     name.text.parse().map_err(|_| {
-        let meant = Suggestion::near(&name.text, Function::all().map(Function::name));
+        let meant = Suggestion::near(&name.text, Function::named().map(Function::name));
         NameError::UnknownBehavior { name: name.text.clone(), meant }.at(name.span)
     })
 }

@@ -57,7 +57,7 @@ const EVOLUTION: [(&str, Holds); 22] = [
     ("start", Holds::Name(NameKind::Library, &[])),
     ("variable", Holds::Name(NameKind::Schedule, &[])),
     ("fixed", Holds::Words(&[])),
-    ("descriptors", Holds::Words(&["active in", "behavior", "sensory in", "voxels in"])),
+    ("descriptors", Holds::Words(&["active in", "behavior", "class", "sensory in", "voxels in"])),
     ("batch", Holds::Words(&[])),
     ("newcomers", Holds::Words(&[])),
     ("generations", Holds::Words(&[])),
@@ -74,7 +74,7 @@ const EVOLUTION: [(&str, Holds); 22] = [
 ];
 
 const LIBRARY: [(&str, Holds); 3] = [
-    ("from", Holds::Name(NameKind::Evolution, &["shipped"])),
+    ("from", Holds::Name(NameKind::Evolution, &["shipped", "three"])),
     ("behaviors", Holds::Function),
     ("without", Holds::Words(&[])),
 ];
@@ -84,7 +84,7 @@ const SWARM: [(&str, Holds); 8] = [
     ("library", Holds::Name(NameKind::Library, &[])),
     ("hold", Holds::Words(&["auto"])),
     ("window", Holds::Words(&[])),
-    ("registers", Holds::Words(&["master_slave", "pulsed", "waves"])),
+    ("registers", Holds::Words(&["master_slave", "mux", "pulsed", "waves"])),
     ("beat", Holds::Words(&[])),
     ("step", Holds::Words(&[])),
     ("world", Holds::Name(NameKind::World, &[])),

@@ -114,7 +114,7 @@ fn values(files: &Files<'_>, keyword: &str, field: &str) -> Vec<CompletionItem> 
             all
         }
         Some(Holds::Function) => {
-            Function::all().map(|function| item(function.name(), CompletionItemKind::EnumMember, "robot")).collect()
+            Function::named().map(|function| item(function.name(), CompletionItemKind::EnumMember, "robot")).collect()
         }
     }
 }

@@ -66,11 +66,11 @@ pub(crate) struct VoxelLook {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ProbeReport {
-    /// Under 00, 01, 10 and 11.
+    /// Under each pattern: 00, 01, 10 and 11, or 000 to 111.
     pub(crate) gaits: Vec<EncodedGait>,
     pub(crate) letters: String,
     pub(crate) function: &'static str,
-    pub(crate) displacement: [f64; 4],
+    pub(crate) displacement: Vec<f64>,
     /// None if it was not asked for.
     pub(crate) character: Option<CharacterSketch>,
     pub(crate) points: usize,

@@ -69,8 +69,8 @@ pub(crate) struct SwarmRobot {
     pub(crate) robot: String,
     /// Words with their texts.
     pub(crate) about: Vec<[String; 2]>,
-    /// The sources of its two stimuli.
-    pub(crate) senses: [BitSource; 2],
+    /// The source of each of its stimuli.
+    pub(crate) senses: Vec<BitSource>,
     /// The rows from the top.
     pub(crate) body: Vec<String>,
     /// Columns and rows.

@@ -61,7 +61,7 @@ fn draw_row(svg: &mut Svg, panel: &Panel, row: usize, discovery: &Discovery, run
     let (name, gray) = (Type::new(11.0).bold(), Type::new(10.0).colored(Color::GRAY));
     svg.text((14.0, y + 3.5), &behavior.to_string(), name);
     svg.text((62.0, y + 3.5), behavior.function().name(), gray);
-    let color = [Color::series(4), Color::series(5), Color::series(2)][behavior.function().arity()];
+    let color = [4, 5, 2, 0].map(Color::series)[behavior.function().arity()];
     for &generation in generations {
         svg.circle(panel.at((place(generation), row as f64 + 0.5)), 3.6, Paint::fill(color).with_opacity(0.6));
     }

@@ -7,9 +7,10 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use crate::report::chart::range_of;
-use crate::report::evolution_results::{EvolutionResults, axis_word, bins};
+use crate::report::evolution_results::{EvolutionResults, axis_word};
 use crate::report::heatmap::{heat, share};
 use crate::report::html::{Html, base64, controls, escape, picture};
+use crate::report::listing::walked;
 use crate::report::looks::Looks;
 use crate::report::page_bodies::{look_data, materials, voxel_data};
 use crate::report::scheme::Scheme;
@@ -42,9 +43,9 @@ struct Entry<'a> {
 pub fn draw_evolution_page(results: &EvolutionResults, figures: &[PageFigure], scheme: Scheme) -> String {
     let entries = ranked(results);
     let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);
-    let (pace, gaits) = record(&entries);
+    let (pace, gaits) = record(&entries, results.stimuli);
     let left_out = entries.len() - gaits.len();
-    let behaviors = Behavior::all().filter(|&behavior| results.champion(behavior).is_some()).count();
+    let behaviors = results.behaviors().len();
     Html {
         heading: &results.name,
         passed: behaviors > 0,
@@ -64,7 +65,8 @@ fn verdict(results: &EvolutionResults, behaviors: usize, filled: usize) -> Strin
     };
     let niches = results.niche_count();
     format!(
-        "{behaviors} of 16 behaviors in {filled} of {niches} niches ({:.1} %), {runs}",
+        "{behaviors} of {} behaviors in {filled} of {niches} niches ({:.1} %), {runs}",
+        Behavior::all(results.stimuli).count(),
         100.0 * filled as f64 / niches.max(1) as f64
     )
 }
@@ -87,20 +89,21 @@ fn ranked(results: &EvolutionResults) -> Vec<Entry<'_>> {
 }
 
 /// Frames per cycle, and the gaits of the first elites, as many as fit.
-fn record(entries: &[Entry<'_>]) -> (u32, Vec<Recorded>) {
+fn record(entries: &[Entry<'_>], stimuli: usize) -> (u32, Vec<Recorded>) {
     let spell = |pattern| Spell { pattern, steps: GAIT_CYCLES as u32 * CYCLE_STEPS };
-    let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
+    let schedule = Schedule { spells: Pattern::all(stimuli).map(spell).collect() };
     let bodies: Vec<Body> = entries.iter().map(|entry| entry.elite.body.clone()).collect();
     let setting = Setting::default();
     let probe = Stage::of_trials(&setting, &bodies, &schedule, CYCLE_STEPS);
     let points: Vec<usize> = (0..bodies.len()).map(|i| probe.points(i)).collect();
-    let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES * Pattern::PAIRS.len());
+    let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES * schedule.spells.len());
     let recording = Stage::of_trials(&setting, &bodies[..count], &schedule, stride).record(count);
     (recording.frames_per_cycle, recording.robots)
 }
 
 fn archive(results: &EvolutionResults, left_out: usize) -> String {
-    let counted: Vec<usize> = (0..results.axes.len()).filter(|&i| results.axes[i] != Axis::Behavior).collect();
+    let counted: Vec<usize> =
+        (0..results.axes.len()).filter(|&i| matches!(results.axes[i], Axis::Count { .. })).collect();
     let choice = |label: &str, place: usize| {
         let option = |&i: &usize| {
             let chosen = if counted.get(place.min(counted.len() - 1)) == Some(&i) { " selected" } else { "" };
@@ -156,14 +159,17 @@ fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], p
             elite_data(results, entry, gaits.get(i), heat(share(range, entry.elite.fitness[0])).to_string(), looks)
         })
         .collect();
-    let axes: Vec<Value> =
-        results.axes.iter().map(|&axis| json!({ "word": axis_word(axis), "bins": bins(axis) })).collect();
-    let behaviors: Vec<Value> = Behavior::all()
+    let axes: Vec<Value> = results
+        .axes
+        .iter()
+        .map(|&axis| json!({ "word": axis_word(axis), "bins": axis.bins(results.stimuli) }))
+        .collect();
+    let behaviors: Vec<Value> = Behavior::all(results.stimuli)
         .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
         .collect();
     json!({
         "looks": look_data(looks),
-        "patterns": Pattern::PAIRS.map(|pattern| pattern.to_string()),
+        "patterns": Pattern::all(results.stimuli).map(|pattern| pattern.digits(results.stimuli)).collect::<Vec<_>>(),
         "cycles": GAIT_CYCLES,
         "pace": pace,
         "axes": axes,
@@ -181,13 +187,9 @@ fn elite_data(
     looks: &Looks,
 ) -> Value {
     let Entry { key: NicheKey(niche), seed, elite } = entry;
-    let counted = results.axes.iter().zip(niche).filter(|(axis, _)| **axis != Axis::Behavior);
-    let place: Vec<String> =
-        counted.map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, bins(*axis))).collect();
-    let walked: Vec<String> = Pattern::PAIRS
-        .iter()
-        .zip(elite.displacement)
-        .map(|(pattern, voxels)| format!("{pattern} {voxels:+.2}"))
+    let counted = results.axes.iter().zip(niche).filter(|(axis, _)| matches!(axis, Axis::Count { .. }));
+    let place: Vec<String> = counted
+        .map(|(axis, bin)| format!("{} {} of {}", axis_word(*axis), bin + 1, axis.bins(results.stimuli)))
         .collect();
     let mut value = json!({
         "behavior": elite.behavior.to_string(),
@@ -200,7 +202,7 @@ fn elite_data(
             ["fitness", &format!("{}, {}", number(elite.fitness[0]), results.unit())],
             ["bins", &place.join(", ")],
             ["second", &format!("{:.3}", elite.fitness[1])],
-            ["displacement", &format!("{} voxels", walked.join(", "))],
+            ["displacement", &format!("{} voxels", walked(&elite.displacement))],
             ["body", &elite.body.rows().join(" ")],
             ["materials", &materials(&elite.body)],
             ["born", &format!("seed {seed}, generation {}", elite.generation)],

@@ -1,13 +1,13 @@
 //! The results of the evolution runs of one declaration: each seed's elites and progress, and the best elite of each
 //! niche over all seeds.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::report::discovery::Discovery;
 use crate::report::groups::group_of;
 use crate::report::history::ProgressLine;
 use crate::report::progress::Course;
-use nbc_base::model::{Axis, Behavior, Count, SearchObjective};
+use nbc_base::model::{Axis, Behavior, Count, Function, SearchObjective};
 use nbc_swarm::evolve::{Champion, Elite, NicheKey};
 
 /// Runs of one declaration.
@@ -17,6 +17,8 @@ pub struct EvolutionResults {
     pub name: String,
     /// The archive's axes.
     pub axes: Vec<Axis>,
+    /// The stimuli of their bodies.
+    pub stimuli: usize,
     /// What fitness meant in these runs.
     pub objective: SearchObjective,
     /// The runs by their seeds: a seed is one run, however often it was read.
@@ -47,7 +49,12 @@ impl SeedRun {
             let niches = self.niches.iter().filter(|(_, elites)| holds(elites)).count();
             Some(Champion { behavior, fitness, niches })
         };
-        Behavior::all().filter_map(champion).collect()
+        self.behaviors().into_iter().filter_map(champion).collect()
+    }
+
+    /// The behaviors of its elites, in order of their functions.
+    fn behaviors(&self) -> BTreeSet<Behavior> {
+        self.niches.iter().flat_map(|(_, elites)| elites).map(|elite| elite.behavior).collect()
     }
 }
 
@@ -81,7 +88,12 @@ impl EvolutionResults {
 
     /// The number of niches.
     pub fn niche_count(&self) -> usize {
-        self.axes.iter().map(|axis| bins(*axis)).product()
+        self.axes.iter().map(|axis| axis.bins(self.stimuli)).product()
+    }
+
+    /// The behaviors of its elites over all seeds, in order of their functions.
+    pub fn behaviors(&self) -> BTreeSet<Behavior> {
+        self.runs.values().flat_map(SeedRun::behaviors).collect()
     }
 
     /// Coverage and QD-score over the generations.
@@ -106,7 +118,8 @@ impl EvolutionResults {
         ]
     }
 
-    /// When each seed first found each behavior, in order of the paper's groups.
+    /// When each seed first found each behavior, in order of the paper's groups; of three stimuli, each that one found,
+    /// in order of the inputs that matter and of classes.
     pub fn discoveries(&self) -> Vec<Discovery> {
         let first = |run: &SeedRun, behavior| {
             run.progress.iter().find(|line| line.behaviors.contains(&behavior)).map(|line| line.generation)
@@ -115,8 +128,14 @@ impl EvolutionResults {
             let generations = self.runs.values().filter_map(|run| first(run, behavior)).collect();
             Discovery { behavior, generations }
         };
-        let mut discoveries: Vec<Discovery> = Behavior::all().map(discovery).collect();
-        discoveries.sort_by_key(|discovery| group_of(discovery.behavior));
+        let mut discoveries: Vec<Discovery> = Behavior::all(self.stimuli).map(discovery).collect();
+        if self.stimuli == 2 {
+            discoveries.sort_by_key(|discovery| group_of(discovery.behavior));
+        } else {
+            discoveries.retain(|discovery| !discovery.generations.is_empty());
+            let class = |function: Function| (function.arity(), function.class()[0]);
+            discoveries.sort_by_cached_key(|discovery| class(discovery.behavior.function()));
+        }
         discoveries
     }
 
@@ -129,14 +148,6 @@ impl EvolutionResults {
     }
 }
 
-/// The number of bins of an axis.
-pub fn bins(axis: Axis) -> usize {
-    match axis {
-        Axis::Count { bins, .. } => bins,
-        Axis::Behavior => 16,
-    }
-}
-
 /// The word of an axis in the language.
 pub fn axis_word(axis: Axis) -> &'static str {
     match axis {
@@ -144,5 +155,6 @@ pub fn axis_word(axis: Axis) -> &'static str {
         Axis::Count { of: Count::Active, .. } => "active",
         Axis::Count { of: Count::Sensory, .. } => "sensory",
         Axis::Behavior => "behavior",
+        Axis::Class => "class",
     }
 }

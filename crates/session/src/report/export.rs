@@ -4,14 +4,18 @@
 use serde::Serialize;
 
 use crate::report::csv::{cell, line};
-use crate::report::evolution_results::{EvolutionResults, axis_word, bins};
-use nbc_base::model::{Axis, Behavior, Body, Library, Material, MaterialKind, Pattern, Robot, SearchObjective};
+use crate::report::evolution_results::{EvolutionResults, axis_word};
+use nbc_base::model::{
+    Axis, Behavior, Body, Displacements, Library, Material, MaterialKind, Pattern, Robot, SearchObjective, Transition,
+};
 use nbc_swarm::evolve::{Elite, NicheKey};
 
 /// The archives of a declaration's runs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Elites<'a> {
     run: &'a str,
+    #[serde(skip)]
+    stimuli: usize,
     objective: SearchObjective,
     axes: Vec<AxisData>,
     elites: Vec<EliteData<'a>>,
@@ -33,7 +37,7 @@ struct EliteData<'a> {
     behavior: Behavior,
     function: &'static str,
     fitness: [f64; 2],
-    displacement: [f64; 4],
+    displacement: Displacements,
     #[serde(flatten)]
     body: BodyData<'a>,
     generation: u32,
@@ -85,7 +89,7 @@ impl<'a> BodyData<'a> {
 impl<'a> Elites<'a> {
     /// All elites of some runs, seed by seed and niche by niche.
     pub fn of(results: &'a EvolutionResults) -> Self {
-        let axis = |axis: &Axis| AxisData { name: axis_word(*axis), bins: bins(*axis) };
+        let axis = |axis: &Axis| AxisData { name: axis_word(*axis), bins: axis.bins(results.stimuli) };
         let elites = results.runs.iter().flat_map(|(&seed, run)| {
             let niche = move |(key, elites): &'a (NicheKey, Vec<Elite>)| {
                 elites.iter().map(move |elite| EliteData::of(seed, key, elite))
@@ -94,6 +98,7 @@ impl<'a> Elites<'a> {
         });
         Self {
             run: &results.name,
+            stimuli: results.stimuli,
             objective: results.objective,
             axes: results.axes.iter().map(axis).collect(),
             elites: elites.collect(),
@@ -104,7 +109,7 @@ impl<'a> Elites<'a> {
     pub fn csv(&self) -> String {
         let own = ["run", "seed", "behavior", "function", "fitness_1", "fitness_2"].map(str::to_owned);
         let niche = self.axes.iter().enumerate().map(|(place, axis)| self.axis_column(place, axis));
-        let head = own.into_iter().chain(niche).chain(displacement_columns());
+        let head = own.into_iter().chain(niche).chain(displacement_columns(vec![self.stimuli]));
         let head =
             head.chain(BodyData::COLUMNS.map(str::to_owned)).chain(["generation", "evaluations"].map(str::to_owned));
         let rows = self.elites.iter().map(|elite| line(elite.cells(self.run)));
@@ -137,7 +142,7 @@ impl<'a> EliteData<'a> {
         let mut cells = vec![cell(run), self.seed.to_string(), self.behavior.to_string(), self.function.to_owned()];
         cells.extend(self.fitness.map(|value| value.to_string()));
         cells.extend(self.niche.iter().map(|bin| bin.to_string()));
-        cells.extend(self.displacement.map(|value| value.to_string()));
+        cells.extend(self.displacement.iter().map(|value| value.to_string()));
         cells.extend(self.body.cells());
         cells.extend([self.generation.to_string(), self.evaluations.to_string()]);
         cells
@@ -149,44 +154,60 @@ pub fn robots_csv(library: &Library) -> String {
     const CHARACTER: [&str; 6] = ["clock", "switches", "error_rate", "glitch_rate", "margin", "topples"];
     const RADIUS: [&str; 3] = ["radius", "radius_vary", "radius_error_rate"];
     const PROVENANCE: [&str; 6] = ["program", "version", "evolution", "seed", "generation", "evaluations"];
+    // Those of two stimuli have columns of their own even where there are only robots with three.
+    let is_wide = library.robots.iter().any(|robot| robot.behavior.stimuli() == 3);
+    let stimuli: &[usize] = if is_wide { &[2, 3] } else { &[2] };
     let own = ["name", "behavior", "function"].map(str::to_owned);
     let head = own
         .into_iter()
         .chain(CHARACTER.map(str::to_owned))
-        .chain(switches().map(|(from, to)| format!("settle_{from}_{to}")))
+        .chain(
+            switches(stimuli)
+                .map(|(stimuli, from, to)| format!("settle_{}_{}", from.digits(stimuli), to.digits(stimuli))),
+        )
         .chain(RADIUS.map(str::to_owned));
-    let head = head.chain(displacement_columns()).chain(BodyData::COLUMNS.map(str::to_owned));
+    let head = head.chain(displacement_columns(stimuli.to_vec())).chain(BodyData::COLUMNS.map(str::to_owned));
     let head = line(head.chain(PROVENANCE.map(str::to_owned)));
-    std::iter::once(head).chain(library.robots.iter().map(|robot| line(robot_cells(robot)))).collect()
+    std::iter::once(head).chain(library.robots.iter().map(|robot| line(robot_cells(robot, stimuli)))).collect()
 }
 
-fn robot_cells(robot: &Robot) -> Vec<String> {
+fn robot_cells(robot: &Robot, stimuli: &[usize]) -> Vec<String> {
     let (character, provenance) = (&robot.character, &robot.provenance);
     let mut cells = vec![cell(&robot.name), robot.behavior.to_string(), robot.function().name().to_owned()];
     cells.extend([character.clock.to_string(), character.switches.to_string()]);
     cells.extend([character.error_rate, character.glitch_rate, character.margin].map(|value| value.to_string()));
     cells.push(character.topples.to_string());
-    cells.extend(switches().map(|(from, to)| {
-        let same = character.settle.iter().find(|transition| (transition.from, transition.to) == (from, to));
+    cells.extend(switches(stimuli).map(|(stimuli, from, to)| {
+        let is_same = |one: &&Transition| (one.stimuli, one.from, one.to) == (stimuli, from, to);
+        let same = character.settle.iter().find(is_same);
         same.map_or(String::new(), |transition| transition.cycles.to_string())
     }));
     let radius = character.radius.as_ref();
     cells.push(radius.map_or(String::new(), |found| found.radius.to_string()));
     cells.push(radius.map_or(String::new(), |found| cell(&found.vary.replace(',', " "))));
     cells.push(radius.and_then(|found| found.error_rate).map_or(String::new(), |rate| rate.to_string()));
-    cells.extend(robot.displacement.map(|value| value.to_string()));
+    for &count in stimuli {
+        let is_own = robot.behavior.stimuli() == count;
+        let cell = |at: usize| if is_own { robot.displacement[at].to_string() } else { String::new() };
+        cells.extend((0..1 << count).map(cell));
+    }
     cells.extend(BodyData::of(&robot.body).cells());
     cells.extend([&provenance.program, &provenance.version, &provenance.evolution].map(|text| cell(text)));
     cells.extend([provenance.seed, u64::from(provenance.generation), provenance.evaluations].map(|n| n.to_string()));
     cells
 }
 
-/// The twelve switches between different patterns.
-fn switches() -> impl Iterator<Item = (Pattern, Pattern)> {
-    let pairs = Pattern::PAIRS.into_iter().flat_map(|from| Pattern::PAIRS.map(|to| (from, to)));
-    pairs.filter(|(from, to)| from != to)
+/// The switches between different patterns of these numbers of stimuli.
+fn switches(stimuli: &[usize]) -> impl Iterator<Item = (usize, Pattern, Pattern)> {
+    let of = |count: usize| {
+        let pairs = Pattern::all(count).flat_map(move |from| Pattern::all(count).map(move |to| (count, from, to)));
+        pairs.filter(|(_, from, to)| from != to)
+    };
+    stimuli.iter().copied().flat_map(of)
 }
 
-fn displacement_columns() -> impl Iterator<Item = String> {
-    Pattern::PAIRS.into_iter().map(|pattern| format!("displacement_{pattern}"))
+fn displacement_columns(stimuli: Vec<usize>) -> impl Iterator<Item = String> {
+    let column =
+        |count: usize| Pattern::all(count).map(move |pattern| format!("displacement_{}", pattern.digits(count)));
+    stimuli.into_iter().flat_map(column)
 }

@@ -58,16 +58,16 @@ const GROUPS: [(&str, usize, usize); 8] = [
     ("XYYX", 2, 3),
 ];
 
-/// The place of the group of a behavior.
+/// The place of the group of a behavior of two stimuli.
 pub(super) fn group_of(behavior: Behavior) -> usize {
     let first = behavior.direction(Pattern::PAIRS[0]);
     let letter = |pattern| if behavior.direction(pattern) == first { 'X' } else { 'Y' };
-    let name: String = Pattern::PAIRS.into_iter().map(letter).collect();
+    let name: String = behavior.patterns().map(letter).collect();
     GROUPS.iter().position(|group| group.0 == name).expect("there are eight such names")
 }
 
 /// The groups' values, one for each run. Champions of one run are not independent samples, and neither are two runs
-/// with the same seed, so runs are grouped by seed.
+/// with the same seed, so runs are grouped by seed. Behaviors of three stimuli are in no group.
 pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup> {
     let groups = GROUPS.iter().enumerate();
     groups
@@ -78,7 +78,8 @@ pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup
 /// For each run that found a behavior of this group, the mean distance of their champions in voxels.
 fn values(runs: &BTreeMap<u64, Vec<Champion>>, group: usize) -> Vec<f64> {
     let mean = |run: &Vec<Champion>| {
-        let champions = run.iter().filter(|champion| group_of(champion.behavior) == group);
+        let champions =
+            run.iter().filter(|champion| champion.behavior.stimuli() == 2 && group_of(champion.behavior) == group);
         let distances: Vec<f64> = champions.map(|champion| champion.fitness[0]).collect();
         (!distances.is_empty()).then(|| distances.iter().sum::<f64>() / distances.len() as f64)
     };
@@ -245,12 +246,12 @@ mod tests {
 
     #[test]
     fn behaviors_fall_into_the_papers_groups() {
-        let counts = Behavior::all().fold([0; 8], |mut counts, behavior| {
+        let counts = Behavior::all(2).fold([0; 8], |mut counts, behavior| {
             counts[group_of(behavior)] += 1;
             counts
         });
         assert_eq!(counts, [2; 8]);
-        for behavior in Behavior::all() {
+        for behavior in Behavior::all(2) {
             let (function, (name, stimuli, difficulty)) = (behavior.function(), GROUPS[group_of(behavior)]);
             assert_eq!(function.arity(), stimuli, "{name}");
             let is_xor = stimuli == 2 && function.bits().count_ones() == 2;

@@ -1,12 +1,11 @@
-//! Archives as heat maps: the best fitness over two axes, with one map for each behavior if the archive has a behavior
-//! axis.
+//! Archives as heat maps: the best fitness over two axes, with one map for each behavior or class if the archive has
+//! such an axis.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::report::Color;
 use crate::report::chart::{Scale, range_of, tick_label};
 use crate::report::element::{Anchor, Paint, Type};
-use crate::report::evolution_results::bins;
 use crate::report::svg::Svg;
 use nbc_base::model::{Axis, Behavior, Count, Function};
 use nbc_swarm::evolve::NicheKey;
@@ -40,23 +39,27 @@ pub struct ArchiveMap<'a> {
     pub unit: &'a str,
     /// The archive's axes.
     pub axes: &'a [Axis],
+    /// The stimuli of its bodies.
+    pub stimuli: usize,
     /// The best first fitness of each filled niche.
     pub niches: &'a [(&'a NicheKey, f64)],
 }
 
-/// Draws an archive over two of its axes, given by index. Unless one of them is the behavior axis, there is a small map
-/// for each behavior.
+/// Draws an archive over two of its axes, given by index. Unless one of them is the axis of behaviors or of classes,
+/// there is a small map for each of those; of three stimuli, for each that has an elite.
 ///
 /// # Panics
 /// When an axis is not there.
 pub fn draw_heatmap(title: &str, archive_map: &ArchiveMap<'_>, x: usize, y: usize) -> Svg {
-    let axes = (archive_map.axes[x], archive_map.axes[y]);
-    let split = archive_map.axes.iter().position(|axis| *axis == Axis::Behavior).filter(|&axis| axis != x && axis != y);
+    let axes = [x, y].map(|axis| Columns::of(archive_map, axis));
+    let split = archive_map.axes.iter().position(|axis| !matches!(axis, Axis::Count { .. }));
+    let split = split.filter(|&axis| axis != x && axis != y);
     let maps = collect(archive_map, x, y, split);
     let range = range_of(maps.values().flat_map(Cells::values).copied(), 0.0);
-    let shown: Vec<Option<u16>> = split.map_or(vec![None], |_| (0..16).map(Some).collect());
+    let behaviors = |axis| Columns::of(archive_map, axis).bins.into_iter().map(Some).collect();
+    let shown: Vec<Option<u16>> = split.map_or(vec![None], behaviors);
     let columns = COLUMNS.min(shown.len());
-    let pitch = (bins(axes.0) as f64 * CELL + GAP.0, bins(axes.1) as f64 * CELL + GAP.1);
+    let pitch = (axes[0].bins.len() as f64 * CELL + GAP.0, axes[1].bins.len() as f64 * CELL + GAP.1);
     let width = (LEFT + columns as f64 * pitch.0 + KEY).max(title.chars().count() as f64 * 10.0 + 30.0);
     let height = (TOP + shown.len().div_ceil(columns) as f64 * pitch.1).max(TOP + KEY_HEIGHT + 30.0);
     let mut svg = Svg::new(width, height, title);
@@ -66,9 +69,10 @@ pub fn draw_heatmap(title: &str, archive_map: &ArchiveMap<'_>, x: usize, y: usiz
         let place = (i % columns, i / columns);
         let corner = (LEFT + place.0 as f64 * pitch.0, TOP + place.1 as f64 * pitch.1);
         let cells = maps.get(behavior).unwrap_or(&empty);
-        let map = Map { cells, axes, range, leftmost: place.0 == 0, lowest: i + columns >= shown.len() };
-        let word = behavior.map_or(String::new(), |bits| Behavior::from(Function::new(bits as u8)).to_string());
-        let function = behavior.map_or("", |bits| Function::new(bits as u8).name());
+        let map = Map { cells, axes: &axes, range, leftmost: place.0 == 0, lowest: i + columns >= shown.len() };
+        let function = behavior.map(|bits| Function::of(archive_map.stimuli, bits as u8));
+        let word = function.map_or(String::new(), |function| Behavior::from(function).to_string());
+        let function = function.map_or("", Function::name);
         svg.group(&format!("map-{word}"), &format!("{word} {function}"), |svg| {
             map.draw(svg, corner, (&word, function));
         });
@@ -93,6 +97,35 @@ fn axis_label(axis: Axis) -> &'static str {
         Axis::Count { of: Count::Active, .. } => "active voxels (bin)",
         Axis::Count { of: Count::Sensory, .. } => "sensory voxels (bin)",
         Axis::Behavior => "behavior",
+        Axis::Class => "class",
+    }
+}
+
+/// An axis with the bins that are drawn.
+struct Columns {
+    axis: Axis,
+    bins: Vec<u16>,
+    stimuli: usize,
+}
+
+impl Columns {
+    /// All bins of an axis; of the behaviors of three stimuli and of classes, those that have an elite.
+    fn of(archive_map: &ArchiveMap<'_>, place: usize) -> Self {
+        let (axis, stimuli) = (archive_map.axes[place], archive_map.stimuli);
+        let filled = || archive_map.niches.iter().map(|(NicheKey(key), _)| key[place]).collect::<BTreeSet<u16>>();
+        let bins = match axis {
+            Axis::Count { bins, .. } => (0..bins as u16).collect(),
+            Axis::Behavior if stimuli == 2 => (0..16).collect(),
+            Axis::Behavior | Axis::Class => filled().into_iter().collect(),
+        };
+        Self { axis, bins, stimuli }
+    }
+
+    fn label(&self, bin: u16) -> String {
+        match self.axis {
+            Axis::Count { .. } => (bin + 1).to_string(),
+            Axis::Behavior | Axis::Class => Behavior::from(Function::of(self.stimuli, bin as u8)).to_string(),
+        }
     }
 }
 
@@ -111,7 +144,7 @@ pub fn share((low, high): (f64, f64), value: f64) -> f64 {
 /// One map.
 struct Map<'a> {
     cells: &'a Cells,
-    axes: (Axis, Axis),
+    axes: &'a [Columns; 2],
     range: (f64, f64),
     /// Whether the map is labeled with the second axis.
     leftmost: bool,
@@ -121,7 +154,8 @@ struct Map<'a> {
 
 impl Map<'_> {
     fn draw(&self, svg: &mut Svg, (left, top): (f64, f64), (word, function): (&str, &str)) {
-        let (across, down) = (bins(self.axes.0), bins(self.axes.1));
+        let [columns, rows] = self.axes;
+        let (across, down) = (columns.bins.len(), rows.bins.len());
         let (width, height) = (across as f64 * CELL, down as f64 * CELL);
         svg.text((left, top - 6.0), word, Type::new(11.0).bold());
         let small = Type::new(9.0).colored(Color::GRAY);
@@ -130,34 +164,27 @@ impl Map<'_> {
             for column in 0..across {
                 // The second axis grows upwards.
                 let corner = (left + column as f64 * CELL, top + (down - 1 - row) as f64 * CELL);
-                let found = self.cells.get(&(column as u16, row as u16));
+                let found = self.cells.get(&(columns.bins[column], rows.bins[row]));
                 let color = found.map_or(Color::WHITE, |&value| heat(share(self.range, value)));
                 svg.rect(corner, CELL, CELL, Paint::fill(color).with_stroke(Color::PALE, 1.0));
             }
         }
         let middle = small.anchored(Anchor::Middle);
         for column in 0..across {
-            let name = bin_label(self.axes.0, column);
+            let name = columns.label(columns.bins[column]);
             svg.text((left + (column as f64 + 0.5) * CELL, top + height + 11.0), &name, middle);
         }
         for row in 0..down {
             let y = top + (down as f64 - row as f64 - 0.5) * CELL + 3.0;
-            svg.text((left - 4.0, y), &bin_label(self.axes.1, row), small.anchored(Anchor::End));
+            svg.text((left - 4.0, y), &rows.label(rows.bins[row]), small.anchored(Anchor::End));
         }
         if self.lowest {
-            svg.text((left + width / 2.0, top + height + 24.0), axis_label(self.axes.0), middle);
+            svg.text((left + width / 2.0, top + height + 24.0), axis_label(columns.axis), middle);
         }
         if self.leftmost {
-            let beside = if self.axes.1 == Axis::Behavior { 36.0 } else { 18.0 };
-            svg.text((left - beside, top + height / 2.0), axis_label(self.axes.1), middle.upwards());
+            let beside = if matches!(rows.axis, Axis::Count { .. }) { 18.0 } else { 36.0 };
+            svg.text((left - beside, top + height / 2.0), axis_label(rows.axis), middle.upwards());
         }
-    }
-}
-
-fn bin_label(axis: Axis, bin: usize) -> String {
-    match axis {
-        Axis::Count { .. } => (bin + 1).to_string(),
-        Axis::Behavior => Behavior::from(Function::new(bin as u8)).to_string(),
     }
 }
 

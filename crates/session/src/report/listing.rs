@@ -8,7 +8,7 @@ use crate::report::looks::material_words;
 use crate::report::{Align, TextTable};
 use crate::store;
 use nbc_base::diag::counted;
-use nbc_base::model::{Library, Palette, Pattern, Robot, SafeRadius};
+use nbc_base::model::{Displacements, Library, Palette, Pattern, Robot, SafeRadius, Transition};
 
 /// The data of a robot in a list, for programs.
 #[derive(Clone, Debug, Serialize)]
@@ -108,15 +108,17 @@ fn percent(share: f64) -> String {
     if share == 0.0 { "0".to_owned() } else { format!("{:.2} %", share * 100.0) }
 }
 
+/// Displacements under each pattern.
+pub(super) fn walked(displacement: &Displacements) -> String {
+    let behavior = displacement.behavior();
+    let one = |(pattern, voxels): (Pattern, &f64)| format!("{} {voxels:+.2}", pattern.digits(behavior.stimuli()));
+    behavior.patterns().zip(displacement.iter()).map(one).collect::<Vec<_>>().join(", ")
+}
+
 /// A robot on one page: its body, its materials, its character and its provenance.
 pub fn describe_robot(robot: &Robot) -> String {
     let (character, provenance) = (&robot.character, &robot.provenance);
     let drawing = robot.body.rows().join("\n    ").replace('0', ".");
-    let displacement: Vec<String> = Pattern::PAIRS
-        .iter()
-        .zip(robot.displacement)
-        .map(|(pattern, voxels)| format!("{pattern} {voxels:+.2}"))
-        .collect();
     let clock =
         format!("{}, margin {:.3} voxels a cycle", counted(character.clock as usize, "cycle"), character.margin);
     let errors = format!(
@@ -141,7 +143,7 @@ pub fn describe_robot(robot: &Robot) -> String {
         height = robot.body.height(),
         topples = if character.topples { ", topples" } else { "" },
         legend = legend(robot),
-        displacement = displacement.join(", "),
+        displacement = walked(&robot.displacement),
         settles = settles(robot),
         worlds = worlds(robot),
         program = provenance.program,
@@ -175,7 +177,8 @@ fn settles(robot: &Robot) -> String {
     times.dedup();
     let of_time = |&cycles: &u32| {
         let same = robot.character.settle.iter().filter(|transition| transition.cycles == cycles);
-        let words: Vec<String> = same.map(|transition| format!("{}>{}", transition.from, transition.to)).collect();
+        let word = |one: &Transition| format!("{}>{}", one.from.digits(one.stimuli), one.to.digits(one.stimuli));
+        let words: Vec<String> = same.map(word).collect();
         format!("in {cycles}: {}", words.join(" "))
     };
     if times.is_empty() { "not measured".to_owned() } else { times.iter().map(of_time).collect::<Vec<_>>().join("; ") }

@@ -39,15 +39,14 @@ pub fn about_robot(robot: &RobotTrace, member: &Member) -> Vec<[String; 2]> {
         StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
     };
     let (clock, switches) = (counted(character.clock as usize, "cycle"), character.switches);
-    let pairs = [
-        ("robot", robot.robot.clone()),
-        ("behavior", member.robot.behavior.to_string()),
-        ("stimulus 1", wired(0)),
-        ("stimulus 2", wired(1)),
-        ("body", body.rows().join(" ")),
-        ("materials", materials(body)),
-        ("clock", format!("{clock}, margin {:.3} voxels a cycle", character.margin)),
-        ("errors", format!("{:.2} % of {switches} switches", character.error_rate * 100.0)),
-    ];
-    pairs.map(|(word, text)| [word.to_owned(), text]).into()
+    let pair = |word: &str, text: String| [word.to_owned(), text];
+    let mut pairs = vec![pair("robot", robot.robot.clone()), pair("behavior", member.robot.behavior.to_string())];
+    pairs.extend((0..robot.senses.len()).map(|i| pair(&format!("stimulus {}", i + 1), wired(i))));
+    pairs.extend([
+        pair("body", body.rows().join(" ")),
+        pair("materials", materials(body)),
+        pair("clock", format!("{clock}, margin {:.3} voxels a cycle", character.margin)),
+        pair("errors", format!("{:.2} % of {switches} switches", character.error_rate * 100.0)),
+    ]);
+    pairs
 }

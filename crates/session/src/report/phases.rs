@@ -20,7 +20,7 @@ pub struct PhaseTiming {
     pub unphased: Vec<UnphasedReport>,
     /// The generators of pulses for pulsed latches.
     pub pulses: Vec<PulseReport>,
-    /// The registers that stay flip-flops, although pulsed latches were asked for.
+    /// The registers that stay as they are, although latches of another form were asked for.
     pub kept: Vec<KeptReport>,
 }
 
@@ -45,7 +45,7 @@ pub struct PulseReport {
     pub padding: usize,
 }
 
-/// A register that stays a flip-flop.
+/// A register that stays as it is.
 #[derive(Clone, Debug, Serialize)]
 pub struct KeptReport {
     /// Its net.
@@ -158,7 +158,7 @@ impl PhaseTiming {
             format!("unphased {}: {why}; timed as a loop that a change passes twice\n", nets.join(" "))
         });
         let pulses = self.pulses.iter().map(PulseReport::describe);
-        let kept = self.kept.iter().map(|KeptReport { net, why }| format!("kept     {net} has two latches: {why}\n"));
+        let kept = self.kept.iter().map(|KeptReport { net, why }| format!("kept     {net} stays as written: {why}\n"));
         clocks.chain(pulses).chain(kept).chain(unphased).collect()
     }
 }

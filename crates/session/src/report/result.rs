@@ -45,8 +45,8 @@ pub struct RobotResult<'a> {
     pub function: &'static str,
     /// Its name in the library.
     pub robot: &'a str,
-    /// The nets it senses as stimulus 1 and stimulus 2.
-    pub senses: &'a [String; 2],
+    /// The nets it senses as stimulus 1, stimulus 2 and perhaps stimulus 3.
+    pub senses: &'a [String],
     /// Voxels between its start and its end.
     pub displacement: f64,
     /// The env step at which its simulation was given up.

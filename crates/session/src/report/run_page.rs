@@ -222,7 +222,8 @@ fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json
     let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
     let body = &member.robot.body;
-    let sensed = [0, 1].map(|i| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k][i])));
+    let strip = |i: usize| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k].has(i)));
+    let sensed: Vec<String> = (0..robot.senses.len()).map(strip).collect();
     json!({
         "cell": k,
         "net": robot.net,

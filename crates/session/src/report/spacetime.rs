@@ -207,7 +207,7 @@ fn input_changes(trace: &SwarmTrace) -> Vec<f64> {
 fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
     let robot = &trace.robots[k];
     let sensed = (0..robot.senses.len()).filter_map(|i| {
-        let bits = trace.cycles.iter().map(|cycle| cycle.sensed[k][i]);
+        let bits = trace.cycles.iter().map(|cycle| cycle.sensed[k].has(i));
         let wired = !matches!(robot.senses[i], StimulusSource::Constant(_));
         wired.then(|| Strip::of_cycles(&robot.sensed_nets[i], Color::stimulus(i), bits))
     });

@@ -76,11 +76,7 @@ impl Stage {
 
     fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
         let palettes = assembly.members.iter().map(|member| Arc::clone(member.robot.body.palette())).collect();
-        let spells = trace
-            .cycles
-            .iter()
-            .map(|cycle| (CYCLE_STEPS, cycle.sensed.iter().map(|sensed| Pattern::new(sensed)).collect()))
-            .collect();
+        let spells = trace.cycles.iter().map(|cycle| (CYCLE_STEPS, cycle.sensed.clone())).collect();
         Self::new(assembly.flock(&Simulator::default(), cycles), palettes, spells, stride)
     }
 

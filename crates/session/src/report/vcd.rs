@@ -79,12 +79,13 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
         let wave = |name: &str, values| Wave { name: name.to_owned(), values };
         let ends = robot.com_x.iter().step_by(trace.samples_per_cycle.max(1)).enumerate();
         let places = ends.map(|(cycle, &x)| (cycle as u64 * CYCLE, (x * 100.0).round() / 100.0));
-        let waves = vec![
-            wave("bit", values(1, 1, &|c| digit(trace.cycles[c].bits[k]))),
-            wave("stimulus_1", values(1, 0, &|c| digit(trace.cycles[c].sensed[k][0]))),
-            wave("stimulus_2", values(1, 0, &|c| digit(trace.cycles[c].sensed[k][1]))),
-            wave("x", Values::Reals(places.collect())),
-        ];
+        let stimulus = |i: usize| {
+            let bits = values(1, 0, &|c| digit(trace.cycles[c].sensed[k].has(i)));
+            wave(&format!("stimulus_{}", i + 1), bits)
+        };
+        let mut waves = vec![wave("bit", values(1, 1, &|c| digit(trace.cycles[c].bits[k])))];
+        waves.extend((0..robot.senses.len()).map(stimulus));
+        waves.push(wave("x", Values::Reals(places.collect())));
         scopes.push(Scope { name: format!("robot_{}", robot.net), waves });
     }
     scopes

@@ -165,9 +165,9 @@ fn describe_wrong_outputs(row: &RowVerdict) -> Vec<String> {
 
 fn describe_wrong_output(wrong: &WrongOutput, did: &str) -> String {
     let WrongOutput { net, robot, cycle, .. } = wrong;
-    let [first, second] = wrong.sensed.map(u8::from);
+    let stimuli: Vec<String> = wrong.sensed.iter().map(|&bit| u8::from(bit).to_string()).collect();
     let (cycle, output) = (cycle + 1, u8::from(wrong.output));
-    format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {first} {second}\n")
+    format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {}\n", stimuli.join(" "))
 }
 
 /// The most likely fix for a row: replace robots that were wrong although they had enough time; otherwise a longer
@@ -204,7 +204,7 @@ mod tests {
             net: "q".to_owned(),
             robot: "nand_1".to_owned(),
             cycle: 4,
-            sensed: [true, false],
+            sensed: vec![true, false],
             output: false,
         };
         TestVerdict {

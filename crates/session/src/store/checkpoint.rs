@@ -194,7 +194,7 @@ mod tests {
             let scores = |i: usize| Scores {
                 fitness: [0.1 * i as f64, 1.0 / (i + generation + 1) as f64],
                 behavior: Behavior::of(&[1.0, -1.0, i as f64 - 3.0, 1.0]),
-                displacement: [0.1 + 0.2, 1e-300, -1.0 / 3.0, 0.0],
+                displacement: vec![0.1 + 0.2, 1e-300, -1.0 / 3.0, 0.0].try_into().unwrap(),
             };
             let outcomes: Vec<CandidateOutcome> =
                 (0..candidates.len()).map(|i| CandidateOutcome::Measured(scores(i))).collect();

@@ -10,15 +10,36 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Library, Robot};
 use nbc_base::source::{SourceWorld, Sources};
 
-const FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
+const SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
+const THREE: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/three");
 
 /// How the names of robot files end.
 const ENDING: &str = ".yaml";
 
 /// The robots that come with the program, best first within each function; read afresh at each call.
 pub fn shipped_library() -> Library {
+    read_built_in(&[&SHIPPED])
+}
+
+/// The robots that come with the program and those with three stimuli, best first within each function; read afresh at
+/// each call.
+pub fn three_library() -> Library {
+    read_built_in(&[&SHIPPED, &THREE])
+}
+
+/// The library in the program with this name: `shipped` or `three`.
+pub fn built_in(name: &str) -> Option<Library> {
+    match name {
+        "shipped" => Some(shipped_library()),
+        "three" => Some(three_library()),
+        _ => None,
+    }
+}
+
+fn read_built_in(folders: &[&Dir<'_>]) -> Library {
     let mut sources = Sources::default();
-    let files = FILES.files().filter(|file| file.path().to_string_lossy().ends_with(ENDING));
+    let files =
+        folders.iter().flat_map(|folder| folder.files()).filter(|file| file.path().to_string_lossy().ends_with(ENDING));
     let robots = files.map(|file| {
         let text = file.contents_utf8().expect("robot files in the program are text");
         let id = sources.add(file.path().to_string_lossy(), text);

@@ -56,7 +56,7 @@ pub use disk_world::DiskWorld;
 pub use folder::FolderWorld;
 #[cfg(feature = "disk")]
 pub use guarded::GuardedWorld;
-pub use library::{best_first, read_library, shipped_library};
+pub use library::{best_first, built_in, read_library, shipped_library, three_library};
 #[cfg(feature = "disk")]
 pub use lock::{FolderLock, LockFault, lock_folder};
 #[cfg(feature = "disk")]

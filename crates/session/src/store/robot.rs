@@ -9,7 +9,7 @@ use serde_yaml::with::singleton_map_recursive;
 use crate::store::wording::RobotFileError;
 use crate::store::{shape, soundness, yaml};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Behavior, Body, Character, Genotype, Palette, Provenance, Robot};
+use nbc_base::model::{Behavior, Body, Character, Displacements, Genotype, Palette, Provenance, Robot};
 use nbc_base::source::SourceFile;
 
 /// The robot file version that this program writes; it also reads earlier ones.
@@ -26,7 +26,7 @@ pub struct RobotRecord {
     /// In order of their codes; left out when they are the paper's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     materials: Option<Arc<Palette>>,
-    displacement: [f64; 4],
+    displacement: Displacements,
     character: Character,
     provenance: Provenance,
     #[serde(
@@ -134,7 +134,7 @@ pub(crate) mod tests {
             name: "nand_1".to_owned(),
             behavior: "RRRL".parse().unwrap(),
             body,
-            displacement: [1.0, 0.1 + 0.2, 3.0, -4.0e-7],
+            displacement: vec![1.0, 0.1 + 0.2, 3.0, -4.0e-7].try_into().unwrap(),
             character: Character {
                 clock: 4,
                 switches: 1000,
@@ -142,7 +142,7 @@ pub(crate) mod tests {
                 glitch_rate: 0.0,
                 margin: 0.25,
                 topples: false,
-                settle: vec![Transition { from: Pattern::PAIRS[1], to: Pattern::PAIRS[3], cycles: 2 }],
+                settle: vec![Transition { stimuli: 2, from: Pattern::PAIRS[1], to: Pattern::PAIRS[3], cycles: 2 }],
                 radius: Some(SafeRadius {
                     vary: "all=10%".to_owned(),
                     worlds: 20,

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::store::declared::Declared;
 use crate::store::wording::StateError;
-use nbc_base::model::{Axis, Behavior, Body, Genotype, Palette};
+use nbc_base::model::{Axis, Behavior, Body, Displacements, Genotype, Palette};
 use nbc_swarm::evolve::{Counts, Elite, MirrorSource, NicheKey, SearchState};
 
 /// The most bins of an axis that can be declared.
@@ -32,7 +32,7 @@ pub(super) struct SearchRecord {
 struct EliteRecord {
     fitness: [f64; 2],
     behavior: Behavior,
-    displacement: [f64; 4],
+    displacement: Displacements,
     body: Vec<String>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     genotype: Option<Genotype>,
@@ -69,7 +69,7 @@ impl SearchRecord {
             return Err(StateError::Bins { bins, most: MAX_BINS });
         }
         let niche = |(key, elites): (NicheKey, Vec<EliteRecord>)| {
-            if !declared.axes.is_empty() && !is_niche(&key, &declared.axes) {
+            if !declared.axes.is_empty() && !is_niche(&key, &declared.axes, declared.palette.inputs()) {
                 return Err(StateError::NoNiche { bins: key.0 });
             }
             let elites = elites.into_iter().map(|elite| elite.into_elite(&declared.palette));
@@ -86,8 +86,12 @@ impl SearchRecord {
 }
 
 /// Whether a key has a bin on each axis.
-fn is_niche(key: &NicheKey, axes: &[Axis]) -> bool {
-    let bins = |axis: &Axis| if let Axis::Count { bins, .. } = *axis { bins } else { 16 };
+fn is_niche(key: &NicheKey, axes: &[Axis], inputs: usize) -> bool {
+    let bins = |axis: &Axis| match axis {
+        Axis::Count { .. } | Axis::Behavior => axis.bins(inputs),
+        // A class has the number of one of its behaviors.
+        Axis::Class => Axis::Behavior.bins(inputs),
+    };
     key.0.len() == axes.len() && key.0.iter().zip(axes).all(|(&bin, axis)| usize::from(bin) < bins(axis))
 }
 
@@ -100,6 +104,9 @@ impl EliteRecord {
     fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, StateError> {
         let Self { fitness, behavior, displacement, body, genotype, generation, evaluations } = self;
         let body = Body::parse(&body, palette).map_err(StateError::Body)?;
+        if behavior.stimuli() != palette.inputs() || displacement.len() != 1 << palette.inputs() {
+            return Err(StateError::Stimuli { behavior, stimuli: palette.inputs() });
+        }
         Ok(Elite { fitness, behavior, displacement, body, genotype, generation, evaluations })
     }
 }

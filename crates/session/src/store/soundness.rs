@@ -3,7 +3,7 @@
 use crate::store::wording::{Flaw, RobotFileError};
 use crate::store::yaml;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Behavior, Character, Robot, SafeRadius, Variation};
+use nbc_base::model::{Character, Robot, SafeRadius, Variation};
 use nbc_base::source::SourceFile;
 
 /// The longest clock and settle time of a robot, in cycles; the longest that is measured is 13.
@@ -53,7 +53,7 @@ fn motion(robot: &Robot) -> Option<Flaw> {
     if displacement.iter().any(|voxels| !voxels.is_finite()) {
         return Some(Flaw::Displacement);
     }
-    let expected = Behavior::of(displacement);
+    let expected = displacement.behavior();
     (expected != robot.behavior).then_some(Flaw::Behavior { found: robot.behavior, expected })
 }
 

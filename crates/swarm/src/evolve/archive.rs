@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::evolve::rivals::{exceeds, reaches};
 use crate::evolve::{Descriptor, NicheKey};
-use nbc_base::model::{Behavior, Body, Evolution, Genotype, Niche};
+use nbc_base::model::{Behavior, Body, Displacements, Evolution, Genotype, Niche};
 
 /// A body in a niche.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,8 +15,8 @@ pub struct Elite {
     pub fitness: [f64; 2],
     /// Its behavior.
     pub behavior: Behavior,
-    /// Displacement in voxels over the fixed simulations, patterns 00, 01, 10, 11.
-    pub displacement: [f64; 4],
+    /// Displacement in voxels over the fixed simulations, one for each pattern.
+    pub displacement: Displacements,
     /// Its voxels.
     pub body: Body,
     /// The network it developed from, if it did from one.
@@ -147,7 +147,7 @@ impl Archive {
             niches,
             coverage: filled as f64 / niches as f64,
             qd_score: self.niches.values().map(|elites| best(elites)).sum(),
-            champions: Behavior::all().filter_map(|behavior| self.champion(behavior)).collect(),
+            champions: Behavior::all(self.descriptor.inputs()).filter_map(|behavior| self.champion(behavior)).collect(),
         }
     }
 
@@ -182,7 +182,7 @@ mod tests {
         Elite {
             fitness,
             behavior: nbc_base::model::Function::new(behavior).into(),
-            displacement: [0.0; 4],
+            displacement: Displacements::zero(2),
             body: Body::new(5, 5, codes, nbc_base::model::Palette::paper()),
             genotype: None,
             generation: 0,

@@ -2,9 +2,10 @@
 
 use serde::{Deserialize, Serialize};
 
-use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, MaterialKind, Rules};
+use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, Function, MaterialKind, Rules};
 
-/// A niche: the bin on each axis, from 0; on a behavior axis the bits of the function.
+/// A niche: the bin on each axis, from 0; on a behavior axis the bits of the function, on a class axis
+/// those of the first of its class.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NicheKey(pub Vec<u16>);
 
@@ -14,17 +15,32 @@ pub struct Descriptor {
     axes: Vec<Axis>,
     area: usize,
     rules: Rules,
+    /// The inputs of its bodies.
+    inputs: usize,
+    /// The class of each behavior, in order of the functions' bits: the lowest bits of its functions.
+    classes: Vec<u8>,
 }
 
 impl Descriptor {
     /// The descriptor of a declared run.
     pub fn new(evolution: &Evolution) -> Self {
-        Self { axes: evolution.descriptors.clone(), area: evolution.width * evolution.height, rules: evolution.rules }
+        Self {
+            axes: evolution.descriptors.clone(),
+            area: evolution.width * evolution.height,
+            rules: evolution.rules,
+            inputs: evolution.palette.inputs(),
+            classes: Function::all_of(evolution.palette.inputs()).map(|one| one.class()[0].bits()).collect(),
+        }
     }
 
     /// The number of niches; some can never be filled, such as all voxels active and all sensory.
     pub fn niches(&self) -> usize {
-        self.axes.iter().map(|axis| if let Axis::Count { bins, .. } = axis { *bins } else { 16 }).product()
+        self.axes.iter().map(|axis| axis.bins(self.inputs)).product()
+    }
+
+    /// The inputs of its bodies.
+    pub(super) fn inputs(&self) -> usize {
+        self.inputs
     }
 
     /// The niche of a body with that behavior.
@@ -32,6 +48,7 @@ impl Descriptor {
         let bin = |axis: &Axis| match *axis {
             Axis::Count { of, bins } => self.bin(self.count(body, of), bins),
             Axis::Behavior => u16::from(behavior.function().bits()),
+            Axis::Class => u16::from(self.classes[usize::from(behavior.function().bits())]),
         };
         NicheKey(self.axes.iter().map(bin).collect())
     }

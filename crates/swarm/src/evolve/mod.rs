@@ -22,6 +22,6 @@ pub use outcome::{CandidateOutcome, Counts, Scores};
 pub use rivals::Rivals;
 #[cfg(test)]
 pub(crate) use search::tests;
-pub use search::{Candidate, CandidateOrigin, MirrorSource, Search, SearchState, stream};
+pub use search::{Candidate, CandidateOrigin, MirrorSource, Search, SearchState, images, stream};
 pub use symmetry::{Recoding, mirrored, recodings};
 pub use wording::Undeveloped;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use nbc_base::model::{Behavior, Fault};
+use nbc_base::model::{Behavior, Displacements, Fault};
 
 /// The result of a body, as far as the archive needs it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,10 +10,10 @@ pub struct Scores {
     /// The two fitnesses, higher is better: the distance in the variable simulation and the smallest distance in the
     /// fixed ones, or the two of gates.
     pub fitness: [f64; 2],
-    /// The directions under the four patterns.
+    /// The directions under each pattern.
     pub behavior: Behavior,
-    /// Displacement in voxels over the fixed simulations, patterns 00, 01, 10, 11.
-    pub displacement: [f64; 4],
+    /// Displacement in voxels over the fixed simulations, one for each pattern.
+    pub displacement: Displacements,
 }
 
 /// The result of a candidate.

@@ -15,17 +15,17 @@ impl Rivals {
     /// The rivals in each niche of each behavior.
     ///
     /// # Panics
-    /// When there is not one entry for each of the sixteen behaviors.
+    /// When there is not one entry for each behavior of two or three stimuli.
     pub fn new(niche: Niche, behaviors: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
-        assert_eq!(behaviors.len(), Behavior::all().count(), "each behavior has an entry");
+        assert!(matches!(behaviors.len(), 16 | 256), "each behavior has an entry");
         let is_open = |niches: &Vec<Vec<[f64; 2]>>| niches.iter().any(Vec::is_empty);
         let behaviors = behaviors.into_iter().map(|niches| if is_open(&niches) { Vec::new() } else { niches });
         Self { niche, behaviors: behaviors.collect() }
     }
 
-    /// No rivals: everything enters an empty archive.
-    pub fn none() -> Self {
-        Self::new(Niche::default(), Behavior::all().map(|_| Vec::new()).collect())
+    /// No rivals of bodies with that many inputs: everything enters an empty archive.
+    pub fn none(inputs: usize) -> Self {
+        Self::new(Niche::default(), Behavior::all(inputs).map(|_| Vec::new()).collect())
     }
 
     /// The elites that each niche keeps.
@@ -69,7 +69,7 @@ mod tests {
 
     fn rivals(niche: Niche, niches: &[&[[f64; 2]]]) -> Rivals {
         let niches: Vec<Vec<[f64; 2]>> = niches.iter().map(|elites| elites.to_vec()).collect();
-        Rivals::new(niche, Behavior::all().map(|_| niches.clone()).collect())
+        Rivals::new(niche, Behavior::all(2).map(|_| niches.clone()).collect())
     }
 
     #[test]
@@ -80,7 +80,7 @@ mod tests {
         let two = rivals(Niche::Dominance, &[&[[1.0, 1.0]], &[[0.5, 0.5]]]);
         assert!(two.admit(nand, &[0.6, 0.6]) && !two.admit(nand, &[0.5, 0.6]));
         assert!(rivals(Niche::Dominance, &[&[[1.0, 1.0]], &[]]).admit(nand, &[0.0, 0.0]));
-        assert!(Rivals::none().admit(nand, &[0.0, 0.0]));
+        assert!(Rivals::none(2).admit(nand, &[0.0, 0.0]));
         let front = rivals(Niche::Pareto(3), &[&[[1.0, 0.0], [0.0, 1.0]]]);
         assert!(front.admit(nand, &[0.5, 0.5]) && !front.admit(nand, &[1.0, 0.0]));
     }

@@ -2,25 +2,39 @@
 //! nearly so.
 
 use crate::evolve::cppn::COLUMN;
-use nbc_base::model::{Behavior, Body, Genotype, MaterialKind, NodeKind, Palette, Pattern, Response};
+use nbc_base::model::{
+    Behavior, Body, Displacements, Function, Genotype, MaterialKind, NodeKind, Palette, Pattern, Response,
+};
 
-/// An exchange of sensor materials, which also exchanges or inverts stimuli 1 and 2 for a body.
+/// An exchange of sensor materials, which also exchanges or inverts the first two or three stimuli for a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recoding {
-    swap: bool,
-    invert: [bool; 2],
+    /// The stimulus that each one becomes.
+    order: Vec<usize>,
+    /// Whether each stimulus is inverted then.
+    invert: Vec<bool>,
     /// The image of each code, code 0 first.
     codes: Vec<u8>,
 }
 
-/// The recodings for which a palette has counterpart materials, at most eight, the identity first.
+/// The orders of two and of three stimuli, the identity first.
+const PAIRS: [&[usize]; 2] = [&[0, 1], &[1, 0]];
+const THREES: [&[usize]; 6] = [&[0, 1, 2], &[1, 0, 2], &[0, 2, 1], &[1, 2, 0], &[2, 0, 1], &[2, 1, 0]];
+
+/// The recodings for which a palette has counterpart materials, at most eight of two stimuli and 48 of three, the
+/// identity first.
 pub fn recodings(palette: &Palette) -> Vec<Recoding> {
+    let stimuli = palette.inputs();
+    let orders: &[&[usize]] = if stimuli == 2 { &PAIRS } else { &THREES };
     let mut found: Vec<Recoding> = Vec::new();
-    for bits in 0..8u8 {
-        let (swap, invert) = (bits & 1 > 0, [bits & 2 > 0, bits & 4 > 0]);
-        let Some(codes) = recoded_palette(palette, swap, invert) else { continue };
-        if !found.iter().any(|other| other.codes == codes) {
-            found.push(Recoding { swap, invert, codes });
+    for inverted in Pattern::all(stimuli) {
+        // The first stimulus changes fastest.
+        let invert: Vec<bool> = (0..stimuli).map(|i| inverted.has(stimuli - 1 - i)).collect();
+        for &order in orders {
+            let Some(codes) = recoded_palette(palette, order, &invert) else { continue };
+            if !found.iter().any(|other| other.codes == codes) {
+                found.push(Recoding { order: order.to_vec(), invert: invert.clone(), codes });
+            }
         }
     }
     found
@@ -29,7 +43,7 @@ pub fn recodings(palette: &Palette) -> Vec<Recoding> {
 impl Recoding {
     /// Whether it is the identity.
     pub fn is_identity(&self) -> bool {
-        !self.swap && self.invert == [false; 2]
+        self.order.is_sorted() && !self.invert.contains(&true)
     }
 
     /// The body with its sensors exchanged.
@@ -49,22 +63,20 @@ impl Recoding {
 
     /// The pattern under which the original body moved as the recoded body does under `pattern`.
     pub fn before(&self, pattern: Pattern) -> Pattern {
-        let was = |stimulus: usize| {
-            let now = if self.swap { 1 - stimulus } else { stimulus };
-            pattern.has(now) != self.invert[now]
-        };
-        Pattern::new(&[was(0), was(1)])
+        Pattern::of(self.order.iter().map(|&now| pattern.has(now) != self.invert[now]))
     }
 
-    /// The displacements of the recoded body from those of the original, for patterns 00, 01, 10, 11.
-    pub fn displacement(&self, displacement: &[f64; 4]) -> [f64; 4] {
-        Pattern::PAIRS.map(|pattern| displacement[self.before(pattern).pair_index()])
+    /// The displacements of the recoded body from those of the original.
+    pub fn displacement(&self, displacement: &Displacements) -> Displacements {
+        Displacements::under(self.order.len(), |pattern| displacement.at(self.before(pattern)))
     }
 
     /// The recoded body's behavior.
     pub fn behavior(&self, behavior: Behavior) -> Behavior {
-        let right = |pattern: Pattern| f64::from(behavior.function().output(pattern.has(0), pattern.has(1)));
-        Behavior::of(&self.displacement(&Pattern::PAIRS.map(right)))
+        let stimuli = self.order.len();
+        let right = |pattern: Pattern| behavior.function().under(self.before(pattern));
+        let bits = Pattern::all(stimuli).enumerate().map(|(i, pattern)| u8::from(right(pattern)) << i).sum();
+        Function::of(stimuli, bits).into()
     }
 }
 
@@ -80,15 +92,15 @@ pub fn mirrored(genotype: &Genotype) -> Genotype {
 }
 
 /// The image of each code; `None` if a sensor has no counterpart. Equal sensors are paired in order.
-fn recoded_palette(palette: &Palette, swap: bool, invert: [bool; 2]) -> Option<Vec<u8>> {
+fn recoded_palette(palette: &Palette, order: &[usize], invert: &[bool]) -> Option<Vec<u8>> {
     let recode = |response: Response| {
-        let stimulus = if swap { 1 - response.stimulus } else { response.stimulus };
+        let stimulus = order[response.stimulus];
         let (absent, present) =
             if invert[stimulus] { (response.present, response.absent) } else { (response.absent, response.present) };
         Response { stimulus, absent, present }
     };
     let sensor = |code: u8| match palette.kind(code) {
-        Some(MaterialKind::Sensor(response)) if response.stimulus < 2 => Some(response),
+        Some(MaterialKind::Sensor(response)) if response.stimulus < order.len() => Some(response),
         _ => None,
     };
     let alike = |response| (1..=palette.materials().len() as u8).filter(move |&code| sensor(code) == Some(response));
@@ -108,12 +120,14 @@ fn recoded_palette(palette: &Palette, swap: bool, invert: [bool; 2]) -> Option<V
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
     use crate::evolve::{cppn, mutate, phenotype};
-    use nbc_base::model::{Function, MutationWeights, Rules};
+    use nbc_base::model::{Material, MutationWeights, Rules};
 
     fn network(rules: Rules, seed: u64) -> Genotype {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -143,16 +157,47 @@ mod tests {
         assert_eq!(distinct, ["LRRR", "RLRR", "RRLR", "RRRL"], "four by recoding, the other four by mirroring");
     }
 
+    /// The paper's materials and two that sense a third stimulus.
+    fn three() -> Palette {
+        let mut materials = Palette::paper().materials().to_vec();
+        let sensor = |name: &str, absent, present| {
+            let kind = MaterialKind::Sensor(Response { stimulus: 2, absent, present });
+            Material { name: name.to_owned(), kind }
+        };
+        materials.extend([sensor("s3_shrink", 1.6, 0.6), sensor("s3_grow", 0.6, 1.6)]);
+        Palette::new(materials)
+    }
+
+    #[test]
+    fn recodings_of_three_stimuli_give_half_of_a_class_and_mirroring_the_rest() {
+        let palette = three();
+        let recodings = recodings(&palette);
+        assert_eq!(recodings.len(), 48);
+        assert!(recodings[0].is_identity() && recodings.iter().filter(|recoding| recoding.is_identity()).count() == 1);
+        for function in [Function::MUX, Function::MAJ, Function::XOR3, Function::three(0x16)] {
+            let images = recodings.iter().map(|recoding| recoding.behavior(function.into()).function());
+            let mut class: Vec<Function> = images.flat_map(|image| [image, image.inverted()]).collect();
+            class.sort_unstable();
+            class.dedup();
+            assert_eq!(class, function.class());
+        }
+    }
+
     #[test]
     fn recoded_voxels_react_as_before() {
-        let palette = Palette::paper();
+        for palette in [Arc::unwrap_or_clone(Palette::paper()), three()] {
+            check_voxels(&palette);
+        }
+    }
+
+    fn check_voxels(palette: &Palette) {
         let width = |code: u8, pattern: Pattern| match palette.kind(code) {
             Some(MaterialKind::Sensor(r)) => Some(if pattern.has(r.stimulus) { r.present } else { r.absent }),
             _ => None,
         };
-        for recoding in recodings(&palette) {
-            for code in 0..=8 {
-                for pattern in Pattern::PAIRS {
+        for recoding in recodings(palette) {
+            for code in 0..=palette.materials().len() as u8 {
+                for pattern in Pattern::all(palette.inputs()) {
                     assert_eq!(
                         width(recoding.codes[usize::from(code)], pattern),
                         width(code, recoding.before(pattern))

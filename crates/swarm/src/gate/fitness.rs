@@ -33,20 +33,21 @@ fn gate<'a>(behavior: Behavior, holds: impl Iterator<Item = &'a PatternHold> + C
     [settled.iter().sum::<f64>() / CLOCKS.len() as f64, worth(least(holds.clone().filter(is_static).flat_map(cycles)))]
 }
 
-/// The mean over the sixteen steps from a pattern to the next one of the score of the smallest displacement in such a
-/// cycle, and the score of the smallest displacement of all.
+/// The mean over the steps from a pattern to the next one, 16 of two stimuli and 64 of three, of the score of the
+/// smallest displacement in such a cycle, and the score of the smallest displacement of all.
 fn wave<'a>(behavior: Behavior, holds: impl Iterator<Item = &'a PatternHold>) -> [f64; 2] {
-    let mut margins = [[f64::INFINITY; 4]; 4];
+    let stimuli = behavior.stimuli();
+    let mut margins = vec![f64::INFINITY; 1 << (2 * stimuli)];
     for hold in holds {
-        let own = hold.pattern.pair_index();
+        let own = hold.pattern.number(stimuli);
         for (cycle, margin) in hold.rightward(behavior).enumerate() {
-            let before = if cycle == 0 { hold.before.map(|before| before.pair_index()) } else { Some(own) };
+            let before = if cycle == 0 { hold.before.map(|before| before.number(stimuli)) } else { Some(own) };
             if let Some(before) = before {
-                margins[before][own] = margins[before][own].min(margin);
+                let step = &mut margins[before << stimuli | own];
+                *step = step.min(margin);
             }
         }
     }
-    let margins = margins.as_flattened();
     let mean = margins.iter().map(|&margin| worth(margin)).sum::<f64>() / margins.len() as f64;
     [mean, worth(least(margins.iter().copied()))]
 }

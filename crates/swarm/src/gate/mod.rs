@@ -8,10 +8,10 @@ use crate::Work;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{CandidateOutcome, Scores};
 use crate::gate::fitness::fitness;
-use crate::gate::lanes::{HOLD, LANES, Lane, sensed, stages};
+use crate::gate::lanes::{HOLD, Lane, sensed, stages, starts};
 use crate::holds::PatternHold;
 use crate::noise::RobotNoise;
-use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, PhysicsWorld, SearchObjective};
+use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld, SearchObjective};
 use nbc_sim::Simulator;
 
 /// A candidate with a first fitness below this is dropped at once, even if its niche is empty.
@@ -21,11 +21,11 @@ const FIRST_LOOK: usize = 3;
 
 /// Env steps of a full evaluation.
 pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
-    let cycles: usize = stages(protocol.objective).iter().flatten().map(Vec::len).sum();
+    let cycles: usize = stages(protocol.objective, protocol.stimuli).iter().flatten().map(Vec::len).sum();
     cycles as u64 * u64::from(CYCLE_STEPS) * (1 + protocol.others.len() as u64)
 }
 
-/// The result of each task: the simulations from the four patterns, then the random ones, then both in each of the
+/// The result of each task: the simulations from each pattern, then the random ones, then both in each of the
 /// other worlds, as long as the body is right in the world before. After each cycle, bodies that can no longer enter a
 /// niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
@@ -34,13 +34,13 @@ pub(crate) fn evaluate(
     tasks: &[EvaluationTask],
 ) -> Vec<Evaluated> {
     let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(protocol, task)).collect();
-    let stages = stages(protocol.objective);
+    let stages = stages(protocol.objective, protocol.stimuli);
     for world in std::iter::once(&protocol.world).chain(&protocol.others) {
         for (stage, lanes) in stages.iter().enumerate() {
             for attempt in &mut attempts {
                 attempt.holds.resize(attempt.holds.len() + lanes.len(), Vec::new());
             }
-            try_lanes(simulator, world, &mut attempts, lanes, stage * LANES);
+            try_lanes(simulator, world, &mut attempts, lanes, stage * starts(protocol.stimuli));
         }
         attempts.iter_mut().for_each(Attempt::leave_world);
     }
@@ -100,7 +100,8 @@ struct Attempt<'a> {
 
 impl<'a> Attempt<'a> {
     fn new(protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
-        let scores = Scores { fitness: [1.0; 2], behavior: Behavior::of(&[0.0; 4]), displacement: [0.0; 4] };
+        let displacement = Displacements::zero(protocol.stimuli);
+        let scores = Scores { fitness: [1.0; 2], behavior: displacement.behavior(), displacement };
         let (objective, asked) = (protocol.objective, protocol.behaviors.as_slice());
         Self {
             objective,
@@ -140,8 +141,8 @@ impl<'a> Attempt<'a> {
             return;
         }
         if self.holds[0].len() == 1 {
-            self.scores.displacement = settled_displacement(&self.holds[..LANES]);
-            self.own = Behavior::of(&self.scores.displacement);
+            self.scores.displacement = settled_displacement(&self.holds[..starts(self.own.stimuli())]);
+            self.own = self.scores.displacement.behavior();
         }
         let Bound { is_open, behavior, raw } = self.bound();
         (self.scores.behavior, self.scores.fitness) = (behavior, self.over_worlds(raw));
@@ -213,14 +214,11 @@ fn is_right(raw: [f64; 2]) -> bool {
     raw.iter().all(|score| *score > 0.5)
 }
 
-/// Displacement under each pattern at the four fresh starts, without the first cycle, in which the body finds
-/// its shape.
-fn settled_displacement(walks: &[Vec<PatternHold>]) -> [f64; 4] {
-    let mut displacement = [0.0; 4];
-    for hold in walks.iter().filter_map(|holds| holds.first()) {
-        displacement[hold.pattern.pair_index()] = hold.cycles[1..].iter().sum();
-    }
-    displacement
+/// Displacement under each pattern at the fresh starts, without the first cycle, in which the body finds its shape.
+/// There is a walk from each pattern, in their order.
+fn settled_displacement(walks: &[Vec<PatternHold>]) -> Displacements {
+    let moved: Vec<f64> = walks.iter().map(|holds| holds[0].cycles[1..].iter().sum()).collect();
+    Displacements::try_from(moved).expect("there is a walk from each pattern")
 }
 
 #[cfg(test)]
@@ -239,7 +237,7 @@ mod tests {
         let scores = |rows: [&str; 5], others: &[PhysicsWorld]| {
             let body = Body::parse(&rows, &Palette::paper()).unwrap();
             let protocol = EvaluationProtocol { others: others.to_vec(), ..EvaluationProtocol::of(&evolution) };
-            let done = evaluate(&Simulator::default(), &protocol, &[EvaluationTask { body, rivals: Rivals::none() }]);
+            let done = evaluate(&Simulator::default(), &protocol, &[EvaluationTask { body, rivals: Rivals::none(2) }]);
             assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(&protocol));
             let CandidateOutcome::Measured(scores) = done[0].outcome else { panic!("{:?}", done[0]) };
             (scores.fitness, done[0].work.env_steps)
@@ -262,7 +260,7 @@ mod tests {
     #[test]
     fn a_body_is_scored_as_the_nearest_behavior_that_is_asked_for() {
         let evolution = Evolution { objective: SearchObjective::Wave, ..crate::evolve::tests::evolution() };
-        let task = |candidate: &Candidate| EvaluationTask { body: candidate.body.clone(), rivals: Rivals::none() };
+        let task = |candidate: &Candidate| EvaluationTask { body: candidate.body.clone(), rivals: Rivals::none(2) };
         let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(4).map(task).collect();
         let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
         let scores = |behaviors: &[Behavior]| {

@@ -19,7 +19,8 @@ impl PictureKind for HeatmapPicture {
         let [x, y] = axes(results, &request.axes)?;
         let best = results.best();
         let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
-        let archive_map = ArchiveMap { unit: results.unit(), axes: &results.axes, niches: &niches };
+        let (unit, axes, stimuli) = (results.unit(), &results.axes, results.stimuli);
+        let archive_map = ArchiveMap { unit, axes, stimuli, niches: &niches };
         let title = format!("{}: the best of each niche", results.name);
         Ok(Drawing::Picture(report::draw_heatmap(&title, &archive_map, x, y)))
     }

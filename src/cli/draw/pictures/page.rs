@@ -37,13 +37,13 @@ impl PictureKind for PagePicture {
 /// The page of a run with all its plots.
 pub(in crate::cli) fn run_page(results: &EvolutionResults, scheme: Scheme) -> String {
     let spell = |pattern| Spell { pattern, steps: 10 * CYCLE_STEPS };
-    let schedule = Schedule { spells: Pattern::PAIRS.map(spell).to_vec() };
+    let schedule = Schedule { spells: Pattern::all(results.stimuli).map(spell).collect() };
     let figure = |heading: &str, drawing| PageFigure { heading: heading.to_owned(), drawing };
     let mut figures = vec![
         figure("Progress", progress(results)),
         figure("Champions in space and time", champions(&each_champion(results), &schedule)),
     ];
-    if results.objective == SearchObjective::Distance {
+    if results.objective == SearchObjective::Distance && results.stimuli == 2 {
         figures.push(figure("Groups of behaviors", comparison(results)));
     }
     report::draw_evolution_page(results, &figures, scheme)

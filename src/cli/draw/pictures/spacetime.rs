@@ -9,7 +9,7 @@ use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
 use crate::cli::draw::wording::DrawError;
-use nbc_base::model::{CYCLE_STEPS, Schedule, Setting, Trial};
+use nbc_base::model::{CYCLE_STEPS, Function, Schedule, Setting, Trial};
 use nbc_session::SwarmRun;
 use nbc_session::report::{self, Champions, EvolutionResults, Svg};
 use nbc_sim::Simulator;
@@ -68,10 +68,10 @@ pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> Svg {
     let trial = |one: &NamedBody| Trial { body: one.body.clone(), schedule: schedule.clone() };
     let trials: Vec<Trial> = several.robots.iter().map(trial).collect();
     let trajectories = Simulator::default().run_trials(&Setting::default(), &trials);
-    let mut paths: BTreeMap<u8, Champions> = BTreeMap::new();
+    let mut paths: BTreeMap<Function, Champions> = BTreeMap::new();
     for (one, trajectory) in several.robots.iter().zip(trajectories) {
-        let bits = one.behavior.function().bits();
-        let group = paths.entry(bits).or_insert_with(|| Champions { behavior: one.behavior, paths: Vec::new() });
+        let function = one.behavior.function();
+        let group = paths.entry(function).or_insert_with(|| Champions { behavior: one.behavior, paths: Vec::new() });
         group.paths.push((trajectory, one.body.width()));
     }
     let groups: Vec<Champions> = paths.into_values().collect();

@@ -12,11 +12,15 @@ pub(crate) enum EvolutionError {
     PaletteSize { materials: usize, most: usize },
     /// A palette of materials that cannot move a body.
     NoActuator { least: usize },
-    /// A schedule of another number of stimuli than the two of a behavior.
+    /// A schedule of another number of stimuli than the two or three of a behavior.
     WrongStimuli { schedule: String, stimuli: usize },
     /// A sensor of a stimulus that the schedule never gives; it gives others.
     DeafSensor { material: String, stimulus: String, given: Vec<String> },
-    /// A schedule that leaves out patterns of the two stimuli.
+    /// A stimulus of the schedule that no material senses.
+    Unsensed { stimulus: String },
+    /// A behavior of another number of stimuli than the schedule has.
+    ForeignBehavior { behavior: String, found: usize, stimuli: usize },
+    /// A schedule that leaves out patterns of its stimuli.
     MissingPatterns { schedule: String, missing: Vec<String> },
     /// A range without seeds, or with too many.
     SeedRange { most: u32 },
@@ -55,7 +59,7 @@ impl EvolutionError {
             Self::WrongStimuli { schedule, stimuli } => {
                 let noun = if stimuli == 1 { "stimulus" } else { "stimuli" };
                 let message = format!("the schedule `{schedule}` has {stimuli} {noun}");
-                Diagnostic::new(Code::Value, message, span, "expected two, the inputs of a robot")
+                Diagnostic::new(Code::Value, message, span, "expected two or three, the inputs of a robot")
             }
             Self::DeafSensor { material, stimulus, given } => {
                 let message = format!("the material `{material}` senses `{stimulus}`, which the schedule never gives");
@@ -64,10 +68,26 @@ impl EvolutionError {
                 let help = format!("name a schedule with `{stimulus}` in `variable`, or materials that sense {given}");
                 Diagnostic::new(Code::Value, message, span, label).with_help(help)
             }
+            Self::Unsensed { stimulus } => {
+                let message = format!("no material senses `{stimulus}`, which the schedule gives");
+                let label = "expected materials that sense all three stimuli";
+                Diagnostic::new(Code::Value, message, span, label)
+                    .with_help(format!("add a sensor of `{stimulus}`, or name a schedule without it in `variable`"))
+            }
+            Self::ForeignBehavior { behavior, found, stimuli } => {
+                let message = format!("the behavior `{behavior}` has {found} stimuli");
+                let label = format!("the schedule of this evolution has {stimuli}");
+                let help = match stimuli {
+                    3 => "write behaviors of eight letters, or functions of three inputs such as `maj`",
+                    _ => "write behaviors of four letters, or functions of two inputs such as `nand`",
+                };
+                Diagnostic::new(Code::Value, message, span, label).with_help(help)
+            }
             Self::MissingPatterns { schedule, missing } => {
                 let names = suggest::alternatives(&missing, "or");
                 let message = format!("the schedule `{schedule}` never gives {names}");
-                let label = "expected all four patterns, under which a behavior is measured";
+                let many = if missing[0].len() == 2 { "four" } else { "eight" };
+                let label = format!("expected all {many} patterns, under which a behavior is measured");
                 let row: Vec<_> = missing[0].chars().map(String::from).collect();
                 Diagnostic::new(Code::Value, message, span, label)
                     .with_help(format!("add a row, for example `{} for 10 cycles`", row.join(" ")))

@@ -107,7 +107,7 @@ impl fmt::Display for Expected {
             Self::Name(kind) => return write!(f, "the name of a {kind}"),
             Self::OneOf(words) => return f.write_str(&suggest::alternatives(words, "or")),
             Self::Time(example) => return write!(f, "a time such as `{example}`"),
-            Self::Origin => "`shipped`, the name of an evolution or a folder in quotes",
+            Self::Origin => "`shipped`, `three`, the name of an evolution or a folder in quotes",
             Self::Robot => "the name of a robot",
             Self::Behavior => "a function such as `nand`, or a behavior such as `RRRL`",
             Self::Axis => "`voxels in 4 bins`, `active in 4 bins`, `sensory in 4 bins` or `behavior`",

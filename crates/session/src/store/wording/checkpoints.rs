@@ -3,7 +3,7 @@
 use std::fmt;
 
 use nbc_base::diag::{Code, Diagnostic, counted};
-use nbc_base::model::BodyError;
+use nbc_base::model::{Behavior, BodyError};
 
 /// A checkpoint that cannot be used.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -65,6 +65,8 @@ pub(in crate::store) enum StateError {
     Bins { bins: usize, most: usize },
     /// A niche outside the archive, as its bins.
     NoNiche { bins: Vec<u16> },
+    /// An elite whose behavior or displacements are of another number of stimuli than its declaration has.
+    Stimuli { behavior: Behavior, stimuli: usize },
     /// An elite with an invalid body.
     Body(BodyError),
 }
@@ -76,6 +78,9 @@ impl fmt::Display for StateError {
             Self::NoMaterials => f.write_str("its declaration has no materials"),
             Self::Bins { bins, most } => write!(f, "an axis has {}, expected 1 to {most}", counted(*bins, "bin")),
             Self::NoNiche { bins } => write!(f, "the archive has no niche {bins:?}"),
+            Self::Stimuli { behavior, stimuli } => {
+                write!(f, "an elite has the behavior {behavior}, expected one of {stimuli} stimuli")
+            }
             Self::Body(error) => write!(f, "an elite has no valid body: {error}"),
         }
     }

@@ -9,7 +9,7 @@ use crate::evolve::{
     AddStatus, Archive, CandidateOutcome, Counts, Descriptor, Elite, NicheKey, Recoding, Rivals, Scores, develop,
     mirrored, recodings, validate,
 };
-use nbc_base::model::{Behavior, Body, Evolution, Genome, Genotype, NodeKind, Symmetry};
+use nbc_base::model::{Behavior, Body, Displacements, Evolution, Genome, Genotype, NodeKind, Symmetry};
 
 mod offspring;
 
@@ -198,7 +198,7 @@ impl Search {
             self.archive.fitnesses(image, shown)
         };
         let niches = |behavior| images.iter().map(|image| in_niche(behavior, image)).collect();
-        Rivals::new(self.archive.niche(), Behavior::all().map(niches).collect())
+        Rivals::new(self.archive.niche(), Behavior::all(self.evolution.palette.inputs()).map(niches).collect())
     }
 
     fn take(&mut self, candidate: &Candidate, scores: &Scores) {
@@ -270,6 +270,26 @@ pub fn stream(seed: u64, generation: u32, index: u32) -> ChaCha8Rng {
     rng
 }
 
+/// The images of an elite that show each behavior of its class, as far as its palette has counterpart sensors: the
+/// first of each behavior, the elite itself first. Mirrored ones move nearly as their originals do.
+pub fn images(elite: &Elite) -> Vec<Elite> {
+    let mirrored = Elite {
+        behavior: elite.behavior.function().inverted().into(),
+        displacement: Displacements::under(elite.behavior.stimuli(), |pattern| -elite.displacement.at(pattern)),
+        body: elite.body.mirrored(),
+        genotype: elite.genotype.as_ref().map(mirrored),
+        ..elite.clone()
+    };
+    let recodings = recodings(elite.body.palette());
+    let mut images: Vec<Elite> = Vec::new();
+    for image in [elite, &mirrored].iter().flat_map(|one| recodings.iter().map(|recoding| image(recoding, one))) {
+        if images.iter().all(|known| known.behavior != image.behavior) {
+            images.push(image);
+        }
+    }
+    images
+}
+
 /// The image of an elite under a recoding.
 fn image(recoding: &Recoding, elite: &Elite) -> Elite {
     if recoding.is_identity() {
@@ -331,7 +351,8 @@ pub(crate) mod tests {
         let displacement = [1, 2, 3, 5].map(|k| weight(k) % 11.0 - 5.0);
         let fitness =
             [displacement.iter().map(|d| d.abs()).sum(), displacement.iter().map(|d| d.abs()).fold(9.0, f64::min)];
-        CandidateOutcome::Measured(Scores { fitness, behavior: Behavior::of(&displacement), displacement })
+        let displacement = Displacements::try_from(displacement.to_vec()).unwrap();
+        CandidateOutcome::Measured(Scores { fitness, behavior: displacement.behavior(), displacement })
     }
 
     fn advance(search: &mut Search) {
