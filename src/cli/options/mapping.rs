@@ -14,10 +14,11 @@ use nbc_session::store;
 /// The available cells and the options of mapping.
 #[derive(Args)]
 pub(in crate::cli) struct MappingArguments {
-    /// The functions of the cells, such as `nand,not`, or `all`; by default those of the built-in robots
+    /// The functions of the cells, such as `nand,not` or `xor,maj`, or `all` of two inputs, or `all3` of two and three; by
+    /// default those of the built-in robots
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
     cells: Vec<String>,
-    /// A robot file, or a folder of them, whose functions are the cells
+    /// A robot file, a folder of them, or `three`, whose functions are the cells
     #[arg(long, value_name = "FILE")]
     library: Option<PathBuf>,
     #[command(flatten)]
@@ -63,10 +64,15 @@ impl MappingArguments {
         Ok(Some(match (&self.library, &self.cells[..]) {
             (Some(path), _) => self.cells_of(robots::robots_of(path)?),
             (None, []) => return Ok(None),
-            (None, [all]) if all == "all" => CellLibrary::uniform(
-                Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT),
-            ),
-            (None, names) => CellLibrary::uniform(functions(names)?),
+            (None, [all]) if all == "all" => CellLibrary::uniform(every_gate()),
+            (None, [all]) if all == "all3" => {
+                CellLibrary::uniform(every_gate().chain(Function::all_of(3).filter(|function| function.arity() == 3)))
+            }
+            // A robot of three stimuli can be wired in any order.
+            (None, names) => {
+                let arranged = |one: Function| if one.inputs() == 3 { one.arrangements() } else { vec![one] };
+                CellLibrary::uniform(functions(names)?.into_iter().flat_map(arranged))
+            }
         }))
     }
 
@@ -126,11 +132,16 @@ impl From<EffortWord> for Effort {
     }
 }
 
+/// The functions of two inputs, and the inverter.
+fn every_gate() -> impl Iterator<Item = Function> {
+    Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT)
+}
+
 /// The functions of these names.
 pub(in crate::cli) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
     let parse = |name: &String| {
         Function::parse(name.trim()).ok_or_else(|| {
-            UsageError::UnknownFunction { name: name.clone(), known: Function::all().map(Function::name).collect() }
+            UsageError::UnknownFunction { name: name.clone(), known: Function::named().map(Function::name).collect() }
                 .into()
         })
     };
