@@ -56,6 +56,7 @@ mod swarms;
 mod synth;
 mod terminal;
 mod testing;
+mod three;
 mod tidy;
 mod ui;
 mod using;

@@ -21,6 +21,8 @@ pub struct Selection {
     pub finalists: usize,
     /// The highest accepted error rate.
     pub max_error: f64,
+    /// The margin in voxels per cycle from which on a robot is better than all below it, whatever their clocks.
+    pub wide_margin: f64,
 }
 
 /// An elite with its run.
@@ -81,8 +83,8 @@ impl Selection {
         };
         let screenings: Vec<Task> = candidates.iter().map(screening).collect();
         let screened = executor.perform(run, &screenings, &|| observe(1))?;
-        let ranks =
-            screened.into_iter().zip(candidates).map(|(result, candidate)| (Rank::of(result, candidate), candidate));
+        let rank = |(result, candidate)| (Rank::of(result, candidate, self.wide_margin), candidate);
+        let ranks = screened.into_iter().zip(candidates).map(rank);
         let mut ranked: Vec<(Rank, &RobotCandidate)> = ranks.collect();
         ranked.sort_by(|(a, _), (b, _)| a.compare(b));
         let finalists: Vec<&RobotCandidate> =
@@ -92,7 +94,7 @@ impl Selection {
         let measured = executor.perform(run, &measurements, &|| observe(MEASUREMENT_COST))?;
         let judged =
             measured.into_iter().zip(finalists).map(|(result, candidate)| self.judge(result, behavior, candidate));
-        Some(judged.min_by(Selected::compare).unwrap_or(Selected::Missing))
+        Some(judged.min_by(|a, b| a.compare(b, self.wide_margin)).unwrap_or(Selected::Missing))
     }
 
     fn judge(&self, result: TaskResult, behavior: Behavior, candidate: &RobotCandidate) -> Selected {
@@ -110,7 +112,7 @@ impl Selection {
 
 impl Selected {
     /// The better one first.
-    fn compare(&self, other: &Self) -> Ordering {
+    fn compare(&self, other: &Self, wide_margin: f64) -> Ordering {
         let place = |found: &Self| match found {
             Self::Robot(_) => 0,
             Self::Erring(_) => 1,
@@ -119,7 +121,10 @@ impl Selected {
             Self::Missing => 4,
         };
         match (self, other) {
-            (Self::Robot(a) | Self::Erring(a), Self::Robot(b) | Self::Erring(b)) => a.character.compare(&b.character),
+            (Self::Robot(a) | Self::Erring(a), Self::Robot(b) | Self::Erring(b)) => {
+                let is_thin = |robot: &Robot| robot.character.margin < wide_margin;
+                is_thin(a).cmp(&is_thin(b)).then(a.character.compare(&b.character))
+            }
             _ => place(self).cmp(&place(other)),
         }
     }
@@ -127,21 +132,22 @@ impl Selected {
 
 /// The result of a candidate in short sequences: its clock and margin, or its fitness if no clock was without errors.
 struct Rank {
+    is_thin: bool,
     clock: u32,
     margin: f64,
 }
 
 impl Rank {
-    fn of(result: TaskResult, candidate: &RobotCandidate) -> Self {
+    fn of(result: TaskResult, candidate: &RobotCandidate, wide_margin: f64) -> Self {
         match result.screened() {
-            Ok(Some((clock, margin))) => Self { clock, margin },
+            Ok(Some((clock, margin))) => Self { is_thin: margin < wide_margin, clock, margin },
             // A fault or errors at every clock: ranked last.
-            Ok(None) | Err(_) => Self { clock: LONGEST_CLOCK + 1, margin: worth(&candidate.elite) },
+            Ok(None) | Err(_) => Self { is_thin: true, clock: LONGEST_CLOCK + 1, margin: worth(&candidate.elite) },
         }
     }
 
     fn compare(&self, other: &Self) -> Ordering {
-        self.clock.cmp(&other.clock).then(other.margin.total_cmp(&self.margin))
+        (self.is_thin.cmp(&other.is_thin)).then(self.clock.cmp(&other.clock)).then(other.margin.total_cmp(&self.margin))
     }
 }
 
@@ -173,7 +179,7 @@ mod tests {
     use nbc_base::model::{Body, Displacements, Palette};
     use nbc_sim::Simulator;
 
-    const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0 };
+    const SELECTION: Selection = Selection { tries: 3, finalists: 2, max_error: 0.0, wide_margin: f64::NEG_INFINITY };
 
     fn candidate(rows: &[&str], fitness: f64) -> RobotCandidate {
         let elite = Elite {
@@ -210,6 +216,16 @@ mod tests {
         let found =
             SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
         assert_eq!((found, SELECTION.cost(0)), (Some(Selected::Missing), 0));
+    }
+
+    #[test]
+    fn a_slower_robot_with_a_wide_margin_is_better_than_a_quick_thin_one() {
+        let rank = |clock, margin, wide| {
+            let result = TaskResult::Screening(Ok(Some((clock, margin))));
+            Rank::of(result, &candidate(&["34"], 1.0), wide)
+        };
+        let order = |wide| rank(1, 0.001, wide).compare(&rank(2, 0.4, wide));
+        assert_eq!((order(0.0), order(0.1)), (Ordering::Less, Ordering::Greater));
     }
 
     #[test]

@@ -49,6 +49,9 @@ pub struct AddArguments {
     /// Highest accepted error rate over the measured switches, from 0 to 1
     #[arg(long, value_name = "SHARE", default_value = "0", value_parser = share)]
     max_error: f64,
+    /// Prefer robots with at least this margin to quicker ones with less, in voxels per cycle
+    #[arg(long, value_name = "VOXELS", default_value = "0")]
+    wide_margin: f64,
     #[command(flatten)]
     device: DeviceArguments,
     #[command(flatten)]
@@ -127,7 +130,8 @@ impl AddArguments {
     }
 
     fn selection(&self) -> Selection {
-        Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error: self.max_error }
+        let Self { max_error, wide_margin, .. } = *self;
+        Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error, wide_margin }
     }
 
     /// The requested behaviors, in order of their functions, with the elites to screen. An archive of classes has an

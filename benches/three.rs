@@ -1,0 +1,101 @@
+//! Circuits of robots with three senses beside those with two, and the benchmark circuits in cells of three inputs:
+//! `cargo bench --bench three`. It takes some minutes. Each result is proved.
+
+// Files of the tests have more than this needs.
+#![allow(dead_code, unused_imports)]
+
+use std::fs;
+use std::process::ExitCode;
+
+use nbc_base::source::MemoryWorld;
+use nbc_circuit::{CellLibrary, MapOptions, map_with, prove};
+use nbc_session::{CompileOptions, Session, store};
+
+use aims::Aims;
+use designs::{files, read};
+
+mod aims;
+#[path = "../tests/it/designs.rs"]
+mod designs;
+#[path = "../tests/it/support/mod.rs"]
+mod support;
+
+/// A circuit of the gallery: its file, its name, and the most robots that it is to have.
+type Circuit = (&'static str, &'static str, Option<usize>);
+
+const CIRCUITS: [Circuit; 9] = [
+    ("full_adder.nb", "full_adder", Some(4)),
+    ("ripple_adder.nb", "ripple_adder[4]", Some(16)),
+    ("latch.nb", "d_latch", Some(2)),
+    ("counter.nb", "counter", Some(18)),
+    ("multiplexer.nb", "", None),
+    ("majority.nb", "", None),
+    ("seven_segment.nb", "", None),
+    ("comparator.nb", "", None),
+    ("computer.nb", "product", Some(80)),
+];
+
+/// The benchmark circuits are to have fewer cells, together, by this share.
+const SAVED: f64 = 0.2;
+
+/// The robots of a circuit with these fields of its swarm.
+fn robots(file: &str, circuit: &str, fields: &str) -> Result<usize, String> {
+    let text = fs::read_to_string(format!("circuits/{file}")).unwrap();
+    let own = text.lines().filter(|line| !line.starts_with("swarm ")).collect::<Vec<_>>().join("\n");
+    let mut world = MemoryWorld::default();
+    for used in ["full_adder.nb", "half_adder.nb", "multiplexer.nb"] {
+        world.insert(used, fs::read_to_string(format!("circuits/{used}")).unwrap());
+    }
+    world.insert("m.nb", format!("{own}\nswarm measured {{ circuit: {circuit}, {fields} }}\n"));
+    let mut session = Session::new(world);
+    let checked = session.open("m.nb").map_err(|error| format!("{error:?}"))?;
+    let options = CompileOptions { swarm: Some("measured".to_owned()), ..CompileOptions::default() };
+    let compiled = session.compile(&checked, &circuit.into(), &options);
+    Ok(compiled.map_err(|error| error.list[0].message.clone())?.assembly.members.len())
+}
+
+/// The cells of each benchmark circuit in two libraries.
+fn benchmarks(libraries: [&CellLibrary; 2]) -> Vec<(String, [usize; 2])> {
+    let cells = |path: &std::path::PathBuf| {
+        let design = read(path);
+        let mapped = libraries.map(|library| {
+            let mapped = map_with(&design.logic, library, &MapOptions::default()).expect("the library is complete");
+            prove(&design.logic, &mapped).expect("the mapped circuit equals its source");
+            mapped.cells().count()
+        });
+        (path.file_stem().unwrap().display().to_string(), mapped)
+    };
+    files().iter().map(cells).collect()
+}
+
+fn main() -> ExitCode {
+    let mut aims = Aims::default();
+    println!("| circuit | robots with two senses | with pulsed latches | with three senses |\n|---|---|---|---|");
+    for (file, circuit, aim) in CIRCUITS {
+        let circuit = if circuit.is_empty() { file.strip_suffix(".nb").unwrap() } else { circuit };
+        let told = |found: &Result<usize, String>| found.as_ref().map_or_else(Clone::clone, usize::to_string);
+        let two = robots(file, circuit, "library: shipped");
+        let pulsed = robots(file, circuit, "library: shipped, registers: pulsed");
+        let three = robots(file, circuit, "library: three, registers: mux");
+        println!("| `{circuit}` | {} | {} | {} |", told(&two), told(&pulsed), told(&three));
+        if let Some(most) = aim {
+            aims.check(three.is_ok_and(|robots| robots <= most), format!("{circuit} in {most} robots at most"));
+        }
+    }
+    let [two, three] =
+        ["shipped", "three"].map(|name| nbc_swarm::cells(&store::built_in(name).expect("it is built in")));
+    println!("\n| circuit | cells of two inputs | of two and three | saved |\n|---|---|---|---|");
+    let mut sums = [0; 2];
+    for (name, cells) in benchmarks([&two, &three]) {
+        println!("| `{name}` | {} | {} | {:.0} % |", cells[0], cells[1], saved(cells));
+        sums = [sums[0] + cells[0], sums[1] + cells[1]];
+    }
+    println!("| all | {} | {} | {:.0} % |", sums[0], sums[1], saved(sums));
+    aims.check(saved(sums) >= 100.0 * SAVED, format!("{:.0} % fewer cells at least", 100.0 * SAVED));
+    aims.end()
+}
+
+/// The share of cells that the second library saves, in percent.
+fn saved([two, three]: [usize; 2]) -> f64 {
+    100.0 * (1.0 - three as f64 / two.max(1) as f64)
+}

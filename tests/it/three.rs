@@ -1,0 +1,155 @@
+//! Robots with three senses: how they are evolved, added to a library, and used in circuits.
+
+use nbc_base::model::{Behavior, Function, Pattern};
+use nbc_circuit::{CellLibrary, Netlist, map, prove};
+use nbc_session::store;
+use serde_json::Value;
+
+use crate::support::bench::{Bench, Ran};
+use crate::support::root;
+
+/// Short searches in the setting of `library/three.nb`.
+const SHORT: &str = "
+use \"three.nb\"
+evolution short {
+    from:        gates
+    box:         3 x 2
+    materials:   [bone, flesh, muscle, antimuscle, s1_shrink, s2_shrink, s1_grow, s2_grow, s3_shrink, s3_grow]
+    variable:    sweep3
+    genome:      voxels
+    objective:   gate
+    descriptors: [voxels in 2 bins, active in 2 bins, class]
+    batch:       12
+    generations: 3
+}
+evolution multiplexers { from: short, behaviors: [mux] }
+";
+
+fn bench() -> Bench {
+    let bench = Bench::new();
+    bench.file("three.nb", std::fs::read_to_string(root().join("library/three.nb")).unwrap());
+    bench.file("short.nb", SHORT);
+    bench
+}
+
+fn evolve(bench: &Bench, run: &str, out: &str, more: &[&str]) -> Ran {
+    let ran = bench.run(&[&["evolve", "short.nb", "--run", run, "--out", out], more].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    ran
+}
+
+#[test]
+fn a_search_for_gates_of_three_inputs_fills_classes_and_can_be_resumed() {
+    let bench = bench();
+    evolve(&bench, "short", "whole", &[]);
+    evolve(&bench, "short", "parts", &["--generations", "1"]);
+    evolve(&bench, "short", "parts", &["--resume"]);
+    let checkpoint = |out: &str| std::fs::read(bench.path().join(out).join("short/seed-1/checkpoint.nbc")).unwrap();
+    assert_eq!(checkpoint("whole"), checkpoint("parts"));
+    let exported = bench.run(&["export", "whole/short", "--to", "json", "-o", "elites.json"]);
+    assert_eq!(exported.status, 0, "{}", exported.err);
+    let text = std::fs::read_to_string(bench.path().join("elites.json")).unwrap();
+    let found: Value = serde_json::from_str(&text).unwrap();
+    let elites = found["elites"].as_array().unwrap();
+    assert!(!elites.is_empty());
+    for elite in elites {
+        let behavior: Behavior = elite["behavior"].as_str().unwrap().parse().unwrap();
+        assert_eq!((behavior.stimuli(), elite["displacement"].as_array().unwrap().len()), (3, 8));
+        let class = behavior.function().class()[0];
+        assert_eq!(elite["niche"][2].as_u64(), Some(class.bits().into()), "{behavior}");
+    }
+}
+
+#[test]
+fn a_search_for_some_behaviors_scores_bodies_as_those() {
+    let bench = bench();
+    evolve(&bench, "multiplexers", "out", &[]);
+    let exported = bench.run(&["export", "out/multiplexers", "--to", "csv"]);
+    assert_eq!(exported.status, 0, "{}", exported.err);
+    let rows: Vec<&str> = exported.out.lines().skip(1).collect();
+    let mux = Behavior::from(Function::MUX).to_string();
+    assert!(rows.iter().all(|row| row.contains(&mux)), "{}", exported.out);
+}
+
+#[test]
+fn an_archive_of_classes_gives_robots_for_all_behaviors_of_a_class() {
+    let bench = bench();
+    evolve(&bench, "short", "out", &[]);
+    let add = |behavior: &str| {
+        let add = ["library", "add", "out/short", "--into", "robots", "--max-error", "1", "--tries", "1"];
+        bench.run(&[&add[..], &["--finalists", "1", "--behavior", behavior]].concat())
+    };
+    // Whatever was found, the constants are a class of two.
+    let ran = [add("zero3"), add("one3")];
+    assert!(ran.iter().all(|ran| ran.status == 0), "{}{}", ran[0].out, ran[1].out);
+    let listed = bench.run(&["library", "list", "robots", "--format", "json"]).expect_json();
+    let letters: Vec<&str> =
+        listed["robots"].as_array().unwrap().iter().map(|one| one["behavior"].as_str().unwrap()).collect();
+    assert_eq!(letters, ["LLLLLLLL", "RRRRRRRR"]);
+    let verified = bench.run(&["library", "verify", "robots"]);
+    assert_eq!(verified.status, 0, "{}{}", verified.out, verified.err);
+}
+
+#[test]
+fn the_library_of_three_senses_is_of_reliable_gates_that_sense_three_stimuli() {
+    let library = store::three_library();
+    let own: Vec<_> = library.robots.iter().filter(|robot| robot.behavior.stimuli() == 3).collect();
+    for name in ["maj", "mux", "and3", "or3", "nand3", "nor3", "and_or_invert", "or_and_invert"] {
+        let function = Function::parse(name).unwrap();
+        assert!(own.iter().any(|robot| robot.function() == function), "{name}");
+    }
+    for robot in &own {
+        assert_eq!((robot.character.error_rate, robot.character.switches), (0.0, 1024), "{}", robot.name);
+        assert_eq!((robot.displacement.len(), robot.character.settle.len()), (8, 56), "{}", robot.name);
+        assert_eq!(robot.function().arity(), 3, "{}", robot.name);
+        assert_eq!(robot.body.palette().inputs(), 3);
+        let shown = robot.behavior.patterns().map(|pattern| robot.displacement.at(pattern) > 0.0);
+        assert!(shown.eq(Pattern::all(3).map(|pattern| robot.function().under(pattern))), "{}", robot.name);
+    }
+}
+
+#[test]
+fn any_robot_of_three_stimuli_is_every_arrangement_of_its_inputs_and_gates_of_two() {
+    let robots = store::three_library().robots.into_iter().filter(|robot| robot.behavior.stimuli() == 3);
+    let library = nbc_base::model::Library { robots: robots.collect() };
+    let cells: CellLibrary = nbc_swarm::cells(&library);
+    for robot in &library.robots {
+        assert!(robot.function().arrangements().iter().all(|one| cells.get(*one).is_some()), "{}", robot.name);
+    }
+    assert!(cells.is_complete(), "three senses suffice, for a stimulus may be constant");
+    for function in Function::all().chain(Function::all_of(3)).filter(|one| cells.get(*one).is_some()) {
+        let mut netlist = Netlist::new("one");
+        let pins: Vec<_> = (0..function.inputs()).map(|i| netlist.add_input(format!("i{i}"))).collect();
+        let gate = netlist.add_gate(function, &pins);
+        netlist.add_output("y", gate);
+        let assembly = nbc_swarm::assemble(&netlist, &library).unwrap();
+        let member = &assembly.members[0];
+        for inputs in Pattern::all(function.inputs()).map(|pattern| pattern.bits(function.inputs())) {
+            let sensed = member.senses.iter().map(|source| match *source {
+                nbc_swarm::StimulusSource::Input(i) => inputs[i],
+                nbc_swarm::StimulusSource::Constant(value) => value,
+                nbc_swarm::StimulusSource::Robot(_) => panic!("there is one robot"),
+            });
+            assert_eq!(member.robot.function().at(sensed), function.at(inputs), "{function} by {}", member.robot.name);
+        }
+    }
+}
+
+#[test]
+fn mapping_with_three_senses_needs_fewer_cells_and_is_proved() {
+    let [two, three] = [store::shipped_library(), store::three_library()].map(|library| nbc_swarm::cells(&library));
+    for name in ["fa", "rca4", "mul2", "mux4", "pop8"] {
+        let design = crate::designs::read(&root().join(format!("tests/benchmarks/{name}.blif")));
+        let [before, now] = [&two, &three].map(|library| map(&design.logic, library).unwrap());
+        prove(&design.logic, &now).unwrap();
+        assert!(now.cells().count() < before.cells().count(), "{name}:\n{now}");
+    }
+}
+
+#[test]
+fn a_library_without_a_steady_multiplexer_makes_no_latches_of_one_robot() {
+    let bench = Bench::new();
+    let text = "circuit bit(d, clk) -> (q) { q = register(d, clk) }\nswarm s { circuit: bit, registers: mux }\n";
+    bench.file("bit.nb", text);
+    bench.run(&["build", "bit.nb"]).expect_fault(&["no multiplexer without glitches", "`library: three`"]);
+}
