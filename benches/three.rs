@@ -7,9 +7,10 @@
 use std::fs;
 use std::process::ExitCode;
 
+use nbc_base::diag::Diagnostics;
 use nbc_base::source::MemoryWorld;
 use nbc_circuit::{CellLibrary, MapOptions, map_with, prove};
-use nbc_session::{CompileOptions, Session, store};
+use nbc_session::{Choice, CompileOptions, Session, store};
 
 use aims::Aims;
 use designs::{files, read};
@@ -49,9 +50,11 @@ fn robots(file: &str, circuit: &str, fields: &str) -> Result<usize, String> {
     world.insert("m.nb", format!("{own}\nswarm measured {{ circuit: {circuit}, {fields} }}\n"));
     let mut session = Session::new(world);
     let checked = session.open("m.nb").map_err(|error| format!("{error:?}"))?;
-    let options = CompileOptions { swarm: Some("measured".to_owned()), ..CompileOptions::default() };
-    let compiled = session.compile(&checked, &circuit.into(), &options);
-    Ok(compiled.map_err(|error| error.list[0].message.clone())?.assembly.members.len())
+    let choice = Choice { swarm: Some("measured".to_owned()), ..Choice::default() };
+    let told = |error: Diagnostics| error.list[0].message.clone();
+    let circuit = checked.circuit(&choice).map_err(told)?;
+    let options = CompileOptions { swarm: choice.swarm, ..CompileOptions::default() };
+    Ok(session.compile(&checked, &circuit, &options).map_err(told)?.assembly.members.len())
 }
 
 /// The cells of each benchmark circuit in two libraries.
