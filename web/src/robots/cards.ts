@@ -1,7 +1,7 @@
 // The robots of the library and of the program, as cards on which they walk.
 
 import { button, element, fill } from "../element";
-import { PATTERNS, gateName, outputsOf } from "../gate";
+import { gateName, outputsOf, patterns } from "../gate";
 import { truthTableElement } from "../live/inspector";
 import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
 import { prefersStillness } from "../theme";
@@ -89,7 +89,7 @@ export class Cards {
   }
 }
 
-/** Plays the four gaits one after the other. */
+/** Plays the gaits one after the other. */
 function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLElement): (seconds: number) => void {
   let time = 0;
   let shown = -1;
@@ -103,7 +103,7 @@ function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLEleme
     if (pattern !== shown) {
       shown = pattern;
       const way = outputsOf(letters)[pattern] === 1 ? "walks right ▶" : "walks left ◀";
-      caption.textContent = `${PATTERNS[pattern]}: ${way}`;
+      caption.textContent = `${patterns(gaits.length)[pattern]}: ${way}`;
     }
   };
 }
