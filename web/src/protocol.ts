@@ -265,6 +265,8 @@ export type RobotCard = {
   errors: number,
   /** Whether it comes with the program. */
   shipped: boolean,
+  /** Whether it is of the materials that can be painted, so that it can be probed. */
+  painted: boolean,
 };
 
 /** The answer to `robots`. */

@@ -79,8 +79,9 @@ export class ProbeView {
   }
 
   #numbers({ character, displacement, letters }: ProbeReport): HTMLElement {
+    const all = patterns(letters.length);
     const facts: [string, string][] = [
-      ["behavior", `${letters} (under ${patterns(letters.length).join(", ")})`],
+      ["behavior", `${letters} (under ${all.length > 4 ? `${all[0]} to ${all.at(-1)}` : all.join(", ")})`],
       ["walks", displacement.map(voxels => voxels.toFixed(2)).join(", ") + " voxels"],
     ];
     if (character === null) {
