@@ -104,11 +104,11 @@ pub use nbc_swarm::evolve::{Archive, Elite, Search};
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 /// # session.update("run.nb", 1, "evolution mine { from: gates, box: 3 x 2 }");
 /// # let checked = session.open("run.nb")?;
-/// use nbc::{Behavior, Candidate, CandidateOutcome, Scores};
+/// use nbc::{Candidate, CandidateOutcome, Displacements, Scores};
 /// let mut search = nbc::Search::new(checked.program.evolution("mine").unwrap(), 1);
 /// let candidates: Vec<Candidate> = search.ask();
-/// let displacement = [1.0, 1.0, 1.0, -1.0];
-/// let scores = Scores { fitness: [4.0, 1.0], behavior: Behavior::of(&displacement), displacement };
+/// let displacement = Displacements::try_from(vec![1.0, 1.0, 1.0, -1.0]).unwrap();
+/// let scores = Scores { fitness: [4.0, 1.0], behavior: displacement.behavior(), displacement };
 /// search.tell(&candidates, &vec![CandidateOutcome::Measured(scores); candidates.len()]);
 /// assert!(!search.archive().is_empty());
 /// # Ok::<(), nbc::Diagnostics>(())
@@ -180,13 +180,14 @@ pub use nbc_base::model::{Fault, Pattern, Schedule, Setting, Trajectory, Trial};
 pub use nbc_base::model::CYCLE_STEPS;
 
 /// ```
-/// use nbc::{Axis, Behavior, Count};
+/// use nbc::{Axis, Behavior, Count, Displacements};
 /// let nand: Behavior = "RRRL".parse().unwrap();
 /// assert_eq!(nand.function().name(), "nand");
+/// assert_eq!(Displacements::zero(2).behavior().to_string(), "LLLL");
 /// let axes = [Axis::Count { of: Count::Voxels, bins: 4 }, Axis::Behavior];
 /// assert_eq!(axes.len(), 2);
 /// ```
-pub use nbc_base::model::{Axis, Behavior, Count};
+pub use nbc_base::model::{Axis, Behavior, Count, Displacements};
 
 /// ```
 /// use nbc::{Pattern, Schedule, Spell};

@@ -3,11 +3,11 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use nbc::{Body, MemoryWorld, Palette, Scheme, Session};
+use nbc::{Body, DiskWorld, Palette, Scheme, Session};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 
-use crate::errors::{bad_value, offering};
+use crate::errors::{bad_value, diagnosed, offering};
 use crate::memory::{VOXEL_BYTES, reserved};
 use crate::work::at_once;
 
@@ -159,10 +159,15 @@ pub fn paper_materials() -> String {
     serde_json::to_string(&*Palette::paper()).expect("materials can be written as JSON")
 }
 
-/// The robots of the library, as JSON.
+/// The paper's materials and those of a third stimulus, as JSON.
 #[pyfunction]
-pub fn shipped_robots() -> String {
-    let session = Session::new(MemoryWorld::default());
+pub fn three_materials() -> String {
+    serde_json::to_string(&*Palette::three()).expect("materials can be written as JSON")
+}
+
+/// The robots of a library, `shipped`, `three` or a folder, as JSON.
+#[pyfunction]
+pub fn robots(py: Python<'_>, library: &str) -> PyResult<String> {
     let record = |robot: &nbc::Robot| {
         serde_json::json!({
             "name": robot.name,
@@ -175,7 +180,10 @@ pub fn shipped_robots() -> String {
             "provenance": robot.provenance,
         })
     };
-    session.shipped().robots.iter().map(record).collect::<serde_json::Value>().to_string()
+    at_once(py, || {
+        let read = Session::new(DiskWorld).library(library).map_err(|found| diagnosed(py, &found))?;
+        Ok(read.robots.iter().map(record).collect::<serde_json::Value>().to_string())
+    })
 }
 
 /// The picture of a body as SVG.

@@ -1,6 +1,6 @@
 //! Evaluation of bodies by the protocol of an evolution.
 
-use nbc::{Body, CandidateOutcome, Descriptor, FaultKind, Scores, Simulator};
+use nbc::{Behavior, Body, CandidateOutcome, Descriptor, Displacements, FaultKind, Scores, Simulator};
 use numpy::{IntoPyArray, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -26,10 +26,16 @@ fn word(outcome: &CandidateOutcome) -> &'static str {
     }
 }
 
+/// The patterns of the stimuli of an evolution's bodies: 4 or 8.
+pub fn patterns(evolution: &nbc::Evolution) -> usize {
+    1 << evolution.palette.inputs()
+}
+
 /// Outcomes, row after row, with the niches of the measured bodies.
 pub struct Rows {
     descriptor: Descriptor,
     axes: usize,
+    patterns: usize,
     words: Vec<&'static str>,
     fitness: Vec<f64>,
     displacement: Vec<f64>,
@@ -45,6 +51,7 @@ impl Rows {
         Self {
             descriptor: Descriptor::new(evolution),
             axes: evolution.descriptors.len(),
+            patterns: patterns(evolution),
             words: vec![],
             fitness: vec![],
             displacement: vec![],
@@ -61,7 +68,7 @@ impl Rows {
         match outcome {
             CandidateOutcome::Measured(scores) => {
                 self.fitness.extend(scores.fitness);
-                self.displacement.extend(scores.displacement);
+                self.displacement.extend(scores.displacement.iter());
                 self.behavior.push(scores.behavior.to_string());
                 self.niche.extend(self.descriptor.niche(body, scores.behavior).0.into_iter().map(i32::from));
                 self.endings.push(Ending::Done);
@@ -80,7 +87,7 @@ impl Rows {
 
     fn push_nothing(&mut self, ending: Ending) {
         self.fitness.extend([f64::NAN; 2]);
-        self.displacement.extend([f64::NAN; 4]);
+        self.displacement.extend(std::iter::repeat_n(f64::NAN, self.patterns));
         self.behavior.push(String::new());
         self.niche.extend(std::iter::repeat_n(-1, self.axes));
         self.endings.push(ending);
@@ -91,7 +98,7 @@ impl Rows {
         let (count, results) = (self.words.len(), PyDict::new(py));
         results.set_item("outcome", self.words)?;
         results.set_item("fitness", self.fitness.into_pyarray(py).reshape([count, 2])?)?;
-        results.set_item("displacement", self.displacement.into_pyarray(py).reshape([count, 4])?)?;
+        results.set_item("displacement", self.displacement.into_pyarray(py).reshape([count, self.patterns])?)?;
         results.set_item("behavior", self.behavior)?;
         results.set_item("niche", self.niche.into_pyarray(py).reshape([count, self.axes])?)?;
         results.set_item("errors", self.errors)?;
@@ -100,8 +107,9 @@ impl Rows {
     }
 }
 
-/// Reads outcomes that Python computed.
+/// Reads outcomes that Python computed for an evolution.
 pub fn outcomes(
+    evolution: &nbc::Evolution,
     words: &[String],
     fitness: &PyReadonlyArray2<'_, f64>,
     displacement: &PyReadonlyArray2<'_, f64>,
@@ -117,8 +125,14 @@ pub fn outcomes(
             if !fitness.iter().chain(displacement).all(|number| number.is_finite()) {
                 return Err(bad_value(format!("row {i}: the scores of a measured body must be finite numbers")));
             }
-            let behavior = behavior[i].parse().map_err(|error| bad_value(format!("row {i}: {error}")))?;
-            let displacement = [0, 1, 2, 3].map(|column| displacement[column]);
+            let wrong = |error: String| bad_value(format!("row {i}: {error}"));
+            let behavior = behavior[i].parse::<Behavior>().map_err(|error| wrong(error.to_string()))?;
+            let displacement =
+                Displacements::try_from(displacement.to_vec()).map_err(|error| wrong(error.to_string()))?;
+            let expected = patterns(evolution);
+            if displacement.len() != expected || behavior.patterns().count() != expected {
+                return Err(wrong(format!("expected a letter and a displacement for each of {expected} patterns")));
+            }
             let fitness = [0, 1].map(|column| fitness[column]);
             Ok(CandidateOutcome::Measured(Scores { fitness, behavior, displacement }))
         }
@@ -183,8 +197,9 @@ pub fn evaluate<'py>(
     let evolution = evolution.0.clone();
     let examination = at_once(py, || {
         let batch = Batch::read(&codes, &shapes, &evolution.palette)?;
-        // Each body is simulated under four patterns at once.
-        let largest = batch.groups(GROUP).into_iter().map(|group| 4 * batch.bytes(group)).max().unwrap_or(0);
+        // Each body is simulated under all patterns at once.
+        let patterns = patterns(&evolution) as u64;
+        let largest = batch.groups(GROUP).into_iter().map(|group| patterns * batch.bytes(group)).max().unwrap_or(0);
         memory::check(largest, "the evaluation", "evaluate fewer bodies at once")?;
         Ok(Examination { batch, evolution })
     })?;

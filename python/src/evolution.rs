@@ -1,6 +1,6 @@
 //! Declarations of evolutions.
 
-use nbc::{Axis, Count, MemoryWorld, Session};
+use nbc::{Axis, Count, MemoryWorld, Palette, Session};
 use pyo3::prelude::*;
 
 use crate::errors::{bad_value, diagnosed, without_place};
@@ -38,18 +38,20 @@ impl Evolution {
 
     /// The name and the number of bins of each axis of the archive.
     fn axes(&self) -> Vec<(&'static str, usize)> {
-        self.0.descriptors.iter().map(axis).collect()
+        axes(&self.0.descriptors, &self.0.palette)
     }
 }
 
-/// Name and bins of an axis.
-pub fn axis(axis: &Axis) -> (&'static str, usize) {
-    match *axis {
-        Axis::Behavior => ("behavior", 16),
-        Axis::Count { of: Count::Voxels, bins } => ("voxels", bins),
-        Axis::Count { of: Count::Active, bins } => ("active", bins),
-        Axis::Count { of: Count::Sensory, bins } => ("sensory", bins),
-    }
+/// Name and bins of each axis of an archive with bodies of these materials.
+pub fn axes(axes: &[Axis], palette: &Palette) -> Vec<(&'static str, usize)> {
+    let word = |axis: &Axis| match axis {
+        Axis::Behavior => "behavior",
+        Axis::Class => "class",
+        Axis::Count { of: Count::Voxels, .. } => "voxels",
+        Axis::Count { of: Count::Active, .. } => "active",
+        Axis::Count { of: Count::Sensory, .. } => "sensory",
+    };
+    axes.iter().map(|axis| (word(axis), axis.bins(palette.inputs()))).collect()
 }
 
 /// The exception for a checkpoint that is not there.

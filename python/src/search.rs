@@ -11,7 +11,7 @@ use pyo3::types::{PyBytes, PyDict};
 
 use crate::errors::{bad_value, without_place};
 use crate::evaluation;
-use crate::evolution::{Evolution, axis, no_checkpoint};
+use crate::evolution::{Evolution, axes, no_checkpoint};
 use crate::slot::Slot;
 use crate::work::{Watch, at_once};
 
@@ -129,6 +129,12 @@ impl Search {
         })
     }
 
+    /// The patterns of the stimuli of its bodies: 4 or 8.
+    #[getter]
+    fn patterns(&self) -> usize {
+        evaluation::patterns(&self.evolution)
+    }
+
     /// The candidates of the next generation.
     fn ask(&self, py: Python<'_>) -> PyResult<Candidates> {
         let watch = Watch::over(0);
@@ -165,7 +171,8 @@ impl Search {
         displacement: PyReadonlyArray2<'_, f64>,
         behavior: Vec<String>,
     ) -> PyResult<()> {
-        let outcomes: Vec<CandidateOutcome> = evaluation::outcomes(&words, &fitness, &displacement, &behavior)?;
+        let outcomes: Vec<CandidateOutcome> =
+            evaluation::outcomes(&self.evolution, &words, &fitness, &displacement, &behavior)?;
         if outcomes.len() != candidates.list.len() {
             let (found, expected) = (outcomes.len(), candidates.list.len());
             return Err(bad_value(format!("{found} outcomes, expected {expected}: one for each candidate")));
@@ -213,8 +220,8 @@ impl Search {
             let niches = course.search.archive().niches();
             let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
             let nbc::Evolution { descriptors, palette, .. } = &self.evolution;
-            let arrays = archive(py, elites, descriptors.len())?;
-            Ok((arrays, descriptors.iter().map(axis).collect(), materials(palette)))
+            let arrays = archive(py, elites, descriptors.len(), palette)?;
+            Ok((arrays, axes(descriptors, palette), materials(palette)))
         })
     }
 
@@ -240,9 +247,10 @@ pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<ArchiveOnAxes<
         let checkpoint = read.ok_or_else(|| no_checkpoint(py, &path))?;
         let niches = checkpoint.state.niches.iter();
         let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
-        let axes: Vec<(&'static str, usize)> = checkpoint.declared.axes.iter().map(axis).collect();
+        let palette = &checkpoint.declared.palette;
+        let axes = axes(&checkpoint.declared.axes, palette);
         let depth = checkpoint.state.niches.first().map_or(axes.len(), |(key, _)| key.0.len());
-        Ok((archive(py, elites, depth)?, axes, materials(&checkpoint.declared.palette)))
+        Ok((archive(py, elites, depth, palette)?, axes, materials(palette)))
     })
 }
 
@@ -251,6 +259,7 @@ fn archive<'py, 'a>(
     py: Python<'py>,
     elites: impl Iterator<Item = (&'a NicheKey, &'a Elite)>,
     axes: usize,
+    palette: &Palette,
 ) -> PyResult<Bound<'py, PyDict>> {
     let elites: Vec<(&NicheKey, &Elite)> = elites.collect();
     let (count, arrays) = (elites.len(), PyDict::new(py));
@@ -259,8 +268,8 @@ fn archive<'py, 'a>(
     arrays.set_item("niche", niches.into_pyarray(py).reshape([count, axes])?)?;
     let fitness: Vec<f64> = elites.iter().flat_map(|(_, elite)| elite.fitness).collect();
     arrays.set_item("fitness", fitness.into_pyarray(py).reshape([count, 2])?)?;
-    let displacement: Vec<f64> = elites.iter().flat_map(|(_, elite)| elite.displacement).collect();
-    arrays.set_item("displacement", displacement.into_pyarray(py).reshape([count, 4])?)?;
+    let displacement: Vec<f64> = elites.iter().flat_map(|(_, elite)| elite.displacement.to_vec()).collect();
+    arrays.set_item("displacement", displacement.into_pyarray(py).reshape([count, 1 << palette.inputs()])?)?;
     let codes: Vec<u8> = elites.iter().flat_map(|(_, elite)| elite.body.codes().to_vec()).collect();
     arrays.set_item("body", codes.into_pyarray(py).reshape([count, height, width])?)?;
     arrays.set_item("behavior", elites.iter().map(|(_, elite)| elite.behavior.to_string()).collect::<Vec<_>>())?;

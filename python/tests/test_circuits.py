@@ -163,6 +163,16 @@ def test_a_compiled_circuit_is_tested_with_its_options(tmp_path):
         compiled.test(level="physics")
 
 
+def test_gates_of_three_inputs_are_taken_from_their_library():
+    text = "circuit all(a, b, c) -> (q) { q = a and b and c }\ntest all for all inputs { q = a and b and c }"
+    program = nbc.loads(text)
+    compiled = program.circuits["all"].compile(library="three")
+    assert [robot["robot"] for robot in compiled.robots] == ["and3_5x5"]
+    assert sorted(pin for _, _, pin in compiled.netlist.edges(data="pin")) == [0, 0, 1, 2]
+    (result,) = compiled.test(level="physics")
+    assert result.passed
+
+
 def test_a_swarm_takes_the_arrays_that_it_returns(latch):
     first, second = latch.swarm(), latch.swarm()
     first.run([{"d": 1, "e": 1}, (0, 0)], hold=4)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import shutil
+
 import numpy as np
 import pytest
 
@@ -29,6 +31,30 @@ def test_the_library_is_made_of_gates():
     assert result.measured.all()
     assert result.behavior.tolist() == [robot.behavior for robot in robots]
     assert (result.fitness[:, 0] > 0.5).all(), "every output is right from some cycle on"
+
+
+def test_a_robot_of_three_stimuli_walks_under_eight_patterns(root):
+    robot = next(robot for robot in nbc.library("three") if robot.name == "and3_5x5")
+    assert (robot.behavior, robot.function, robot.displacement.shape) == ("LLLLLLLR", "and3", (8,))
+    assert robot.materials == nbc.THREE_MATERIALS and nbc.THREE_MATERIALS[:8] == nbc.PAPER_MATERIALS
+    schedules = [f"{pattern:03b}*10" for pattern in range(8)]
+    walked = [nbc.simulate([robot], each, materials=robot.materials).displacement[0, 0] for each in schedules]
+    assert walked == robot.displacement.tolist()
+    run = nbc.load(root / "library/three.nb").evolutions["three_gates"]
+    assert run.axes == (("voxels", 3), ("active", 3), ("class", 14))
+    with pytest.warns(nbc.InvalidBodyWarning):
+        result = nbc.evaluate([robot, np.zeros((5, 5), dtype=int)], run)
+    assert result.behavior.tolist() == ["LLLLLLLR", ""] and result.displacement.shape == (2, 8)
+    assert result.outcome.tolist() == ["measured", "invalid"] and np.isnan(result.displacement[1]).all()
+    # The class of all functions that are an AND of three inputs, some of which may be inverted.
+    assert result.niche[0, 2] == 1
+
+
+def test_a_folder_of_robots_is_a_library(root, tmp_path):
+    shutil.copy(root / "library/three/and3_5x5.yaml", tmp_path)
+    assert [robot.name for robot in nbc.library(tmp_path)] == ["and3_5x5"]
+    with pytest.raises(nbc.NbcError, match="missing"):
+        nbc.library(tmp_path / "missing")
 
 
 def test_gates_are_tried_in_other_worlds_too():

@@ -47,7 +47,8 @@ def test_the_guide(root, tmp_path, monkeypatch):
     assert len(blocks) > 8
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MPLBACKEND", "agg")
-    (tmp_path / "circuits").symlink_to(root / "circuits")
+    for folder in ("circuits", "library"):
+        (tmp_path / folder).symlink_to(root / folder)
     namespace: dict = {"__name__": "guide"}
     for number, block in enumerate(blocks):
         exec(compile(block, f"docs/python.md, block {number + 1}", "exec"), namespace)

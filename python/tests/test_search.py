@@ -137,6 +137,54 @@ def test_checkpoints_are_those_of_the_program(program, tmp_path):
     assert json.loads(exported)["elites"]
 
 
+THREE = """
+stimulus s3
+material s3_shrink { kind: sensor, stimulus: s3, absent: 1.6, present: 0.6 }
+schedule sweep3(s1, s2, s3) {
+    0 0 0 for 1 cycle
+    0 0 1 for 1 cycle
+    0 1 0 for 1 cycle
+    0 1 1 for 1 cycle
+    1 0 0 for 1 cycle
+    1 0 1 for 1 cycle
+    1 1 0 for 1 cycle
+    1 1 1 for 1 cycle
+}
+evolution three {
+    box: 3 x 3
+    materials: [bone, flesh, muscle, antimuscle, s1_shrink, s2_shrink, s3_shrink]
+    variable: sweep3
+    objective: gate
+    descriptors: [voxels in 2 bins, class]
+    batch: 8
+}
+"""
+
+
+def test_a_search_with_three_stimuli_has_eight_letters(program, tmp_path):
+    pandas = pytest.importorskip("pandas")
+    search = nbc.Search(nbc.Evolution.parse(THREE), seed=1)
+    candidates = search.ask()
+    found = search.evaluate(candidates)
+    short = dataclasses.replace(found, displacement=found.displacement[:, :4])
+    with pytest.raises(ValueError, match=r"displacement has the shape .*, expected \(\d+, 8\)"):
+        search.tell(candidates, short)
+    letters = np.where(found.measured, "RRRL", "")
+    with pytest.raises(ValueError, match="a letter and a displacement for each of 8 patterns"):
+        search.tell(candidates, dataclasses.replace(found, behavior=letters))
+    search.tell(candidates, found)
+    archive = search.archive
+    assert len(archive) > 0 and archive.elites["displacement"].shape == (len(archive), 8)
+    assert all(len(behavior) == 8 for behavior in archive.elites["behavior"].tolist())
+    heat = archive.heatmap("voxels", "class")
+    assert heat.shape == (256, 2) and np.isfinite(heat).any()
+    (tmp_path / "seed-1").mkdir()
+    search.save(tmp_path / "seed-1/checkpoint.nbc")
+    table = pandas.read_csv(io.StringIO(program("export", tmp_path / "seed-1", "--to", "csv")), dtype={"body": str})
+    assert list(archive.frame().columns) == list(table.columns)[2:]
+    assert nbc.read_archive(tmp_path / "seed-1/checkpoint.nbc") == archive
+
+
 def test_own_evaluations_are_checked(run):
     search = nbc.Search(run, seed=1)
     candidates = search.ask()

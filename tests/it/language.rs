@@ -7,12 +7,21 @@ use nbc_lang::check::{self};
 use nbc_session::store::DiskWorld;
 
 use crate::support::programs::{passes, programs, sound};
+use crate::support::root;
 
 #[test]
 fn the_prelude_has_the_papers_palette() {
     let program = sound("a.nb", "circuit inverter(a) -> (q) { q = not a }");
     assert_eq!(program.evolution("gates").unwrap().palette, Palette::paper());
     assert_eq!(program.stimuli, ["s1", "s2"]);
+}
+
+#[test]
+fn the_materials_of_three_stimuli_are_those_that_the_library_declares() {
+    let program = sound("three.nb", &std::fs::read_to_string(root().join("library/three.nb")).unwrap());
+    assert_eq!(program.evolution("three_gates").unwrap().palette, Palette::three());
+    assert_eq!(Palette::three().inputs(), 3);
+    assert_eq!(Palette::three().materials()[..8], *Palette::paper().materials());
 }
 
 #[test]

@@ -1,8 +1,11 @@
-// The sixteen functions of two stimuli that a robot can compute, by the directions in which it walks.
+// The functions of two and three stimuli that a robot can compute, by the directions in which it walks.
 
-/** Patterns of the two stimuli, in the order of behaviors and gaits. */
-export const PATTERNS = ["00", "01", "10", "11"] as const;
+/** All patterns of two or three stimuli, 4 or 8, in the order of behaviors and gaits. */
+export function patterns(count: number): string[] {
+  return Array.from({ length: count }, (_, i) => i.toString(2).padStart(Math.log2(count), "0"));
+}
 
+/** All functions of two stimuli, and those of three that have a usual name. */
 const NAMES: [string, string, string][] = [
   ["LLLL", "zero", "always 0"],
   ["LLLR", "and", "a AND b"],
@@ -20,6 +23,25 @@ const NAMES: [string, string, string][] = [
   ["RRLR", "nota_or_b", "NOT a OR b"],
   ["RRRL", "nand", "a NAND b"],
   ["RRRR", "one", "always 1"],
+  ["LLLLLLLL", "zero3", "always 0"],
+  ["RRRRRRRR", "one3", "always 1"],
+  ["LLLLLLLR", "and3", "a AND b AND c"],
+  ["RRRRRRRL", "nand3", "NOT (a AND b AND c)"],
+  ["LRRRRRRR", "or3", "a OR b OR c"],
+  ["RLLLLLLL", "nor3", "NOT (a OR b OR c)"],
+  ["LRRLRLLR", "xor3", "a XOR b XOR c"],
+  ["RLLRLRRL", "xnor3", "NOT (a XOR b XOR c)"],
+  ["LLLRLRRR", "maj", "majority of a, b, c"],
+  ["RRRLRLLL", "minority", "minority of a, b, c"],
+  ["LRLRLLRR", "mux", "a ? b : c"],
+  ["RLRLRRLL", "muxi", "NOT (a ? b : c)"],
+  ["LRLRLRRR", "and_or", "(a AND b) OR c"],
+  ["RLRLRLLL", "and_or_invert", "NOT ((a AND b) OR c)"],
+  ["LLLRLRLR", "or_and", "(a OR b) AND c"],
+  ["RRRLRLRL", "or_and_invert", "NOT ((a OR b) AND c)"],
+  ["LRRLRLLL", "one_hot", "exactly one of a, b, c"],
+  ["RLLLLLLR", "all_equal", "a, b, c all equal"],
+  ["LRRRRRRL", "gamble", "a, b, c not all equal"],
 ];
 
 /** What a function is called on the page. */
@@ -27,20 +49,26 @@ export function gateName(name: string | null): string {
   return NAMES.find(([, id]) => id === name)?.[2] ?? name ?? "no gate";
 }
 
-/** The four outputs of a function, for the patterns in order; null if it is unknown. */
+/** The outputs of a function, for the patterns in order; null if it is unknown. */
 export function truthTable(name: string | null): number[] | null {
-  const letters = NAMES.find(([, id]) => id === name)?.[0];
+  const bits = /^f3_([0-9a-f]{2})$/.exec(name ?? "")?.[1];
+  const letters = bits === undefined ? NAMES.find(([, id]) => id === name)?.[0] : lettersOf(parseInt(bits, 16), 8);
   return letters === undefined ? null : outputsOf(letters);
 }
 
-/** The function of a behavior such as `RRRL`, or null where a letter is neither. */
+/** The function of a behavior such as `RRRL`, or null if it has no usual name. */
 export function gateOf(letters: string): string | null {
   return NAMES.find(([behavior]) => behavior === letters)?.[1] ?? null;
+}
+
+/** The behavior with a number, which has a bit for each pattern, that of the first pattern lowest. */
+export function lettersOf(number: number, count: number): string {
+  return Array.from({ length: count }, (_, bit) => ((number >> bit) & 1 ? "R" : "L")).join("");
 }
 
 export function outputsOf(letters: string): number[] {
   return [...letters].map(letter => (letter === "R" ? 1 : 0));
 }
 
-/** The functions for choosing, those that need both stimuli first. */
+/** The functions with names. */
 export const GATES = NAMES.map(([behavior, id, name]) => ({ behavior, id, name }));

@@ -193,11 +193,11 @@ export type PortEntry = {
 
 /** How a body walks, and which gate it is. */
 export type ProbeReport = {
-  /** Under 00, 01, 10 and 11. */
+  /** Under each pattern: 00, 01, 10 and 11, or 000 to 111. */
   gaits: Array<EncodedGait>,
   letters: string,
   function: string,
-  displacement: [number, number, number, number],
+  displacement: Array<number>,
   /** None if it was not asked for. */
   character: CharacterSketch | null,
   points: number,
@@ -265,6 +265,8 @@ export type RobotCard = {
   errors: number,
   /** Whether it comes with the program. */
   shipped: boolean,
+  /** Whether it is of the materials that can be painted, so that it can be probed. */
+  painted: boolean,
 };
 
 /** The answer to `robots`. */
@@ -368,8 +370,8 @@ export type SwarmRobot = {
   robot: string,
   /** Words with their texts. */
   about: Array<[string, string]>,
-  /** The sources of its two stimuli. */
-  senses: [BitSource, BitSource],
+  /** The source of each of its stimuli. */
+  senses: Array<BitSource>,
   /** The rows from the top. */
   body: Array<string>,
   /** Columns and rows. */

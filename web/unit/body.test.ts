@@ -4,6 +4,7 @@ import { test } from "node:test";
 import type { PaletteEntry } from "../src/protocol";
 import {
   countVoxels,
+  drawnFrom,
   emptyBody,
   isConnected,
   mirrored,
@@ -62,6 +63,18 @@ test("random bodies are connected, stand, and have the three muscles without whi
     assert.ok(muscles >= Math.min(3, width * height), body.join("/"));
     assert.match(body.at(-1) ?? "", /[1-8]/);
   }
+});
+
+test("a random body senses a third stimulus only after one that does", () => {
+  const third: PaletteEntry[] = ["s3_shrink", "s3_grow"].map((name, i) => ({
+    code: "9a"[i] as string,
+    name,
+    about: name,
+    look: 8 + i,
+  }));
+  const all = [...palette, ...third];
+  assert.deepEqual(drawnFrom(["345"], all), palette);
+  assert.deepEqual(drawnFrom(["3a5"], all), all);
 });
 
 test("steps are undone and done again, and a stroke is one step", () => {

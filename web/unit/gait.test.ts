@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import type { NicheEntry } from "../src/protocol";
-import { GATES, gateName, gateOf, truthTable } from "../src/gate";
+import { GATES, gateName, gateOf, lettersOf, patterns, truthTable } from "../src/gate";
 import { decodeGait, outlineAt } from "../src/robots/gait";
 import { Archive } from "../src/robots/archive";
 
@@ -21,12 +21,24 @@ test("a gait has the pose at the start and those of all cycles", () => {
   assert.deepEqual([...outlineAt(gait, 99)], [-2, 0]);
 });
 
-test("the sixteen gates have distinct behaviors and names", () => {
-  assert.equal(new Set(GATES.map(gate => gate.behavior)).size, 16);
+test("gates have distinct behaviors and names", () => {
+  assert.equal(new Set(GATES.map(gate => gate.behavior)).size, GATES.length);
+  assert.equal(new Set(GATES.map(gate => gate.name)).size, GATES.length - 2, "constants of two and three inputs");
+  assert.equal(GATES.filter(gate => gate.behavior.length === 4).length, 16);
   assert.deepEqual(truthTable("nand"), [1, 1, 1, 0]);
   assert.equal(gateOf("RRRL"), "nand");
   assert.equal(gateOf("R?RL"), null);
   assert.equal(gateName(null), "no gate");
+});
+
+test("gates of three stimuli have eight outputs", () => {
+  assert.deepEqual(patterns(4), ["00", "01", "10", "11"]);
+  assert.deepEqual(patterns(8), ["000", "001", "010", "011", "100", "101", "110", "111"]);
+  assert.deepEqual(truthTable("maj"), [0, 0, 0, 1, 0, 1, 1, 1]);
+  assert.deepEqual(truthTable("f3_1e"), [0, 1, 1, 1, 1, 0, 0, 0]);
+  assert.equal(truthTable("f3_1"), null);
+  assert.equal(gateOf("LLLRLRRR"), "maj");
+  assert.equal(lettersOf(0xca, 8), "LRLRLLRR");
 });
 
 test("niches of an archive open and improve", () => {

@@ -10,8 +10,8 @@ use crate::refusal::Refused;
 use crate::request::KeepRequest;
 use crate::served::SCHEME;
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Library, Material, Palette, Pattern, Provenance,
-    Robot, Schedule, Setting,
+    Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Library, Material, Origin, Palette, Pattern,
+    Provenance, Robot, Schedule, Setting,
 };
 use nbc_circuit::formats::is_word;
 use nbc_session::report::{self, Looks, Stage, describe_material};
@@ -32,21 +32,24 @@ const FOLDER: &str = "robots";
 /// # Errors
 /// When robots cannot be read.
 pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<RobotCards, Refused> {
-    let mut all = session.shipped().robots.clone();
-    let shipped = all.len();
+    let painted = Palette::three();
+    let mut all: Vec<(Robot, bool)> = session.shipped().robots.iter().map(|robot| (robot.clone(), true)).collect();
     if let Some(checked) = checked {
         for library in &checked.program.libraries {
             let Library { robots } = session.robots(checked, Some(&library.name), &CompileOptions::default())?;
-            let new: Vec<_> = robots.into_iter().filter(|robot| !all.contains(robot)).collect();
-            all.extend(new);
+            let new = |robot: &Robot| all.iter().all(|(known, _)| known != robot);
+            let new: Vec<Robot> = robots.into_iter().filter(new).collect();
+            all.extend(new.into_iter().map(|robot| (robot, library.from == Origin::Three)));
         }
     }
-    let shown = Looks::of(all.iter().map(|robot| &robot.body), SCHEME);
-    let robots = all.iter().enumerate().map(|(i, robot)| card(robot, i < shipped, &shown)).collect();
-    Ok(RobotCards { robots, looks: looks(&shown), palette: palette(&shown) })
+    // The materials to paint with come first, so that they look as in a body that is probed.
+    let palettes = all.iter().map(|(robot, _)| robot.body.palette());
+    let shown = Looks::of_palettes([&painted].into_iter().chain(palettes), SCHEME);
+    let robots = all.iter().map(|(robot, shipped)| card(robot, *shipped, &shown, &painted)).collect();
+    Ok(RobotCards { robots, looks: looks(&shown), palette: palette(&shown, &painted) })
 }
 
-fn card(robot: &Robot, shipped: bool, looks: &Looks) -> RobotCard {
+fn card(robot: &Robot, shipped: bool, looks: &Looks, painted: &Palette) -> RobotCard {
     let recorded = stage(&robot.body, Pattern::PAIRS[0], 0).record(1).robots.swap_remove(0);
     RobotCard {
         name: robot.name.clone(),
@@ -62,28 +65,31 @@ fn card(robot: &Robot, shipped: bool, looks: &Looks) -> RobotCard {
         margin: robot.character.margin,
         errors: robot.character.error_rate,
         shipped,
+        painted: robot.body.materials().all(|(code, material)| {
+            painted.materials().get(usize::from(code) - 1).is_some_and(|known| known == material)
+        }),
     }
 }
 
-/// The paper's materials, which a page can paint with.
-fn palette(looks: &Looks) -> Vec<PaletteEntry> {
-    let palette = Palette::paper();
-    let materials = (1..).zip(palette.materials());
+/// The materials that a page can paint with.
+fn palette(looks: &Looks, painted: &Palette) -> Vec<PaletteEntry> {
+    let materials = (1..).zip(painted.materials());
     let one = |(code, material): (u8, &Material)| PaletteEntry {
-        code: char::from_digit(code.into(), 36).expect("the paper has eight materials"),
+        code: char::from_digit(code.into(), 36).expect("there are ten materials"),
         name: material.name.clone(),
         about: describe_material(material),
-        look: looks.index(&palette, code),
+        look: looks.index(painted, code),
     };
     materials.map(one).collect()
 }
 
-/// A body of the paper's materials that can be simulated.
+/// A body that can be simulated: of the paper's materials, or of those with a third stimulus if it uses one of them.
 ///
 /// # Errors
 /// The reason why it cannot.
 pub(super) fn body(rows: &[String]) -> Result<Body, Refused> {
-    let body = Body::parse(rows, &Palette::paper()).map_err(|error| Refused::Body(error.to_string()))?;
+    let body = Body::parse(rows, &Palette::paper()).or_else(|_| Body::parse(rows, &Palette::three()));
+    let body = body.map_err(|error| Refused::Body(error.to_string()))?;
     if body.width().max(body.height()) > MOST_SIDE {
         return Err(Refused::Body(format!("a body has at most {MOST_SIDE} rows and columns here")));
     }

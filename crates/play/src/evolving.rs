@@ -36,7 +36,10 @@ pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut
         return Err(Refused::Body(format!("expected a box of {} to {} voxels a side", SIDES.start(), SIDES.end())));
     }
     let generations = request.generations.clamp(1, MOST_GENERATIONS);
-    let evolution = declared(width, height, generations);
+    let mut evolution = declared(width, height, generations);
+    if let Some(start) = &start {
+        evolution.palette = start.palette().clone();
+    }
     let mut tending = Tending { archive: Archive::new(&evolution), evolution, seed: request.seed, evaluations: 0 };
     for generation in 0..generations {
         if job.is_cancelled() {
@@ -86,7 +89,9 @@ struct Tending {
 impl Tending {
     /// Does a generation, and returns the niches that have changed.
     fn advance(&mut self, simulator: &Simulator, generation: u32, start: Option<&Body>) -> Vec<NicheKey> {
-        let bodies = self.candidates(generation, start);
+        let mut bodies = self.candidates(generation, start);
+        // A body without a third stimulus would have another behavior in the designer.
+        bodies.retain(|body| bodies::body(&body.rows()).is_ok_and(|own| own.palette() == body.palette()));
         let outcomes = evaluate_bodies(simulator, &self.evolution, bodies.clone());
         let before: Vec<(NicheKey, [f64; 2])> = self.best().map(|(key, elite)| (key.clone(), elite.fitness)).collect();
         self.evaluations += bodies.len() as u64;

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from . import evogym
 from ._nbc import __version__
-from .bodies import PAPER_MATERIALS, Robot, invalid, library, rows
+from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows
 from .circuits import Circuit, Compiled, Port, Program, Report, Swarm, TestResult, load, loads
 from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, Span
 from .evolution import Evaluation, Evolution, evaluate
@@ -49,6 +49,7 @@ __all__ = [
     "Search",
     "Span",
     "Swarm",
+    "THREE_MATERIALS",
     "TestResult",
     "Trajectories",
     "__version__",

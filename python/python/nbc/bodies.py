@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from dataclasses import dataclass, field
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
@@ -12,7 +13,7 @@ import numpy.typing as npt
 from . import _nbc
 from .numbers import array_of, is_array
 
-__all__ = ["PAPER_MATERIALS", "Bodies", "Material", "Robot", "invalid", "library", "rows"]
+__all__ = ["PAPER_MATERIALS", "THREE_MATERIALS", "Bodies", "Material", "Robot", "invalid", "library", "rows"]
 
 Material = Mapping[str, Any]
 """A material as data: ``name``, ``kind`` (rigid, soft, actuator or sensor), and the numbers of its kind."""
@@ -20,6 +21,9 @@ Material = Mapping[str, Any]
 PAPER_MATERIALS: Tuple[Material, ...] = tuple(json.loads(_nbc.paper_materials()))
 """The paper's eight materials, in the order of their codes from 1: rigid, soft, an actuator, an actuator in antiphase,
 two sensors that shrink and two that grow while stimulus 1 or 2 is present."""
+
+THREE_MATERIALS: Tuple[Material, ...] = tuple(json.loads(_nbc.three_materials()))
+"""The paper's eight materials, and codes 9 and 10 that shrink and grow while stimulus 3 is present."""
 
 Codes = npt.NDArray[np.uint8]
 OneBody = Union["Robot", npt.NDArray[Any], Sequence[str], Sequence[Sequence[int]]]
@@ -35,17 +39,17 @@ MOST_SIDE = 100
 
 @dataclass(frozen=True, eq=False)
 class Robot:
-    """A body with a known behavior, of the library that comes with nbc."""
+    """A body with a known behavior, of a library."""
 
     name: str
     function: str
     """The function that it computes as a gate, such as ``nand``."""
     behavior: str
-    """Which way it walks under the patterns 00, 01, 10, 11: a letter L or R for each."""
+    """Which way it walks under each pattern, a letter L or R: 00, 01, 10, 11, or 000 to 111 for three stimuli."""
     body: Codes = field(repr=False)
     """Its codes, shape (H, W)."""
     displacement: npt.NDArray[np.float64] = field(repr=False)
-    """Voxels walked in the paper's four fixed simulations, shape (4,)."""
+    """Voxels walked in the paper's fixed simulations, one for each pattern: shape (4,), or (8,) for three stimuli."""
     character: Mapping[str, Any] = field(repr=False)
     """Its clock, margin, error rate and settle times as a gate."""
     provenance: Mapping[str, Any] = field(repr=False)
@@ -69,15 +73,24 @@ class Robot:
         return _nbc.draw_body(title, packed.codes, packed.shapes, pack_materials(self.materials), False)
 
 
-def library() -> Tuple[Robot, ...]:
-    """The evolved robots that come with nbc, best first within each function.
+def library(name: Union[str, "os.PathLike[str]"] = "shipped") -> Tuple[Robot, ...]:
+    """The robots of a library, best first within each function.
+
+    Args:
+        name: ``shipped`` for the evolved robots that come with nbc, ``three`` for those and others with three stimuli,
+            or a folder of robot files.
+
+    Raises:
+        NbcError: when the folder or one of its files cannot be read.
 
     >>> import nbc
     >>> nand = next(robot for robot in nbc.library() if robot.function == "nand")
     >>> nand.behavior
     'RRRL'
+    >>> next(robot.behavior for robot in nbc.library("three") if robot.function == "and3")
+    'LLLLLLLR'
     """
-    return tuple(_robot(record) for record in json.loads(_nbc.shipped_robots()))
+    return tuple(_robot(record) for record in json.loads(_nbc.robots(os.fspath(name))))
 
 
 def invalid(bodies: Bodies, *, materials: Optional[Sequence[Material]] = None) -> List[str]:

@@ -152,7 +152,7 @@ class Program:
 
         Args:
             circuit: its name, by default the last one of the file.
-            library: a folder of robot files, or ``shipped``; by default what the file declares.
+            library: a folder of robot files, ``shipped`` or ``three``; by default what the file declares.
             swarm: a declared swarm, if there are several for the circuit.
             objective: what mapping minimizes: ``area``, ``delay``, or the risk of a thin ``margin`` or of other worlds
                 (``sturdy``).

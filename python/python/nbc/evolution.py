@@ -180,12 +180,13 @@ class Evaluation:
     holds whose output stays (docs/evolution.md).
     """
     displacement: npt.NDArray[np.float64] = field(repr=False)
-    """Voxels walked in the fixed simulations under the patterns 00, 01, 10, 11, shape (N, 4)."""
+    """Voxels walked in the fixed simulations under the patterns 00, 01, 10, 11, shape (N, 4); for three stimuli under
+    000 to 111, shape (N, 8)."""
     behavior: npt.NDArray[np.str_] = field(repr=False)
-    """A letter L or R for each of the four patterns, such as ``RRRL`` for nand; shape (N,)."""
+    """A letter L or R for each of the patterns, such as ``RRRL`` for nand and ``LLLRLRRR`` for maj; shape (N,)."""
     niche: Optional[npt.NDArray[np.int32]] = field(default=None, repr=False)
-    """The bin on each axis of the archive, from 0; on the axis ``behavior`` the bits of the function. -1 for bodies
-    that were not measured. Shape (N, axes)."""
+    """The bin on each axis of the archive, from 0; on the axis ``behavior`` the bits of the function, on ``class`` the
+    lowest bits of the functions of its class. -1 for bodies that were not measured. Shape (N, axes)."""
     faults: Optional[npt.NDArray[Any]] = field(default=None, repr=False)
     """For each body the env step that was abandoned (0 for none) and the reason, as in `Trajectories`."""
     errors: Mapping[int, str] = field(default_factory=dict, repr=False)
@@ -204,8 +205,8 @@ class Evaluation:
 def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress: Progress = False) -> Evaluation:
     """Evaluates bodies by the protocol of an evolution, as for an empty archive, on all cores.
 
-    The paper's protocol (``objective="distance"``) lets each body walk under the four constant patterns, then through
-    all of them. The gate objective scores switches of the inputs.
+    The paper's protocol (``objective="distance"``) lets each body walk under each constant pattern, then through all of
+    them. The gate objective scores switches of the inputs.
 
     Args:
         bodies: bodies of the evolution's box; see `simulate`.
@@ -242,7 +243,7 @@ def of_arrays(arrays: Mapping[str, Any], unread: Mapping[int, str] = {}) -> Eval
         outcome=np.array(arrays["outcome"], dtype="U12"),
         fitness=arrays["fitness"],
         displacement=arrays["displacement"],
-        behavior=np.array(arrays["behavior"], dtype="U4"),
+        behavior=np.array(arrays["behavior"], dtype=f"U{arrays['displacement'].shape[1]}"),
         niche=arrays["niche"],
         faults=fault_array(arrays),
         errors=errors,

@@ -47,19 +47,19 @@ class Archive:
     """Elites in their niches.
 
     ``elites`` is a structured array with a row for each elite: ``niche`` (a bin for each axis), ``fitness`` (2),
-    ``behavior``, ``displacement`` (4), ``body`` (H, W), ``generation`` and ``evaluations``.
+    ``behavior``, ``displacement`` (4, or 8 for three stimuli), ``body`` (H, W), ``generation`` and ``evaluations``.
     """
 
     def __init__(
         self, arrays: Mapping[str, Any], axes: Tuple[Tuple[str, int], ...], materials: Sequence[Material]
     ) -> None:
         size = len(arrays["behavior"])
-        shape = {name: arrays[name].shape[1:] for name in ("niche", "body")}
+        shape = {name: arrays[name].shape[1:] for name in ("niche", "displacement", "body")}
         fields: List[Tuple[Any, ...]] = [
             ("niche", "u2", shape["niche"]),
             ("fitness", "f8", (2,)),
-            ("behavior", "U4"),
-            ("displacement", "f8", (4,)),
+            ("behavior", f"U{shape['displacement'][0]}"),
+            ("displacement", "f8", shape["displacement"]),
             ("body", "u1", shape["body"]),
             ("generation", "u4"),
             ("evaluations", "u8"),
@@ -93,8 +93,9 @@ class Archive:
         columns["fitness_1"], columns["fitness_2"] = self.elites["fitness"].T
         for i, (name, _) in enumerate(self.axes):
             columns[f"niche_{name}"] = self.elites["niche"][:, i]
-        for i, pattern in enumerate(("00", "01", "10", "11")):
-            columns[f"displacement_{pattern}"] = self.elites["displacement"][:, i]
+        patterns = self._patterns()
+        for i in range(patterns):
+            columns[f"displacement_{i:0{patterns.bit_length() - 1}b}"] = self.elites["displacement"][:, i]
         height, width = self.elites["body"].shape[1:]
         columns["width"], columns["height"] = np.full(len(self), width), np.full(len(self), height)
         columns.update(self._voxels())
@@ -104,6 +105,10 @@ class Archive:
         columns["generation"], columns["evaluations"] = self.elites["generation"], self.elites["evaluations"]
         return pandas.DataFrame(columns)
 
+    def _patterns(self) -> int:
+        """The patterns of its stimuli, 4 or 8."""
+        return int(self.elites["displacement"].shape[1])
+
     def _voxels(self) -> Dict[str, npt.NDArray[np.int64]]:
         """How many voxels, actuators and sensors each elite has."""
         kinds = np.array(["empty", *(material["kind"] for material in self.materials)])[self.elites["body"]]
@@ -112,12 +117,14 @@ class Archive:
 
     def heatmap(self, x: str, y: str) -> npt.NDArray[np.float64]:
         """The best first fitness over two axes, by their names in `axes`; shape (bins of y, bins of x), NaN where no
-        niche is filled."""
+        niche is filled. The axis ``class`` has as many bins here as there are behaviors: a class has the bin of the
+        lowest bits of its functions."""
         names = [name for name, _ in self.axes]
         for name in (x, y):
             if name not in names:
                 raise ValueError(unknown("axis of the archive", name, names))
-        (i, across), (j, up) = ((names.index(name), dict(self.axes)[name]) for name in (x, y))
+        bins = {name: 2 ** self._patterns() if name.startswith("class") else size for name, size in self.axes}
+        (i, across), (j, up) = ((names.index(name), bins[name]) for name in (x, y))
         best = np.full((up, across), -np.inf)
         np.maximum.at(best, (self.elites["niche"][:, j], self.elites["niche"][:, i]), self.elites["fitness"][:, 0])
         return np.where(np.isneginf(best), np.nan, best)
@@ -186,8 +193,8 @@ class Search:
             ValueError: for results of other shapes, scores that are not finite numbers, or candidates of another
                 search or generation.
         """
-        size = len(asked(candidates))
-        for name, shape in (("outcome", (size,)), ("fitness", (size, 2)), ("displacement", (size, 4)),
+        size, patterns = len(asked(candidates)), self._native.patterns
+        for name, shape in (("outcome", (size,)), ("fitness", (size, 2)), ("displacement", (size, patterns)),
                             ("behavior", (size,))):
             if not hasattr(evaluation, name):
                 raise TypeError(f"evaluation is of type {type(evaluation).__name__}, expected Evaluation")

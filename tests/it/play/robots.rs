@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use nbc_base::model::Palette;
 use serde_json::json;
 
 use super::page::Server;
@@ -16,7 +17,7 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
     let library = page.done(json!({ "do": "robots", "path": null }));
     let robots = library["robots"].as_array().unwrap();
     assert!(robots.len() >= 30 && robots.iter().all(|robot| robot["shipped"] == true));
-    assert_eq!(library["palette"].as_array().unwrap().len(), 8);
+    assert_eq!(library["palette"].as_array().unwrap().len(), 10);
     // Colors that everybody can tell apart.
     let colors: Vec<&str> =
         library["looks"].as_array().unwrap().iter().filter_map(|look| look["color"].as_str()).collect();
@@ -26,6 +27,39 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
     let probe = page.done(probe);
     assert_eq!((&probe["letters"], &probe["function"]), (&json!("RRRL"), &json!("nand")));
     assert_eq!((probe["gaits"].as_array().unwrap().len(), &probe["character"]), (4, &json!(null)));
+}
+
+/// A robot of three senses.
+const AND: [&str; 5] = ["4a379", "5442a", "44074", "44051", "60086"];
+
+#[test]
+fn a_body_of_three_senses_walks_under_eight_patterns() {
+    let folder = tempfile::tempdir().unwrap();
+    let server = Server::start(folder.path(), &[]);
+    let mut page = server.page();
+    page.done(json!({ "do": "program", "path": "n.nb", "text": "circuit n(a) -> (q) { q = not a }" }));
+    let library = page.done(json!({ "do": "robots", "path": "n.nb" }));
+    let card = library["robots"].as_array().unwrap().iter().find(|robot| robot["name"] == "and3_5x5").unwrap();
+    assert_eq!((&card["body"], &card["letters"]), (&json!(AND), &json!("LLLLLLLR")));
+    assert_eq!((&card["shipped"], &card["painted"]), (&json!(true), &json!(true)));
+    let probe = page.done(json!({ "do": "probe", "body": AND, "cycles": 1, "character": false }));
+    assert_eq!((&probe["letters"], &probe["function"]), (&json!("LLLLLLLR"), &json!("and3")));
+    assert_eq!((probe["gaits"].as_array().unwrap().len(), probe["displacement"].as_array().unwrap().len()), (8, 8));
+    // It looks the same on its card.
+    let look = |of: &serde_json::Value, voxel: usize| {
+        let index = of["voxels"][voxel][4].as_u64().unwrap() as usize;
+        of["looks"][index].clone()
+    };
+    let index = card["voxels"][1][4].as_u64().unwrap() as usize;
+    assert_eq!((look(&probe, 1)["name"].as_str(), &library["looks"][index]), (Some("s3_grow"), &look(&probe, 1)));
+    page.done(json!({ "do": "evolve", "body": AND, "box": [5, 5], "generations": 1, "seed": 1 }));
+    let archive = page.event(|event| event["event"] == "archive" && event["generation"] == 1);
+    assert_eq!(archive["axes"][1], json!(["behavior", 256]));
+    assert!(archive["niches"].as_array().unwrap().iter().any(|niche| niche["letters"] == "LLLLLLLR"), "{archive}");
+    page.done(json!({ "do": "keep", "path": "n.nb", "name": "mine", "body": AND }));
+    let kept = nbc::Session::new(nbc_session::store::DiskWorld).library(folder.path().join("robots").to_str().unwrap());
+    let [robot] = &kept.unwrap().robots[..] else { panic!("one robot was kept") };
+    assert_eq!((robot.behavior.to_string().as_str(), robot.body.palette()), ("LLLLLLLR", &Palette::three()));
 }
 
 #[test]
@@ -72,7 +106,7 @@ fn bodies_that_cannot_walk_are_refused_with_the_reason() {
         (json!([]), "the body has no voxels"),
         (json!(["000"]), "the body has no voxels"),
         (json!(["33", "3"]), "row 2 has 1 voxels, expected 2 as in row 1"),
-        (json!(["309"]), "row 1, column 3: `9` is not a material code; expected 0 to 8"),
+        (json!(["30b"]), "row 1, column 3: `b` is not a material code; expected 0 to a"),
         (json!(["111"]), "the body has 0 actuators, expected at least 3"),
         (json!(["33033"]), "the body is not in one piece"),
         (json!(["3".repeat(21)]), "a body has at most 20 rows and columns here"),

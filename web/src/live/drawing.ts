@@ -21,6 +21,8 @@ export interface Lane {
 
 type Pen = CanvasRenderingContext2D;
 type Point = [number, number];
+/** The corners of a voxel, around it from the top left. */
+export type Corners = [Point, Point, Point, Point];
 
 export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true): void {
   const { left, top, width, height, ground, scale, camera } = lane;
@@ -63,8 +65,7 @@ export function drawRobot(
   }
 }
 
-/** A voxel whose corners stand around it from the top left. */
-function drawVoxel(pen: Pen, corners: [Point, Point, Point, Point], look: VoxelLook | undefined): void {
+export function drawVoxel(pen: Pen, corners: Corners, look: VoxelLook | undefined): void {
   tracePolygon(pen, corners);
   pen.fillStyle = look?.color ?? "#888";
   pen.fill();
@@ -75,7 +76,7 @@ function drawVoxel(pen: Pen, corners: [Point, Point, Point, Point], look: VoxelL
 }
 
 /** The sign of a material: polygons within the unit square. */
-function drawMark(pen: Pen, [a, b, c, d]: [Point, Point, Point, Point], mark: [number, number][][], ink: string): void {
+function drawMark(pen: Pen, [a, b, c, d]: Corners, mark: [number, number][][], ink: string): void {
   const across = (from: number, to: number, share: number): number => from + (to - from) * share;
   pen.fillStyle = ink;
   for (const polygon of mark) {

@@ -1,7 +1,7 @@
 // A line that says what is pointed at, and a table about the robot that is followed.
 
 import { button, element, fill } from "../element";
-import { PATTERNS, gateName, truthTable } from "../gate";
+import { gateName, patterns, truthTable } from "../gate";
 import type { SwarmRobot } from "../protocol";
 import type { View } from "./animation";
 import type { LiveSwarm } from "./swarm";
@@ -85,21 +85,24 @@ export class Inspector implements View {
   }
 }
 
-/** The outputs of a gate for the four patterns of its stimuli, as a square. */
+/** The outputs of a gate for all patterns of its stimuli: the first one goes down, the others to the right. */
 export function truthTableElement(name: string | null, outputs = truthTable(name)): HTMLElement {
-  const cell = (index: number): HTMLElement => {
+  const all = patterns(outputs?.length ?? 4);
+  const columns = all.slice(0, all.length / 2).map(pattern => pattern.slice(1));
+  const cell = (pattern: string, index: number): HTMLElement => {
     const value = outputs?.[index];
     const text = value === undefined ? "·" : String(value);
-    const label = `${PATTERNS[index]} gives ${value ?? "neither"}`;
+    const label = `${pattern} gives ${value ?? "neither"}`;
     return element("td", { "data-value": value ?? "", title: label, "aria-label": label }, text);
   };
+  const cells = all.map(cell);
   const head = (text: string): HTMLElement => element("th", { scope: "col" }, text);
   return element(
     "table",
     { class: "truth", "aria-label": `Truth table of ${gateName(name)}` },
-    element("tr", {}, element("th", {}, "a\\b"), head("0"), head("1")),
-    element("tr", {}, element("th", { scope: "row" }, "0"), cell(0), cell(1)),
-    element("tr", {}, element("th", { scope: "row" }, "1"), cell(2), cell(3)),
+    element("tr", {}, element("th", {}, columns.length > 2 ? "a\\bc" : "a\\b"), ...columns.map(head)),
+    element("tr", {}, element("th", { scope: "row" }, "0"), ...cells.slice(0, columns.length)),
+    element("tr", {}, element("th", { scope: "row" }, "1"), ...cells.slice(columns.length)),
   );
 }
 

@@ -142,7 +142,7 @@ export class SwarmPanel {
   }
 }
 
-/** What the materials of the paper do. */
+/** What the materials of the paper do, and those of a third stimulus. */
 const MATERIALS: Record<string, string> = {
   bone: "bone: rigid",
   flesh: "flesh: soft",
@@ -152,6 +152,8 @@ const MATERIALS: Record<string, string> = {
   s2_shrink: "shrinks while stimulus 2 is present",
   s1_grow: "grows while stimulus 1 is present",
   s2_grow: "grows while stimulus 2 is present",
+  s3_shrink: "shrinks while stimulus 3 is present",
+  s3_grow: "grows while stimulus 3 is present",
 };
 
 /** Until the first switch was flipped. */

@@ -159,11 +159,10 @@ export class Stage implements View {
     } else {
       pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
     }
-    // A robot of one input senses nothing but a constant by its other side.
+    // A robot of one input senses nothing but a constant by its other sides.
     const senses = robot.senses.filter(source => !("constant" in source));
-    senses.forEach((source, i) =>
-      this.#drawSense(pen, source, left + (i * width) / 2, middle + (low ? 2 : 9) * size, width / 2),
-    );
+    const share = width / Math.max(2, senses.length);
+    senses.forEach((source, i) => this.#drawSense(pen, source, left + i * share, middle + (low ? 2 : 9) * size, share));
   }
 
   #drawSense(pen: Pen, source: BitSource, x: number, top: number, width: number): void {

@@ -1,7 +1,7 @@
 // The archive of a search as it fills: a heat map for each behavior, with a square for each niche.
 
 import { element, fill } from "../element";
-import { gateName, gateOf } from "../gate";
+import { gateName, gateOf, lettersOf } from "../gate";
 import type { ArchiveChange, AxisEntry, NicheEntry } from "../protocol";
 
 export class Archive {
@@ -104,7 +104,10 @@ export class HeatMap {
     this.#squares.clear();
     this.#titles.clear();
     const { across, layers } = this.archive.split();
-    fill(this.host, ...this.archive.places(layers).map(layer => this.#map(layer, layers, across)));
+    const places = this.archive.places(layers);
+    // Of the 256 behaviors of three stimuli, only those that are found have room.
+    this.host.toggleAttribute("data-many", places.length > 16);
+    fill(this.host, ...places.map(layer => this.#map(layer, layers, across)));
     const [columns = "", rows] = across.map(axis => this.archive.axes[axis]?.[0] ?? "");
     const names =
       rows === undefined
@@ -133,12 +136,9 @@ export class HeatMap {
 
   /** The gate of a behavior. Its number has a bit for each pattern, 00 the lowest. */
   #titleOf(layer: number[], layers: number[]): string {
-    const index = layers.findIndex(
-      axis => this.archive.axes[axis]?.[0] === "behavior" && this.archive.axes[axis]?.[1] === 16,
-    );
-    const number = layer[index];
-    const letters = number === undefined ? "" : [0, 1, 2, 3].map(bit => ((number >> bit) & 1 ? "R" : "L")).join("");
-    return letters === "" ? "–" : gateName(gateOf(letters));
+    const index = layers.findIndex(axis => this.archive.axes[axis]?.[0] === "behavior");
+    const [number, behaviors] = [layer[index], this.archive.axes[layers[index] ?? -1]?.[1] ?? 1];
+    return number === undefined ? "–" : gateName(gateOf(lettersOf(number, Math.log2(behaviors))));
   }
 
   #square(place: number[]): HTMLElement {

@@ -94,6 +94,13 @@ function neighbors(x: number, y: number): [number, number][] {
   ];
 }
 
+/** The materials of a random body after this one: those that sense a third stimulus only if it has one of them. */
+export function drawnFrom(body: Body, palette: PaletteEntry[]): PaletteEntry[] {
+  const isThird = ({ name }: PaletteEntry): boolean => /^s3_/.test(name);
+  const third = palette.filter(isThird).map(({ code }) => code);
+  return third.some(code => body.join("").includes(code)) ? palette : palette.filter(entry => !isThird(entry));
+}
+
 /** A connected body of random materials that stands on the ground and can move. */
 export function randomBody(
   width: number,

@@ -1,9 +1,9 @@
 // The robots of the library and of the program, as cards on which they walk.
 
 import { button, element, fill } from "../element";
-import { PATTERNS, gateName, outputsOf } from "../gate";
+import { gateName, outputsOf, patterns } from "../gate";
 import { truthTableElement } from "../live/inspector";
-import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
+import type { RobotCard, VoxelLook } from "../protocol";
 import { prefersStillness } from "../theme";
 import { decodeGait, type Gait } from "./gait";
 import { drawBody } from "./portrait";
@@ -32,12 +32,12 @@ export class Cards {
     this.#observer = new IntersectionObserver(entries => entries.forEach(entry => this.#see(entry)));
   }
 
-  show(robots: RobotCard[], looks: VoxelLook[], palette: PaletteEntry[]): void {
+  show(robots: RobotCard[], looks: VoxelLook[]): void {
     this.#ends.forEach(end => end());
     this.#ends.clear();
     this.#begin.clear();
     this.#observer.disconnect();
-    fill(this.host, ...robots.map(robot => this.#card(robot, looks, palette)));
+    fill(this.host, ...robots.map(robot => this.#card(robot, looks)));
   }
 
   #see(entry: IntersectionObserverEntry): void {
@@ -49,7 +49,7 @@ export class Cards {
     }
   }
 
-  #card(robot: RobotCard, looks: VoxelLook[], palette: PaletteEntry[]): HTMLElement {
+  #card(robot: RobotCard, looks: VoxelLook[]): HTMLElement {
     const canvas = element("canvas", { class: "gait", role: "img", "aria-label": `${robot.name} walking` });
     const caption = element("p", { class: "pattern dim" }, "\u00a0");
     const card = element(
@@ -59,18 +59,21 @@ export class Cards {
       canvas,
       caption,
       element("div", { class: "facts" }, truthTableElement(robot.function), factsOf(robot)),
-      button("Open in the designer", () => this.doors.design(robot.body), { "data-do": "design" }),
+      robot.painted && button("Open in the designer", () => this.doors.design(robot.body), { "data-do": "design" }),
     );
-    this.#begin.set(card, () => this.#walk(robot, canvas, caption, () => drawBody(canvas, robot.body, looks, palette)));
+    this.#begin.set(card, () => this.#walk(robot, canvas, caption, () => drawBody(canvas, robot, looks)));
     this.#observer.observe(card);
     return card;
   }
 
-  /** Lets the robot walk until the result is called. */
+  /** Lets the robot walk until the result is called; one of other materials than the designer's only stands. */
   #walk(robot: RobotCard, canvas: HTMLCanvasElement, caption: HTMLElement, portrait: () => void): () => void {
     let ended = false;
     let stop = (): void => {};
     portrait();
+    if (!robot.painted) {
+      return stop;
+    }
     this.probing
       .later(robot.body, CYCLES, () => !ended)
       .then(
@@ -89,7 +92,7 @@ export class Cards {
   }
 }
 
-/** Plays the four gaits one after the other. */
+/** Plays the gaits one after the other. */
 function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLElement): (seconds: number) => void {
   let time = 0;
   let shown = -1;
@@ -103,7 +106,7 @@ function play(view: GaitView, gaits: Gait[], letters: string, caption: HTMLEleme
     if (pattern !== shown) {
       shown = pattern;
       const way = outputsOf(letters)[pattern] === 1 ? "walks right ▶" : "walks left ◀";
-      caption.textContent = `${PATTERNS[pattern]}: ${way}`;
+      caption.textContent = `${patterns(gaits.length)[pattern]}: ${way}`;
     }
   };
 }

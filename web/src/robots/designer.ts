@@ -9,6 +9,7 @@ import {
   EMPTY,
   LARGEST,
   countVoxels,
+  drawnFrom,
   emptyBody,
   mirrored,
   paint,
@@ -179,7 +180,7 @@ export class Designer {
   }
 
   #tools(): HTMLElement {
-    const random = (): void => this.#change(randomBody(...sizeOf(this.body), this.#materials));
+    const random = (): void => this.#change(randomBody(...sizeOf(this.body), drawnFrom(this.body, this.#materials)));
     return element(
       "div",
       { class: "tools row" },

@@ -91,7 +91,7 @@ export class RobotsPanel {
       if (shown !== this.#shown) {
         this.#shown = shown;
         this.designer.setMaterials(robots);
-        this.#cards.show(robots.robots, robots.looks, robots.palette);
+        this.#cards.show(robots.robots, robots.looks);
       }
     } catch (error) {
       this.#status.textContent = (error as Error).message;

@@ -1,8 +1,9 @@
 // A body at rest.
 
-import type { PaletteEntry, VoxelLook } from "../protocol";
+import { drawVoxel, type Corners } from "../live/drawing";
+import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
 import { colors } from "../theme";
-import { EMPTY, sizeOf, type Body } from "./body";
+import { EMPTY } from "./body";
 
 /** The look of each code of a palette. */
 export function looksByCode(looks: VoxelLook[], palette: PaletteEntry[]): Map<string, VoxelLook> {
@@ -14,8 +15,8 @@ export function looksByCode(looks: VoxelLook[], palette: PaletteEntry[]): Map<st
   );
 }
 
-/** Draws a body in the middle of a canvas, standing on its lower edge. */
-export function drawBody(canvas: HTMLCanvasElement, body: Body, looks: VoxelLook[], palette: PaletteEntry[]): void {
+/** Draws a robot in the middle of a canvas, standing on its lower edge. */
+export function drawBody(canvas: HTMLCanvasElement, robot: RobotCard, looks: VoxelLook[]): void {
   const ratio = devicePixelRatio || 1;
   canvas.width = Math.round(canvas.clientWidth * ratio);
   canvas.height = Math.round(canvas.clientHeight * ratio);
@@ -23,21 +24,24 @@ export function drawBody(canvas: HTMLCanvasElement, body: Body, looks: VoxelLook
   if (pen === null) {
     return;
   }
-  const byCode = looksByCode(looks, palette);
-  const [width, height] = sizeOf(body);
+  const { body, width, height } = robot;
+  const voxels = robot.voxels.values();
   const side = Math.min(canvas.height / (height + 1), canvas.width / (width + 1));
   pen.strokeStyle = colors.value.edge;
   body.forEach((row, y) =>
     [...row].forEach((code, x) => {
-      const look = byCode.get(code);
-      if (look !== undefined) {
-        const place: [number, number] = [
-          (canvas.width - width * side) / 2 + x * side,
-          canvas.height - (height - y) * side,
+      if (code !== EMPTY) {
+        const [left, top] = [(canvas.width - width * side) / 2 + x * side, canvas.height - (height - y) * side];
+        const [right, bottom] = [left + side, top + side];
+        const corners: Corners = [
+          [left, top],
+          [right, top],
+          [right, bottom],
+          [left, bottom],
         ];
-        pen.fillStyle = look.color;
-        pen.fillRect(...place, side, side);
-        pen.strokeRect(...place, side, side);
+        // Voxels are listed in reading order.
+        const look = voxels.next().value?.[4] ?? -1;
+        drawVoxel(pen, corners, looks[look]);
       }
     }),
   );

@@ -1,7 +1,7 @@
-// How the body in the designer walks under the four patterns, and what follows from it.
+// How the body in the designer walks under each pattern, and what follows from it.
 
 import { element, fill } from "../element";
-import { PATTERNS, gateName } from "../gate";
+import { gateName, patterns } from "../gate";
 import { truthTableElement } from "../live/inspector";
 import type { ProbeReport } from "../protocol";
 import { prefersStillness } from "../theme";
@@ -52,22 +52,23 @@ export class ProbeView {
 
   #showLanes(probe: ProbeReport, height: number): void {
     const gaits = probe.gaits.map(decodeGait);
-    const views = gaits.map((_, i) => {
+    const views = patterns(gaits.length).map((pattern, i) => {
       const letter = probe.letters[i] ?? "?";
       const canvas = element("canvas", {
         class: "gait",
         role: "img",
-        "aria-label": `under ${PATTERNS[i]}: ${directionOf(letter)}`,
+        "aria-label": `under ${pattern}: ${directionOf(letter)}`,
       });
       const lane = element(
         "div",
         { class: "lane" },
-        element("span", { class: "pattern" }, PATTERNS[i] ?? ""),
+        element("span", { class: "pattern" }, pattern),
         canvas,
         element("span", { class: "letter", "data-letter": letter, title: directionOf(letter) }, letter),
       );
       return { lane, view: new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height }) };
     });
+    this.#lanes.toggleAttribute("data-many", gaits.length > 4);
     fill(this.#lanes, ...views.map(({ lane }) => lane));
     let time = 0;
     this.#stop = this.ticker.add(seconds => {
@@ -78,8 +79,9 @@ export class ProbeView {
   }
 
   #numbers({ character, displacement, letters }: ProbeReport): HTMLElement {
+    const all = patterns(letters.length);
     const facts: [string, string][] = [
-      ["behavior", `${letters} (under 00, 01, 10, 11)`],
+      ["behavior", `${letters} (under ${all.length > 4 ? `${all[0]} to ${all.at(-1)}` : all.join(", ")})`],
       ["walks", displacement.map(voxels => voxels.toFixed(2)).join(", ") + " voxels"],
     ];
     if (character === null) {

@@ -37,6 +37,13 @@ impl Palette {
         Arc::new(Self::new(paper_materials()))
     }
 
+    /// The paper's materials, and 9 and 10 that shrink and grow while stimulus 3 is present (library/three.nb).
+    pub fn three() -> Arc<Self> {
+        let mut materials = paper_materials();
+        materials.extend([sensor("s3_shrink", 2, 1.6, 0.6), sensor("s3_grow", 2, 0.6, 1.6)]);
+        Arc::new(Self::new(materials))
+    }
+
     /// Whether these are the paper's materials.
     pub fn is_paper(&self) -> bool {
         *self == *Self::paper()
@@ -95,17 +102,20 @@ impl Material {
 fn paper_materials() -> Vec<Material> {
     let named = |name: &str, kind| Material { name: name.to_owned(), kind };
     let drive = |phase| MaterialKind::Actuator(Drive { period: super::CYCLE_STEPS, phase, low: 0.6, high: 1.6 });
-    let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response { stimulus, absent, present });
     vec![
         named("bone", MaterialKind::Rigid),
         named("flesh", MaterialKind::Soft),
         named("muscle", drive(0.0)),
         named("antimuscle", drive(180.0)),
-        named("s1_shrink", sensor(0, 1.6, 0.6)),
-        named("s2_shrink", sensor(1, 1.6, 0.6)),
-        named("s1_grow", sensor(0, 0.6, 1.6)),
-        named("s2_grow", sensor(1, 0.6, 1.6)),
+        sensor("s1_shrink", 0, 1.6, 0.6),
+        sensor("s2_shrink", 1, 1.6, 0.6),
+        sensor("s1_grow", 0, 0.6, 1.6),
+        sensor("s2_grow", 1, 0.6, 1.6),
     ]
+}
+
+fn sensor(name: &str, stimulus: usize, absent: f64, present: f64) -> Material {
+    Material { name: name.to_owned(), kind: MaterialKind::Sensor(Response { stimulus, absent, present }) }
 }
 
 impl TryFrom<Vec<Material>> for Palette {

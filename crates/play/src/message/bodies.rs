@@ -36,6 +36,8 @@ pub(crate) struct RobotCard {
     pub(crate) errors: f64,
     /// Whether it comes with the program.
     pub(crate) shipped: bool,
+    /// Whether it is of the materials that can be painted, so that it can be probed.
+    pub(crate) painted: bool,
 }
 
 /// A material that can be painted.

@@ -109,7 +109,7 @@ class Archive {
     drawStimuli(pen, [...pattern].map(Number), 8, 8);
     pen.fillStyle = themed("ink");
     pen.font = "13px system-ui, sans-serif";
-    pen.fillText("stimuli " + pattern, 56, 20);
+    pen.fillText("stimuli " + pattern, 12 + 22 * pattern.length, 20);
   }
 }
 

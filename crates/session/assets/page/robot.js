@@ -81,13 +81,13 @@ function drawMark(pen, { ink, mark }, [a, b, c, d]) {
   }
 }
 
-/** Two squares, each filled while its stimulus is present. */
+/** A square for each stimulus, filled while it is present. */
 function drawStimuli(pen, sensed, x, y) {
-  ["s1", "s2"].forEach((name, i) => {
-    pen.strokeStyle = pen.fillStyle = themed(name);
+  sensed.forEach((present, i) => {
+    pen.strokeStyle = pen.fillStyle = themed("s" + (i + 1));
     pen.lineWidth = 2;
     pen.strokeRect(x + i * 22, y, 14, 14);
-    if (sensed[i]) pen.fillRect(x + i * 22, y, 14, 14);
+    if (present) pen.fillRect(x + i * 22, y, 14, 14);
   });
 }
 

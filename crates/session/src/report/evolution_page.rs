@@ -164,7 +164,10 @@ fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], p
         .iter()
         .map(|&axis| json!({ "word": axis_word(axis), "bins": axis.bins(results.stimuli) }))
         .collect();
+    let found = results.behaviors();
+    // Of the 256 behaviors of three stimuli, only those that were found have a map.
     let behaviors: Vec<Value> = Behavior::all(results.stimuli)
+        .filter(|behavior| results.stimuli == 2 || found.contains(behavior))
         .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
         .collect();
     json!({

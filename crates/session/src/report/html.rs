@@ -96,6 +96,15 @@ pub fn base64(numbers: &[i16]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::report::Color;
+
+    #[test]
+    fn stimuli_have_the_colors_of_all_pictures() {
+        for i in 0..3 {
+            let color = format!("--s{}: {};", i + 1, Color::stimulus(i));
+            assert!(STYLE.contains(&color), "{color}");
+        }
+    }
 
     #[test]
     fn numbers_have_their_lower_byte_first() {
