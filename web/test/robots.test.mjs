@@ -126,6 +126,19 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await here.page.locator("#tab-robots").click();
 });
 
+test("a robot of three senses walks in eight lanes", async () => {
+  await here.page.locator('[data-robot="and3_5x5"] [data-do=design]').click();
+  await letters("LLLLLLLR");
+  assert.equal(await here.page.locator(".probe .lane").count(), 8);
+  assert.equal(await here.page.locator(".probe h3").textContent(), "a AND b AND c");
+  assert.equal(await here.page.locator(".probe .truth td").count(), 8);
+  const wide = await here.page.evaluate(() => {
+    const design = document.querySelector(".design");
+    return design.scrollWidth - design.clientWidth;
+  });
+  assert.ok(wide <= 0, `the designer is ${wide} too wide`);
+});
+
 test("a robot of the library walks on its card and opens in the designer", async () => {
   const card = here.page.locator('[data-robot="xor_5x5"]');
   // The cards are drawn anew when the list is read again, which this waits for.

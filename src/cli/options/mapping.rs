@@ -14,8 +14,8 @@ use nbc_session::store;
 /// The available cells and the options of mapping.
 #[derive(Args)]
 pub(in crate::cli) struct MappingArguments {
-    /// The functions of the cells, such as `nand,not` or `xor,maj`, or `all` of two inputs, or `all3` of two and three; by
-    /// default those of the built-in robots
+    /// The functions of the cells, such as `nand,not` or `xor,maj`, or `all` of two inputs, or `all3` of two and three;
+    /// by default those of the built-in robots
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
     cells: Vec<String>,
     /// A robot file, a folder of them, or `three`, whose functions are the cells
