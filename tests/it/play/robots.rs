@@ -30,7 +30,7 @@ fn the_library_is_shown_and_a_robot_designed_after_it_is_that_gate() {
 }
 
 /// A robot of three senses.
-const AND: [&str; 5] = ["4a379", "5442a", "44074", "44051", "60086"];
+const AND: [&str; 5] = ["3a379", "5442a", "44076", "50095", "60016"];
 
 #[test]
 fn a_body_of_three_senses_walks_under_eight_patterns() {

@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use nbc_base::model::SearchObjective;
+use nbc_base::model::{Behavior, SearchObjective};
 use nbc_swarm::Work;
 use nbc_swarm::evolve::{ArchiveStats, Counts, Search};
 
@@ -68,7 +68,7 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
     let _ = writeln!(
         text,
         "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults), {} invalid bodies drawn; {} of \
-         {} niches ({:.1} %), {} of 16 behaviors, QD-score {:.2}",
+         {} niches ({:.1} %), {} of {} behaviors, QD-score {:.2}",
         search.generation(),
         counts.evaluations,
         counts.surpassed,
@@ -79,6 +79,7 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
         stats.niches,
         100.0 * stats.coverage,
         stats.champions.len(),
+        Behavior::all(search.evolution().palette.inputs()).count(),
         stats.qd_score,
     );
     let share = 100.0 * work.left_out as f64 / (work.env_steps + work.left_out).max(1) as f64;
