@@ -85,6 +85,6 @@ impl Prices {
 }
 
 /// The functions of two inputs, and the inverter.
-fn complete() -> impl Iterator<Item = Function> {
+pub(crate) fn complete() -> impl Iterator<Item = Function> {
     Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT)
 }

@@ -12,7 +12,7 @@ use crate::cells::{CellKind, CellLibrary};
 use crate::network::{Gate, Network, Signal};
 use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::candidates::below;
-use crate::synth::prices::Prices;
+use crate::synth::prices::{Prices, complete};
 use crate::synth::reduce::{alternative, reduce};
 use nbc_base::model::Function;
 
@@ -130,6 +130,5 @@ pub fn widen(
 fn any_gate() -> CellLibrary {
     let kind =
         |function: Function| CellKind { cost: u32::from(function != Function::NOT), ..CellKind::uniform(1, 1.0) };
-    let gates = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
-    gates.map(|function| (function, kind(function))).collect()
+    complete().map(|function| (function, kind(function))).collect()
 }
