@@ -366,6 +366,25 @@ pub use {nbc_base::model::FaultKind, nbc_sim::Monitor};
 /// ```
 pub use nbc_sim::{Flock, Snapshot};
 
+/// Evolution Gym's worlds: robots that are driven from outside, on terrain and among objects (docs/physics.md 16).
+///
+/// ```
+/// use nbc::{Grid, Scene, SceneObject, Scenes};
+/// let object = |grid, at| SceneObject { grid, at };
+/// let ground = object(Grid::structure(10, 1, &[5; 10]), [0, 0]);
+/// let robot = object(Grid::structure(2, 2, &[3, 3, 4, 4]), [4, 1]);
+/// let scene = Scene::new(&[robot, ground], &nbc::Constants::default());
+/// let mut scenes = Scenes::new(vec![scene]);
+/// scenes.set_targets(0, &[1.6, 1.6, 0.6, 0.6]);
+/// scenes.advance(10);
+/// assert_eq!((scenes.clock(0), scenes.fault(0)), (10, None));
+/// assert_eq!(scenes.positions(0, 0).len(), 9);
+/// let before = scenes.state(0);
+/// scenes.reset(0);
+/// scenes.restore(0, &before);
+/// ```
+pub use nbc_sim::{Constants, Grid, Scene, SceneObject, SceneState, Scenes, State};
+
 /// ```
 /// use nbc::{MemoryWorld, OverlayWorld, SourceWorld};
 /// let mut below = MemoryWorld::default();

@@ -137,7 +137,7 @@ pub fn main() -> ExitCode {
 
 /// Runs the program on a command line, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(arguments) {
+    let cli = match Cli::try_parse_from(options::circuit::with_named_files(arguments)) {
         Ok(cli) => cli,
         Err(told) => return tell(&told).into(),
     };

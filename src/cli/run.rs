@@ -6,14 +6,16 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::gpu::OpenDevice;
-use crate::cli::options::circuit::RunsArguments;
+use crate::cli::options::circuit::{FilesArguments, RunsArguments};
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::mapping::GoalArguments;
 use crate::cli::options::timings::{TimedStage, Timings};
 use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::runs::{CompleteRun, run_list, unknown_run};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
-use nbc_session::report::{self, Document, PageSwarm, RunResult, Schema, Scheme, Svg, SwarmResult, SwarmTiming};
+use nbc_session::report::{
+    self, Document, PageSwarm, RunResult, Schema, SchematicPages, Scheme, Svg, SwarmResult, SwarmTiming,
+};
 use nbc_session::store::{self, ResultPlace};
 use nbc_session::{Checked, CompileOptions, RUNS, RunList, Session, SwarmRun, TestRun};
 use nbc_swarm::Room;
@@ -47,6 +49,8 @@ pub struct RunArguments {
     #[command(flatten)]
     goal: GoalArguments,
     #[command(flatten)]
+    named: FilesArguments,
+    #[command(flatten)]
     device: DeviceArguments,
     #[command(flatten)]
     timings: Timings,
@@ -56,7 +60,7 @@ pub struct RunArguments {
 struct Drawn<'a> {
     ran: &'a CompleteRun,
     spacetime: Svg,
-    schematic: Svg,
+    schematic: SchematicPages,
     files: Vec<String>,
 }
 
@@ -79,7 +83,8 @@ impl RunArguments {
         let list = self.chosen(&file)?;
         let folder = self.folder();
         folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
-        let compile = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
+        let compile =
+            CompileOptions { cancel: interrupt.cancel(), ..self.named.with(self.goal.with(self.runs.options())) };
         let report = run_list(&session, &file, &list, compile, &interrupt)?;
         device.end(context)?;
         let (all, left) = (list.len(), report.left);
@@ -183,12 +188,13 @@ fn stems(runs: &[CompleteRun]) -> Vec<String> {
 fn draw<'a>(ran: &'a CompleteRun, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
     let SwarmRun { compiled, trace } = ran.swarm();
     let (spacetime, schematic) = (report::draw_swarm(trace), compiled.schematic(Scheme::default()));
-    let mut drawn = Drawn { ran, spacetime, schematic, files: Vec::new() };
+    let top = schematic.top();
+    let mut drawn = Drawn { ran, spacetime, schematic: schematic.pages(), files: Vec::new() };
     let files = [
         ("spacetime.svg", drawn.spacetime.finish().into_bytes()),
         ("spacetime.png", report::png(&drawn.spacetime)),
-        ("schematic.svg", drawn.schematic.finish().into_bytes()),
-        ("schematic.png", report::png(&drawn.schematic)),
+        ("schematic.svg", top.finish().into_bytes()),
+        ("schematic.png", report::png(&top)),
         ("waves.vcd", report::vcd(trace).into_bytes()),
         ("cycles.csv", report::cycle_table(trace).into_bytes()),
     ];

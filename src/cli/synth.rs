@@ -15,13 +15,14 @@ use nbc_circuit::formats::Design;
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
 use nbc_circuit::{CellLibrary, MapOptions, Netlist, levels, registers};
 use nbc_session::report::Schema;
-use nbc_session::store;
+use nbc_session::store::{self, CircuitFile, TopModule};
 use nbc_session::synthesize;
 
 const EXAMPLES: &str = "\
 Examples:
   nbc synth adder.blif -o adder_nand.blif --cells nand,not
   nbc synth c880.aig -o c880.nb --effort high
+  nbc synth fifo.v --top fifo --param WIDTH=4 -o fifo.nb
   nbc synth adder.blif --cells nand,not --what-if xor,and";
 
 /// Map another tool's circuit to few robots, and prove the result
@@ -38,6 +39,12 @@ pub struct SynthArguments {
     output: Option<PathBuf>,
     #[command(flatten)]
     mapping: MappingArguments,
+    /// The module of Verilog or model of BLIF [default: the module that contains most, or the first model]
+    #[arg(long, value_name = "NAME")]
+    top: Option<String>,
+    /// A parameter of the Verilog module, such as `N=8`; may be repeated
+    #[arg(long, value_name = "NAME=NUMBER", value_parser = parameter)]
+    param: Vec<(String, u32)>,
     /// The clock of latches without a clock in the file
     #[arg(long, value_name = "NAME")]
     clock: Option<String>,
@@ -183,7 +190,10 @@ impl SynthArguments {
         let target = self.output.as_deref().map(format).transpose()?;
         let library = self.mapping.library()?;
         let what_if = functions(&self.what_if)?;
-        let read = store::read_circuit(&self.input, self.clock.as_deref())?;
+        let top = TopModule { name: self.top, parameters: self.param.into_iter().collect() };
+        let file = CircuitFile { path: &self.input, clock: self.clock.as_deref(), top: &top };
+        let (read, warnings) = store::read_circuit(&file)?;
+        context.tell(&warnings.list, &warnings.sources);
         let (design, removed) = correspondence::reduce(&read);
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
@@ -286,6 +296,13 @@ impl Report {
         }
         text
     }
+}
+
+/// A parameter with its value.
+fn parameter(text: &str) -> Result<(String, u32), String> {
+    let parts = text.split_once('=').and_then(|(name, value)| Some((name.to_owned(), value.parse::<u32>().ok()?)));
+    let expected = "expected a name and a number below 2147483648, such as `N=8`";
+    parts.filter(|(_, value)| *value <= i32::MAX as u32).ok_or_else(|| expected.to_owned())
 }
 
 /// The format for a file's extension.

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use nbc_base::model::{
-    Body, Drive, Fault, FaultKind, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell,
-    Trajectory, Trial,
+    Body, Drive, Fault, FaultKind, GroundProfile, Material, MaterialKind, Palette, Pattern, Response, Schedule,
+    Setting, Spell, Trajectory, Trial,
 };
 use nbc_sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Monitor, Simulator};
 use proptest::prelude::*;
@@ -80,8 +80,8 @@ proptest! {
     #![proptest_config(ProptestConfig { cases: 12, ..ProptestConfig::default() })]
 
     #[test]
-    fn a_lane_is_the_scalar_run(trials in trials()) {
-        let setting = Setting::default();
+    fn a_lane_is_the_scalar_run(trials in trials(), heights in proptest::collection::vec(0u8..3, 1..4)) {
+        let setting = Setting { ground: GroundProfile::new(&heights).unwrap(), ..Setting::default() };
         let alone: Vec<_> = simulate(Kernel::SCALAR, &setting, &trials).iter().map(bits).collect();
         for kernel in kernels() {
             let beside: Vec<_> = simulate(kernel, &setting, &trials).iter().map(bits).collect();

@@ -4,7 +4,7 @@ use std::cell::Cell;
 use std::io::{self, Write};
 use std::rc::Rc;
 
-use nbc_base::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting, Spell};
+use nbc_base::model::{Body, CYCLE_STEPS, GroundProfile, Palette, Pattern, Schedule, Setting, Spell};
 use nbc_session::report::{self, Color, FRAMES_PER_CYCLE, Film, Scheme, Stage};
 
 use crate::support::traces::latch;
@@ -19,7 +19,14 @@ fn film(body: &Body, cycles: u32) -> (Film, Stage) {
     let stage = Stage::of_trial(&Setting::default(), body, &schedule(cycles), CYCLE_STEPS / FRAMES_PER_CYCLE);
     let largest = body.width().max(body.height());
     (
-        Film { title: "walker".to_owned(), lanes: vec!["01".to_owned()], scheme: Scheme::Paper, largest, stimuli: 2 },
+        Film {
+            title: "walker".to_owned(),
+            lanes: vec!["01".to_owned()],
+            scheme: Scheme::Paper,
+            largest,
+            stimuli: 2,
+            ground: GroundProfile::default(),
+        },
         stage,
     )
 }
@@ -130,7 +137,14 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
     let trace = latch(&[(false, true), (true, true)], 2);
     let assembly = crate::page::assembly(&trace);
     let lanes: Vec<String> = trace.robots.iter().map(|robot| robot.net.clone()).collect();
-    let film = Film { title: "latch".to_owned(), lanes, scheme: Scheme::Paper, largest: 5, stimuli: 2 };
+    let film = Film {
+        title: "latch".to_owned(),
+        lanes,
+        scheme: Scheme::Paper,
+        largest: 5,
+        stimuli: 2,
+        ground: GroundProfile::default(),
+    };
     let stage = Stage::of_swarm(&assembly, &trace, CYCLE_STEPS);
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| ()).unwrap();

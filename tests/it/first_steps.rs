@@ -264,7 +264,7 @@ fn each_pair_of_the_page_for_verilog_computes_the_same() {
     let text = std::fs::read_to_string(root().join("docs/from-verilog.md")).unwrap();
     let fences: Vec<Fence> = fences(&text).into_iter().filter(|fence| fence.words.len() == 1).collect();
     let pairs: Vec<_> = fences.chunk_by(|a, _| a.words == ["verilog"]).filter(|pair| pair.len() == 2).collect();
-    assert_eq!(pairs.len(), 8);
+    assert_eq!(pairs.len(), 9);
     let mut random = ChaCha8Rng::seed_from_u64(1);
     for pair in pairs {
         let bench = Bench::new();

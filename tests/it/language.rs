@@ -4,9 +4,10 @@ use nbc_base::diag::render;
 use nbc_base::model::Palette;
 use nbc_base::source::Sources;
 use nbc_lang::check::{self};
+use nbc_session::Session;
 use nbc_session::store::DiskWorld;
 
-use crate::support::programs::{passes, programs, sound};
+use crate::support::programs::{passes, performs, programs, sound};
 use crate::support::root;
 
 #[test]
@@ -71,6 +72,7 @@ fn every_test_of_the_gallery_passes_at_the_level_of_logic() {
         for test in &checked.program.tests {
             passes(&checked.program, test);
         }
+        performs(&mut Session::new(DiskWorld), path.to_str().unwrap());
     }
 }
 

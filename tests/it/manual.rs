@@ -6,9 +6,10 @@ use std::fs;
 use nbc_base::diag::{Code, Diagnostic, Severity, render};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
+use nbc_session::Session;
 
 use crate::support::bench::Bench;
-use crate::support::programs::passes;
+use crate::support::programs::{passes, performs};
 use crate::support::root;
 
 /// A fenced piece of a page: the words after the fence, and the text.
@@ -109,8 +110,10 @@ fn every_error_page_has_a_failing_and_a_corrected_example() {
 
 #[test]
 fn every_example_of_the_manual_runs() {
-    let majority = fences(&read("docs/language.md")).into_iter().find(|fence| fence.words == ["blif"]);
-    let majority = majority.expect("the manual shows the file that an example uses").text;
+    let [majority, hello] = ["blif", "csv"].map(|word| {
+        let shown = fences(&read("docs/language.md")).into_iter().find(|fence| fence.words == [word]);
+        shown.expect("the manual shows the files that examples use").text
+    });
     let pages =
         ["docs/language.md", "grammar/README.md", "docs/computer.md", "docs/evolution.md", "docs/robustness.md"];
     for (path, least) in pages.into_iter().zip([6, 6, 1, 1, 1]) {
@@ -118,18 +121,21 @@ fn every_example_of_the_manual_runs() {
         assert!(examples.len() >= least, "{path} has examples");
         for example in examples {
             let mut sources = Sources::default();
-            let file = sources.add("main.nb", example.text);
+            let file = sources.add("main.nb", example.text.as_str());
             let mut world = MemoryWorld::default();
             world.insert("adders.nb", read("circuits/full_adder.nb"));
             world.insert("computer.nb", read("circuits/computer.nb"));
             world.insert("circuits/counter.nb", read("circuits/counter.nb"));
             world.insert("majority.blif", majority.as_str());
+            world.insert("hello.csv", hello.as_str());
+            world.insert("main.nb", example.text);
             let checked = check::check(&world, &mut sources, file);
             let text = render::text(&checked.diagnostics, &sources, false);
             assert!(checked.diagnostics.is_empty(), "{path}:\n{}\n{text}", sources.file(file).text);
             for test in &checked.program.tests {
                 passes(&checked.program, test);
             }
+            performs(&mut Session::new(world), "main.nb");
         }
     }
 }

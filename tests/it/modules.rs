@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::{LazyLock, OnceLock};
 
 use regex::Regex;
 
@@ -28,8 +29,13 @@ fn sources() -> Vec<PathBuf> {
     std::iter::once(root().join("src")).chain(crates).collect()
 }
 
-/// All files of all crates, in order.
-pub fn modules() -> Vec<Module> {
+/// All files of all crates, in order. They are read once for all tests.
+pub fn modules() -> &'static [Module] {
+    static MODULES: OnceLock<Vec<Module>> = OnceLock::new();
+    MODULES.get_or_init(read_all)
+}
+
+fn read_all() -> Vec<Module> {
     let mut open = sources();
     let mut found = Vec::new();
     while let Some(folder) = open.pop() {
@@ -85,11 +91,12 @@ fn module_name(path: &Path) -> Item {
 
 /// The text with comments and the contents of literals replaced by blanks; every character keeps its place.
 fn code_only(text: &str) -> String {
-    let literal =
+    static LITERAL: LazyLock<Regex> = LazyLock::new(|| {
         Regex::new(r##"(?s)//[^\n]*|/\*.*?\*/|r#".*?"#|"(?:\\.|[^"\\])*"|'(?:\\(?:u\{[^}]*\}|x..|.)|[^'\\\n])'"##)
-            .unwrap();
+            .unwrap()
+    });
     let blank = |found: &regex::Captures| found[0].chars().map(|c| if c == '\n' { c } else { ' ' }).collect::<String>();
-    literal.replace_all(text, blank).into_owned()
+    LITERAL.replace_all(text, blank).into_owned()
 }
 
 /// The text without the items that are compiled for unit tests only; their lines become empty.
@@ -152,9 +159,10 @@ pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
 
 /// The items of `pub use` and of other `use` declarations.
 fn uses(code: &str) -> (Vec<Item>, Vec<Item>) {
-    let declaration = Regex::new(r"(?m)^( *)(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap();
+    static DECLARATION: LazyLock<Regex> =
+        LazyLock::new(|| Regex::new(r"(?m)^( *)(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap());
     let (mut public, mut private) = (Vec::new(), Vec::new());
-    for found in declaration.captures_iter(code) {
+    for found in DECLARATION.captures_iter(code) {
         let list = if found.get(2).is_some() { &mut public } else { &mut private };
         // In a module within the file, `super` is the file.
         let tree = if found[1].is_empty() { found[3].to_owned() } else { found[3].replacen("super", "self", 1) };
@@ -193,10 +201,13 @@ fn expand(tree: &str, before: &[String], items: &mut Vec<Item>) {
 
 /// The paths outside `use` declarations.
 fn paths(code: &str) -> Vec<Item> {
-    let declaration = Regex::new(r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+[^;]+;").unwrap();
-    let path = Regex::new(r"(?:^|[^\w:])(\w+(?:::\w+)+)").unwrap();
+    static PATTERNS: LazyLock<[Regex; 3]> = LazyLock::new(|| {
+        let declaration = r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+[^;]+;";
+        [declaration, r"pub\(in [^)]*\)", r"(?:^|[^\w:])(\w+(?:::\w+)+)"].map(|text| Regex::new(text).unwrap())
+    });
+    let [declaration, within, path] = &*PATTERNS;
     let code = declaration.replace_all(code, "");
-    let code = Regex::new(r"pub\(in [^)]*\)").unwrap().replace_all(&code, "pub");
+    let code = within.replace_all(&code, "pub");
     path.captures_iter(&code).map(|found| found[1].split("::").map(str::to_owned).collect()).collect()
 }
 

@@ -35,6 +35,9 @@ type Set = [u64; 4];
 /// The constants and the inputs.
 const START: [u8; 5] = [0x00, 0xff, 0xaa, 0xcc, 0xf0];
 
+/// The values of two functions in a row.
+const PATTERNS: [(bool, bool); 4] = [(false, false), (false, true), (true, false), (true, true)];
+
 fn insert(set: &mut Set, truth: u8) -> bool {
     let (word, bit) = (&mut set[usize::from(truth >> 6)], 1u64 << (truth & 63));
     let new = *word & bit == 0;
@@ -43,12 +46,21 @@ fn insert(set: &mut Set, truth: u8) -> bool {
 }
 
 fn members(set: &Set) -> Vec<u8> {
-    (0..=255u8).filter(|truth| set[usize::from(truth >> 6)] >> (truth & 63) & 1 == 1).collect()
+    let mut members = Vec::new();
+    for (place, mut word) in (0u8..).zip(*set) {
+        while word != 0 {
+            members.push(place << 6 | word.trailing_zeros() as u8);
+            word &= word - 1;
+        }
+    }
+    members
 }
 
-/// The function of two functions, row by row.
+/// The function of two functions: the rows where they are one of the patterns at which `function` is 1.
 fn composed(function: Function, a: u8, b: u8) -> u8 {
-    (0..8).fold(0, |made, row| made | u8::from(function.output(a >> row & 1 == 1, b >> row & 1 == 1)) << row)
+    let rows = |x: bool, y: bool| if x { a } else { !a } & if y { b } else { !b };
+    let ones = PATTERNS.into_iter().filter(|&(x, y)| function.output(x, y));
+    ones.fold(0, |made, (x, y)| made | rows(x, y))
 }
 
 /// The functions that one more cell adds to a set.

@@ -81,6 +81,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         title: test.title,
         swarm: None,
         level: Level::Physics,
+        printed: None,
         passed: rows.iter().all(|row| row.passed),
         inputs: test.inputs,
         outputs: test.outputs,
@@ -92,6 +93,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
 pub fn assembly(trace: &SwarmTrace) -> Assembly {
     let member = |k: usize| Member {
         net: trace.robots[k].net.clone(),
+        block: trace.robots[k].block.clone(),
         robot: robot(&trace.robots[k].robot, trace.robots[k].function),
         senses: trace.robots[k].senses.clone(),
         start: false,
@@ -118,7 +120,8 @@ fn page() -> String {
 fn page_of(trace: &SwarmTrace) -> String {
     let (assembly, verdict) = (assembly(trace), verdict(trace));
     let robots: Vec<&Robot> = assembly.members.iter().map(|member| &member.robot).collect();
-    let schematic = report::draw_schematic(&latch_netlist(), &robots, &[], Scheme::Paper);
+    let netlist = latch_netlist();
+    let schematic = report::Schematic::of(&netlist, &robots, &[], Scheme::Paper).pages();
     let spacetime = report::draw_swarm(trace);
     let test = || PageSwarm {
         outcome: SwarmOutcome::Test(&verdict),
@@ -175,7 +178,9 @@ fn the_page_of_a_large_swarm_is_small() {
     let swarm = &data(&page)["swarms"][0];
     let cells: Vec<_> = swarm["robots"].as_array().unwrap().iter().map(|robot| robot["cell"].as_u64()).collect();
     assert_eq!(cells, [Some(1), Some(4)], "a robot of the player knows its cell of the schematic");
-    assert_eq!(swarm["waves"].as_array().unwrap().len(), 2 + 2 + 2, "inputs, recorded robots, outputs");
+    let rows = ["inputs", "outputs", "cells"].map(|rows| swarm[rows].as_array().unwrap().len());
+    assert_eq!(rows, [2, 2, 5], "every robot has its bits, recorded or not");
+    assert_eq!(swarm["cells"][0]["bits"].as_str().unwrap().len(), 1000 / 4, "four cycles are a digit");
 }
 
 /// Headless Chromium with a file.
@@ -237,6 +242,24 @@ const rows = [...section.querySelectorAll("tr")].filter(row => row.querySelector
   .map(row => [...row.cells].map(cell => cell.textContent.trim()));
 section.querySelector(".play").click();
 later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
+</script>"#;
+
+const SHEETS: &str = r#"<script>
+const { sheets } = schematic, whole = schematic.parts("part").map(([, sheet]) => sheets[Number(sheet)].name);
+const boxes = schematic.parts("part"), cells = schematic.parts("cell").length, whole_about = sheets[0].about;
+boxes[0][0].dispatchEvent(new MouseEvent("click"));
+const opened = sheets[schematic.sheet].name;
+const crumbs = [...document.querySelectorAll(".crumbs button")].map(crumb => crumb.textContent);
+const search = document.querySelector(".search"); search.value = "q[5]"; search.dispatchEvent(new Event("input"));
+document.querySelector(".results button").click();
+const robot = schematic.cells[schematic.chosen.robot].net, panel = document.querySelector(".robot").textContent;
+const reach = document.querySelector(".reach"); reach.value = "before"; reach.dispatchEvent(new Event("change"));
+const marked = schematic.marked().size, lit = schematic.svg.querySelectorAll(".marked").length;
+schematic.leave(); schematic.open(0);
+const path = schematic.parts("part").filter(([part]) => part.classList.contains("marked")).length;
+const high = document.documentElement.scrollHeight / innerHeight;
+const wide = document.documentElement.scrollWidth <= innerWidth;
+tell({ whole, cells, whole_about, opened, crumbs, robot, panel, marked, lit, path, high, wide });
 </script>"#;
 
 /// What the reader's script tells on the console. Frames come in real time only: a virtual clock runs ahead of them on
@@ -311,6 +334,41 @@ fn the_page_of_a_run_works_in_a_browser() {
     }
     keep(&browser, "run", &page, (1100, 1500), LIGHT);
     keep(&browser, "run-phone-dark", &page, (500, 1500), DARK);
+}
+
+/// Two adders in a row.
+const SUMS: &str = "
+circuit sums(a[8], b[8], c[8]) -> (q[8]) {
+    first  = a + b
+    second = first + c
+    q = not second
+}
+";
+
+#[test]
+fn the_sheets_of_a_schematic_open_in_a_browser() {
+    let bench = Bench::new();
+    bench.file("sums.nb", SUMS);
+    for name in ["a", "b"] {
+        assert_eq!(bench.run(&["draw", "sums.nb", "--as", "schematic", "-o", &format!("{name}.html")]).status, 0);
+    }
+    let page = std::fs::read_to_string(bench.path().join("a.html")).unwrap();
+    assert!(page == std::fs::read_to_string(bench.path().join("b.html")).unwrap(), "the same page each time");
+    let sheets = data(&page)["schematic"]["sheets"].as_array().unwrap().len();
+    assert!(sheets >= 3, "{sheets} sheets");
+    let Some(browser) = CHROMIUM.find() else { return };
+    for size in ["--window-size=1200,900", "--window-size=500,800"] {
+        let found = found(&browser, &page, SHEETS, size);
+        assert_eq!(found["whole"], serde_json::json!(["first", "second"]), "{found}");
+        assert_eq!((&found["opened"], &found["crumbs"]), (&"first".into(), &serde_json::json!(["sums", "first"])));
+        assert_eq!((&found["cells"], &found["whole_about"]), (&0.into(), &"68 robots".into()), "{found}");
+        assert_eq!(found["robot"], "q[5]", "{found}");
+        assert!(found["panel"].as_str().unwrap().starts_with("q[5] = "), "{found}");
+        assert!(found["marked"].as_u64().unwrap() > 20 && found["lit"].as_u64().unwrap() > 2, "{found}");
+        assert_eq!(found["path"], 2, "the path of a sum runs through both adders: {found}");
+        assert!(found["high"].as_f64().unwrap() < 2.5, "{found}");
+    }
+    keep(&browser, "sheets", &page, (1100, 900), LIGHT);
 }
 
 #[test]

@@ -214,6 +214,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     let paper = &store::shipped_library().robots[0];
     let member = |robot: &Robot| Member {
         net: robot.name.clone(),
+        block: Vec::new(),
         robot: robot.clone(),
         senses: vec![StimulusSource::Input(0), StimulusSource::Constant(false)],
         start: false,
@@ -221,7 +222,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     };
     let assembly = Assembly {
         circuit: "both".to_owned(),
-        inputs: vec![Column { name: "a".to_owned(), width: 1 }],
+        inputs: vec![Column::new("a", 1)],
         members: vec![member(robot), member(paper)],
         outputs: Vec::new(),
         shown: Vec::new(),

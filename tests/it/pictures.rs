@@ -3,7 +3,7 @@
 use crate::support::traces::{large, latch, latch_netlist};
 use nbc_base::model::{Body, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory, Trial};
 use nbc_circuit::Netlist;
-use nbc_session::report::{self, Scheme};
+use nbc_session::report::{self, Schematic, Scheme};
 use nbc_swarm::{StimulusSource, SwarmTrace};
 
 fn paper_rows() -> SwarmTrace {
@@ -135,7 +135,7 @@ fn one_robots_diagram_shows_its_schedule() {
 fn the_schematic_has_a_box_for_each_cell_and_a_wire_for_each_pin() {
     let netlist = latch_netlist();
     let critical: Vec<_> = netlist.inputs()[..1].iter().copied().chain(netlist.cells().map(|(id, _)| id)).collect();
-    let svg = report::draw_schematic(&netlist, &[], &critical, Scheme::Paper).finish();
+    let svg = Schematic::of(&netlist, &[], &critical, Scheme::Paper).top().finish();
     let document = roxmltree::Document::parse(&svg).unwrap();
     let cells: Vec<&str> = document
         .descendants()
@@ -156,7 +156,7 @@ fn the_schematic_has_a_box_for_each_cell_and_a_wire_for_each_pin() {
 
 #[test]
 fn unusual_netlists_are_drawn() {
-    report::png(&report::draw_schematic(&Netlist::new("empty"), &[], &[], Scheme::Safe));
+    report::png(&Schematic::of(&Netlist::new("empty"), &[], &[], Scheme::Safe).top());
     let mut netlist = Netlist::new("through");
     let a = netlist.add_input("a_name_that_is_much_too_long");
     let one = netlist.add_constant(true);
@@ -164,7 +164,7 @@ fn unusual_netlists_are_drawn() {
     netlist.add_output("z", one);
     let gate = netlist.add_gate(Function::NAND, &[a, a]);
     netlist.drive(gate, 1, gate);
-    report::png(&report::draw_schematic(&netlist, &[], &[], Scheme::Safe));
+    report::png(&Schematic::of(&netlist, &[], &[], Scheme::Safe).top());
 }
 
 #[test]

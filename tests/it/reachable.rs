@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use nbc_base::model::Function;
 use nbc_base::source::FileId;
-use nbc_circuit::formats::{Design, Register, RegisterKind, blif};
+use nbc_circuit::formats::{Design, Forcing, Register, RegisterKind, blif};
 use nbc_circuit::reachable::{WhyEveryState, simplify};
 use nbc_circuit::{CellLibrary, Effort, Logic, MapOptions, Netlist};
 use proptest::prelude::*;
@@ -159,6 +159,7 @@ fn design(registers: &[(bool, bool, bool)], gates: &[(u8, usize, usize)]) -> Des
         kind: if falls { RegisterKind::Falling } else { RegisterKind::Rising },
         clock: Some(if other { "b" } else { "a" }.to_owned()),
         start: start.then_some(true),
+        forcing: Forcing::Never,
     };
     Design { logic, registers: registers.iter().enumerate().map(register).collect() }
 }

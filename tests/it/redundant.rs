@@ -2,7 +2,7 @@
 
 use nbc_base::model::Function;
 use nbc_circuit::correspondence::reduce;
-use nbc_circuit::formats::{Design, Register, RegisterKind};
+use nbc_circuit::formats::{Design, Forcing, Register, RegisterKind};
 use nbc_circuit::network::View;
 use nbc_circuit::{NetId, Netlist};
 use proptest::prelude::*;
@@ -112,6 +112,7 @@ fn machine(recipe: &Recipe) -> Design {
         kind: if falls { RegisterKind::Falling } else { RegisterKind::Rising },
         clock: None,
         start,
+        forcing: Forcing::Never,
     };
     Design { logic, registers: recipe.iter().enumerate().map(register).collect() }
 }

@@ -141,11 +141,12 @@ fn the_same_source_gives_the_same_cells() {
     }
 }
 
-/// A fake Yosys that records its input and writes the given `flat.blif` as the result.
+/// A fake Yosys that records its input and writes the given `flat.blif` as the result, with empty files of places.
 const FAKE_YOSYS: &str = "#!/bin/sh
 here=$(dirname \"$0\")
 echo \"$@\" >> \"$here/given\"
 cp \"$here/flat.blif\" flat.blif
+touch flat.il undriven.txt
 ";
 
 #[cfg(unix)]

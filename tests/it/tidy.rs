@@ -59,7 +59,7 @@ fn forbid(rule: &str, words: &[&str], allowed: impl Fn(&Path) -> bool) {
 fn a_folder_imports_lower_layers_only() {
     let modules = modules();
     let mut found = Vec::new();
-    for (module, imported) in modules.iter().zip(imports(&modules)) {
+    for (module, imported) in modules.iter().zip(imports(modules)) {
         let Some(own) = layer(&folder(&module.path)) else { continue };
         for other in imported.into_iter().map(|at| &modules[at]) {
             let same_crate = place(&module.path).0 == place(&other.path).0;
@@ -180,8 +180,8 @@ fn messages_are_written_in_wording_files() {
 
 #[test]
 fn every_module_has_a_description() {
-    let silent: Vec<_> = modules().into_iter().filter(|module| !module.product.starts_with("//!")).collect();
-    let silent: Vec<String> = silent.iter().map(Module::file).collect();
+    let silent: Vec<_> = modules().iter().filter(|module| !module.product.starts_with("//!")).collect();
+    let silent: Vec<String> = silent.iter().map(|module| module.file()).collect();
     assert!(silent.is_empty(), "every module opens with a line that says what it is: {silent:?}");
 }
 
@@ -199,7 +199,7 @@ fn every_numbered_citation_of_the_model_exists() {
 #[test]
 fn files_do_not_import_each_other_in_circles() {
     let modules = modules();
-    let imports = imports(&modules);
+    let imports = imports(modules);
     let arrows = |circle: &BTreeSet<usize>| {
         let arrow = |&from: &usize| {
             let to = imports[from].intersection(circle).map(|&to| modules[to].file()).collect::<Vec<_>>();

@@ -218,9 +218,6 @@ fn errors_of_yosys_are_at_the_line_of_the_used_file() {
     check("module unit(input a, output q);\nassign = a;\nendmodule\n", &["yosys cannot read `unit.v`", "unit.v:2:1"]);
     let missing = "module unit(input a, output q);\ngone u(a, q);\nendmodule\n";
     check(missing, &["yosys cannot read `unit.v`", "gone", "p.nb:1:5"]);
-    let reset = "module unit(input a, r, c, output reg q);\n  always @(posedge c or posedge r)\n    \
-        if (r) q <= 0; else q <= a;\nendmodule\n";
-    check(reset, &["asynchronous set or reset", "unit.v:2:3", "p.nb:1:5", "reset it at the clock"]);
     check("module unit(input a);\nendmodule\n", &["`unit.v` has no module with an output", "p.nb:1:5"]);
 }
 

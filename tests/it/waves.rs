@@ -41,6 +41,19 @@ fn a_dump_reads_back_with_the_traces_values() {
 }
 
 #[test]
+fn robots_are_in_the_scopes_of_their_parts() {
+    let mut trace = latch(&[(true, true), (false, false)], 3);
+    let part = |names: &[&str]| names.iter().map(|&name| name.to_owned()).collect::<Vec<_>>();
+    trace.robots[1].block = part(&["one", "store[0]"]);
+    trace.robots[4].block = part(&["one"]);
+    trace.robots[4].net = "one/nq".to_owned();
+    let mut waves = read_from_reader(Cursor::new(report::vcd(&trace).into_bytes())).unwrap();
+    for name in ["d_latch.one.store_0.robot_q.bit", "d_latch.one.robot_nq.bit", "d_latch.inputs.d"] {
+        assert!(!changes(&mut waves, name).is_empty(), "{name}");
+    }
+}
+
+#[test]
 fn a_run_writes_its_waveforms_beside_the_report() {
     let bench = Bench::new();
     let program =
@@ -69,7 +82,7 @@ fn an_empty_trace_is_a_dump_too() {
 #[test]
 fn a_bus_is_a_vector_in_the_dump() {
     let mut trace = latch(&[(true, false), (false, true)], 2);
-    trace.inputs = vec![nbc_base::model::Column { name: "both".to_owned(), width: 2 }];
+    trace.inputs = vec![nbc_base::model::Column::new("both", 2)];
     (trace.outputs[0].name, trace.outputs[1].name) = ("q_".to_owned(), "__".to_owned());
     let mut waves = read_from_reader(Cursor::new(report::vcd(&trace).into_bytes())).unwrap();
     let told = changes(&mut waves, "d_latch.inputs.both");

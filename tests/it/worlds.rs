@@ -4,7 +4,7 @@ use nbc::{
     Body, CompileOptions, Level, MemoryWorld, Palette, Pattern, Schedule, Session, Setting, Simulator, TestOptions,
     TestRun, Trajectory, Trial,
 };
-use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
+use nbc_base::model::{GroundProfile, PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_session::report::Stage;
 use nbc_swarm::{Assembly, Recording, Room, SwarmConditions, SwarmTrace, simulate};
 
@@ -50,6 +50,12 @@ fn a_world_changes_the_physics_and_the_papers_does_not() {
     for (field, value) in fields.into_iter().chain([("start", "0.3"), ("weak", "5%"), ("dead", "20%")]) {
         assert_ne!(paths(&format!("world other {{ {field}: {value} }}"), "in other"), paper, "{field}");
     }
+    assert_eq!(paths("world flat { ground: [2, 2] }", "in flat"), paper);
+    let stairs = "world stairs { ground: [0, 0, 0, 1] }\n";
+    let on_stairs = paths(stairs, "in stairs");
+    assert_ne!(on_stairs, paper);
+    assert_eq!(paths(&format!("{stairs}world same {{ from: stairs, friction: 1 }}"), "in same"), on_stairs);
+    assert_eq!(paths(&format!("{stairs}world even {{ from: stairs, ground: 0 }}"), "in even"), paper);
 }
 
 #[test]
@@ -94,7 +100,8 @@ fn factors_multiply_what_they_name() {
     // A body falls from the end of the ground with the acceleration of gravity.
     let fall = |gravity: f64| {
         let factors = WorldFactors { gravity, ..WorldFactors::default() };
-        let edge = Setting { world_width: 50, start_x: Some(0), shift: -20.0, factors };
+        let edge =
+            Setting { world_width: 50, start_x: Some(0), shift: -20.0, factors, ground: GroundProfile::default() };
         let heights = walk(&edge).com_y;
         heights[0] - heights[4]
     };
@@ -102,6 +109,23 @@ fn factors_multiply_what_they_name() {
     assert!((ratio - 1.5).abs() < 0.05, "{ratio}");
     let shifted = walk(&Setting { shift: 0.25, ..Setting::default() }).com_x[0] - walk(&Setting::default()).com_x[0];
     assert!((shifted - 0.25).abs() < 1e-9);
+}
+
+#[test]
+fn a_body_starts_above_the_ground_below_it_and_falls_to_it() {
+    let heights = |ground: &[u8], shift: f64| {
+        let ground = GroundProfile::new(ground).unwrap();
+        let walked = walk(&Setting { world_width: 60, start_x: Some(30), shift, ground, ..Setting::default() });
+        [walked.com_y[0], walked.com_y[40]]
+    };
+    let flat = heights(&[0], 0.0);
+    let high = heights(&[0, 0, 0, 4, 4, 4, 4, 4, 4, 4], 3.5);
+    assert!((high[0] - flat[0] - 4.0).abs() < 1e-9);
+    assert!((high[1] - flat[1] - 4.0).abs() < 0.3, "{high:?} and {flat:?}");
+    // One column below it is a wall.
+    let mut columns = [0; 30];
+    columns[29] = 3;
+    assert!((heights(&columns, -0.9)[0] - flat[0] - 3.0).abs() < 1e-9);
 }
 
 /// The swarm of the program's test in a world with noise.

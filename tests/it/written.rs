@@ -2,7 +2,7 @@
 
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::{FileId, MemoryWorld, Sources};
-use nbc_circuit::formats::{CircuitFormat, Design, Register, RegisterKind, aiger, blif, buses};
+use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses};
 use nbc_circuit::{Logic, NetId, Netlist, elaborate, registers};
 use nbc_lang::{check, syntax};
 use nbc_session::store;
@@ -148,13 +148,16 @@ proptest! {
         assert!(text.chars().all(|c| c == '\n' || c == ' ' || c.is_ascii_graphic()), "{text}");
         let head = text.lines().next().unwrap();
         // An escaped name and the plain one are the same name.
-        let names: std::collections::BTreeSet<String> = head
-            .split_once('(').unwrap().1
-            .split("put ").skip(1)
-            .map(|name| name.trim_start_matches('\\').split([' ', ',']).next().unwrap())
-            .map(|name| name.trim_end_matches(");").to_owned())
-            .collect();
-        assert_eq!(names.len(), ports, "{head}");
+        let mut names = std::collections::BTreeSet::new();
+        let mut bits = 0;
+        for port in head.split_once('(').unwrap().1.split("put ").skip(1) {
+            let (range, name) = port.strip_prefix('[').and_then(|port| port.split_once("] ")).unwrap_or(("0:0", port));
+            let (high, low) = range.split_once(':').unwrap();
+            bits += high.parse::<usize>().unwrap() + 1 - low.parse::<usize>().unwrap();
+            let name = name.trim_start_matches('\\').split([' ', ',']).next().unwrap();
+            assert!(names.insert(name.trim_end_matches(");").to_owned()), "{head}");
+        }
+        assert_eq!(bits, ports, "{head}");
     }
 }
 
@@ -185,6 +188,7 @@ fn with_registers() -> Design {
         kind: at.checked_sub(4).map_or(RegisterKind::Rising, |at| kinds[at]),
         clock: Some("clk".to_owned()),
         start: Some(at % 2 == 1),
+        forcing: Forcing::Never,
     };
     Design { registers: names.iter().enumerate().map(register).collect(), logic }
 }

@@ -317,6 +317,26 @@ export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { id: number, error: Refusal, }
   | { id: number, progress: [number, number], } | PlayEvent;
 
+/** A schematic, of which the page shows a sheet at a time. */
+export type ShownSchematic = {
+  /** The sheets, each after the one around it; the first shows the whole. */
+  sheets: Array<ShownSheet>,
+  /** The bodies of the robots, each an SVG. */
+  bodies: Array<string>,
+  /** For each robot, the sheet that shows it. */
+  homes: Array<number>,
+};
+
+/** A part of a circuit. */
+export type ShownSheet = {
+  name: string,
+  about: string,
+  /** The sheet around it. */
+  outer: number | null,
+  /** An SVG. */
+  svg: string,
+};
+
 /** The swarm of a page. */
 export type ShownSwarm = {
   /** Counts the swarms of a connection; frames have its lowest byte. */
@@ -329,13 +349,14 @@ export type ShownSwarm = {
   shown: Array<BitSource>,
   robots: Array<SwarmRobot>,
   looks: Array<VoxelLook>,
-  /** An SVG. */
-  schematic: string,
+  schematic: ShownSchematic,
   timing: string,
   /** Cycles after which every change has settled. */
   hold: number,
   /** Cycles at the start in which the robots take their shape. */
   start: number,
+  /** How high the ground is in voxels: of columns that repeat; none if it is flat. */
+  ground: Array<number>,
   /** Poses in a cycle. */
   frames: number,
   /** What it is as a wave machine. */

@@ -8,6 +8,8 @@ export class Selection {
   readonly pointed = new Observable<BitSource | null>(null);
   /** The robot that is followed alone. */
   readonly followed = new Observable<number | null>(null);
+  /** The robots of the part of the circuit that is open; null are all. */
+  readonly opened = new Observable<number[] | null>(null);
 
   point(source: BitSource | null): void {
     if (!sameSource(source, this.pointed.value)) {
@@ -23,6 +25,7 @@ export class Selection {
   clear(): void {
     this.pointed.set(null);
     this.followed.set(null);
+    this.opened.set(null);
   }
 }
 

@@ -1,5 +1,6 @@
 // Files to take away: the program, and what the server makes of the run.
 
+import { wholeOf } from "./live/schematic_parts";
 import { CANCELLED, type Connection } from "./connection";
 import { button, element, fill } from "./element";
 import type { LiveSwarm } from "./live/swarm";
@@ -58,7 +59,7 @@ export class TakeAway {
   #schematic(): void {
     const definition = this.swarm.definition.value;
     if (definition !== null) {
-      downloadText(definition.schematic, "image/svg+xml", `${definition.circuit.replace(/\W+/g, "_")}.svg`);
+      downloadText(wholeOf(definition.schematic), "image/svg+xml", `${definition.circuit.replace(/\W+/g, "_")}.svg`);
     }
   }
 

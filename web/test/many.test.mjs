@@ -89,6 +89,18 @@ test("scrolling brings the others", async () => {
   await cyclesLater(page, 2);
 });
 
+test("a box of the schematic opens, and its robots are shown alone", async () => {
+  const high = () => page.locator(".stage").evaluate(stage => stage.scrollHeight);
+  const before = await high();
+  const boxes = await page.locator('.schematic [data-id^="part-"]').count();
+  assert.ok(boxes > 0 && boxes <= 40, `${boxes} boxes`);
+  await page.locator('.schematic [data-id^="part-"]').first().press("Enter");
+  await page.waitForFunction(before => document.querySelector(".stage").scrollHeight < before / 2, before);
+  assert.equal(await page.locator(".schematic .crumbs button").count(), 2);
+  await page.locator(".schematic .crumbs button").first().press("Enter");
+  await page.waitForFunction(before => document.querySelector(".stage").scrollHeight >= before, before);
+});
+
 test("a number is added", async () => {
   await page.locator('input[data-input="a"]').fill("1234567");
   await page.locator('input[data-input="a"]').press("Enter");

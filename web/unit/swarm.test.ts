@@ -20,10 +20,11 @@ const SWARM = {
   robots: [],
   shown: [],
   looks: [],
-  schematic: "",
+  schematic: { sheets: [], bodies: [], homes: [] },
   timing: "",
   hold: 2,
   start: 1,
+  ground: [],
   frames: 12,
   waves: null,
 } satisfies ShownSwarm;

@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::formats::{Design, RegisterKind};
+use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::network::{Gate, Network, Signal, View};
 use crate::passes::{self, Pass, Sweep};
 use crate::proof::SatSweep;
@@ -69,15 +69,23 @@ struct Classes<'d> {
     network: &'d Network,
     /// The signal that represents each register: a constant, or the first register of its class.
     leaders: Vec<Signal>,
+    /// The signals that force each register.
+    forcing: Vec<&'d [Signal]>,
 }
 
-/// What distinguishes registers: a constant or the leader before, the clock, and values.
-type Key<'d> = (Option<Signal>, Option<(u8, &'d str)>, Vec<u64>);
+/// What distinguishes registers: a constant or the leader before, what changes them, and values.
+type Key<'d> = (Option<Signal>, Change<'d>, Vec<u64>);
+
+/// What changes a register: its clock, and the signals that force it.
+type Change<'d> = ((u8, &'d str), Forcing, &'d [Signal]);
 
 impl<'d> Classes<'d> {
     /// The classes for which the proof holds.
     fn of(design: &'d Design, network: &'d Network) -> Self {
-        let mut classes = Self { design, network, leaders: Vec::new() };
+        let mut rest = &network.outputs[design.outputs() + design.registers.len()..];
+        let split = |register: &Register| rest.split_off(..register.forcing.nets().len()).expect("one for each net");
+        let forcing = design.registers.iter().map(split).collect();
+        let mut classes = Self { design, network, leaders: Vec::new(), forcing };
         let histories = classes.histories();
         classes.split(|at| (None, histories[at].clone()));
         loop {
@@ -103,7 +111,20 @@ impl<'d> Classes<'d> {
 
     /// The signals of the next values in a network with the same outputs.
     fn nexts<'n>(&self, network: &'n Network) -> &'n [Signal] {
-        &network.outputs[self.design.outputs()..]
+        &network.outputs[self.design.outputs()..][..self.design.registers.len()]
+    }
+
+    /// The value of a register where the signals of some values force it.
+    fn forced(&self, at: usize, value: u64, values: &[u64]) -> u64 {
+        let register = &self.design.registers[at];
+        match (register.forcing, self.forcing[at]) {
+            (Forcing::ToStart, &[reset]) => {
+                let reset = values[reset as usize];
+                value & !reset | filled(register.starts_at()) & reset
+            }
+            (Forcing::SetReset, &[set, reset]) => (value | values[set as usize]) & !values[reset as usize],
+            _ => value,
+        }
     }
 
     /// The values of each register in a simulation from the start, 64 runs in a word.
@@ -119,7 +140,7 @@ impl<'d> Classes<'d> {
                 let tick =
                     *ticks.entry(event(register.kind, register.clock_name())).or_insert_with(|| random.next_u64());
                 let next = values[self.nexts(self.network)[at] as usize];
-                now[at] = next & tick | now[at] & !tick;
+                now[at] = self.forced(at, next & tick | now[at] & !tick, &values);
                 histories[at].push(now[at]);
             }
         }
@@ -137,10 +158,12 @@ impl<'d> Classes<'d> {
             let own = self.state(at);
             let constant = [false, true].into_iter().find(|&value| words.iter().all(|&word| word == filled(value)));
             let constant = constant.map(Signal::from).filter(|&signal| before.is_none_or(|before| before == signal));
+            let change = (event(register.kind, register.clock_name()), register.forcing, self.forcing[at]);
             leaders.push(match constant {
                 _ if clocks.contains(register.name.as_str()) => own,
-                Some(constant) => constant,
-                None => *known.entry((before, Some(event(register.kind, register.clock_name())), words)).or_insert(own),
+                // A set and a reset need not agree with the start value.
+                Some(constant) if register.forcing != Forcing::SetReset => constant,
+                _ => *known.entry((before, change, words)).or_insert(own),
             });
         }
         self.leaders = leaders;
@@ -227,6 +250,7 @@ impl<'d> Classes<'d> {
 fn remove_unused(design: &mut Design) -> Vec<String> {
     let states = design.logic.inputs()[design.inputs()..].to_vec();
     let nexts = design.logic.outputs()[design.outputs()..].to_vec();
+    let forcing = design.forcing();
     let register_of: BTreeMap<NetId, usize> = states.iter().enumerate().map(|(at, &state)| (state, at)).collect();
     let clocks: BTreeSet<&str> = design.registers.iter().map(|register| register.clock_name()).collect();
     let is_clock = |at: &usize| clocks.contains(design.registers[*at].name.as_str());
@@ -234,8 +258,9 @@ fn remove_unused(design: &mut Design) -> Vec<String> {
     pending.extend((0..states.len()).filter(is_clock).map(|at| states[at]));
     let mut used: BTreeSet<NetId> = pending.iter().copied().collect();
     while let Some(id) = pending.pop() {
-        let next = register_of.get(&id).map(|&at| nexts[at]);
-        pending.extend(design.logic.pins(id).into_iter().chain(next).filter(|&pin| used.insert(pin)));
+        let next = register_of.get(&id).map(|&at| std::iter::once(nexts[at]).chain(forcing[at].iter().copied()));
+        let pins = design.logic.pins(id).into_iter().chain(next.into_iter().flatten());
+        pending.extend(pins.filter(|&pin| used.insert(pin)));
     }
     let kept: Vec<bool> = states.iter().map(|state| used.contains(state)).collect();
     let names = design.registers.iter().zip(&kept).filter(|(_, kept)| !**kept);
@@ -249,7 +274,9 @@ fn keep(design: &mut Design, kept: &[bool]) {
     let states = design.logic.inputs()[design.inputs()..].to_vec();
     let nexts = design.logic.outputs()[design.outputs()..].to_vec();
     let others = || (0..kept.len()).filter(|&at| !kept[at]);
-    others().for_each(|at| design.logic.remove(nexts[at]));
+    let all = design.forcing();
+    let forcing: Vec<NetId> = others().flat_map(|at| all[at].to_vec()).collect();
+    others().map(|at| nexts[at]).chain(forcing).for_each(|output| design.logic.remove(output));
     Sweep.run(&mut design.logic).expect("sweeping only removes");
     others().for_each(|at| design.logic.remove(states[at]));
     let mut at = 0..;
@@ -268,7 +295,6 @@ fn filled(value: bool) -> u64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::formats::Register;
     use nbc_base::model::Function;
 
     /// A design with a register for each of these next values, functions of the input `d` or of an earlier or later
@@ -291,6 +317,7 @@ mod tests {
             kind: RegisterKind::Rising,
             clock: None,
             start: Some(false),
+            forcing: Forcing::Never,
         };
         nexts.iter().for_each(|&next| _ = logic.add_output("next", next));
         Design { logic, registers: registers.iter().map(register).collect() }

@@ -1,11 +1,13 @@
 //! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
+mod blocks;
 mod cancel;
 mod cells;
 mod components;
 pub mod correspondence;
 mod delayed;
 pub mod elaborate;
+mod environment;
 #[cfg(test)]
 mod example;
 pub mod formats;
@@ -27,18 +29,21 @@ pub mod reachable;
 mod recipes;
 pub mod registers;
 mod rings;
+mod signal_blocks;
 mod storage;
 pub mod synth;
 pub mod timing;
 pub mod waves;
 mod wording;
 
+pub use blocks::{BlockId, Blocks};
 pub use cancel::CancelFlag;
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
 pub use elaborate::{
     Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, is_same_instance,
 };
+pub use environment::{Environment, EnvironmentFault};
 pub use guarded::{Guarded, Role};
 pub use logic::Logic;
 pub use loops::Loops;

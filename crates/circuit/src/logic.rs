@@ -6,6 +6,7 @@ use crate::netlist::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
 /// The values of the nets of a netlist, which change with its inputs.
+#[derive(Clone, Debug)]
 pub struct Logic {
     inputs: Vec<u32>,
     outputs: Vec<u32>,
@@ -16,6 +17,7 @@ pub struct Logic {
 }
 
 /// A cell with the slots of its function's inputs.
+#[derive(Clone, Debug)]
 struct Gate {
     function: Function,
     pins: Vec<u32>,

@@ -11,8 +11,9 @@ use crate::options::{MapOptions, MappingObjective};
 use crate::passes::{self, DissolveWires, Pass, Sweep};
 use crate::proof::core_names;
 use crate::recipes::{Operand, Recipe, Recipes};
+use crate::signal_blocks::SignalBlocks;
 use crate::synth::{CellNetwork, reduce, widen};
-use crate::{MapError, NetId, Netlist, Node};
+use crate::{BlockId, MapError, NetId, Netlist, Node};
 use nbc_base::model::Function;
 
 /// Maps a netlist onto a library for few robots, at normal effort.
@@ -85,7 +86,7 @@ impl<'a> Mapper<'a> {
             kept: guarded.cells().collect(),
             guarded,
             recipes: Recipes::of(library),
-            mapped: Netlist::new(&source.name),
+            mapped: Netlist::with_blocks_of(source),
             net: BTreeMap::new(),
         }
     }
@@ -109,7 +110,9 @@ impl<'a> Mapper<'a> {
         let reduced =
             reduce(&network, &self.stages(), self.library, options).map_err(|missing| self.missing(missing))?;
         let cells = widen(&network, &reduced, &self.stages(), self.library, options);
-        let nets = self.copy(&cells);
+        let ports: Vec<usize> = (0..network.inputs).collect();
+        let blocks = SignalBlocks::of(self.source, &view).of_cells(&network, &cells, &ports);
+        let nets = self.copy(&cells, &blocks);
         let shown: BTreeMap<NetId, NetId> = sinks.into_iter().zip(nets).collect();
         for &id in &self.kept.clone() {
             let pins: Vec<_> = self.source.pins(id).iter().map(|pin| shown[pin]).collect();
@@ -147,7 +150,7 @@ impl<'a> Mapper<'a> {
     }
 
     /// Adds the cells of a network whose inputs are the ports and the kept nets; returns the nets of its outputs.
-    fn copy(&mut self, network: &CellNetwork) -> Vec<NetId> {
+    fn copy(&mut self, network: &CellNetwork, blocks: &[BlockId]) -> Vec<NetId> {
         let mut constants = [None; 2];
         let mut nets: Vec<Option<NetId>> = vec![None, None];
         nets.extend(self.source.inputs().iter().chain(&self.kept).map(|id| Some(self.net[id])));
@@ -156,9 +159,11 @@ impl<'a> Mapper<'a> {
             nets[signal as usize]
                 .unwrap_or_else(|| *constants[signal as usize].get_or_insert_with(|| mapped.add_constant(signal == 1)))
         };
-        for cell in &network.cells {
+        for (cell, &block) in network.cells.iter().zip(blocks) {
             let pins: Vec<NetId> = cell.pins.iter().map(|&pin| net(mapped, &nets, pin)).collect();
-            nets.push(Some(mapped.add_gate(cell.function, &pins)));
+            let made = mapped.add_gate(cell.function, &pins);
+            mapped.put_into(made, block);
+            nets.push(Some(made));
         }
         network.outputs.iter().map(|&output| net(mapped, &nets, output)).collect()
     }
@@ -172,7 +177,9 @@ impl<'a> Mapper<'a> {
         for step in &steps {
             let pins = step.pins.map(|operand| self.operand(operand, pins, &nets));
             let used = if step.function.depends_on(1) { 2 } else { 1 };
-            nets.push(self.mapped.add_gate(step.function, &pins[..used]));
+            let made = self.mapped.add_gate(step.function, &pins[..used]);
+            self.mapped.put_into(made, self.source.block(id));
+            nets.push(made);
         }
         let net = self.operand(result, pins, &nets);
         if let (Node::Cell(made), Operand::Step(_)) = (self.mapped.node_mut(net), result) {

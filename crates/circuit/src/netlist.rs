@@ -8,6 +8,7 @@ use petgraph::Direction::Incoming;
 use petgraph::stable_graph::{NodeIndex, StableDiGraph};
 use petgraph::visit::EdgeRef;
 
+use crate::blocks::{BlockId, Blocks};
 use nbc_base::model::Function;
 use nbc_base::source::Span;
 
@@ -61,6 +62,7 @@ pub struct Netlist {
     graph: NetGraph,
     inputs: Vec<NetId>,
     outputs: Vec<NetId>,
+    blocks: Blocks,
 }
 
 impl Netlist {
@@ -69,29 +71,67 @@ impl Netlist {
         Self { name: name.into(), ..Self::default() }
     }
 
+    /// A netlist without nodes that has the blocks of another.
+    pub(crate) fn with_blocks_of(other: &Self) -> Self {
+        Self { blocks: other.blocks.without_nodes(), ..Self::new(&other.name) }
+    }
+
+    /// Adds a node that is in no block. It may take the place of one that was removed.
+    fn add(&mut self, node: Node) -> NetId {
+        let id = self.graph.add_node(node);
+        self.blocks.put(id.index(), BlockId::TOP);
+        id
+    }
+
+    /// The calls that the cells come from.
+    pub fn blocks(&self) -> &Blocks {
+        &self.blocks
+    }
+
+    /// The calls, to add some.
+    pub fn blocks_mut(&mut self) -> &mut Blocks {
+        &mut self.blocks
+    }
+
+    /// The call that a cell comes from.
+    pub fn block(&self, id: NetId) -> BlockId {
+        self.blocks.of(id.index())
+    }
+
+    /// Puts a cell into a block.
+    pub fn put_into(&mut self, id: NetId, block: BlockId) {
+        self.blocks.put(id.index(), block);
+    }
+
     /// Adds an input port after the others.
     pub fn add_input(&mut self, name: impl Into<String>) -> NetId {
-        let id = self.graph.add_node(Node::Input(name.into()));
+        let id = self.add(Node::Input(name.into()));
         self.inputs.push(id);
         id
     }
 
     /// Adds an output port after the others, showing `net`.
     pub fn add_output(&mut self, name: impl Into<String>, net: NetId) -> NetId {
-        let id = self.graph.add_node(Node::Output(name.into()));
-        self.graph.add_edge(net, id, 0);
+        let id = self.add_loose_output(name);
+        self.connect(id, 0, net);
+        id
+    }
+
+    /// Adds an output port after the others that shows nothing yet; [`Netlist::connect`] sets what it shows.
+    pub fn add_loose_output(&mut self, name: impl Into<String>) -> NetId {
+        let id = self.add(Node::Output(name.into()));
         self.outputs.push(id);
         id
     }
 
     /// Adds a net that is always 0 or always 1.
     pub fn add_constant(&mut self, value: bool) -> NetId {
-        self.graph.add_node(Node::Constant(value))
+        self.add(Node::Constant(value))
     }
 
     /// Adds a wire without a driver; [`Netlist::drive`] sets the driver.
     pub fn add_wire(&mut self, name: impl Into<String>, start: Option<bool>, span: Option<Span>) -> NetId {
-        self.graph.add_node(Node::Wire { name: name.into(), start, span })
+        self.add(Node::Wire { name: name.into(), start, span })
     }
 
     /// Adds a cell whose pins 0, 1, … listen to `pins`.
@@ -100,7 +140,7 @@ impl Netlist {
     /// When the number of pins is not one, two or three.
     pub fn add_cell(&mut self, cell: Cell, pins: &[NetId]) -> NetId {
         assert!(matches!(pins.len(), 1..=3), "a cell has one pin, two or three");
-        let id = self.graph.add_node(Node::Cell(cell));
+        let id = self.add(Node::Cell(cell));
         for (pin, &net) in pins.iter().enumerate() {
             self.graph.add_edge(net, id, pin as u8);
         }
@@ -109,7 +149,7 @@ impl Netlist {
 
     /// Adds a gate instance without drivers of its pins; [`Netlist::connect`] sets them.
     pub fn add_loose_cell(&mut self, cell: Cell) -> NetId {
-        self.graph.add_node(Node::Cell(cell))
+        self.add(Node::Cell(cell))
     }
 
     /// Connects an unconnected pin to `net`.

@@ -112,13 +112,19 @@ impl Network {
     /// `k` of result `s` is signal `s`.
     pub fn simulate(&self, inputs: &[u64]) -> Vec<u64> {
         let mut values = Vec::with_capacity(self.signals());
+        self.simulate_into(inputs, &mut values);
+        values
+    }
+
+    /// As [`Network::simulate`], in memory that is there.
+    pub fn simulate_into(&self, inputs: &[u64], values: &mut Vec<u64>) {
+        values.clear();
         values.extend([0, !0]);
         values.extend(inputs);
         for gate in &self.gates {
             let [a, b] = gate.pins.map(|pin| values[pin as usize]);
             values.push(word(gate.function, a, b));
         }
-        values
     }
 
     /// The same network with an inverter for each gate that inverts one signal because its pins are equal or one is a
@@ -143,6 +149,11 @@ impl Network {
 
     /// The gates that the outputs depend on, the others left out.
     pub fn swept(&self) -> Self {
+        self.swept_signals().0
+    }
+
+    /// As [`Network::swept`], and the new number of each signal; one that is left out has that of a constant.
+    pub(crate) fn swept_signals(&self) -> (Self, Vec<Signal>) {
         let mut used = vec![false; self.signals()];
         self.outputs.iter().for_each(|&output| used[output as usize] = true);
         let first = 2 + self.inputs;
@@ -166,7 +177,7 @@ impl Network {
             signal.push(made);
         }
         swept.outputs = self.outputs.iter().map(|&output| signal[output as usize]).collect();
-        swept
+        (swept, signal)
     }
 }
 

@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::formats::{Design, Register, RegisterKind};
+use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::{Cell, NetId, Netlist, Node};
 use nbc_base::model::Function;
 
@@ -29,13 +29,21 @@ pub fn expand(design: &Design) -> Netlist {
             clocks.by_name.entry(logic.net_name(id)).or_insert(net[&id]);
         }
     }
-    for ((&state, &next), register) in states.iter().zip(nexts).zip(&design.registers) {
+    for (((&state, &next), register), forcing) in
+        states.iter().zip(nexts).zip(&design.registers).zip(design.forcing_nets())
+    {
         let clock = clocks.net(&mut netlist, register);
         let data = net[&logic.pins(next)[0]];
         let start = register.starts_at();
-        let q = match register.kind {
-            RegisterKind::High | RegisterKind::Low => latch(&mut netlist, &register.name, data, clock, start),
-            RegisterKind::Rising | RegisterKind::Falling => flip_flop(&mut netlist, &register.name, data, clock, start),
+        let name = &register.name;
+        let is_latch = matches!(register.kind, RegisterKind::High | RegisterKind::Low);
+        let q = match register.forcing {
+            Forcing::Never if is_latch => latch(&mut netlist, name, data, clock, start),
+            Forcing::Never => flip_flop(&mut netlist, name, data, clock, start),
+            _ => {
+                let nets: Vec<NetId> = forcing.iter().map(|pin| net[pin]).collect();
+                Forced::new(&mut netlist, register.forcing, &nets, start).register(name, data, clock, is_latch)
+            }
         };
         netlist.drive(net[&state], 0, q);
     }
@@ -110,6 +118,77 @@ pub fn flip_flop(netlist: &mut Netlist, name: &str, data: NetId, clock: NetId, s
     latch(netlist, name, held, clock, start)
 }
 
+/// Latches that change without their clock. A third cell of the loop, and a fourth if there are a set and a reset,
+/// force it: they do not reach the guards, so a latch closes as one without them does.
+struct Forced<'n> {
+    netlist: &'n mut Netlist,
+    /// The net that sets the latch, and one that is 0 where it sets a latch that is not reset.
+    set: Option<[NetId; 2]>,
+    /// The net that resets it, and the inverse of it.
+    reset: [NetId; 2],
+    /// Whether the loop holds the opposite of the value that it shows: a reset makes the loop 0.
+    is_inverted: bool,
+    start: bool,
+}
+
+impl<'n> Forced<'n> {
+    fn new(netlist: &'n mut Netlist, forcing: Forcing, nets: &[NetId], start: bool) -> Self {
+        let (&reset, sets) = nets.split_last().expect("a forced register has a reset");
+        let go = netlist.add_gate(Function::NOT, &[reset]);
+        let set = sets.first().map(|&set| [set, netlist.add_gate(Function::NAND, &[set, go])]);
+        Self { netlist, set, reset: [reset, go], is_inverted: forcing == Forcing::ToStart && start, start }
+    }
+
+    /// A latch or a flip-flop; returns the net that shows its value.
+    fn register(mut self, name: &str, data: NetId, clock: NetId, is_latch: bool) -> NetId {
+        let data = self.data(data);
+        let shown = usize::from(self.is_inverted);
+        if is_latch {
+            return self.latch(name, data, clock)[shown];
+        }
+        let low = self.netlist.add_gate(Function::NOT, &[clock]);
+        let [held, _] = self.latch(&format!("{name}.held"), data, low);
+        self.latch(name, held, clock)[shown]
+    }
+
+    /// The data as the loop holds them, with the value to which they are forced.
+    fn data(&mut self, data: NetId) -> NetId {
+        let [reset, go] = self.reset;
+        if self.is_inverted {
+            return self.netlist.add_gate(Function::NOR, &[data, reset]);
+        }
+        let data = match self.set {
+            Some([set, _]) => self.netlist.add_gate(Function::OR, &[data, set]),
+            None => data,
+        };
+        self.netlist.add_gate(Function::AND, &[data, go])
+    }
+
+    /// A latch that is transparent while `enable` is 1; returns the net that follows `data`, and its opposite.
+    fn latch(&mut self, name: &str, data: NetId, enable: NetId) -> [NetId; 2] {
+        let start = self.start != self.is_inverted;
+        let opposite = format!("{name}.n");
+        let names = if self.is_inverted { [opposite, name.to_owned()] } else { [name.to_owned(), opposite] };
+        let [own, other] = names;
+        let set = self.netlist.add_gate(Function::NAND, &[data, enable]);
+        let clear = self.netlist.add_gate(Function::NAND, &[set, enable]);
+        let q = core_cell(self.netlist, own, start, [set, set]);
+        let kept = self.passed(format!("{name}.kept"), start, [q, self.reset[1]]);
+        let nq = core_cell(self.netlist, other, !start, [clear, kept]);
+        let back = match self.set {
+            Some([_, stay]) => self.passed(format!("{name}.down"), !start, [nq, stay]),
+            None => nq,
+        };
+        self.netlist.drive(q, 1, back);
+        [q, nq]
+    }
+
+    /// A cell of a loop that passes its first pin while the second is 1.
+    fn passed(&mut self, name: String, start: bool, pins: [NetId; 2]) -> NetId {
+        self.netlist.add_cell(Cell { function: Function::AND, name: Some(name), start: Some(start), span: None }, &pins)
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use rand::SeedableRng;
@@ -165,5 +244,57 @@ mod tests {
     fn the_flip_flop_works_for_all_delays() {
         let model = |q: bool, data: bool, before: bool, clock: bool| if clock && !before { data } else { q };
         check(|netlist, d, clk| flip_flop(netlist, "q", d, clk, false), 9, model);
+    }
+
+    /// Switches one input of a forced register after the other, with random delays from 1 to 3 cycles, many times.
+    fn check_forced(forcing: Forcing, kind: RegisterKind, start: bool, cells: usize) {
+        let mut logic = Netlist::new("forced");
+        let [data, _] = ["d", "clk"].map(|name| logic.add_input(name));
+        let nets: Vec<NetId> = forcing.nets().iter().map(|&name| logic.add_input(name)).collect();
+        let q = logic.add_input("q");
+        logic.add_output("out", q);
+        [data].iter().chain(&nets).for_each(|&net| _ = logic.add_output("next", net));
+        let clock = Some("clk".to_owned());
+        let register = Register { name: "q".to_owned(), kind, clock, start: Some(start), forcing };
+        let mut netlist = expand(&Design { logic, registers: vec![register] });
+        DissolveWires.run_on(&mut netlist).unwrap();
+        crate::passes::Share.run(&mut netlist).unwrap();
+        Sweep.run(&mut netlist).unwrap();
+        assert_eq!(netlist.cells().count(), cells, "{forcing:?} {kind:?} {start}");
+        let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(2);
+        for _ in 0..100 {
+            let mut draw = |bound: u32| (rand::Rng::next_u32(&mut random) % bound) as usize;
+            let mut delayed = Delayed::new(&netlist, |_| 1 + draw(3));
+            let mut inputs = vec![false; netlist.inputs().len()];
+            // The reset makes it known.
+            *inputs.last_mut().unwrap() = true;
+            let reset_value = forcing == Forcing::ToStart && start;
+            let mut q = reset_value;
+            assert_eq!(delayed.run(&inputs, 40), [q]);
+            for _ in 0..60 {
+                let at = draw(inputs.len() as u32);
+                let rises = at == 1 && !inputs[1];
+                inputs[at] = !inputs[at];
+                if (kind == RegisterKind::Rising && rises) || (kind == RegisterKind::High && inputs[1]) {
+                    q = inputs[0];
+                }
+                match inputs[2..] {
+                    [_, true] | [true] => q = reset_value,
+                    [true, false] => q = true,
+                    _ => {}
+                }
+                assert_eq!(delayed.run(&inputs, 40), [q], "{forcing:?} {kind:?} {start} {inputs:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn forced_registers_work_for_all_delays() {
+        for start in [false, true] {
+            check_forced(Forcing::ToStart, RegisterKind::High, start, 7);
+            check_forced(Forcing::ToStart, RegisterKind::Rising, start, 13);
+            check_forced(Forcing::SetReset, RegisterKind::High, start, 10);
+            check_forced(Forcing::SetReset, RegisterKind::Rising, start, 17);
+        }
     }
 }

@@ -8,7 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::bits::{pack, unpack};
 use crate::message::{MessageFault, TaskKey, decode, encode};
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds, Schedule, SearchObjective, Spell,
+    Behavior, Body, CYCLE_STEPS, GroundProfile, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds, Schedule,
+    SearchObjective, Spell, WorldFactors, WorldNoise,
 };
 use nbc_swarm::evolve::{Rivals, validate};
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
@@ -49,6 +50,10 @@ enum WorkRecord {
     Swarm(SwarmRecord),
 }
 
+/// A world with all its fields: messages have no names that could be left out.
+#[derive(Clone, Copy, Serialize, Deserialize)]
+struct WorldRecord(WorldFactors, WorldNoise, GroundProfile);
+
 #[derive(Serialize, Deserialize)]
 struct EvaluationRecord {
     objective: SearchObjective,
@@ -56,8 +61,8 @@ struct EvaluationRecord {
     /// Stimuli as bits, and env steps.
     variable: Vec<(u32, u32)>,
     fixed_steps: u32,
-    world: PhysicsWorld,
-    others: Vec<PhysicsWorld>,
+    world: WorldRecord,
+    others: Vec<WorldRecord>,
     body: BodyRecord,
     pareto: Option<u32>,
     /// Each set of rivals once: many behaviors lead to the same niches.
@@ -84,7 +89,7 @@ struct SwarmRecord {
     /// Each body once.
     bodies: Vec<BodyRecord>,
     members: Vec<MemberRecord>,
-    world: PhysicsWorld,
+    world: WorldRecord,
     window: u32,
     beat: u32,
     cycles: u32,
@@ -155,7 +160,7 @@ impl TaskRecord {
                 fits.then_some(Task::Screening { body, behavior, most })?
             }
             WorkRecord::Measurement(body) => Task::Measurement(body.check()?),
-            WorkRecord::Swarm(record) => Task::Swarm(record.check()?),
+            WorkRecord::Swarm(record) => Task::Swarm(Box::new(record.check()?)),
         };
         let is_bounded = (1..=TOGETHER).contains(&self.together);
         is_bounded.then_some(TaskMessage { key: self.key, together: self.together, task })
@@ -194,8 +199,8 @@ impl EvaluationRecord {
             behaviors: protocol.behaviors.iter().map(|&behavior| BehaviorRecord::of(behavior)).collect(),
             variable: protocol.variable.spells.iter().map(spell).collect(),
             fixed_steps: protocol.fixed_steps,
-            world: protocol.world,
-            others: protocol.others.clone(),
+            world: protocol.world.into(),
+            others: protocol.others.iter().copied().map(Into::into).collect(),
             body: BodyRecord::of(&task.body),
             pareto: match task.rivals.niche() {
                 Niche::Dominance => None,
@@ -213,9 +218,9 @@ impl EvaluationRecord {
         let stimuli = body.palette().inputs();
         let is_bounded =
             steps.max(self.fixed_steps.into()) <= MOST_STEPS && self.others.len() <= SampledWorlds::MOST as usize;
-        let are_possible = self.world.is_possible() && self.others.iter().all(PhysicsWorld::is_possible);
+        let world = self.world.check()?;
+        let others: Vec<PhysicsWorld> = self.others.into_iter().map(WorldRecord::check).collect::<Option<_>>()?;
         if !is_bounded
-            || !are_possible
             || self.rivals.len() != Behavior::all(stimuli).count()
             || self.behaviors.len() > Behavior::all(stimuli).count()
         {
@@ -227,7 +232,7 @@ impl EvaluationRecord {
         };
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
         let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
-        let Self { objective, behaviors, fixed_steps, world, others, .. } = self;
+        let Self { objective, behaviors, fixed_steps, .. } = self;
         let behavior = |record: BehaviorRecord| record.check().filter(|behavior| behavior.stimuli() == stimuli);
         let behaviors: Vec<Behavior> = behaviors.into_iter().map(behavior).collect::<Option<_>>()?;
         let protocol = EvaluationProtocol { stimuli, objective, behaviors, variable, fixed_steps, world, others };
@@ -258,6 +263,19 @@ impl BodyRecord {
     }
 }
 
+impl From<PhysicsWorld> for WorldRecord {
+    fn from(PhysicsWorld { factors, noise, ground }: PhysicsWorld) -> Self {
+        Self(factors, noise, ground)
+    }
+}
+
+impl WorldRecord {
+    fn check(self) -> Option<PhysicsWorld> {
+        let Self(factors, noise, ground) = self;
+        Some(PhysicsWorld { factors, noise, ground }).filter(PhysicsWorld::is_possible)
+    }
+}
+
 impl SwarmRecord {
     fn of(task: &SwarmTask) -> Self {
         let mut bodies: Vec<&Body> = Vec::new();
@@ -281,7 +299,7 @@ impl SwarmRecord {
         Self {
             bodies: bodies.into_iter().map(BodyRecord::of).collect(),
             members,
-            world: task.assembly.world,
+            world: task.assembly.world.into(),
             window: task.conditions.window as u32,
             beat: task.assembly.beat,
             cycles: inputs.len() as u32,
@@ -293,11 +311,7 @@ impl SwarmRecord {
     fn check(self) -> Option<SwarmTask> {
         let (cycles, width, robots) = (self.cycles as usize, self.width as usize, self.members.len());
         let steps = cycles as u64 * u64::from(CYCLE_STEPS);
-        if !(1..=MOST_CYCLES).contains(&cycles)
-            || steps > MOST_STEPS
-            || [self.window, self.beat].contains(&0)
-            || !self.world.is_possible()
-        {
+        if !(1..=MOST_CYCLES).contains(&cycles) || steps > MOST_STEPS || [self.window, self.beat].contains(&0) {
             return None;
         }
         let bodies = self.bodies.into_iter().map(BodyRecord::check).collect::<Option<Vec<Body>>>()?;
@@ -312,7 +326,7 @@ impl SwarmRecord {
             fits.then_some(PlainMember { body, clock: record.clock, senses, start: record.start, held })
         };
         let members = self.members.into_iter().map(member).collect::<Option<Vec<_>>>()?;
-        let mut task = SwarmTask::new(members, self.world, inputs, self.window as usize);
+        let mut task = SwarmTask::new(members, self.world.check()?, inputs, self.window as usize);
         task.assembly.beat = self.beat;
         Some(task)
     }
@@ -360,7 +374,8 @@ pub(super) mod tests {
 
     fn world() -> PhysicsWorld {
         let factors = WorldFactors { friction: 0.9, ..WorldFactors::default() };
-        PhysicsWorld { factors, ..PhysicsWorld::default() }
+        let ground = GroundProfile::new(&[0, 2, 1]).unwrap();
+        PhysicsWorld { factors, ground, ..PhysicsWorld::default() }
     }
 
     /// A swarm of two robots that sense each other and two inputs.
@@ -378,7 +393,7 @@ pub(super) mod tests {
             member([StimulusSource::Robot(0), StimulusSource::Input(1)], false),
         ];
         let inputs = vec![vec![true, false], vec![false, true], vec![true, true]];
-        Task::Swarm(SwarmTask::new(members, world(), inputs, 1))
+        Task::Swarm(Box::new(SwarmTask::new(members, world(), inputs, 1)))
     }
 
     /// A task of each kind; the evaluations are those of a generation with a filled archive.

@@ -9,7 +9,7 @@ use nbc_base::model::{Circuit, Net};
 use nbc_base::source::{FileId, Span};
 use nbc_lang::check::NameKind;
 use nbc_lang::syntax::tree::{
-    BodySyntax, DeclarationKind, ExpressionSyntax, ExpressionSyntaxId, ExpressionSyntaxKind, TestKind,
+    BodySyntax, DeclarationKind, ExpressionSyntax, ExpressionSyntaxKind, OperandSyntax, TestKind,
 };
 
 /// The hints that need nothing compiled, in a part of a file.
@@ -88,8 +88,11 @@ fn of_call(files: &Files<'_>, body: &BodySyntax, call: &ExpressionSyntax) -> Vec
     let circuit = checked.program.circuits.iter().find(|circuit| Some(circuit.span) == declared);
     let Some(circuit) = circuit.filter(|_| operands.len() > 1) else { return Vec::new() };
     let pairs = circuit.nets[..circuit.inputs].iter().zip(operands);
-    let hint = |(port, operand): (&Net, &ExpressionSyntaxId)| {
-        let place = body.expressions[operand.0 as usize].span;
+    let hint = |(port, operand): (&Net, &OperandSyntax)| {
+        if operand.name.is_some() {
+            return None;
+        }
+        let place = body.expressions[operand.value.0 as usize].span;
         let text = checked.sources.text(place);
         let is_clear = text == port.name;
         (!is_clear).then(|| InlayHint {

@@ -50,6 +50,9 @@ pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbo
             NameKind::Library => SymbolKind::Package,
             NameKind::Swarm => SymbolKind::Object,
             NameKind::World => SymbolKind::Namespace,
+            NameKind::Enumeration => SymbolKind::Enum,
+            NameKind::Member => SymbolKind::EnumMember,
+            NameKind::File => SymbolKind::File,
         };
         let name = files.checked.sources.text(found.place).to_owned();
         let is_wanted = found.place == found.declared && name.to_lowercase().contains(&query);

@@ -32,9 +32,18 @@ fn symbols_of(declaration: &Declaration, lines: &Lines<'_>) -> Vec<DocumentSymbo
         DeclarationKind::Schedule(schedule) => one(&schedule.name, SymbolKind::Array, "schedule"),
         DeclarationKind::Simulate(simulate) => one(&simulate.swarm, SymbolKind::Method, "simulate"),
         DeclarationKind::Circuit(circuit) => {
-            let symbol = symbol(&circuit.name, SymbolKind::Function, "circuit", span, lines);
+            let word = if circuit.is_environment { "environment" } else { "circuit" };
+            let symbol = symbol(&circuit.name, SymbolKind::Function, word, span, lines);
             vec![DocumentSymbol { children: Some(ports(circuit, lines)), ..symbol }]
         }
+        DeclarationKind::Enumeration(enumeration) => {
+            let member = |name: &NameSyntax| symbol(name, SymbolKind::EnumMember, "member", name.span, lines);
+            let members = enumeration.members.iter().map(|one| member(&one.name)).collect();
+            let symbol = symbol(&enumeration.name, SymbolKind::Enum, "enum", span, lines);
+            vec![DocumentSymbol { children: Some(members), ..symbol }]
+        }
+        DeclarationKind::Let(integer) => one(&integer.name, SymbolKind::Constant, "integer"),
+        DeclarationKind::File(file) => one(&file.name, SymbolKind::File, "file"),
         DeclarationKind::Test(test) => {
             let title = test.title.as_ref().map_or("test", |title| title.text.as_str());
             one(&test.circuit.name, SymbolKind::Method, title)

@@ -6,8 +6,8 @@ use crate::spot::Spot;
 use crate::tokens;
 use nbc_base::source::Span;
 use nbc_lang::syntax::tree::{
-    BodySyntax, Declaration, DeclarationKind, Field, RecordSyntax, StatementKind, StatementSyntax, Test, TestKind,
-    ValueKind, ValueSyntax, With,
+    BodySyntax, Declaration, DeclarationKind, Field, RecordSyntax, StatementKind, StatementSyntax, Test, TestItem,
+    TestKind, ValueKind, ValueSyntax, With,
 };
 
 /// The ranges around a place, the smallest outside.
@@ -39,7 +39,9 @@ pub(super) fn around(spot: &Spot<'_>) -> SelectionRange {
 fn parts(declaration: &Declaration) -> Vec<Span> {
     let mut spans = vec![declaration.span];
     match &declaration.kind {
-        DeclarationKind::Use(_) | DeclarationKind::Stimulus(_) => {}
+        DeclarationKind::Use(_) | DeclarationKind::Stimulus(_) | DeclarationKind::File(_) => {}
+        DeclarationKind::Enumeration(one) => spans.extend(one.members.iter().map(|member| member.name.span)),
+        DeclarationKind::Let(integer) => spans.extend(integer.sizes.iter().map(|size| size.span)),
         DeclarationKind::Record(record) => of_record(&record.record, &mut spans),
         DeclarationKind::Schedule(schedule) => spans.extend(schedule.spells.iter().map(|spell| spell.span)),
         DeclarationKind::Simulate(simulate) => {
@@ -66,7 +68,12 @@ fn of_statements(statements: &[StatementSyntax], spans: &mut Vec<Span>) {
         spans.push(statement.span);
         match &statement.kind {
             StatementKind::Drive { targets, .. } => spans.extend(targets.iter().map(|target| target.span)),
-            StatementKind::Nets(_) => {}
+            StatementKind::Nets(_) | StatementKind::Let { .. } => {}
+            StatementKind::If { then, otherwise, blocks, .. } => {
+                spans.extend(blocks);
+                of_statements(then, spans);
+                of_statements(otherwise, spans);
+            }
             StatementKind::For { statements, .. } => of_statements(statements, spans),
         }
     }
@@ -76,11 +83,21 @@ fn of_test(test: &Test, spans: &mut Vec<Span>) {
     match &test.kind {
         TestKind::Table(table) => {
             spans.push(table.header);
-            spans.extend(table.rows.iter().map(|row| row.span));
-            spans.extend(table.rows.first().map(|first| first.span.to(table.rows[table.rows.len() - 1].span)));
+            of_rows(&table.rows, spans);
         }
         TestKind::Against(_) => {}
         TestKind::Reference(body) => of_body(body, spans),
+    }
+}
+
+fn of_rows(rows: &[TestItem], spans: &mut Vec<Span>) {
+    let (Some(first), Some(last)) = (rows.first(), rows.last()) else { return };
+    spans.push(first.span().to(last.span()));
+    for item in rows {
+        spans.push(item.span());
+        if let TestItem::Repeat { rows, .. } = item {
+            of_rows(rows, spans);
+        }
     }
 }
 

@@ -30,7 +30,10 @@ const TYPES: [&str; 13] = [
 const MODIFIERS: [&str; 2] = ["declaration", "defaultLibrary"];
 
 /// Words that are keywords where they have no other meaning.
-const WORDS: [&str; 8] = ["against", "all", "bins", "deg", "inputs", "steps", "cycles", "with"];
+const WORDS: [&str; 14] = [
+    "against", "all", "at", "bins", "cycles", "deg", "inputs", "match", "most", "repeat", "rows", "steps", "until",
+    "with",
+];
 
 pub(super) fn legend() -> SemanticTokensLegend {
     SemanticTokensLegend {
@@ -104,8 +107,14 @@ fn of_name(files: &Files<'_>, found: NameUse) -> (&'static str, u32) {
         NameKind::Net => "variable",
         NameKind::Number => "typeParameter",
         NameKind::Stimulus => "event",
-        NameKind::Material => "enumMember",
-        NameKind::Schedule | NameKind::Evolution | NameKind::Library | NameKind::Swarm | NameKind::World => "class",
+        NameKind::Material | NameKind::Member => "enumMember",
+        NameKind::Enumeration
+        | NameKind::File
+        | NameKind::Schedule
+        | NameKind::Evolution
+        | NameKind::Library
+        | NameKind::Swarm
+        | NameKind::World => "class",
     };
     let declaration = u32::from(found.place == found.declared);
     let library = u32::from(files.prelude(found.declared.file).is_some());

@@ -126,7 +126,7 @@ impl PlayServer {
         };
         runtime.block_on(async {
             tokio::select! {
-                never = connections::serve(listener, server::router(served)) => match never {},
+                never = connections::serve(listener, server::router(served), connections::PATIENCE) => match never {},
                 () = stopped => {}
             }
         });

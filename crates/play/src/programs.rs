@@ -42,7 +42,7 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
 fn test(index: usize, test: &CircuitTest) -> TestEntry {
     let rows = match &test.stimulation {
         Stimulation::Rows(rows) => rows.iter().map(|one| row(test, one)).collect(),
-        Stimulation::All { .. } => Vec::new(),
+        Stimulation::Script(_) | Stimulation::All { .. } => Vec::new(),
     };
     TestEntry {
         index,
@@ -111,10 +111,11 @@ fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
         shown: assembly.shown.iter().copied().map(Into::into).collect(),
         robots: trace.recording.robots.iter().map(|recorded| robot(recorded, trace, assembly, &all)).collect(),
         looks: looks(&all),
-        schematic: report::embedded(&compiled.schematic(SCHEME)),
+        schematic: compiled.schematic(SCHEME).pages().into(),
         timing: compiled.swarm_timing().describe(),
         hold: compiled.timing.hold,
         start: assembly.start_cycles(),
+        ground: compiled.assembly.world.ground.heights().to_vec(),
         frames: FRAMES,
         waves: compiled.mapping.waves.as_ref().map(|machine| waves(machine, &trace.recording.robots)),
     }
@@ -140,7 +141,7 @@ fn robot(recorded: &Recorded, trace: &SwarmTrace, assembly: &Assembly, looks: &L
         net: robot.net.clone(),
         function: robot.function.name(),
         robot: robot.robot.clone(),
-        about: report::about_robot(robot, member),
+        about: report::about_robot(assembly, recorded.robot),
         senses: robot.senses.iter().map(|&source| source.into()).collect(),
         body: body.rows(),
         size: [body.width(), body.height()],

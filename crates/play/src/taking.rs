@@ -68,6 +68,7 @@ fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {
         scheme: SCHEME,
         largest: sides.max().unwrap_or(1),
         stimuli: 2,
+        ground: stage.ground(),
     };
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| {})?;

@@ -45,10 +45,8 @@ impl Checked {
 
     /// The simulations of that name: that of their swarm or its circuit.
     pub fn simulations<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Simulation> {
-        let is_called = move |simulation: &&Simulation| {
-            let circuit = self.program.swarm(&simulation.swarm).map(|swarm| swarm.circuit.to_string());
-            simulation.swarm == name || circuit.as_deref() == Some(name)
-        };
+        let is_called =
+            move |simulation: &&Simulation| simulation.swarm == name || simulation.circuit.to_string() == name;
         self.program.simulations.iter().filter(is_called)
     }
 

@@ -1,5 +1,7 @@
 //! Compilation of a circuit from source to swarm: elaborate, map, prove, time, assemble.
 
+use std::sync::Arc;
+
 use crate::mapping::Mapping;
 use crate::plan::Plan;
 use crate::waves::map_waves;
@@ -135,10 +137,23 @@ pub(super) fn compile(
             nbc_swarm::assemble_waves(machine, &library)
         }
     };
-    let assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world);
+    let mut assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world);
+    name_values(program, &plan.circuit, &mut assembly);
     let weak_robots = nbc_swarm::weak_robots(&assembly);
     let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();
     Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })
+}
+
+/// Gives the ports of a swarm the enumerations that are declared for them.
+fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {
+    let Some(circuit) = program.circuit(&circuit.circuit) else { return };
+    for net in &circuit.nets[..circuit.inputs + circuit.outputs] {
+        let Some(members) = net.members.and_then(|place| program.enumerations.get(place)) else { continue };
+        let ports = assembly.inputs.iter_mut().chain(&mut assembly.outputs);
+        for port in ports.filter(|port| port.name == net.name && port.width == members.width as usize) {
+            port.members = Some(Arc::new(members.clone()));
+        }
+    }
 }
 
 fn warn_of(weak: &WeakRobot, plan: &Plan, place: Span) -> Diagnostic {

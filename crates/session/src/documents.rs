@@ -212,7 +212,7 @@ mod tests {
         fn translate_verilog(&self, _: &str, _: &str) -> Result<VerilogModules, VerilogError> {
             self.1.fetch_add(1, Ordering::Relaxed);
             let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
-            Ok(VerilogModules { blif, tops: vec!["f".to_owned()] })
+            Ok(VerilogModules { blif, tops: vec!["f".to_owned()], ..VerilogModules::default() })
         }
 
         fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

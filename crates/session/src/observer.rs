@@ -1,6 +1,7 @@
 //! Progress and cancellation of long work.
 
 use nbc_circuit::CancelFlag;
+use nbc_swarm::{KeptSwarm, SwarmTask};
 
 /// Receives the progress of long work, and can stop it. Each door implements it. `()` ignores progress; a closure of
 /// `(done, all)` receives it.
@@ -19,6 +20,26 @@ pub trait Observer {
     fn is_cancelled(&self) -> bool {
         false
     }
+
+    /// The keeper of the swarms of tests, if there is one.
+    fn keeper(&mut self) -> Option<&mut dyn SwarmKeeper> {
+        None
+    }
+}
+
+/// Keeps swarms in long tests, so that these can go on later.
+pub trait SwarmKeeper {
+    /// The swarm that was kept of a task, if any; all that is kept from here on is of this task.
+    fn begin(&mut self, task: &SwarmTask) -> Option<KeptSwarm>;
+
+    /// Whether it is time to keep the swarm; called after each cycle.
+    fn is_due(&mut self) -> bool;
+
+    /// Keeps the swarm of the task.
+    fn keep(&mut self, kept: &KeptSwarm);
+
+    /// The task is done.
+    fn end(&mut self);
 }
 
 impl Observer for () {}
@@ -61,5 +82,9 @@ impl Observer for CaseObserver<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.whole.is_cancelled()
+    }
+
+    fn keeper(&mut self) -> Option<&mut dyn SwarmKeeper> {
+        self.whole.keeper()
     }
 }

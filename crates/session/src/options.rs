@@ -19,6 +19,8 @@ pub struct CompileOptions {
     pub objective: MappingObjective,
     /// The amount of search in mapping.
     pub effort: Effort,
+    /// Files that replace declared ones: the name of each, and its path.
+    pub files: Vec<(String, String)>,
     /// The folder of evolution runs; the robots of `from: NAME` are in its `NAME/robots`.
     pub runs: String,
     /// Ends the search in mapping early.
@@ -28,7 +30,16 @@ pub struct CompileOptions {
 impl Default for CompileOptions {
     fn default() -> Self {
         let MapOptions { objective, effort, cancel } = MapOptions::default();
-        Self { swarm: None, robots: None, without: Vec::new(), objective, effort, runs: RUNS.to_owned(), cancel }
+        Self {
+            swarm: None,
+            robots: None,
+            without: Vec::new(),
+            objective,
+            effort,
+            files: Vec::new(),
+            runs: RUNS.to_owned(),
+            cancel,
+        }
     }
 }
 

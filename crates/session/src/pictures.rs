@@ -4,7 +4,7 @@ use std::fmt;
 
 use crate::compile::Compiled;
 use crate::mapping::Mapping;
-use crate::report::{self, PageSwarm, PhaseTiming, Scheme, Svg, SwarmOutcome, SwarmTiming};
+use crate::report::{self, PageSwarm, PhaseTiming, Schematic, SchematicPages, Scheme, Svg, SwarmOutcome, SwarmTiming};
 use crate::run_report::RunReport;
 use crate::swarm_run::SwarmRun;
 use crate::test::TestRun;
@@ -12,9 +12,9 @@ use nbc_base::model::Robot;
 
 impl Compiled {
     /// The circuit with its robots as gates, its slowest path marked.
-    pub fn schematic(&self, scheme: Scheme) -> Svg {
+    pub fn schematic(&self, scheme: Scheme) -> Schematic<'_> {
         let robots: Vec<&Robot> = self.assembly.members.iter().map(|member| &member.robot).collect();
-        report::draw_schematic(&self.mapping.netlist, &robots, &self.timing.critical_path, scheme)
+        Schematic::of(&self.mapping.netlist, &robots, &self.timing.critical_path, scheme)
     }
 
     /// Arrival, required times and slack of each robot, the slowest path, and memory.
@@ -45,14 +45,14 @@ impl fmt::Display for TestRun {
 
 /// The page of swarms that were tested or simulated, with a player for those whose poses were recorded.
 pub fn run_page(source: &str, runs: &[(SwarmOutcome<'_>, &SwarmRun)], scheme: Scheme) -> String {
-    let drawings: Vec<[Svg; 2]> = runs
+    let drawings: Vec<(SchematicPages, Svg)> = runs
         .iter()
-        .map(|(_, SwarmRun { compiled, trace })| [compiled.schematic(scheme), report::draw_swarm(trace)])
+        .map(|(_, SwarmRun { compiled, trace })| (compiled.schematic(scheme).pages(), report::draw_swarm(trace)))
         .collect();
     let swarms: Vec<PageSwarm<'_>> = runs
         .iter()
         .zip(&drawings)
-        .map(|(&(outcome, SwarmRun { compiled, trace }), [schematic, spacetime])| PageSwarm {
+        .map(|(&(outcome, SwarmRun { compiled, trace }), (schematic, spacetime))| PageSwarm {
             outcome,
             trace,
             assembly: &compiled.assembly,

@@ -105,7 +105,7 @@ pub(super) fn robots(
     let mut library = match (&options.robots, program.library(library.unwrap_or(DEFAULT_LIBRARY))) {
         (Some(robots), _) => robots.clone(),
         (None, Some(declared)) => sources.library(declared, &options.runs)?,
-        (None, None) => sources.shipped().clone(),
+        (None, None) => sources.built_in.shipped().clone(),
     };
     library.robots.retain(|robot| !options.without.contains(&robot.name));
     Ok(library)

@@ -43,6 +43,7 @@ fn simulation(excerpt: &Excerpt) -> Simulation {
     };
     Simulation {
         swarm: plan.swarm.clone().unwrap_or_else(|| plan.circuit.to_string()),
+        circuit: plan.circuit.clone(),
         span: Span::new(FileId(0), 0, 0),
         file: String::new(),
         line: 0,

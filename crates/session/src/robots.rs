@@ -8,30 +8,43 @@ use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Library, LibrarySource, Origin};
 use nbc_base::source::SourceWorld;
 
+/// The libraries in the program, each read at its first use.
+#[derive(Default)]
+pub(super) struct BuiltIn {
+    shipped: OnceLock<Library>,
+    three: OnceLock<Library>,
+}
+
+impl BuiltIn {
+    /// The robots of two stimuli.
+    pub(super) fn shipped(&self) -> &Library {
+        self.shipped.get_or_init(store::shipped_library)
+    }
+
+    /// These and the robots of three stimuli.
+    pub(super) fn three(&self) -> &Library {
+        self.three.get_or_init(store::three_library)
+    }
+}
+
 /// Everything that robots can be read from.
 #[derive(Clone, Copy)]
 pub(super) struct RobotSources<'a> {
     pub(super) world: &'a dyn SourceWorld,
-    /// The built-in robots, after their first use.
-    pub(super) shipped: &'a OnceLock<Library>,
+    pub(super) built_in: &'a BuiltIn,
     /// The path of the checked source.
     pub(super) file: &'a str,
 }
 
 impl<'a> RobotSources<'a> {
-    /// The built-in robots.
-    pub(super) fn shipped(self) -> &'a Library {
-        self.shipped.get_or_init(store::shipped_library)
-    }
-
     /// The robots of a declared library; evolution runs are in the folder `runs`.
     ///
     /// # Errors
     /// The errors of the folder or its files, at the declaration.
     pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
         let mut library = match &declared.from {
-            Origin::Shipped => self.shipped().clone(),
-            Origin::Three => store::three_library(),
+            Origin::Shipped => self.built_in.shipped().clone(),
+            Origin::Three => self.built_in.three().clone(),
             Origin::Folder(folder) => self.folder(folder, declared, None)?,
             Origin::Evolution(name) => {
                 let (run, file) = (format!("{runs}/{name}"), self.file);

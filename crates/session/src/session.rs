@@ -1,12 +1,12 @@
 //! The session: each door (command line, editor, page, cluster) calls one and repeats none of its steps. A session is a
 //! value: it can be dropped at any moment, and two sessions share no mutable state.
 
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
-use crate::robots::RobotSources;
+use crate::robots::{BuiltIn, RobotSources};
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
@@ -25,8 +25,7 @@ use nbc_swarm::{Level, LiveSwarm, Room};
 pub struct Session {
     documents: Documents,
     physics: Physics,
-    /// The built-in robots, which are read at their first use.
-    shipped: OnceLock<Library>,
+    built_in: BuiltIn,
 }
 
 impl Session {
@@ -36,7 +35,7 @@ impl Session {
 
     /// A session over the sources of a world.
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
-        Self { documents: Documents::new(Box::new(world)), physics: Physics::default(), shipped: OnceLock::new() }
+        Self { documents: Documents::new(Box::new(world)), physics: Physics::default(), built_in: BuiltIn::default() }
     }
 
     /// The same session, with its robots simulated by `simulator`.
@@ -99,7 +98,7 @@ impl Session {
 
     /// The robots that come with the program.
     pub fn shipped(&self) -> &Library {
-        self.shipped.get_or_init(store::shipped_library)
+        self.built_in.shipped()
     }
 
     /// The robots of a folder of the world, best first.
@@ -140,7 +139,7 @@ impl Session {
     }
 
     fn sources<'a>(&'a self, checked: &'a Checked) -> RobotSources<'a> {
-        RobotSources { world: self.documents.world(), shipped: &self.shipped, file: &checked.path }
+        RobotSources { world: self.documents.world(), built_in: &self.built_in, file: &checked.path }
     }
 
     /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.

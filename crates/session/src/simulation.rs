@@ -27,17 +27,14 @@ pub struct SimulationRun {
 ///
 /// # Errors
 /// When the swarm's circuit cannot be compiled, or its robots cannot be read.
-///
-/// # Panics
-/// When the simulation is of another program.
 pub(super) fn compiled(
     sources: RobotSources<'_>,
     program: &Program,
     simulation: &Simulation,
     options: &CompileOptions,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let swarm = program.swarm(&simulation.swarm).expect("a simulation names a swarm of its program");
-    let mut plan = plan::of_swarm(sources, program, &swarm.circuit, Some(swarm), options)?;
+    let swarm = program.swarm(&simulation.swarm);
+    let mut plan = plan::of_swarm(sources, program, &simulation.circuit, swarm, options)?;
     plan.world = simulation.world.unwrap_or(plan.world);
     compile::compile(program, plan, &options.mapping(), simulation.span)
 }

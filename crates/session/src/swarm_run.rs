@@ -55,28 +55,38 @@ impl Physics {
 
 /// Continues a swarm with these input bits in each cycle.
 pub(super) fn run(swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
-    run_until(swarm, inputs, &mut |_| false, observer)
+    run_until(swarm, inputs, 0, &mut |_| false, observer)
 }
 
-/// Continues a swarm with these input bits in each cycle. Stops after the first cycle for whose trace `is_enough` is
-/// true.
+/// Continues a swarm with these input bits in each cycle, of which the first `done` have passed already. Stops after
+/// the first cycle for whose trace `is_enough` is true.
 pub(super) fn run_until(
     mut swarm: LiveSwarm,
     inputs: &[Vec<bool>],
+    done: usize,
     is_enough: &mut dyn FnMut(&SwarmTrace) -> bool,
     observer: &mut dyn Observer,
 ) -> (SwarmTrace, RunEnd) {
     let all = inputs.len() as u64;
-    for (cycle, inputs) in (1..).zip(inputs) {
+    for (cycle, inputs) in (1..).zip(inputs).skip(done) {
         swarm.step(inputs);
         if is_enough(swarm.trace()) {
             observer.progress(all, all);
             break;
         }
         observer.progress(cycle, all);
-        if observer.is_cancelled() && cycle < all {
+        let is_cancelled = observer.is_cancelled() && cycle < all;
+        if let Some(keeper) = observer.keeper()
+            && (is_cancelled || keeper.is_due())
+        {
+            keeper.keep(&swarm.keep());
+        }
+        if is_cancelled {
             return (swarm.into_trace(), RunEnd::Cancelled);
         }
+    }
+    if let Some(keeper) = observer.keeper() {
+        keeper.end();
     }
     (swarm.into_trace(), RunEnd::Complete)
 }

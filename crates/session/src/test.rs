@@ -6,11 +6,14 @@ use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan::plans;
 use crate::robots::RobotSources;
+use crate::script::{Performance, PerformedRow};
 use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
-use nbc_base::diag::Diagnostic;
+use crate::wording::ScriptError;
+use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
+use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
 use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
 
@@ -20,6 +23,12 @@ const LARGE: usize = 40;
 /// Circuits with this many gates are not compiled to count robots: no library makes them of fewer than [`LARGE`]
 /// robots.
 const SURELY_LARGE: usize = 10 * LARGE;
+
+/// The most rows of a script in physics.
+const MOST_PHYSICAL_ROWS: usize = 200_000;
+
+/// The steps of a script between two reports of progress.
+const STEPS_BETWEEN_REPORTS: u64 = 4096;
 
 /// How a test is run.
 #[derive(Clone, Debug, Default)]
@@ -53,12 +62,16 @@ pub struct TestCase<'a> {
     subject: Subject,
     /// Whether it ends in physics with the first row that fails.
     ends_at_failure: bool,
+    /// What its environment writes as text while the rows pass.
+    printed: String,
 }
 
 /// The tested circuit.
 #[derive(Clone, Debug)]
 enum Subject {
     Gates(Netlist),
+    /// Gates whose rows depend on what they do.
+    Script(Box<Performance>),
     Robots(Box<Compiled>, TestTiming),
 }
 
@@ -72,23 +85,40 @@ pub(super) fn cases<'a>(
     test: &'a CircuitTest,
     options: &TestOptions,
 ) -> Result<Vec<TestCase<'a>>, Vec<Diagnostic>> {
-    let rows = rows(program, test)?;
-    let case = |subject| TestCase { test, rows: rows.clone(), subject, ends_at_failure: false };
     let netlist = elaborate(program, &test.circuit)?;
     let level = options.level;
+    let performance = performance(sources, program, test, &netlist, &options.compile)?;
+    let logic = |netlist| match &performance {
+        Some(performance) => {
+            let subject = Subject::Script(Box::new(performance.clone()));
+            Ok(vec![TestCase { test, rows: Vec::new(), subject, ends_at_failure: false, printed: String::new() }])
+        }
+        None => {
+            let (rows, subject) = (rows(program, test)?, Subject::Gates(netlist));
+            Ok(vec![TestCase { test, rows, subject, ends_at_failure: false, printed: String::new() }])
+        }
+    };
     if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
-        return Ok(vec![case(Subject::Gates(netlist))]);
+        return logic(netlist);
     }
+    let plans = plans(sources, program, &test.circuit, &options.compile)?;
+    let mut rows_of_test = None;
     let mut cases = Vec::new();
-    for mut plan in plans(sources, program, &test.circuit, &options.compile)? {
+    for mut plan in plans {
         plan.world = test.world.unwrap_or(plan.world);
         let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
-            return Ok(vec![case(Subject::Gates(netlist))]);
+            return logic(netlist);
         }
-        let mut one = case(Subject::Gates(Netlist::default()));
+        let (rows, printed) = match &rows_of_test {
+            Some(found) => Clone::clone(found),
+            None => rows_of_test.insert(physical_rows(program, test, performance.clone(), &options.compile)?).clone(),
+        };
+        let subject = Subject::Gates(Netlist::default());
+        let mut one = TestCase { test, rows: rows.clone(), subject, ends_at_failure: false, printed };
         let timing = match &compiled.mapping.waves {
             Some(machine) => {
+                let rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
                 one.rows = steps(test, &rows, machine)?;
                 TestTiming::Waves
             }
@@ -103,6 +133,64 @@ pub(super) fn cases<'a>(
     Ok(cases)
 }
 
+/// The performance of a test whose rows depend on what its circuit does; `None` for other tests.
+fn performance(
+    sources: RobotSources<'_>,
+    program: &Program,
+    test: &CircuitTest,
+    netlist: &Netlist,
+    options: &CompileOptions,
+) -> Result<Option<Performance>, Vec<Diagnostic>> {
+    let Stimulation::Script(script) = &test.stimulation else { return Ok(None) };
+    let unknown = options.files.iter().find(|(name, _)| program.files.iter().all(|file| file.name != *name));
+    if let Some((name, _)) = unknown {
+        let meant = Suggestion::of(name, program.files.iter().map(|file| file.name.as_str()));
+        return Err(vec![ScriptError::UnknownFile { name: name.clone(), meant }.without_place()]);
+    }
+    Performance::new(sources.world, program, test, script, netlist, &options.files).map(Some)
+}
+
+/// The rows of a test in physics, and what its environment wrote meanwhile. All outputs are checked in the rows of a
+/// script.
+fn physical_rows(
+    program: &Program,
+    test: &CircuitTest,
+    performance: Option<Performance>,
+    options: &CompileOptions,
+) -> Result<(Vec<TestRow>, String), Vec<Diagnostic>> {
+    let Some(mut performance) = performance else { return Ok((rows(program, test)?, String::new())) };
+    let mut rows: Vec<TestRow> = Vec::new();
+    while let Some(performed) = performance.step().map_err(|fault| vec![fault])? {
+        if options.cancel.is_raised() {
+            break;
+        }
+        for PerformedRow { mut row, outputs, is_last } in performed {
+            let written = std::mem::replace(&mut row.expected, outputs.into_iter().map(Some).collect());
+            if is_last {
+                for (expected, written) in row.expected.iter_mut().zip(written).filter(|(_, written)| written.is_some())
+                {
+                    *expected = written;
+                }
+            }
+            rows.push(row);
+        }
+        if rows.len() > MOST_PHYSICAL_ROWS {
+            return Err(vec![ScriptError::TooLong { most: MOST_PHYSICAL_ROWS }.at(test.span)]);
+        }
+    }
+    Ok((rows, performance.printed))
+}
+
+/// The rows of a wave machine: its outputs are checked after the edges of the clock only.
+fn edges_only(mut rows: Vec<TestRow>, machine: &WaveMachine) -> Vec<TestRow> {
+    if let Some((clock, rises)) = machine.clock {
+        for row in rows.iter_mut().skip(1).filter(|row| row.inputs[clock] != rises) {
+            row.expected.fill(None);
+        }
+    }
+    rows
+}
+
 /// The warnings of a hold that is too short, with one that suffices for all tests of the circuit.
 fn short_holds(
     program: &Program,
@@ -113,6 +201,7 @@ fn short_holds(
 ) -> Vec<Diagnostic> {
     let sufficient = || {
         let others = program.tests.iter().filter(|other| other.circuit == test.circuit && *other != test);
+        let others = others.filter(|other| !matches!(other.stimulation, Stimulation::Script(_)));
         let others = others.filter_map(|other| rows(program, other).ok());
         let cycles = others.map(|rows| hold::sufficient(&rows, compiled));
         cycles.fold(hold::sufficient(own, compiled), usize::max)
@@ -133,7 +222,7 @@ impl TestCase<'_> {
     /// The test with its swarm and its timing; `None` at the level of logic.
     fn timed(&self) -> Option<TimedTest<'_>> {
         match &self.subject {
-            Subject::Gates(_) => None,
+            Subject::Gates(_) | Subject::Script(_) => None,
             Subject::Robots(compiled, timing) => {
                 Some(TimedTest { test: self.test, rows: &self.rows, compiled, timing })
             }
@@ -142,14 +231,17 @@ impl TestCase<'_> {
 
     /// The amount of work: cycles in physics, rows at the level of logic.
     pub fn work(&self) -> u64 {
-        self.timed().map_or(self.rows.len(), |timed| timed.cycles(self.rows.len())) as u64
+        match &self.subject {
+            Subject::Script(performance) => performance.progress().1 as u64,
+            _ => self.timed().map_or(self.rows.len(), |timed| timed.cycles(self.rows.len())) as u64,
+        }
     }
 
     /// The hold of each row in physics; empty at the level of logic, and for wave machines.
     pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
             Subject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
-            Subject::Robots(_, TestTiming::Waves) | Subject::Gates(_) => &[],
+            Subject::Robots(_, TestTiming::Waves) | Subject::Gates(_) | Subject::Script(_) => &[],
         }
     }
 
@@ -167,7 +259,7 @@ impl TestCase<'_> {
     pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
         let inputs = self.timed()?.inputs(rows);
         match self.subject {
-            Subject::Gates(_) => None,
+            Subject::Gates(_) | Subject::Script(_) => None,
             Subject::Robots(compiled, _) => Some((*compiled, inputs)),
         }
     }
@@ -181,9 +273,11 @@ impl TestCase<'_> {
     pub fn trial_in(&self, world: PhysicsWorld) -> Self {
         let subject = match &self.subject {
             Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
+            Subject::Script(performance) => Subject::Script(performance.clone()),
             Subject::Robots(compiled, timing) => Subject::Robots(Box::new(compiled.in_world(world)), timing.clone()),
         };
-        Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true }
+        let printed = self.printed.clone();
+        Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true, printed }
     }
 
     /// The number of robots; 0 at the level of logic.
@@ -212,7 +306,7 @@ impl TestCase<'_> {
         let inputs = timed.inputs(self.rows.len());
         let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
         let trace = bits.trace(&timed.compiled.assembly, &inputs);
-        let (verdict, warnings) = judged(timed, &trace, end);
+        let (verdict, warnings) = judged(timed, &self.printed, &trace, end);
         TestRun { verdict, end, swarm: None, hold: None, warnings }
     }
 
@@ -220,11 +314,21 @@ impl TestCase<'_> {
     pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
         let Some(timed) = self.timed() else { return self.run_logic(observer) };
         let inputs = timed.inputs(self.rows.len());
-        let swarm = physics.swarm(timed.compiled, inputs.len());
+        let mut swarm = physics.swarm(timed.compiled, inputs.len());
+        let mut done = 0;
+        if let Some(keeper) = observer.keeper() {
+            let Compiled { assembly, plan, .. } = timed.compiled;
+            let task = SwarmTask::of(assembly, inputs.clone(), plan.window as usize);
+            if let Some(kept) = keeper.begin(&task)
+                && swarm.go_on(&kept, assembly, &inputs)
+            {
+                done = kept.cycles();
+            }
+        }
         let mut has_failed = timed.has_failed();
         let mut is_enough = |trace: &SwarmTrace| self.ends_at_failure && has_failed(trace);
-        let (trace, end) = swarm_run::run_until(swarm, &inputs, &mut is_enough, observer);
-        let (verdict, warnings) = judged(timed, &trace, end);
+        let (trace, end) = swarm_run::run_until(swarm, &inputs, done, &mut is_enough, observer);
+        let (verdict, warnings) = judged(timed, &self.printed, &trace, end);
         let hold = match timed.timing {
             TestTiming::Holds(_) => hold::sufficient(&self.rows, timed.compiled),
             TestTiming::Waves => timed.compiled.timing.hold as usize,
@@ -235,18 +339,56 @@ impl TestCase<'_> {
     }
 
     fn run_logic(self, observer: &mut dyn Observer) -> TestRun {
-        let Subject::Gates(netlist) = &self.subject else { unreachable!("a test without robots has gates") };
-        let rows = nbc_swarm::judge_logic(self.test, &self.rows, netlist);
+        let netlist = match self.subject {
+            Subject::Gates(netlist) => netlist,
+            Subject::Script(performance) => return perform(self.test, *performance, observer),
+            Subject::Robots(..) => unreachable!("a test without robots has gates"),
+        };
+        let rows = nbc_swarm::judge_logic(self.test, &self.rows, &netlist);
         observer.progress(rows.len() as u64, rows.len() as u64);
         let verdict = verdict(self.test, Level::Logic, None, rows);
         TestRun { verdict, end: RunEnd::Complete, swarm: None, hold: None, warnings: Vec::new() }
     }
 }
 
+/// Performs a script at the level of logic. The verdict has the last row of each step.
+fn perform(test: &CircuitTest, mut performance: Performance, observer: &mut dyn Observer) -> TestRun {
+    let (mut rows, mut warnings, mut steps) = (Vec::new(), Vec::new(), 0u64);
+    let mut end = RunEnd::Complete;
+    loop {
+        match performance.step() {
+            Ok(None) => break,
+            Ok(Some(performed)) => {
+                for PerformedRow { row, outputs, .. } in performed.into_iter().filter(|row| row.is_last) {
+                    rows.push(nbc_swarm::judge_row(test, &row, &outputs, &vec![true; outputs.len()]));
+                }
+            }
+            Err(fault) => {
+                warnings.push(fault);
+                break;
+            }
+        }
+        steps += 1;
+        if steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
+            let (done, all) = performance.progress();
+            observer.progress(done as u64, all as u64);
+            if observer.is_cancelled() {
+                end = RunEnd::Cancelled;
+                break;
+            }
+        }
+    }
+    let mut verdict = verdict(test, Level::Logic, None, rows);
+    verdict.passed &= end == RunEnd::Complete && warnings.is_empty();
+    verdict.printed = Some(performance.printed).filter(|printed| !printed.is_empty());
+    TestRun { verdict, end, swarm: None, hold: None, warnings }
+}
+
 /// The verdict on a trace, and the warnings.
-fn judged(timed: TimedTest<'_>, trace: &SwarmTrace, end: RunEnd) -> (TestVerdict, Vec<Diagnostic>) {
+fn judged(timed: TimedTest<'_>, printed: &str, trace: &SwarmTrace, end: RunEnd) -> (TestVerdict, Vec<Diagnostic>) {
     let compiled = timed.compiled;
     let mut verdict = verdict(timed.test, Level::Physics, Some(compiled), timed.judge(trace));
+    verdict.printed = Some(printed.to_owned()).filter(|printed| !printed.is_empty() && end == RunEnd::Complete);
     verdict.passed &= end == RunEnd::Complete;
     (verdict, compiled.warnings.clone())
 }
@@ -269,22 +411,24 @@ fn verdict(
         outputs: test.outputs.clone(),
         weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
         rows,
+        printed: None,
     }
 }
 
-/// The rows of a test. For a test over all inputs, of which the checker allows few, they are computed from its
-/// reference.
+/// The rows of a test without a script. For a test over all inputs, of which the checker allows few, they are computed
+/// from its reference.
 ///
 /// # Errors
 /// When the reference cannot be built.
 fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let reference = match &test.stimulation {
         Stimulation::Rows(rows) => return Ok(rows.clone()),
+        Stimulation::Script(_) => unreachable!("scripts are performed"),
         Stimulation::All { reference } => reference,
     };
     let bits: usize = test.inputs.iter().map(|port| port.width).sum();
     let mut logic = Logic::new(&elaborate_reference(program, reference)?);
-    let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(|port| Base::of_width(port.width)).collect();
+    let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(Base::of_port).collect();
     let row = |pattern: usize| {
         let inputs: Vec<bool> = (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
         let expected = match logic.settle(&inputs) {

@@ -3,8 +3,8 @@
 use crate::report;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};
 use nbc_base::source::Span;
-use nbc_circuit::MapError;
 use nbc_circuit::waves::WaveError;
+use nbc_circuit::{EnvironmentFault, MapError};
 use nbc_swarm::WeakRobot;
 
 /// An invalid choice of a circuit, swarm or library. These errors have no place.
@@ -83,6 +83,11 @@ pub(super) fn for_circuit(error: Diagnostic, place: Span) -> Diagnostic {
 pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>) -> Diagnostic {
     let error = error.with_label(library, "the robots of this library");
     command.into_iter().fold(error, Diagnostic::with_help)
+}
+
+/// Shows an error of a file at the declaration that names it.
+pub(super) fn of_declared_file(error: Diagnostic, declared: Span) -> Diagnostic {
+    error.with_label(declared, "declared here")
 }
 
 /// A library with which an evolution cannot begin: none of its robots fits.
@@ -230,5 +235,75 @@ impl ScheduleError {
         Diagnostic::new(Code::BadSchedule, message, span, label).with_help(format!(
             "write stimuli, `*` and a duration: `{example}*10` is ten cycles, `{example}*56steps` is 56 env steps"
         ))
+    }
+}
+
+/// A test whose rows depend on what the circuit does, and that cannot be performed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ScriptError {
+    /// An environment that cannot be simulated.
+    Environment(EnvironmentFault),
+    /// A circuit and an environment that never agree.
+    NeverAgree,
+    /// A line that is no number, or does not fit into a word.
+    Line { path: String, line: usize },
+    /// A file with more words than the memory.
+    TooManyWords { path: String, found: usize, room: usize },
+    /// Too many rows for physics.
+    TooLong { most: usize },
+    /// A file that the program does not declare.
+    UnknownFile { name: String, meant: Suggestion },
+}
+
+impl ScriptError {
+    /// The error at the row, the environment or the file.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let (code, message, help) = self.words();
+        let error = Diagnostic::new(code, message, span, "here");
+        help.into_iter().fold(error, Diagnostic::with_help)
+    }
+
+    /// The error of a file that the command line names.
+    pub(super) fn without_place(self) -> Diagnostic {
+        let meant = match &self {
+            Self::UnknownFile { meant, .. } => meant.clone(),
+            _ => Suggestion::None,
+        };
+        let (code, message, help) = self.words();
+        let error = Diagnostic::without_place(code, message).with_suggestion(None, &meant);
+        help.into_iter().fold(error, Diagnostic::with_help)
+    }
+
+    fn words(self) -> (Code, String, Option<String>) {
+        match self {
+            Self::Environment(EnvironmentFault::Clock(error)) => {
+                (Code::Operands, format!("the environment cannot be simulated: {error}"), error.help())
+            }
+            Self::Environment(EnvironmentFault::OtherClock) => (
+                Code::Operands,
+                "the registers and memories of an environment need one clock, and take their values when it rises"
+                    .to_owned(),
+                None,
+            ),
+            Self::Environment(EnvironmentFault::Circle) | Self::NeverAgree => (
+                Code::Operands,
+                "the circuit and its environment change each other for ever".to_owned(),
+                Some("let a register of the environment keep one of the values that go round".to_owned()),
+            ),
+            Self::Line { path, line } => (
+                Code::Value,
+                format!("line {line} of `{path}` has no word of the memory"),
+                Some("a `.hex` file has hexadecimal words, a `.csv` file numbers, a `.bin` file bytes".to_owned()),
+            ),
+            Self::TooManyWords { path, found, room } => {
+                (Code::TooLarge, format!("`{path}` has {found} words, and the memory {room}"), None)
+            }
+            Self::TooLong { most } => (
+                Code::TooLarge,
+                format!("the test has more than {most} rows in physics"),
+                Some("test it at the level of logic: `nbc test --logic`".to_owned()),
+            ),
+            Self::UnknownFile { name, .. } => (Code::Unknown, format!("the program declares no file `{name}`"), None),
+        }
     }
 }

@@ -1,9 +1,10 @@
 //! A body's lattice at rest: its points, its edges with their springs, its surface (docs/physics.md 2 and 3).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::constants::Constants;
-use nbc_base::model::{Body, MaterialKind};
+use crate::grid::{DriveAxis, Grid, GridCell};
+use nbc_base::model::Body;
 
 /// Corners and sides of a voxel are numbered clockwise: corner 0 top left, 1 top right, 2 bottom right, 3 bottom left;
 /// side 0 top, 1 right, 2 bottom, 3 left. So side `i` runs from corner `i` to corner `i + 1`.
@@ -18,7 +19,17 @@ pub struct Lattice {
     edges: Vec<Edge>,
     voxels: Vec<Voxel>,
     driven: Vec<DrivenEdge>,
-    active: bool,
+    fixed: Vec<usize>,
+    parts: Vec<LatticePart>,
+}
+
+/// An object of its own in a lattice: some of its rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LatticePart {
+    /// Its first row of voxels.
+    pub top: usize,
+    /// Whether any of its voxels is active: only such an object is a robot, and can be unstable (docs/physics.md 1).
+    pub active: bool,
 }
 
 /// A point of the lattice.
@@ -57,6 +68,8 @@ pub struct Voxel {
     pub code: u8,
     /// Whether its material is rigid.
     pub rigid: bool,
+    /// The object that it belongs to: the place of a part.
+    pub part: usize,
     /// Its points by number: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
     /// Whether each side is surface: top, right, bottom, left.
@@ -70,21 +83,31 @@ impl Voxel {
     }
 }
 
-/// A horizontal edge that one or two active voxels drive (docs/physics.md 4).
+/// An edge that one or two active voxels drive (docs/physics.md 4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrivenEdge {
     /// The edge, by its number.
     pub edge: usize,
-    /// The material code of the first owner in reading order that is active.
-    pub first: u8,
-    /// The code of the second, if both are.
-    pub second: Option<u8>,
+    /// The channel of the first owner in reading order that drives it; the material code in a body.
+    pub first: u16,
+    /// The channel of the second, if both do.
+    pub second: Option<u16>,
+    /// The direction of the edge.
+    pub axis: DriveAxis,
 }
 
 impl Lattice {
     /// The lattice of a body.
     pub fn new(body: &Body, constants: &Constants) -> Self {
-        Builder { body, constants }.build()
+        Self::of(&[&Grid::from(body)], constants)
+    }
+
+    /// The lattice of some objects, one below the other in a box, each a part of its own.
+    pub fn of(objects: &[&Grid], constants: &Constants) -> Self {
+        let (grid, tops) = Grid::stack(objects);
+        let part = |(grid, &top): (&&Grid, &usize)| LatticePart { top, active: grid.is_active() };
+        let parts = objects.iter().zip(&tops).map(part).collect();
+        Builder { grid: &grid, parts, constants }.build()
     }
 
     /// Columns and rows of the body's box.
@@ -112,18 +135,39 @@ impl Lattice {
         &self.driven
     }
 
-    /// Whether any voxel is active: only such a body is a robot, acts, and can be unstable (docs/physics.md 1).
-    pub fn is_active(&self) -> bool {
-        self.active
+    /// The points that never move, in order.
+    pub fn fixed(&self) -> &[usize] {
+        &self.fixed
+    }
+
+    /// The objects, from top to bottom; a body is one.
+    pub fn parts(&self) -> &[LatticePart] {
+        &self.parts
+    }
+
+    /// The object that a row of points belongs to.
+    pub fn part_of(&self, row: usize) -> usize {
+        part_at(&self.parts, row)
     }
 
     /// The start position of point `point`, in meters, for a body whose left side is `start` voxels from the start of
     /// the ground, rounded as in docs/physics.md 2.
-    pub fn start(&self, point: usize, start: f64, constants: &Constants) -> [f64; 2] {
+    pub fn start(&self, point: usize, origin: [f64; 2], constants: &Constants) -> [f64; 2] {
         let LatticePoint { column, row, .. } = self.points[point];
-        let cell = constants.cell;
-        [start * cell + column as f64 * cell, (1.0 * cell + self.height as f64 * cell) - row as f64 * cell]
+        corner(origin, self.height, column, row, constants)
     }
+}
+
+/// The part that has a row.
+fn part_at(parts: &[LatticePart], row: usize) -> usize {
+    parts.partition_point(|part| part.top <= row) - 1
+}
+
+/// The start of a lattice point of an object, in meters: of its column and row in the object, whose lower left corner
+/// is `origin` voxels from that of the world (docs/physics.md 2).
+pub fn corner([left, bottom]: [f64; 2], height: usize, column: usize, row: usize, constants: &Constants) -> [f64; 2] {
+    let cell = constants.cell;
+    [left * cell + column as f64 * cell, (bottom * cell + height as f64 * cell) - row as f64 * cell]
 }
 
 /// Lattice place of a corner relative to its voxel: columns, rows.
@@ -137,7 +181,8 @@ const ACROSS: [(isize, isize); CORNERS] = [(0, -1), (1, 0), (0, 1), (-1, 0)];
 
 /// A lattice under construction.
 struct Builder<'a> {
-    body: &'a Body,
+    grid: &'a Grid,
+    parts: Vec<LatticePart>,
     constants: &'a Constants,
 }
 
@@ -145,33 +190,34 @@ struct Builder<'a> {
 struct Draft {
     rest: f64,
     stiffness: f64,
-    drivers: Vec<u8>,
+    drivers: Vec<(u16, DriveAxis)>,
 }
 
 impl Builder<'_> {
-    fn build(&self) -> Lattice {
+    fn build(self) -> Lattice {
         let (points, voxels) = self.points_and_voxels();
         let drafts = self.drafts(&points, &voxels);
         let mut edges = Vec::with_capacity(drafts.len());
         let mut driven = Vec::new();
         for ((a, b), draft) in drafts {
-            if let Some(&first) = draft.drivers.first() {
-                driven.push(DrivenEdge { edge: edges.len(), first, second: draft.drivers.get(1).copied() });
+            if let Some(&(first, axis)) = draft.drivers.first() {
+                let second = draft.drivers.get(1).map(|&(channel, _)| channel);
+                driven.push(DrivenEdge { edge: edges.len(), first, second, axis });
             }
             edges.push(Edge { a: a.1, b: b.1, rest: draft.rest, stiffness: draft.stiffness });
         }
-        let active = voxels.iter().any(|voxel| self.is_active(voxel.code));
-        Lattice { width: self.body.width(), height: self.body.height(), points, edges, voxels, driven, active }
+        let holds = |voxel: &&Voxel| self.cell(voxel) == GridCell::Fixed;
+        let fixed: BTreeSet<usize> = voxels.iter().filter(holds).flat_map(|voxel| voxel.corners).collect();
+        let (width, height, fixed) = (self.grid.width(), self.grid.height(), fixed.into_iter().collect());
+        Lattice { width, height, points, edges, voxels, driven, fixed, parts: self.parts }
     }
 
-    fn is_active(&self, code: u8) -> bool {
-        matches!(self.body.palette().kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
+    fn cell(&self, voxel: &Voxel) -> GridCell {
+        self.grid.cell(voxel.row as isize, voxel.column as isize).expect("a voxel is not empty")
     }
 
     fn occupied(&self, column: isize, row: isize) -> bool {
-        let inside =
-            (0..self.body.width() as isize).contains(&column) && (0..self.body.height() as isize).contains(&row);
-        inside && self.body.code(row as usize, column as usize) > 0
+        self.grid.cell(row, column).is_some()
     }
 
     /// Whether the lattice point at (column, row) is two points: exactly two voxels around it, diagonal to each other.
@@ -186,12 +232,9 @@ impl Builder<'_> {
         let mut points = Vec::new();
         let mut voxels = Vec::new();
         let mut numbers = BTreeMap::new();
-        for row in 0..self.body.height() {
-            for column in 0..self.body.width() {
-                let code = self.body.code(row, column);
-                if code == 0 {
-                    continue;
-                }
+        for row in 0..self.grid.height() {
+            for column in 0..self.grid.width() {
+                let Some(cell) = self.grid.cell(row as isize, column as isize) else { continue };
                 let mut corners = [0; CORNERS];
                 for corner in CREATION {
                     let (i, j) = (column + OFFSETS[corner].0, row + OFFSETS[corner].1);
@@ -202,8 +245,9 @@ impl Builder<'_> {
                     });
                 }
                 let surface = ACROSS.map(|(i, j)| !self.occupied(column as isize + i, row as isize + j));
-                let rigid = self.body.palette().kind(code) == Some(MaterialKind::Rigid);
-                voxels.push(Voxel { row, column, code, rigid, corners, surface });
+                let (code, rigid) = (self.grid.code(row, column), cell == GridCell::Rigid);
+                let part = part_at(&self.parts, row);
+                voxels.push(Voxel { row, column, code, rigid, part, corners, surface });
             }
         }
         (points, voxels)
@@ -216,7 +260,8 @@ impl Builder<'_> {
         let side = self.constants.cell;
         let diagonal = (side * side + side * side).sqrt();
         for voxel in voxels {
-            let (main, share) = self.stiffness(voxel.code);
+            let cell = self.cell(voxel);
+            let (main, share) = self.stiffness(cell);
             let end = |corner: usize| {
                 let point = points[voxel.corners[corner]];
                 ((point.row, point.column, point.twin), voxel.corners[corner])
@@ -228,11 +273,13 @@ impl Builder<'_> {
                     stiffness: self.constants.rigid_stiffness,
                     drivers: Vec::new(),
                 });
-                if !voxel.rigid {
+                if !matches!(cell, GridCell::Rigid | GridCell::Fixed) {
                     draft.stiffness = main;
                 }
-                if from % 2 == 0 && self.is_active(voxel.code) {
-                    draft.drivers.push(voxel.code);
+                if let GridCell::Active { channel, axis } = cell
+                    && (from % 2 == 0) == (axis == DriveAxis::Horizontal)
+                {
+                    draft.drivers.push((channel, axis));
                 }
             }
             for (a, b) in [(1, 3), (0, 2)] {
@@ -243,14 +290,12 @@ impl Builder<'_> {
     }
 
     /// Stiffness of a voxel's main edges, and the fraction of it for its diagonals.
-    fn stiffness(&self, code: u8) -> (f64, f64) {
+    fn stiffness(&self, cell: GridCell) -> (f64, f64) {
         let constants = self.constants;
-        match self.body.palette().kind(code) {
-            Some(MaterialKind::Soft) => (constants.soft_stiffness, constants.soft_diagonal),
-            Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)) => {
-                (constants.active_stiffness, constants.active_diagonal)
-            }
-            Some(MaterialKind::Rigid) | None => (constants.rigid_stiffness, constants.rigid_diagonal),
+        match cell {
+            GridCell::Soft => (constants.soft_stiffness, constants.soft_diagonal),
+            GridCell::Active { .. } => (constants.active_stiffness, constants.active_diagonal),
+            GridCell::Rigid | GridCell::Fixed => (constants.rigid_stiffness, constants.rigid_diagonal),
         }
     }
 }

@@ -40,6 +40,8 @@ impl StimulusSource {
 pub struct Member {
     /// The net it drives.
     pub net: String,
+    /// The names of the calls that it comes from, the outermost first.
+    pub block: Vec<String>,
     /// The robot that drives it.
     pub robot: Robot,
     /// The source of each of its stimuli.
@@ -99,15 +101,29 @@ impl Assembly {
     pub fn setting(&self, cycles: usize) -> Setting {
         let widest = self.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
         let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_GROUND);
-        Setting { world_width, factors: self.world.factors, ..Setting::default() }
+        Setting { world_width, factors: self.world.factors, ground: self.world.ground, ..Setting::default() }
+    }
+
+    /// The name of the net that a source drives, such as `a[3]`; a constant's is its value.
+    pub fn source_name(&self, source: StimulusSource) -> String {
+        match source {
+            StimulusSource::Input(i) => self.inputs.iter().flat_map(Column::bits).nth(i).unwrap_or_default(),
+            StimulusSource::Robot(i) => self.members[i].net.clone(),
+            StimulusSource::Constant(value) => u8::from(value).to_string(),
+        }
     }
 
     /// Its robots at their starts, with ground for this many cycles.
     pub fn flock(&self, simulator: &Simulator, cycles: usize) -> Box<dyn Flock> {
         let bodies: Vec<Body> = self.members.iter().map(|member| member.robot.body.clone()).collect();
-        let mut flock = simulator.flock(&self.setting(cycles), &bodies);
+        let setting = self.setting(cycles);
+        let mut flock = simulator.flock(&setting, &bodies);
         if self.world.noise.start > 0.0 {
-            (0..flock.len()).for_each(|i| flock.shift(i, RobotNoise::new(&self.world.noise, i).shift()));
+            for (i, body) in bodies.iter().enumerate() {
+                let shift = RobotNoise::new(&self.world.noise, i).shift();
+                let up = Setting { shift, ..setting }.start(body.width())[1] - setting.start(body.width())[1];
+                flock.shift(i, [shift, up]);
+            }
         }
         flock
     }
@@ -141,8 +157,10 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
         let missing = AssembleError::MissingFunction { function: cell.function };
         let fit = choose(library, cell.function).ok_or(missing)?;
         let senses = fit.stimuli(&pins, StimulusSource::Constant);
+        let blocks = netlist.blocks();
+        let block = blocks.around(netlist.block(id)).into_iter().map(|block| blocks.name(block).to_owned()).collect();
         let (net, start, held) = (netlist.net_name(id), before.value(id), vec![Vec::new(); senses.len()]);
-        members.push(Member { net, robot: fit.robot.clone(), senses, start, held });
+        members.push(Member { net, block, robot: fit.robot.clone(), senses, start, held });
     }
     Ok(Assembly {
         circuit: netlist.name.clone(),
@@ -222,7 +240,7 @@ mod tests {
         netlist.add_output("y", gate);
         let library = Library { robots: robots.iter().copied().map(robot).collect() };
         let found = assemble(&netlist, &library).map(|assembly| {
-            assert_eq!(assembly.outputs, [Column { name: "y".to_owned(), width: 1 }]);
+            assert_eq!(assembly.outputs, [Column::new("y", 1)]);
             assert_eq!(assembly.shown, [StimulusSource::Robot(0)]);
             (assembly.members[0].robot.name.clone(), assembly.members[0].senses.clone())
         });

@@ -8,7 +8,7 @@ use rand_chacha::ChaCha8Rng;
 use crate::holds::{HoldPlan, PatternHold, holds};
 use crate::noise::RobotNoise;
 use nbc_base::model::{
-    Behavior, Body, Character, Direction, Fault, Pattern, PhysicsWorld, Robot, Setting, Transition, Trial,
+    Behavior, Body, Character, Direction, Fault, Pattern, PhysicsWorld, Robot, Setting, Trajectory, Transition, Trial,
 };
 use nbc_sim::Simulator;
 
@@ -67,8 +67,7 @@ pub fn sketch(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<
 pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
     let probe = Probe::new(simulator, body, behavior);
     for clock in 1..=most {
-        let tally = probe.random(clock, FIRST_SWITCHES)?;
-        if tally.wrong == 0 {
+        if let Some(tally) = probe.random(clock, FIRST_SWITCHES, 1)? {
             return Ok(Some((clock, tally.margin)));
         }
     }
@@ -79,7 +78,8 @@ pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32)
 /// wrong if a simulation fails.
 pub(super) fn errors_in(simulator: &Simulator, robot: &Robot, world: &PhysicsWorld) -> f64 {
     let probe = Probe { world: *world, ..Probe::new(simulator, &robot.body, robot.behavior) };
-    probe.random(robot.character.clock, FIRST_SWITCHES).map_or(1.0, |tally| tally.error_rate())
+    let tally = probe.random(robot.character.clock, FIRST_SWITCHES, u32::MAX);
+    tally.map_or(1.0, |tally| tally.map_or(1.0, |tally| tally.error_rate()))
 }
 
 /// A body under test.
@@ -121,6 +121,12 @@ impl Tally {
         }
     }
 
+    /// The wrong switches with which a tally of that many switches in each sequence has no fewer errors than this one.
+    fn matched_by(&self, switches: usize) -> u32 {
+        let all = (switches * LANES * STARTS.len()) as u32;
+        (self.wrong * all).div_ceil(self.switches)
+    }
+
     fn error_rate(&self) -> f64 {
         f64::from(self.wrong) / f64::from(self.switches.max(1))
     }
@@ -147,25 +153,21 @@ impl<'a> Probe<'a> {
         Self { simulator, setting, body, behavior, world: PhysicsWorld::default() }
     }
 
-    /// Runs plans from each start.
-    fn run(&self, plans: &[HoldPlan]) -> Result<Vec<Vec<PatternHold>>, Fault> {
+    /// Runs plans from a start.
+    fn run(&self, plans: &[HoldPlan], start: usize) -> Result<Vec<Vec<PatternHold>>, Fault> {
         let noise = |robot| RobotNoise::new(&self.world.noise, robot);
         let body = noise(0).worn(self.body);
         let trial =
             |(i, plan): (usize, &HoldPlan)| Trial { body: body.clone(), schedule: noise(i).sensed(&plan.schedule()) };
         let trials: Vec<Trial> = plans.iter().enumerate().map(trial).collect();
-        let own = Setting { shift: noise(0).shift(), factors: self.world.factors, ..self.setting };
-        let mut found = Vec::with_capacity(plans.len() * STARTS.len());
-        for shift in STARTS {
-            let setting = Setting { start_x: own.start_x.map(|x| x + shift), ..own };
-            for (plan, trajectory) in plans.iter().zip(self.simulator.run_trials(&setting, &trials)) {
-                match trajectory.fault {
-                    Some(fault) => return Err(fault),
-                    None => found.push(holds(plan, &trajectory)),
-                }
-            }
-        }
-        Ok(found)
+        let start_x = self.setting.start_x.map(|x| x + start);
+        let PhysicsWorld { factors, ground, .. } = self.world;
+        let setting = Setting { shift: noise(0).shift(), factors, ground, start_x, ..self.setting };
+        let found = |(plan, trajectory): (&HoldPlan, Trajectory)| match trajectory.fault {
+            Some(fault) => Err(fault),
+            None => Ok(holds(plan, &trajectory)),
+        };
+        plans.iter().zip(self.simulator.run_trials(&setting, &trials)).map(found).collect()
     }
 
     /// Random sequences at the smallest clock without errors, or at the one with the fewest errors. A clock that fails
@@ -173,23 +175,26 @@ impl<'a> Probe<'a> {
     fn best_clock(&self, switches: usize) -> Result<Tally, Fault> {
         let mut best: Option<Tally> = None;
         for clock in CLOCKS {
-            let mut tally = self.random(clock, FIRST_SWITCHES)?;
-            if tally.wrong == 0 && switches > FIRST_SWITCHES {
-                tally = self.random(clock, switches)?;
+            let too_many = |switches| best.as_ref().map_or(u32::MAX, |best| best.matched_by(switches));
+            let mut tally = self.random(clock, FIRST_SWITCHES, too_many(FIRST_SWITCHES))?;
+            if switches > FIRST_SWITCHES && tally.as_ref().is_some_and(|tally| tally.wrong == 0) {
+                tally = self.random(clock, switches, too_many(switches))?;
             }
-            if tally.wrong == 0 {
-                return Ok(tally);
-            }
-            if best.as_ref().is_none_or(|best| tally.error_rate() < best.error_rate()) {
-                best = Some(tally);
+            match tally {
+                Some(tally) if tally.wrong == 0 => return Ok(tally),
+                Some(tally) => best = Some(tally),
+                None => {}
             }
         }
         let best = best.expect("there are clocks");
-        if best.switches as usize >= switches * LANES { Ok(best) } else { self.random(best.clock, switches) }
+        if best.switches as usize >= switches * LANES {
+            return Ok(best);
+        }
+        Ok(self.random(best.clock, switches, u32::MAX)?.expect("any number of errors is accepted"))
     }
 
-    /// Random sequences at a clock.
-    fn random(&self, clock: u32, switches: usize) -> Result<Tally, Fault> {
+    /// Random sequences at a clock, unless that many switches are wrong. Then no more starts are simulated.
+    fn random(&self, clock: u32, switches: usize, too_many: u32) -> Result<Option<Tally>, Fault> {
         let mut rng = ChaCha8Rng::seed_from_u64(SEED);
         rng.set_stream(u64::from(clock));
         let plans: Vec<HoldPlan> = (0..LANES)
@@ -197,11 +202,16 @@ impl<'a> Probe<'a> {
             .collect();
         let (margin, toppled) = (f64::INFINITY, false);
         let mut tally = Tally { clock, switches: 0, wrong: 0, quiet: 0, glitches: 0, margin, toppled };
-        for holds in self.run(&plans)? {
-            holds.iter().for_each(|hold| tally.count(hold, self.behavior));
-            tally.toppled |= has_toppled(&holds);
+        for start in STARTS {
+            for holds in self.run(&plans, start)? {
+                holds.iter().for_each(|hold| tally.count(hold, self.behavior));
+                tally.toppled |= has_toppled(&holds);
+            }
+            if tally.wrong >= too_many {
+                return Ok(None);
+            }
         }
-        Ok(tally)
+        Ok(Some(tally))
     }
 
     /// The settle times of all transitions, the largest over all starts, and whether the body fell over in one.
@@ -214,7 +224,7 @@ impl<'a> Probe<'a> {
         let plan = |&(from, to): &_, before| HoldPlan(vec![(from, before), (to, SETTLE_AFTER)]);
         let plans: Vec<HoldPlan> =
             SETTLE_BEFORE.iter().flat_map(|&before| pairs.iter().map(move |pair| plan(pair, before))).collect();
-        let runs = self.run(&plans)?;
+        let runs = STARTS.map(|start| self.run(&plans, start)).into_iter().collect::<Result<Vec<_>, _>>()?.concat();
         let cycles =
             |place: usize| runs.iter().skip(place).step_by(pairs.len()).map(|holds| self.settled(&holds[1])).max();
         let transition =
@@ -271,6 +281,22 @@ mod tests {
         assert_eq!(found(2), (3, 2, -0.1), "an isolated wrong cycle in steady state counts");
         let start = PatternHold { before: None, ..hold(0, 3, &[9.0]) };
         assert_eq!(tally(1, &[start]).switches, 0, "a fresh start is no switch");
+    }
+
+    #[test]
+    fn a_search_for_a_clock_ends_where_it_has_no_fewer_errors() {
+        let with = |wrong, switches| Tally { wrong, switches, ..tally(2, &[]) };
+        let all = |switches: usize| (switches * LANES * STARTS.len()) as u32;
+        assert_eq!(with(5, all(8)).matched_by(8), 5);
+        assert_eq!([with(1, all(64)).matched_by(8), with(9, all(64)).matched_by(8)], [1, 2]);
+        assert_eq!(with(3, all(8)).matched_by(64), 24);
+        let body = Body::parse(&["343", "563"], &nbc_base::model::Palette::paper()).unwrap();
+        let simulator = Simulator::default();
+        let probe = Probe::new(&simulator, &body, nand());
+        let whole = probe.random(1, FIRST_SWITCHES, u32::MAX).unwrap().unwrap();
+        assert!(whole.wrong > 0 && whole.switches == all(FIRST_SWITCHES));
+        assert_eq!(probe.random(1, FIRST_SWITCHES, whole.wrong).unwrap(), None);
+        assert_eq!(probe.random(1, FIRST_SWITCHES, whole.wrong + 1).unwrap(), Some(whole));
     }
 
     #[test]

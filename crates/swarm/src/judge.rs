@@ -22,7 +22,7 @@ pub struct RowHold {
 }
 
 /// Judges a row by the outputs at its end, and by which of them were steady. Every row of every test is judged here.
-pub(super) fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
+pub fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[bool]) -> RowVerdict {
     let meets = |((expected, &output), &steady): ((&Option<bool>, &bool), &bool)| {
         expected.is_none_or(|expected| expected == output && steady)
     };
@@ -171,7 +171,7 @@ mod tests {
     use nbc_base::source::{FileId, Span};
 
     fn port(name: &str) -> Column {
-        Column { name: name.to_owned(), width: 1 }
+        Column::new(name, 1)
     }
 
     /// An inverter's trace with these inputs and outputs in each cycle.
@@ -184,6 +184,7 @@ mod tests {
             samples_per_cycle: 1,
             robots: vec![RobotTrace {
                 net: "y".to_owned(),
+                block: Vec::new(),
                 function: Function::NOT,
                 robot: "not_1".to_owned(),
                 senses: vec![StimulusSource::Input(0), StimulusSource::Constant(false)],

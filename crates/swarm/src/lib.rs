@@ -12,6 +12,7 @@ mod gate;
 mod holds;
 mod judge;
 mod judge_waves;
+mod kept;
 mod live;
 mod measure;
 mod noise;
@@ -41,8 +42,9 @@ pub use evaluate::{
 };
 pub use evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 pub use executor::{Executor, perform};
-pub use judge::{RowHold, STEADY_CYCLES, judge_logic, judge_swarm, passes, resting_outputs};
+pub use judge::{RowHold, STEADY_CYCLES, judge_logic, judge_row, judge_swarm, passes, resting_outputs};
 pub use judge_waves::WaveTest;
+pub use kept::KeptSwarm;
 pub use live::{LiveSwarm, SwarmSnapshot};
 pub use measure::{FIXED_STEPS, Measurement, measure, walk};
 pub use proportion::Proportion;

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::sensing::Sensing;
-use crate::{Assembly, CycleTrace, Recording, RobotTrace, Room, SwarmTrace};
+use crate::{Assembly, CycleTrace, KeptSwarm, Recording, RobotTrace, Room, SwarmTrace};
 use nbc_base::model::{CYCLE_STEPS, Pattern};
 use nbc_sim::{Flock, Simulator, Snapshot};
 
@@ -134,6 +134,50 @@ impl LiveSwarm {
         self.sensing.clone_from(&snapshot.sensing);
         self.trace.clone_from(&snapshot.trace);
         self.forgotten = snapshot.forgotten;
+    }
+
+    /// The swarm as plain data, from which it goes on with the same bits.
+    ///
+    /// # Panics
+    /// When a part of its trace was forgotten.
+    pub fn keep(&self) -> KeptSwarm {
+        assert_eq!(self.forgotten, 0, "the outputs of all cycles are kept");
+        let needed = self.window * SwarmTrace::SAMPLES_PER_CYCLE + 1;
+        let robot = |robot: usize| {
+            let path = &self.trace.robots[robot].com_x;
+            (self.flock.snapshot(robot), path[path.len().saturating_sub(needed)..].to_vec())
+        };
+        KeptSwarm::new(self.trace.cycles.iter().map(|cycle| &cycle.bits[..]), (0..self.flock.len()).map(robot))
+    }
+
+    /// Sets a swarm at its start to a kept one of the same assembly that had these inputs in its cycles; whether it can
+    /// be one. The paths of the robots before that are not known, and stand still at 0.
+    pub fn go_on(&mut self, kept: &KeptSwarm, assembly: &Assembly, inputs: &[Vec<bool>]) -> bool {
+        let outputs = kept.outputs(assembly.members.len()).filter(|cycles| cycles.len() <= inputs.len());
+        let Some(outputs) = outputs else { return false };
+        let points = |robot: usize| self.flock.snapshot(robot).state.position.len();
+        let fits = |(at, (snapshot, path)): (usize, (Snapshot, &[f64]))| {
+            let state = &snapshot.state;
+            let sizes = [state.position.len(), state.previous.len(), state.velocity.len()];
+            sizes == [points(at); 3]
+                && !path.is_empty()
+                && path.len() <= outputs.len() * SwarmTrace::SAMPLES_PER_CYCLE + 1
+        };
+        if !kept.robots().enumerate().all(fits) {
+            return false;
+        }
+        let recording = std::mem::take(&mut self.trace.recording);
+        (self.sensing, self.trace) = Sensing::replayed(assembly, &outputs, inputs);
+        self.trace.recording = recording;
+        let samples = outputs.len() * SwarmTrace::SAMPLES_PER_CYCLE + 1;
+        for (i, (snapshot, path)) in kept.robots().enumerate() {
+            self.flock.restore(i, &snapshot);
+            let robot = &mut self.trace.robots[i];
+            robot.com_x = vec![0.0; samples - path.len()];
+            robot.com_x.extend_from_slice(path);
+            robot.fault = snapshot.fault;
+        }
+        true
     }
 
     /// Simulates a cycle under what the robots sense, from stop to stop.

@@ -1,7 +1,7 @@
 //! The stimuli of the robots of a swarm, which follow from the outputs of other robots.
 
 use crate::noise::RobotNoise;
-use crate::{Assembly, StimulusSource, SwarmTrace};
+use crate::{Assembly, CycleTrace, StimulusSource, SwarmTrace};
 use nbc_base::model::{Pattern, WorldNoise};
 
 /// The outputs that the robots sense.
@@ -30,6 +30,20 @@ impl Sensing {
             held: assembly.members.iter().map(|member| member.held.clone()).collect(),
             noise: assembly.world.noise,
         }
+    }
+
+    /// A swarm with these outputs in its first cycles under these inputs: what its robots sense then, and its trace
+    /// without their paths.
+    pub fn replayed(assembly: &Assembly, cycles: &[Vec<bool>], inputs: &[Vec<bool>]) -> (Self, SwarmTrace) {
+        let mut trace = SwarmTrace::begin(assembly);
+        let mut sensing = Self::of(assembly);
+        for (bits, inputs) in cycles.iter().zip(inputs) {
+            let sensed = sensing.sense(&trace, trace.cycles.len(), inputs);
+            sensing.take(trace.cycles.len(), bits);
+            let outputs = trace.shown.iter().map(|&signal| signal.bit(inputs, bits)).collect();
+            trace.cycles.push(CycleTrace { inputs: inputs.clone(), sensed, bits: bits.clone(), outputs });
+        }
+        (sensing, trace)
     }
 
     /// The stimuli of each robot during the cycle with this number, from 0, with these bits on the input ports.

@@ -1,7 +1,7 @@
 //! The simulation of a swarm as plain data: bodies, wires and inputs go in, the robots' bits come out.
 
 use crate::sensing::Sensing;
-use crate::{Assembly, CycleTrace, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
+use crate::{Assembly, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
 use nbc_base::model::{Body, Character, Column, Displacements, PhysicsWorld, Provenance, Robot};
 use nbc_sim::Simulator;
 
@@ -55,7 +55,7 @@ impl SwarmTask {
     /// The simulation of these robots, with the bodies that they have in this world.
     pub fn new(members: Vec<PlainMember>, world: PhysicsWorld, inputs: Vec<Vec<bool>>, window: usize) -> Self {
         let width = inputs.first().map_or(0, Vec::len);
-        let ports = (width > 0).then(|| Column { name: String::new(), width });
+        let ports = (width > 0).then(|| Column::new("", width));
         let assembly = Assembly {
             circuit: String::new(),
             inputs: ports.into_iter().collect(),
@@ -98,7 +98,7 @@ impl PlainMember {
         let displacement = Displacements::zero(self.senses.len());
         let (name, behavior) = (none(), displacement.behavior());
         let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
-        Member { net: none(), robot, senses: self.senses, start: self.start, held: self.held }
+        Member { net: none(), block: Vec::new(), robot, senses: self.senses, start: self.start, held: self.held }
     }
 }
 
@@ -114,22 +114,14 @@ impl SwarmBits {
     /// # Panics
     /// When the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
-        let mut trace = SwarmTrace::begin(assembly);
-        let mut sensing = Sensing::of(assembly);
-        for (bits, inputs) in self.cycles.iter().zip(inputs) {
-            let sensed = sensing.sense(&trace, trace.cycles.len(), inputs);
-            sensing.take(trace.cycles.len(), bits);
-            let outputs = trace.shown.iter().map(|&signal| signal.bit(inputs, bits)).collect();
-            trace.cycles.push(CycleTrace { inputs: inputs.clone(), sensed, bits: bits.clone(), outputs });
-        }
-        trace
+        Sensing::replayed(assembly, &self.cycles, inputs).1
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::model::{Palette, WorldFactors, WorldNoise};
+    use nbc_base::model::{GroundProfile, Palette, WorldFactors, WorldNoise};
 
     /// A latch of two robots, with a start value, in a world with everything that can go wrong.
     fn latch() -> Assembly {
@@ -139,7 +131,7 @@ mod tests {
             let plain = PlainMember { body: body.clone(), clock: 3, senses, start, held };
             Member { net: net.to_owned(), ..plain.nameless() }
         };
-        let column = |name: &str| Column { name: name.to_owned(), width: 1 };
+        let column = |name: &str| Column::new(name, 1);
         Assembly {
             circuit: "latch".to_owned(),
             inputs: vec![column("s"), column("r")],
@@ -155,6 +147,7 @@ mod tests {
         .in_world(PhysicsWorld {
             factors: WorldFactors { friction: 0.9, ..WorldFactors::default() },
             noise: WorldNoise { start: 0.5, missed: 0.4, weak: 0.1, dead: 0.1, seed: 3 },
+            ground: GroundProfile::new(&[0, 0, 0, 2]).unwrap(),
         })
     }
 

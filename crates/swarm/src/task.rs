@@ -23,7 +23,7 @@ pub enum Task {
     /// All measurements of a body for its robot file (see [`measure`](crate::measure)).
     Measurement(Body),
     /// A swarm simulated through its inputs.
-    Swarm(SwarmTask),
+    Swarm(Box<SwarmTask>),
 }
 
 /// The result of a task of the same kind.

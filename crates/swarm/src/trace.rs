@@ -32,6 +32,9 @@ pub struct SwarmTrace {
 pub struct RobotTrace {
     /// The net whose bit it is.
     pub net: String,
+    /// The names of the calls that the robot comes from, the outermost first.
+    #[serde(skip)]
+    pub block: Vec<String>,
     /// The gate it plays, of its stimuli in the order of `senses`.
     #[serde(serialize_with = "as_text")]
     pub function: Function,
@@ -66,18 +69,13 @@ impl SwarmTrace {
 
     /// The trace before the first cycle, without the places of the robots.
     pub(super) fn begin(assembly: &Assembly) -> Self {
-        let inputs: Vec<String> = assembly.inputs.iter().flat_map(Column::bits).collect();
-        let net_name = |signal| match signal {
-            StimulusSource::Input(i) => inputs[i].clone(),
-            StimulusSource::Robot(i) => assembly.members[i].net.clone(),
-            StimulusSource::Constant(value) => u8::from(value).to_string(),
-        };
         let robot = |member: &Member| RobotTrace {
             net: member.net.clone(),
+            block: member.block.clone(),
             function: member.robot.function(),
             robot: member.robot.name.clone(),
             senses: member.senses.clone(),
-            sensed_nets: member.senses.iter().map(|&source| net_name(source)).collect(),
+            sensed_nets: member.senses.iter().map(|&source| assembly.source_name(source)).collect(),
             com_x: Vec::new(),
             fault: None,
         };

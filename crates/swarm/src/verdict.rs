@@ -50,6 +50,9 @@ pub struct TestVerdict {
     pub weak_robots: Vec<WeakRobot>,
     /// The rows in order.
     pub rows: Vec<RowVerdict>,
+    /// What the environment wrote as text, if it wrote any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub printed: Option<String>,
 }
 
 /// The verdict of a test's row.

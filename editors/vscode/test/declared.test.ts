@@ -53,6 +53,16 @@ test mine "x" for all inputs against other[2]
 test ring { | q
   | - for 30 cycles
 }
+test core "runs" with memory in [paper, worn] {
+    a | q
+    repeat 3 {
+        0 | 1
+        repeat 2 { 1 | 0 }
+    }
+    0 | - until q, at most 9 rows
+}
+test core in worn { a | q
+    1 | 0 }
 `;
   assert.deepEqual(declaredTests(source), [
     {
@@ -68,6 +78,18 @@ test ring { | q
     { circuit: "ripple[n = 3]", title: "", line: 8, endLine: 10, rows: [] },
     { circuit: "mine", title: "x", line: 11, endLine: 11, rows: [] },
     { circuit: "ring", title: "", line: 12, endLine: 14, rows: [{ line: 13, text: "| - for 30 cycles" }] },
+    {
+      circuit: "core",
+      title: "runs",
+      line: 15,
+      endLine: 22,
+      rows: [
+        { line: 18, text: "0 | 1" },
+        { line: 19, text: "1 | 0" },
+        { line: 21, text: "0 | - until q, at most 9 rows" },
+      ],
+    },
+    { circuit: "core", title: "", line: 23, endLine: 24, rows: [{ line: 24, text: "1 | 0" }] },
   ]);
 });
 

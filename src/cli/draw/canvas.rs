@@ -30,6 +30,8 @@ impl Canvas {
     pub(super) fn write(&self, drawing: Drawing) -> Result<(), Failure> {
         match drawing {
             Drawing::Picture(svg) if self.extension == "svg" => self.bytes(svg.finish().as_bytes()),
+            Drawing::Sheets { page, .. } if self.extension == "html" => self.bytes(page.as_bytes()),
+            Drawing::Sheets { top, .. } => self.write(Drawing::Picture(top)),
             Drawing::Picture(svg) => self.bytes(&report::png(&svg)),
             Drawing::Text(text) => self.bytes(text.as_bytes()),
             Drawing::Film { format, film, stage } => self.film(format, &film, stage),

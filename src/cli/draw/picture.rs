@@ -21,7 +21,16 @@ pub(super) enum SubjectKind {
 pub(super) enum Drawing {
     Picture(Svg),
     Text(String),
-    Film { format: FilmFormat, film: Film, stage: Stage },
+    /// A picture of the whole, and a page on which its parts open.
+    Sheets {
+        top: Svg,
+        page: String,
+    },
+    Film {
+        format: FilmFormat,
+        film: Film,
+        stage: Stage,
+    },
 }
 
 /// The formats of films.

@@ -49,10 +49,8 @@ impl DrawRequest {
             clear.map_err(Failure::plain)?;
             return run_one(&session, &file, &RunList { tests: vec![test], ..RunList::default() }, options);
         }
-        let swarm = |name: &str| program.swarm(name).expect("a simulation names a swarm of its program");
         let simulation = program.simulations.iter().find(|simulation| {
-            is_chosen(&swarm(&simulation.swarm).circuit)
-                && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
+            is_chosen(&simulation.circuit) && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
         });
         match simulation {
             Some(simulation) => {

@@ -1,5 +1,8 @@
 //! Arguments that choose a circuit of a source file, and the place of evolution runs.
 
+use std::ffi::OsString;
+use std::fs;
+
 use clap::Args;
 
 use nbc_session::{Choice, CompileOptions, RUNS};
@@ -33,4 +36,56 @@ impl RunsArguments {
     pub(in crate::cli) fn options(&self) -> CompileOptions {
         CompileOptions { runs: self.runs.clone(), ..CompileOptions::default() }
     }
+}
+
+/// Files that replace those that a program declares.
+#[derive(Args)]
+pub(in crate::cli) struct FilesArguments {
+    /// The file that a memory begins with, by the name that the program declares; `--NAME PATH` is short for it
+    #[arg(long = "file", value_name = "NAME=PATH", value_parser = named_file)]
+    named_files: Vec<(String, String)>,
+}
+
+impl FilesArguments {
+    pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
+        CompileOptions { files: self.named_files.clone(), ..options }
+    }
+}
+
+fn named_file(text: &str) -> Result<(String, String), String> {
+    let (name, path) = text.split_once('=').ok_or("expected a name, `=` and a path")?;
+    Ok((name.to_owned(), path.to_owned()))
+}
+
+/// The arguments with `--NAME PATH` as `--file NAME=PATH`, where a source among them declares the file `NAME`.
+pub(in crate::cli) fn with_named_files(arguments: impl IntoIterator<Item = OsString>) -> Vec<OsString> {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    let sources = arguments.iter().filter(|path| path.to_string_lossy().ends_with(".nb"));
+    // Pipes and devices are not read here, and large files are refused later.
+    let is_source = |path: &&OsString| fs::metadata(path).is_ok_and(|about| about.is_file() && about.len() < 8 << 20);
+    let texts: Vec<String> = sources.filter(is_source).filter_map(|path| fs::read_to_string(path).ok()).collect();
+    let declares = |text: &str, name: &str| {
+        let rest = |line: &str| {
+            Some(line.strip_prefix("file ")?.trim_start().strip_prefix(name)?.trim_start().starts_with('='))
+        };
+        text.lines().any(|line| rest(line) == Some(true))
+    };
+    let mut given = Vec::with_capacity(arguments.len());
+    let mut rest = arguments.into_iter().peekable();
+    while let Some(argument) = rest.next() {
+        let text = argument.to_string_lossy().into_owned();
+        let (name, value) = match text.strip_prefix("--").map(|option| option.split_once('=')) {
+            Some(Some((name, value))) => (name.to_owned(), Some(value.to_owned())),
+            Some(None) => (text[2..].to_owned(), None),
+            None => (String::new(), None),
+        };
+        if name.is_empty() || !texts.iter().any(|source| declares(source, &name)) {
+            given.push(argument);
+            continue;
+        }
+        let value = value.or_else(|| rest.next().map(|value| value.to_string_lossy().into_owned()));
+        given.push("--file".into());
+        given.push(format!("{name}={}", value.unwrap_or_default()).into());
+    }
+    given
 }

@@ -1,5 +1,6 @@
 //! `nbc test`: files' tests, at the level of logic or in full physics.
 
+mod keeping;
 mod worlds;
 
 use std::collections::BTreeSet;
@@ -10,7 +11,7 @@ use clap::Args;
 
 use crate::cli::cluster::open_queue;
 use crate::cli::in_order::in_order;
-use crate::cli::options::circuit::RunsArguments;
+use crate::cli::options::circuit::{FilesArguments, RunsArguments};
 use crate::cli::options::mapping::GoalArguments;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::runs::unknown_run;
@@ -19,9 +20,11 @@ use crate::cli::task_executor::threads;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_session::report::{self, Schema};
+use nbc_session::store;
 use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
 use nbc_swarm::{Executor, Level, Task, TaskResult, TestVerdict};
 
+use keeping::{Keeper, Keeping};
 use worlds::WorldsArguments;
 pub(super) use worlds::share;
 
@@ -56,12 +59,17 @@ pub struct TestArguments {
     /// Test in full physics
     #[arg(long)]
     physics: bool,
+    /// Keep the swarms of tests in physics in this folder once a minute, and go on with those that are there
+    #[arg(long, value_name = "DIR", conflicts_with = "logic")]
+    checkpoints: Option<PathBuf>,
     #[command(flatten)]
     worlds: WorldsArguments,
     #[command(flatten)]
     runs: RunsArguments,
     #[command(flatten)]
     goal: GoalArguments,
+    #[command(flatten)]
+    named: FilesArguments,
     #[command(flatten)]
     queue: QueueArguments,
 }
@@ -101,6 +109,9 @@ impl TestArguments {
         context: &mut Context,
     ) -> Result<Status, Failure> {
         let cases = self.cases(session, files, interrupt)?;
+        if let Some(folder) = &self.checkpoints {
+            store::create_folder(folder).map_err(|error| Failure::unwritable(folder, &error))?;
+        }
         for file in files {
             context.warn(file, &file.diagnostics);
         }
@@ -108,7 +119,7 @@ impl TestArguments {
             let cases: Vec<TestCase<'_>> = cases.into_iter().map(|(_, case)| case).collect();
             return self.worlds.test(session, &cases, interrupt, context);
         }
-        let verdicts = run_cases(session, &cases, files, &self.queue, interrupt, context)?;
+        let verdicts = run_cases(session, &cases, files, &self.queue, self.checkpoints.as_deref(), interrupt, context)?;
         let failed = verdicts.iter().filter(|verdict| !verdict.passed).count();
         let left = interrupt.is_raised().then_some(cases.len() - verdicts.len());
         match context.format {
@@ -148,7 +159,8 @@ impl TestArguments {
         files: &'a [Arc<Checked>],
         interrupt: &Interrupt,
     ) -> Result<Vec<Numbered<'a>>, Failure> {
-        let compile = CompileOptions { cancel: interrupt.cancel(), ..self.goal.with(self.runs.options()) };
+        let compile =
+            CompileOptions { cancel: interrupt.cancel(), ..self.named.with(self.goal.with(self.runs.options())) };
         let options = TestOptions { level: self.level(), compile };
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
@@ -181,6 +193,7 @@ fn run_cases(
     cases: &[Numbered<'_>],
     files: &[Arc<Checked>],
     queue: &QueueArguments,
+    checkpoints: Option<&Path>,
     interrupt: &Interrupt,
     context: &mut Context,
 ) -> Result<Vec<TestVerdict>, Failure> {
@@ -191,23 +204,35 @@ fn run_cases(
     let run = |place: usize, (file, case): &Numbered<'_>| {
         // After an interruption circuits are compiled with little effort, so their tests are not begun.
         if interrupt.is_raised() {
-            return None;
+            return Ok(None);
         }
         // A test without a swarm is run here.
         let there = workers.as_ref().and_then(|workers| Some((workers, case.task()?)));
         let run = match there {
             Some((workers, task)) => {
                 let observe = || bar.add(case.work());
-                let result = workers.perform(place, &[Task::Swarm(task)], &observe)?.pop().map(TaskResult::bits);
+                let Some(mut results) = workers.perform(place, &[Task::Swarm(Box::new(task))], &observe) else {
+                    return Ok(None);
+                };
+                let result = results.pop().map(TaskResult::bits);
                 case.clone().judge(&result.expect("a result for each task"))
             }
-            None => session.run_case(case.clone(), &mut interrupt.observe(bar.part())),
+            None => {
+                let name = format!("test-{}", place + 1);
+                let keeper = checkpoints.map(|folder| Keeper::new(folder, &name));
+                let mut observer = Keeping { observer: interrupt.observe(bar.part()), keeper };
+                let run = session.run_case(case.clone(), &mut observer);
+                if let Some(fault) = observer.keeper.and_then(|keeper| keeper.fault) {
+                    return Err(fault);
+                }
+                run
+            }
         };
-        (run.end == RunEnd::Complete).then_some((*file, run.verdict, run.warnings))
+        Ok((run.end == RunEnd::Complete).then_some((*file, run.verdict, run.warnings)))
     };
     let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
-    let mut tell = |done: Option<(usize, TestVerdict, Vec<Diagnostic>)>| -> Result<(), Failure> {
-        let Some((file, verdict, mut warnings)) = done else { return Ok(()) };
+    let mut tell = |done: Result<Option<(usize, TestVerdict, Vec<Diagnostic>)>, Diagnostic>| -> Result<(), Failure> {
+        let Some((file, verdict, mut warnings)) = done.map_err(Failure::plain)? else { return Ok(()) };
         warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
         context.warn(&files[file], &warnings);
         if context.format == OutputFormat::Text {
@@ -230,6 +255,6 @@ fn describe(verdict: &TestVerdict) -> String {
     let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
     let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
     let (rows, level) = (counted(verdict.rows.len(), "row"), verdict.level.word());
-    let failures = report::describe_failures(verdict);
-    format!("{word}  {}{swarm}{title} ({rows}, {level})\n{failures}", verdict.circuit)
+    let (printed, failures) = (report::describe_printed(verdict), report::describe_failures(verdict));
+    format!("{word}  {}{swarm}{title} ({rows}, {level})\n{printed}{failures}", verdict.circuit)
 }

@@ -63,7 +63,7 @@ fn robots_are_selected_measured_and_verified_by_workers() {
     bench.runs("walks.nb", WALKS);
     assert_eq!(bench.run(&["evolve", "walks.nb"]).status, 0);
     let add = ["library", "add", "out/walks/seed-3", "--tries", "1", "--finalists", "1", "--max-error", "1", "--into"];
-    let behaviors = ["--behavior", "LLLL", "--behavior", "LRRL"];
+    let behaviors = ["--behavior", "LLLL"];
     let alone = bench.run(&[&add[..], &["alone"], &behaviors].concat());
     let Some(server) = Server::start(&[]) else { return };
     let _worker = worker(&bench, &server, "steady");

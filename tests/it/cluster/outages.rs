@@ -147,8 +147,10 @@ fn a_server_whose_disk_is_full_is_named_and_the_search_continues_when_there_is_r
     good.kill();
 }
 
+/// The server may then number its messages from an earlier number than its notes have, and give out none of them; the
+/// search makes the queue again. It does not in every run, so the words of the search are not looked at.
 #[test]
-fn a_queue_that_would_never_give_out_its_tasks_is_made_again() {
+fn a_server_that_loses_its_messages_but_not_its_notes_is_given_the_tasks_again() {
     let Some(mut server) = Server::start(&[]) else { return };
     let bench = bench();
     let mut wire = Wire::open(&server);
@@ -156,7 +158,6 @@ fn a_queue_that_would_never_give_out_its_tasks_is_made_again() {
     let good = worker(&bench, &server, "good");
     (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("good")));
     server.restart_without_messages();
-    search.wait_for("the queue of the NATS server has lost its place; it is made again");
     assert_same(&bench, &search.end());
     good.kill();
 }

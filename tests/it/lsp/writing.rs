@@ -150,7 +150,11 @@ fn certain_help_is_a_quick_fix() {
     let bench = Bench::new();
     let cases = [
         ("circuit f(abc) -> (q) {\n    q = abd\n}\n", "abd", "circuit f(abc) -> (q) {\n    q = abc\n}\n"),
-        ("circuit f(a[4]) -> (q) {\n    q = a == 10\n}\n", "10", "circuit f(a[4]) -> (q) {\n    q = a == 4'd10\n}\n"),
+        (
+            "circuit f(a[4]) -> (q[8]) {\n    q = {a, 10}\n}\n",
+            "10",
+            "circuit f(a[4]) -> (q[8]) {\n    q = {a, 4'd10}\n}\n",
+        ),
         (
             "circuit f(a[2]) -> (q) {\n    q = table(a) { 00: 1, 01: 0 }\n}\n",
             "table",

@@ -62,7 +62,7 @@ fn the_latch_computes_live() {
     let (_folder, _server, mut page) = latch();
     let swarm = page.compile("latch.nb", LATCH);
     assert_eq!((&swarm["circuit"], swarm["robots"].as_array().unwrap().len()), (&json!("d_latch"), 5));
-    let schematic = swarm["schematic"].as_str().unwrap();
+    let schematic = swarm["schematic"]["sheets"][0]["svg"].as_str().unwrap();
     for id in ["cell-0", "net-q", "input-d", "output-q"] {
         assert!(schematic.contains(&format!("data-id=\"{id}\"")), "{id}");
     }

@@ -8,6 +8,8 @@ use nbc_base::model::{CircuitTest, Program, Stimulation};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_circuit::{Logic, elaborate, elaborate_reference};
 use nbc_lang::check::{self, Analysis};
+use nbc_session::{Session, TestOptions};
+use nbc_swarm::Level;
 
 use crate::support::root;
 
@@ -46,6 +48,8 @@ pub fn passes(program: &Program, test: &CircuitTest) {
                 );
             }
         }
+        // `performs` runs it.
+        Stimulation::Script(_) => {}
         Stimulation::All { reference } => {
             let mut expected = Logic::new(&elaborate_reference(program, reference).unwrap());
             let bits = test.inputs.iter().map(|column| column.width).sum::<usize>();
@@ -60,5 +64,17 @@ pub fn passes(program: &Program, test: &CircuitTest) {
                 );
             }
         }
+    }
+}
+
+/// Runs the tests of a source that depend on what their circuits do, at the level of logic; fails if one fails.
+pub fn performs(session: &mut Session, path: &str) {
+    let checked = session.open(path).unwrap_or_else(|error| panic!("{error:?}"));
+    let options = TestOptions { level: Some(Level::Logic), ..TestOptions::default() };
+    let depends = |test: &&CircuitTest| matches!(test.stimulation, Stimulation::Script(_));
+    for test in checked.program.tests.iter().filter(depends) {
+        let case = session.cases(&checked, test, &options).unwrap().remove(0);
+        let run = session.run_case(case, &mut ());
+        assert!(run.verdict.passed, "{} {:?}", test.circuit, run.verdict.rows);
     }
 }

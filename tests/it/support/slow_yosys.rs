@@ -17,8 +17,8 @@ pub const MODULE: &str = "module m(input a, output q);\n  assign q = a;\nendmodu
 /// Verilog that would reach the machine, with the word for which it is refused.
 pub const REACHING: [(&str, &str); 3] = [
     ("import \"DPI-C\" function integer kill(integer a, integer b);\n", "`import`"),
-    ("module r; reg a[0:1]; initial $readmemh(\"/etc/passwd\", a); endmodule\n", "`$readmemh`"),
-    ("module r; reg a[0:1]; initial \\$readmemh (\"/etc/passwd\", a); endmodule\n", "`\\$readmemh`"),
+    ("module r(output q); reg a[0:1]; initial $readmemh(\"/etc/passwd\", a); endmodule\n", "`$readmemh`"),
+    ("module r(output q); reg a[0:1]; initial \\$readmemh (\"/etc/passwd\", a); endmodule\n", "`\\$readmemh`"),
 ];
 
 /// A folder with the program and a stand-in for Yosys.

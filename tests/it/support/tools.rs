@@ -23,6 +23,7 @@ pub const CHROMIUM: Tool = Tool { programs: &["chromium", "chromium-browser"], p
 pub const EMACS: Tool = Tool { programs: &["emacs"], package: "emacs-nox elpa-eglot" };
 #[cfg(feature = "cluster")]
 pub const NATS_SERVER: Tool = Tool { programs: &["nats-server"], package: "nats-server" };
+pub const IVERILOG: Tool = Tool { programs: &["iverilog"], package: "iverilog" };
 pub const NEOVIM: Tool = Tool { programs: &["nvim"], package: "neovim" };
 #[cfg(feature = "cluster")]
 pub const OPENSSL: Tool = Tool { programs: &["openssl"], package: "openssl" };

@@ -6,7 +6,7 @@ use nbc_swarm::{CycleTrace, Recording, RobotTrace, StimulusSource, SwarmTrace};
 
 /// A port of one bit.
 pub fn port(name: &str) -> Column {
-    Column { name: name.to_owned(), width: 1 }
+    Column::new(name, 1)
 }
 
 /// A latch of five artificial robots: each walks half a voxel per cycle in the direction of its bit.
@@ -44,6 +44,7 @@ pub fn latch(rows: &[(bool, bool)], hold: usize) -> SwarmTrace {
     };
     let robots = (0..5).map(|k| RobotTrace {
         net: names[k].to_owned(),
+        block: Vec::new(),
         function: functions[k],
         robot: format!("{}_1", functions[k]),
         senses: senses[k].to_vec(),

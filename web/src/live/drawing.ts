@@ -17,6 +17,8 @@ export interface Lane {
   scale: number;
   /** The voxel in the middle. */
   camera: number;
+  /** The heights of the columns of the ground, which repeat; none if it is flat. */
+  heights: number[];
 }
 
 type Pen = CanvasRenderingContext2D;
@@ -30,6 +32,7 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
   pen.fillRect(left, top, width, ground - top);
   pen.fillStyle = colors.ground;
   pen.fillRect(left, ground, width, top + height - ground);
+  drawColumns(pen, lane);
   pen.fillStyle = colors.tick;
   pen.font = `10px ${colors.font}`;
   pen.textAlign = "center";
@@ -40,6 +43,19 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
     pen.fillRect(x, ground, 1, voxel % 5 === 0 ? 6 : 3);
     if (numbered && voxel % 10 === 0 && top + height - ground >= 17) {
       pen.fillText(String(voxel), x, ground + 7);
+    }
+  }
+}
+
+/** The ground above its lowest place. */
+function drawColumns(pen: Pen, lane: Lane): void {
+  const { left, width, ground, scale, camera, heights } = lane;
+  const half = width / 2 / scale;
+  for (let voxel = Math.max(0, Math.floor(camera - half)); voxel <= camera + half; voxel++) {
+    const high = (heights[voxel % heights.length] ?? 0) * scale;
+    if (high > 0) {
+      const [from, to] = [voxel, voxel + 1].map(x => Math.round((x - camera + half) * scale)) as [number, number];
+      pen.fillRect(left + Math.max(0, from), ground - high, Math.min(width, to) - Math.max(0, from), high);
     }
   }
 }

@@ -1,10 +1,11 @@
 // The schematic that the server drew, with nets and robots marked by their values now; it can be zoomed and moved.
 
-import { element, iconButton } from "../element";
-import type { BitSource } from "../protocol";
+import { button, element, fill, iconButton } from "../element";
+import type { BitSource, ShownSchematic } from "../protocol";
 import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
+import { addHalo, hideLegend, placeBodies, threadNumber } from "./schematic_parts";
 import { threadColor } from "./waves";
 
 interface Marked {
@@ -30,6 +31,10 @@ const FAR = 0.3;
 export class Schematic implements View {
   readonly host = element("div", { class: "schematic pane", tabindex: 0, "aria-label": "Schematic of the circuit" });
   readonly #tools: HTMLElement;
+  /** The sheets from the whole to the one that is shown. */
+  readonly #crumbs = element("nav", { class: "crumbs", "aria-label": "Part of the circuit" });
+  #schematic: ShownSchematic = { sheets: [], bodies: [], homes: [] };
+  #sheet = 0;
   #svg: SVGSVGElement | null = null;
   /** The robots, of which one is reached by the tab key. */
   #robots: SVGElement[] = [];
@@ -47,7 +52,10 @@ export class Schematic implements View {
       iconButton("less", "Zoom out", () => this.#zoom(1.25)),
       iconButton("reset", "Show all of the schematic", () => this.#show(this.#whole)),
     );
-    swarm.definition.on(definition => this.#load(definition?.schematic ?? ""));
+    swarm.definition.on(definition => {
+      this.#schematic = definition?.schematic ?? { sheets: [], bodies: [], homes: [] };
+      this.#load(0);
+    });
     swarm.selection.pointed.on(() => this.#select());
     swarm.selection.followed.on(robot => {
       this.#select();
@@ -85,7 +93,25 @@ export class Schematic implements View {
     }
   }
 
-  #load(text: string): void {
+  /** Opens a sheet, and shows the robots of its part alone. */
+  #open(sheet: number): void {
+    this.#load(sheet);
+    const { homes } = this.#schematic;
+    const inside = [...homes.keys()].filter(robot => this.#path(homes[robot] ?? 0).includes(sheet));
+    this.swarm.selection.opened.set(sheet === 0 ? null : inside);
+    this.draw();
+  }
+
+  /** The sheets from the whole to this one. */
+  #path(sheet: number): number[] {
+    const outer = this.#schematic.sheets[sheet]?.outer ?? null;
+    return outer === null ? [sheet] : [...this.#path(outer), sheet];
+  }
+
+  #load(sheet: number): void {
+    this.#sheet = sheet;
+    const { sheets, bodies } = this.#schematic;
+    const text = sheets[sheet]?.svg ?? "";
     this.#marked = [];
     this.#robots = [];
     this.#svg = null;
@@ -99,7 +125,16 @@ export class Schematic implements View {
     this.#whole = { x, y, width, height };
     this.#svg.removeAttribute("width");
     this.#svg.removeAttribute("height");
-    this.host.replaceChildren(this.#svg, this.#tools);
+    placeBodies(this.#svg, bodies);
+    fill(
+      this.#crumbs,
+      ...this.#path(sheet).map(at => {
+        const { name, about } = sheets[at] ?? { name: "", about: "" };
+        return button(name, () => this.#open(at), { title: about, "aria-current": at === sheet ? "page" : null });
+      }),
+    );
+    this.#crumbs.hidden = sheets.length < 2;
+    this.host.replaceChildren(this.#svg, this.#crumbs, this.#tools);
     hideLegend(this.#svg);
     this.#mark(this.#svg);
     this.#showFirst();
@@ -108,7 +143,8 @@ export class Schematic implements View {
   #mark(svg: SVGSVGElement): void {
     for (const part of svg.querySelectorAll<SVGElement>("[data-id]")) {
       const [, kind, name] = /^(\w+)-(.*)$/.exec(part.dataset["id"] ?? "") ?? [];
-      const source = kind === "cell" ? { robot: Number(name) } : this.swarm.nets.get(name ?? "");
+      const isNet = kind === "net" || kind === "input" || kind === "output";
+      const source = kind === "cell" ? { robot: Number(name) } : isNet ? this.swarm.nets.get(name ?? "") : undefined;
       if (source !== undefined) {
         const threaded = (this.swarm.definition.value?.waves?.threads ?? 1) > 1 && "robot" in source;
         const number = threaded && kind === "cell" ? threadNumber(part) : null;
@@ -117,7 +153,11 @@ export class Schematic implements View {
         }
         this.#marked.push({ element: part, source, shown: undefined, number, thread: null });
       }
-      if (kind === "cell") {
+      if (kind === "part") {
+        part.setAttribute("tabindex", "0");
+        part.setAttribute("role", "button");
+        part.setAttribute("aria-label", `open ${part.querySelector("title")?.textContent ?? name}`);
+      } else if (kind === "cell") {
         // One robot for the tab key, and arrows for the others: a large circuit is passed as quickly as a small one.
         part.setAttribute("tabindex", this.#robots.length === 0 ? "0" : "-1");
         this.#robots.push(part);
@@ -136,8 +176,15 @@ export class Schematic implements View {
   }
 
   #sourceOf(target: EventTarget | null): BitSource | null {
-    const found = target instanceof Element ? target.closest("[data-id]") : null;
-    return this.#marked.find(marked => marked.element === found)?.source ?? null;
+    // Not by the nearest name: a body within a robot's box has one of its own.
+    const found = target instanceof Node ? this.#marked.find(({ element }) => element.contains(target)) : undefined;
+    return found?.source ?? null;
+  }
+
+  /** The sheet that a box opens, if the target is one. */
+  #partOf(target: EventTarget | null): number | null {
+    const found = target instanceof Element ? target.closest<SVGElement>('[data-id^="part-"]') : null;
+    return found === null ? null : Number(found.dataset["id"]?.slice(5));
   }
 
   #show(box: Box): void {
@@ -147,11 +194,12 @@ export class Schematic implements View {
     this.host.classList.toggle("far", this.#scale() < FAR);
   }
 
-  /** All of it, or as much around the first robot as can be read. */
+  /** All of it, or as much around the first box or robot as can be read. */
   #showFirst(): void {
     this.#show(this.#whole);
     const svg = this.#svg;
-    const first = svg?.querySelector<SVGGraphicsElement>('[data-id="cell-0"]');
+    const find = (kind: string): SVGGraphicsElement | null => svg?.querySelector(`[data-id^="${kind}-"]`) ?? null;
+    const first = find("part") ?? find("cell");
     if (svg !== null && first && this.#width > 0 && this.#scale() < UNREADABLE) {
       this.#center(first, READABLE);
     }
@@ -170,6 +218,12 @@ export class Schematic implements View {
 
   /** Brings the robot that is followed into view. */
   #reveal(robot: number | null): void {
+    const home = robot === null ? undefined : this.#schematic.homes[robot];
+    if (home !== undefined && home !== this.#sheet) {
+      this.#load(home);
+      this.#select();
+      this.draw();
+    }
     const part = this.#svg?.querySelector<SVGGraphicsElement>(`[data-id="cell-${robot}"]`);
     if (part && robot !== null && this.#box !== this.#whole) {
       this.#center(part, Math.max(READABLE, this.#scale()));
@@ -203,6 +257,12 @@ export class Schematic implements View {
   #press(event: KeyboardEvent): void {
     const { selection } = this.swarm;
     const source = this.#sourceOf(event.target);
+    const part = this.#partOf(event.target);
+    if (part !== null && (event.key === "Enter" || event.key === " ")) {
+      event.preventDefault();
+      this.#open(part);
+      return;
+    }
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
     if (step !== undefined) {
       const at = this.#robots.findIndex(robot => robot.tabIndex === 0);
@@ -236,10 +296,14 @@ export class Schematic implements View {
     }
   }
 
+  #isTool(target: EventTarget | null): boolean {
+    return target instanceof Node && (this.#tools.contains(target) || this.#crumbs.contains(target));
+  }
+
   /** Drags the picture; a press that does not move follows a robot. */
   #drag(start: PointerEvent): void {
     const svg = this.#svg;
-    if (svg === null || start.button !== 0 || this.#tools.contains(start.target as Node)) {
+    if (svg === null || start.button !== 0 || this.#isTool(start.target)) {
       return;
     }
     const from = this.#box;
@@ -255,7 +319,10 @@ export class Schematic implements View {
     const end = (): void => {
       window.removeEventListener("pointermove", move);
       const source = this.#sourceOf(start.target);
-      if (!moved && source !== null && "robot" in source) {
+      const part = this.#partOf(start.target);
+      if (!moved && part !== null) {
+        this.#open(part);
+      } else if (!moved && source !== null && "robot" in source) {
         this.swarm.selection.follow(source.robot);
       }
     };
@@ -272,38 +339,5 @@ function showThread({ element: part, number }: Marked, thread: number | null): v
   }
   if (number !== null) {
     number.textContent = thread === null ? "" : String(thread + 1);
-  }
-}
-
-/** A wide line of the thread's color below each line of a net, whose own color is its value. */
-function addHalo(net: SVGElement): void {
-  const halo = document.createElementNS(net.namespaceURI, "g");
-  halo.setAttribute("class", "halo");
-  halo.append(...[...net.querySelectorAll("polyline, line, path")].map(line => line.cloneNode()));
-  net.prepend(halo);
-}
-
-/** A place for the number of a thread, below the function of a robot. */
-function threadNumber(cell: SVGElement): Element | null {
-  const frame = cell.querySelector("rect");
-  if (frame === null) {
-    return null;
-  }
-  const [x, y] = ["x", "y"].map(name => Number(frame.getAttribute(name)));
-  const number = document.createElementNS(cell.namespaceURI, "text");
-  number.setAttribute("class", "thread");
-  number.setAttribute("x", String((x ?? 0) + 6));
-  number.setAttribute("y", String((y ?? 0) + 30));
-  cell.append(number);
-  return number;
-}
-
-/** Colors show values here, so the legend of the critical path would mislead. */
-function hideLegend(svg: SVGSVGElement): void {
-  for (const text of svg.querySelectorAll(":scope > text")) {
-    if (text.textContent === "critical path") {
-      text.previousElementSibling?.remove();
-      text.remove();
-    }
   }
 }

@@ -30,6 +30,7 @@ export class Stage implements View {
     this.#listen();
     swarm.definition.on(() => this.#cameras.clear());
     swarm.selection.followed.on(() => this.#cameras.clear());
+    swarm.selection.opened.on(changed);
     // Lanes below the visible part cost nothing: their poses are not even sent.
     this.pane.host.addEventListener("scroll", () => this.#ask(), { passive: true });
   }
@@ -63,7 +64,8 @@ export class Stage implements View {
   #robots(): number[] {
     const followed = this.swarm.selection.followed.value;
     const count = this.swarm.definition.value?.robots.length ?? 0;
-    return followed === null ? Array.from({ length: count }, (_, i) => i) : [followed];
+    const all = (): number[] => this.swarm.selection.opened.value ?? Array.from({ length: count }, (_, i) => i);
+    return followed === null ? all() : [followed];
   }
 
   #arrange(): void {
@@ -176,14 +178,15 @@ export class Stage implements View {
   #drawWalk(pen: Pen, robot: number, area: { left: number; top: number; width: number; height: number }): void {
     const definition = this.swarm.definition.value;
     const outline = this.swarm.playback.outline(robot);
-    const tall = Math.max(5, this.#tallness(robot));
+    const heights = definition?.ground ?? [];
+    const tall = Math.max(5, this.#tallness(robot)) + Math.max(0, ...heights);
     const ground = area.top + area.height - Math.min(20, Math.max(9, area.height / 6));
     const scale = Math.min((ground - area.top) / (tall * 1.3), area.width / 14);
     const place = outline === null ? 0 : middleOf(outline);
     const half = area.width / 2 / scale;
     const camera = followWithSlack(this.#cameras.get(robot), place, half / 3);
     this.#cameras.set(robot, camera);
-    const lane: Lane = { ...area, ground, scale, camera };
+    const lane: Lane = { ...area, ground, scale, camera, heights };
     pen.save();
     pen.beginPath();
     pen.rect(area.left, area.top, area.width, area.height);

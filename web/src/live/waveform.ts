@@ -21,9 +21,12 @@ export class Waveform extends Diagram {
 
   constructor(swarm: LiveSwarm, timeline: Timeline, changed: () => void) {
     super(swarm, timeline, "waveform", "Waveforms of inputs, robots and outputs", changed);
-    swarm.definition.on(() => {
+    const list = (): void => {
       this.#rows = rowsOf(swarm);
-    });
+      changed();
+    };
+    swarm.definition.on(list);
+    swarm.selection.opened.on(list);
   }
 
   draw(): void {
@@ -163,13 +166,15 @@ function rowsOf(swarm: LiveSwarm): Row[] {
   const range = (ports: PortEntry[], port: PortEntry): number[] =>
     Array.from({ length: port.width }, (_, i) => offsetOf(ports, port) + i);
   // A robot that drives an output of the same name is shown there.
+  const opened = swarm.selection.opened.value;
+  const isShown = opened === null ? () => true : (robot: number) => opened.includes(robot);
   const lamps = new Set(outputs.filter(port => port.width === 1).map(port => port.name));
   return [
     ...inputs.map(
       (port): Row => ({ name: port.name, group: "input", sources: range(inputs, port).map(input => ({ input })) }),
     ),
     ...robots.flatMap(({ net }, robot): Row[] =>
-      lamps.has(net) ? [] : [{ name: net, group: "robot", sources: [{ robot }] }],
+      lamps.has(net) || !isShown(robot) ? [] : [{ name: net, group: "robot", sources: [{ robot }] }],
     ),
     ...outputs.map(
       (port): Row => ({

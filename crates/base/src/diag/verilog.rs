@@ -1,8 +1,9 @@
 //! Diagnostics for Verilog that cannot be translated.
 
 use super::file::file_error;
-use super::{Code, Diagnostic};
-use crate::source::{SourceFile, Span, VerilogError, VerilogFault, VerilogPlace};
+use super::suggest::alternatives;
+use super::{Code, Diagnostic, Severity, Suggestion};
+use crate::source::{SourceFile, Span, VerilogError, VerilogFault, VerilogName, VerilogPlace};
 
 impl Diagnostic {
     /// The error of translating a Verilog file, at its line if there is one.
@@ -41,11 +42,29 @@ impl Diagnostic {
                 Self::without_place(Code::CircuitFile, message)
                     .with_help("does it have a loop of many steps? Split large files, or translate them to BLIF first")
             }
-            VerilogError::Asynchronous { place } => {
-                let message = format!("`{name}` has a register with an asynchronous set or reset");
-                let label = "expected a register that changes with its clock only";
-                at_place(file, place.as_ref(), message, label)
-                    .with_help("reset it at the clock: `always @(posedge clk) if (reset) … else …`")
+            VerilogError::NoModule { module, known } => {
+                let message = format!("`{name}` has no module `{module}`");
+                Self::without_place(Code::Unknown, message)
+                    .with_suggestion(None, &Suggestion::of(module, known.iter().map(String::as_str)))
+            }
+            VerilogError::NoParameter { parameter, known } => {
+                let message = format!("the top module of `{name}` has no parameter `{parameter}`");
+                Self::without_place(Code::Unknown, message)
+                    .with_suggestion(None, &Suggestion::of(parameter, known.iter().map(String::as_str)))
+            }
+            VerilogError::SeveralModules { known } => {
+                let message = format!("`{name}` has several modules that could have the parameters");
+                let help = format!("choose one with `--top`: {}", alternatives(known, "or"));
+                Self::without_place(Code::BadValue, message).with_help(help)
+            }
+            VerilogError::WideExponent { place } => {
+                let message = format!("`{name}` uses `**` with a wide exponent");
+                at_place(file, place.as_ref(), message, "expected a constant, or an exponent of at most 16 bits")
+                    .with_help("`2 ** n` may have any exponent: it is `1 << n`")
+            }
+            VerilogError::NotLogic { cell, place } => {
+                let message = format!("`{name}` has a part that is no logic: `{cell}`");
+                at_place(file, place.as_ref(), message, "cannot be made of gates")
             }
             VerilogError::Outside { place, word } => {
                 let message = format!("`{name}` uses `{word}`, which could reach other files or programs");
@@ -69,6 +88,34 @@ impl Diagnostic {
                 at_place(file, place.as_ref(), format!("yosys cannot read `{name}`"), reason)
             }
         }
+    }
+}
+
+/// Warnings about a translation.
+impl Diagnostic {
+    /// A wire that nothing drives.
+    pub fn undriven_wire(file: &SourceFile, wire: &VerilogName) -> Self {
+        let message = format!("nothing drives the wire `{}`", wire.name);
+        let fault =
+            at_place(file, wire.place.as_ref(), message, "it is 0").with_help("drive it, or write the constant");
+        Self { code: Code::Undriven, severity: Severity::Warning, ..fault }
+    }
+
+    /// A module that is not translated.
+    pub fn left_out(file: &SourceFile, module: &VerilogName) -> Self {
+        let message = format!("module `{}` is left out", module.name);
+        let fault = at_place(file, module.place.as_ref(), message, "it has no outputs");
+        Self { severity: Severity::Warning, ..fault }
+    }
+
+    /// A fault of a text that a translator wrote, at a line of the Verilog file if it is known.
+    pub fn of_verilog(self, file: &SourceFile, place: Option<&VerilogPlace>) -> Self {
+        let label = self.labels.into_iter().next().map(|label| label.text).unwrap_or_default();
+        let there = match place {
+            Some(place) => at_place(file, Some(place), self.message, &label),
+            None => Self::without_place(self.code, self.message),
+        };
+        Self { code: self.code, severity: self.severity, help: self.help, ..there }
     }
 }
 

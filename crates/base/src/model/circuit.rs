@@ -3,6 +3,7 @@
 
 use std::fmt;
 
+use super::Table;
 use crate::source::Span;
 
 /// A declared circuit: its ports and parameters, and a body of statements.
@@ -28,8 +29,49 @@ pub struct Circuit {
     pub tables: Vec<Table>,
     /// The statements between the braces, with the nets declared there.
     pub body: Block,
-    /// The number of integer slots: parameters, then loop variables.
+    /// The number of integer slots: parameters, then loop variables and integers with names.
     pub variables: usize,
+    /// The memories of an environment.
+    pub memories: Vec<MemoryArray>,
+}
+
+/// A memory of an environment: an array that is no net, with nets for each access.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemoryArray {
+    /// The net that gives it its name; it has no bits.
+    pub net: NetSlot,
+    /// The number of words.
+    pub words: SizeId,
+    /// The width of a word.
+    pub width: SizeId,
+    /// The file with the first contents, as its place in [`super::Program::files`].
+    pub contents: Option<usize>,
+    /// The reads.
+    pub reads: Vec<MemoryRead>,
+    /// The writes.
+    pub writes: Vec<MemoryWrite>,
+}
+
+/// A read: the word at the address is there as long as the address is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MemoryRead {
+    /// The address.
+    pub address: NetSlot,
+    /// The word, which nothing else drives.
+    pub data: NetSlot,
+}
+
+/// A write: when the clock rises, the word at the address takes the data if it is enabled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MemoryWrite {
+    /// The address.
+    pub address: NetSlot,
+    /// The word to write.
+    pub data: NetSlot,
+    /// Whether it is written.
+    pub enable: NetSlot,
+    /// The clock.
+    pub clk: NetSlot,
 }
 
 impl Circuit {
@@ -78,8 +120,17 @@ pub struct Net {
     pub name: String,
     /// The place of the declaration or of the first driver.
     pub span: Span,
-    /// The declared width in bits. `None` means one bit for a port, and the width of the driver for another net.
+    /// The declared width in bits; of an array, that of a word. `None` means one bit for a port, and the width of the
+    /// driver for another net.
     pub width: Option<SizeId>,
+    /// The number of words of an array, of which word 0 has the lowest bits.
+    pub words: Option<SizeId>,
+    /// The value of an input port that a call leaves out, if it may.
+    pub default: Option<SizeId>,
+    /// The enumeration whose members the values are, as its place in [`super::Program::enumerations`].
+    pub members: Option<usize>,
+    /// Whether it writes text: an output of an environment, whose highest bit says whether the others are a character.
+    pub is_text: bool,
 }
 
 /// Statements with their nets; the body of a `for` has its own nets in each iteration.
@@ -96,8 +147,10 @@ pub struct Block {
 pub enum Statement {
     /// Targets and their driver.
     Drive {
-        /// The targets; several only for a call of a circuit with the same number of outputs.
+        /// The targets.
         targets: Vec<Target>,
+        /// Whether they are the parts of one value, the highest first. Otherwise several are the outputs of a call.
+        joined: bool,
         /// The driver.
         value: ExpressionId,
     },
@@ -114,6 +167,86 @@ pub enum Statement {
         /// The repeated statements.
         body: Block,
     },
+    /// Statements that exist only where integers compare as they must.
+    If {
+        /// What is compared.
+        condition: Condition,
+        /// The statements if it is so.
+        then: Block,
+        /// The statements if it is not.
+        otherwise: Block,
+    },
+    /// Statements with nets of their own.
+    Scope(Block),
+    /// A name for an integer.
+    Let {
+        /// The slot of its value.
+        variable: u32,
+        /// The integer.
+        value: SizeId,
+    },
+}
+
+/// A comparison of two integers when a circuit is built.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Condition {
+    /// The left integer.
+    pub left: SizeId,
+    /// How it must compare with the right one.
+    pub comparison: Relation,
+    /// The right integer.
+    pub right: SizeId,
+}
+
+/// How one number compares with another: integers when a circuit is built, or the values of nets.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Relation {
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+    /// `<`
+    Less,
+    /// `>`
+    Greater,
+    /// `<=`
+    AtMost,
+    /// `>=`
+    AtLeast,
+}
+
+impl Relation {
+    /// All, each with its symbol in the language.
+    pub const SIGNS: [(Self, &'static str); 6] = [
+        (Self::Equal, "=="),
+        (Self::NotEqual, "!="),
+        (Self::Less, "<"),
+        (Self::Greater, ">"),
+        (Self::AtMost, "<="),
+        (Self::AtLeast, ">="),
+    ];
+
+    /// The symbol of the language for it.
+    pub fn sign(self) -> &'static str {
+        Self::SIGNS.iter().find(|(comparison, _)| *comparison == self).expect("every comparison has a sign").1
+    }
+
+    /// The comparison with that symbol, if there is one.
+    pub fn parse(sign: &str) -> Option<Self> {
+        Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(comparison, _)| *comparison)
+    }
+
+    /// Whether it holds between two values.
+    pub fn holds<T: Ord>(self, left: &T, right: &T) -> bool {
+        match self {
+            Self::Equal => left == right,
+            Self::NotEqual => left != right,
+            Self::Less => left < right,
+            Self::Greater => left > right,
+            Self::AtMost => left <= right,
+            Self::AtLeast => left >= right,
+        }
+    }
 }
 
 /// The left side of a statement.
@@ -121,7 +254,9 @@ pub enum Statement {
 pub struct Target {
     /// The net; `None` discards the value (`_`).
     pub net: Option<NetSlot>,
-    /// The bits driven, highest and lowest; `None` is the whole net.
+    /// The word driven, if the net is an array; `None` is all of it.
+    pub word: Option<SizeId>,
+    /// The bits driven of the net or word, highest and lowest; `None` is all of it.
     pub bits: Option<(SizeId, SizeId)>,
     /// The value before the first cycle (`init`), if it is given.
     pub start: Option<SizeId>,
@@ -136,6 +271,20 @@ pub struct Size {
     pub kind: SizeKind,
     /// The place of the integer in the source.
     pub span: Span,
+}
+
+impl Size {
+    /// The first integer of the range that ends with `root`. The range contains all parts of `root`, children before
+    /// parents.
+    pub fn first_part(sizes: &[Self], root: SizeId) -> SizeId {
+        let mut at = root;
+        loop {
+            at = match sizes[at.0 as usize].kind {
+                SizeKind::Literal(_) | SizeKind::Variable(_) => return at,
+                SizeKind::Log2(inner) | SizeKind::Binary(_, inner, _) => inner,
+            };
+        }
+    }
 }
 
 /// What an integer is: a number, a variable, or an operation on others.
@@ -182,12 +331,15 @@ impl Expression {
     fn first_part(&self) -> Option<ExpressionId> {
         match &self.kind {
             ExpressionKind::Bits(_) | ExpressionKind::Number { .. } | ExpressionKind::Computed { .. } => None,
-            ExpressionKind::Net(_) | ExpressionKind::Slice { .. } => None,
+            ExpressionKind::Unsized(_) | ExpressionKind::Net(_) | ExpressionKind::Slice { .. } => None,
             ExpressionKind::Repetition { value, .. } => Some(*value),
+            ExpressionKind::Element { index, .. } => Some(*index),
             ExpressionKind::Choice { condition, .. } => Some(*condition),
-            ExpressionKind::Concatenation(parts)
-            | ExpressionKind::Operation { operands: parts, .. }
-            | ExpressionKind::Call { operands: parts, .. } => parts.first().copied(),
+            ExpressionKind::Concatenation(parts) | ExpressionKind::Operation { operands: parts, .. } => {
+                parts.first().copied()
+            }
+            // Operands with names may stand in any order.
+            ExpressionKind::Call { operands, .. } => operands.iter().flatten().min().copied(),
             ExpressionKind::Table { inputs, outputs, .. } => inputs.first().or(outputs.first()).copied(),
         }
     }
@@ -212,16 +364,27 @@ pub enum ExpressionKind {
         /// The integer; that it fits into the width is checked when the circuit is built.
         value: SizeId,
     },
+    /// A number as wide as its context needs.
+    Unsized(FreeNumber),
     /// A whole net.
     Net(NetSlot),
-    /// Bits of a net, from the highest to the lowest, including both.
+    /// A word of an array, bits of a net from the highest to the lowest, including both, or such bits of a word.
     Slice {
         /// The net whose bits are taken.
         net: NetSlot,
-        /// The highest bit.
-        high: SizeId,
-        /// The lowest bit.
-        low: SizeId,
+        /// The word, if the net is an array.
+        word: Option<SizeId>,
+        /// The highest and the lowest bit.
+        bits: Option<(SizeId, SizeId)>,
+    },
+    /// The word of an array, or the bit of another net, that a value selects.
+    Element {
+        /// The net.
+        net: NetSlot,
+        /// The value that selects.
+        index: ExpressionId,
+        /// The highest and the lowest bit that are taken of the word.
+        bits: Option<(SizeId, SizeId)>,
     },
     /// Concatenated values, most significant first.
     Concatenation(Vec<ExpressionId>),
@@ -255,8 +418,8 @@ pub enum ExpressionKind {
         /// The parameters, in the circuit's order; `None` to infer it from the widths of the operands or use the
         /// default.
         arguments: Vec<Option<SizeId>>,
-        /// The operands, one for each input port.
-        operands: Vec<ExpressionId>,
+        /// The operands, one for each input port; `None` to use the default.
+        operands: Vec<Option<ExpressionId>>,
     },
     /// A truth table over the bits of the inputs.
     Table {
@@ -267,6 +430,15 @@ pub enum ExpressionKind {
         /// The index in [`Circuit::tables`].
         table: usize,
     },
+}
+
+/// A number without a width of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FreeNumber {
+    /// As written.
+    Literal(u128),
+    /// An integer known when the circuit is built.
+    Size(SizeId),
 }
 
 /// An operation on each bit of values of one width.
@@ -317,53 +489,6 @@ impl fmt::Display for Operator {
     }
 }
 
-/// A truth table as written.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Table {
-    /// In the order of the source. No two patterns match the same inputs.
-    pub rows: Vec<TableRow>,
-    /// The output for the patterns without a row.
-    pub otherwise: Option<TableOutput>,
-    /// The place of the table.
-    pub span: Span,
-}
-
-impl Table {
-    /// The output of each row, and then the one of the other patterns.
-    pub fn outputs(&self) -> impl Iterator<Item = &TableOutput> {
-        self.rows.iter().map(|row| &row.output).chain(&self.otherwise)
-    }
-}
-
-/// One row of a truth table.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TableRow {
-    /// The pattern, most significant bit first; `None` matches both values.
-    pub pattern: Vec<Option<bool>>,
-    /// The place of the pattern.
-    pub span: Span,
-    /// What the table shows for these inputs.
-    pub output: TableOutput,
-}
-
-/// The output of a row.
-#[derive(Clone, Debug, PartialEq)]
-pub struct TableOutput {
-    /// One bit for each output, or a value that is computed.
-    pub value: OutputValue,
-    /// The place of the output in the source.
-    pub span: Span,
-}
-
-/// The value of an output.
-#[derive(Clone, Debug, PartialEq)]
-pub enum OutputValue {
-    /// Most significant bit first; the compiler chooses a bit that is `None`.
-    Bits(Vec<Option<bool>>),
-    /// This one of the expressions of the table.
-    Expression(usize),
-}
-
 /// A circuit with values for its parameters.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Instance {
@@ -391,7 +516,26 @@ impl fmt::Display for Instance {
     }
 }
 
+impl SizeKind {
+    /// The number of bits needed for `things` different values; zero for one value.
+    pub fn log2(things: i64) -> i64 {
+        if things <= 1 { 0 } else { i64::from(i64::BITS - (things - 1).leading_zeros()) }
+    }
+}
+
 impl SizeOperator {
+    /// The result; `None` if it is too large or there is none.
+    pub fn apply(self, left: i64, right: i64) -> Option<i64> {
+        match self {
+            Self::Add => left.checked_add(right),
+            Self::Subtract => left.checked_sub(right),
+            Self::Multiply => left.checked_mul(right),
+            Self::Divide => left.checked_div_euclid(right),
+            Self::Remainder => left.checked_rem_euclid(right),
+            Self::Power => left.checked_pow(u32::try_from(right).ok()?),
+        }
+    }
+
     /// All operations, each with its symbol in the language.
     pub const SIGNS: [(Self, &'static str); 6] = [
         (Self::Add, "+"),
@@ -419,5 +563,23 @@ impl SizeOperator {
             Self::Multiply | Self::Divide | Self::Remainder => 2,
             Self::Power => 3,
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn log2_is_the_number_of_bits_for_that_many_values() {
+        assert_eq!([0, 1, 2, 3, 4, 5, 8, 9].map(SizeKind::log2), [0, 0, 1, 2, 2, 3, 3, 4]);
+    }
+
+    #[test]
+    fn overflow_and_division_by_zero_have_no_value() {
+        assert_eq!(SizeOperator::Divide.apply(1, 0), None);
+        assert_eq!(SizeOperator::Power.apply(2, 64), None);
+        assert_eq!(SizeOperator::Power.apply(2, -1), None);
+        assert_eq!(SizeOperator::Subtract.apply(3, 5), Some(-2));
     }
 }

@@ -1,6 +1,10 @@
 //! Columns: the ports of a circuit, as in the header of a test.
 
+use std::sync::Arc;
+
 use serde::Serialize;
+
+use super::Enumeration;
 
 /// A port with its width: a column of a test, a waveform or a table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
@@ -9,9 +13,17 @@ pub struct Column {
     pub name: String,
     /// The width in bits, at least 1.
     pub width: usize,
+    /// The enumeration whose members its values are.
+    #[serde(skip)]
+    pub members: Option<Arc<Enumeration>>,
 }
 
 impl Column {
+    /// A port whose values are numbers.
+    pub fn new(name: impl Into<String>, width: usize) -> Self {
+        Self { name: name.into(), width, members: None }
+    }
+
     /// The ports that have these bits, named as [`Column::bits`] names them: a run from `a[3]` down to `a[0]` is one
     /// port.
     pub fn group(bits: &[String]) -> Vec<Self> {
@@ -20,7 +32,7 @@ impl Column {
         while let Some(first) = rest.first() {
             let width = whole_port(rest).unwrap_or(1);
             let name = if width == 1 { first } else { bit_parts(first).expect("a bit of a bus").0 };
-            ports.push(Self { name: name.to_owned(), width });
+            ports.push(Self::new(name, width));
             rest = &rest[width..];
         }
         ports
@@ -57,7 +69,7 @@ mod tests {
 
     #[test]
     fn bits_are_grouped_into_ports() {
-        let column = |name: &str, width| Column { name: name.to_owned(), width };
+        let column = |name: &str, width| Column::new(name, width);
         let ports = [column("a", 3), column("b", 1), column("c", 2), column("c2", 2)];
         let bits: Vec<String> = ports.iter().flat_map(Column::bits).collect();
         assert_eq!(Column::group(&bits), ports);

@@ -5,6 +5,7 @@ mod behavior;
 mod body;
 mod circuit;
 mod column;
+mod enumeration;
 mod evolution;
 mod function;
 mod genotype;
@@ -14,6 +15,7 @@ mod program;
 mod robot;
 mod schedule;
 mod stimulus;
+mod table;
 mod test;
 mod trial;
 mod value;
@@ -24,10 +26,12 @@ mod world;
 pub use behavior::{Behavior, Direction, Displacements};
 pub use body::{Body, LEAST_ACTUATORS};
 pub use circuit::{
-    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Instance, Net, NetSlot, Operator, OutputValue,
-    Parameter, Size, SizeId, SizeKind, SizeOperator, Statement, Table, TableOutput, TableRow, Target,
+    Block, Circuit, CircuitId, Condition, Expression, ExpressionId, ExpressionKind, FreeNumber, Instance, MemoryArray,
+    MemoryRead, MemoryWrite, Net, NetSlot, Operator, Parameter, Relation, Size, SizeId, SizeKind, SizeOperator,
+    Statement, Target,
 };
 pub use column::{Column, bit_parts};
+pub use enumeration::{Enumeration, EnumerationMember, MemberEncoding};
 pub use evolution::{
     Axis, Count, Evolution, Genome, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, StartBodies,
     Symmetry,
@@ -37,13 +41,14 @@ pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use palette::Palette;
 pub use program::{
-    Hold, InputSpell, LibrarySource, NamedSchedule, NamedWorld, Origin, Program, RegisterStyle, Simulation, Swarm,
-    WaveTimes,
+    Hold, InputSpell, LibrarySource, NamedFile, NamedSchedule, NamedWorld, Origin, Program, RegisterStyle, Simulation,
+    Swarm, WaveTimes,
 };
 pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;
-pub use test::{CircuitTest, Reference, Stimulation, TestRow};
+pub use table::{OutputValue, Table, TableOutput, TablePattern, TableRow};
+pub use test::{CircuitTest, Reference, Script, ScriptStep, Stimulation, TestRow, Until};
 pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
@@ -51,7 +56,7 @@ pub use wording::{
     BehaviorError, BodyError, DisplacementsError, MaterialError, MaterialNumber, PaletteError, PatternError,
     SettingError, VariationError,
 };
-pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
+pub use world::{GroundProfile, PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

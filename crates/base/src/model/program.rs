@@ -1,6 +1,9 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
-use super::{Base, Behavior, Circuit, CircuitTest, Column, Evolution, Instance, Material, PhysicsWorld, Schedule};
+use super::{
+    Base, Behavior, Circuit, CircuitId, CircuitTest, Column, Enumeration, Evolution, Instance, Material, PhysicsWorld,
+    Schedule,
+};
 use crate::source::Span;
 
 /// All declarations of a source file and the files it uses.
@@ -20,6 +23,12 @@ pub struct Program {
     pub own_evolutions: Vec<String>,
     /// Declared circuits; a [`CircuitId`](crate::model::CircuitId) is an index.
     pub circuits: Vec<Circuit>,
+    /// Declared enumerations, in the order of the source.
+    pub enumerations: Vec<Enumeration>,
+    /// Declared files, in the order of the source.
+    pub files: Vec<NamedFile>,
+    /// The environments among the circuits, which no swarm is made of.
+    pub environments: Vec<CircuitId>,
     /// Declared libraries; the built-in one is not among them.
     pub libraries: Vec<LibrarySource>,
     /// Declared swarms, in the order of the source.
@@ -39,6 +48,17 @@ pub struct NamedSchedule {
     pub stimuli: Vec<usize>,
     /// The stimuli over time.
     pub schedule: Schedule,
+}
+
+/// A file with a name, which memories begin with.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct NamedFile {
+    /// What memories and the command line call it.
+    pub name: String,
+    /// The path, from the same place as that of the source file which names it.
+    pub path: String,
+    /// The place of the path.
+    pub span: Span,
 }
 
 /// A world with its name.
@@ -137,8 +157,10 @@ pub enum Hold {
 /// A swarm under a schedule of its inputs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Simulation {
-    /// The swarm's name in [`Program::swarms`].
+    /// The swarm's name in [`Program::swarms`], or the name of a circuit without a swarm.
     pub swarm: String,
+    /// The circuit of the swarm.
+    pub circuit: Instance,
     /// The place of the declaration.
     pub span: Span,
     /// The file in which it is declared.

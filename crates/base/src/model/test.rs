@@ -1,6 +1,6 @@
 //! Tests of circuits: sequences of input rows with the outputs expected after each.
 
-use super::{Base, Circuit, Column, Instance, PhysicsWorld, Value};
+use super::{Base, Circuit, CircuitId, Column, Instance, PhysicsWorld, Value};
 use crate::source::Span;
 
 /// A declared test, as bits. The source is needed for messages only.
@@ -31,11 +31,47 @@ pub struct CircuitTest {
 pub enum Stimulation {
     /// These rows one after another, without a reset between them.
     Rows(Vec<TestRow>),
+    /// Rows that depend on what the circuit does.
+    Script(Script),
     /// Every input pattern in counting order, against a circuit with the same ports.
     All {
         /// The reference circuit.
         reference: Reference,
     },
+}
+
+/// Rows that depend on what the circuit does: an environment gives it inputs, or a row is repeated until an output has
+/// a value. What the rows are is found at the level of logic.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Script {
+    /// The environment of the circuit, if it has one.
+    pub environment: Option<CircuitId>,
+    /// The steps one after another, without a reset between them.
+    pub steps: Vec<ScriptStep>,
+}
+
+/// A row as written, which may be repeated.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ScriptStep {
+    /// The row, or the two halves of a pulse. Inputs that the environment gives are 0.
+    pub rows: Vec<TestRow>,
+    /// When its repetition ends, if it is repeated.
+    pub until: Option<Until>,
+}
+
+/// When the repetition of a row ends.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Until {
+    /// The first of the output bits that must have values, as [`TestRow::expected`] counts them.
+    pub first: usize,
+    /// The values, the most significant first; `None` is any.
+    pub bits: Vec<Option<bool>>,
+    /// The most repetitions.
+    pub most: usize,
+    /// The name of the output.
+    pub output: String,
+    /// The place of the condition.
+    pub span: Span,
 }
 
 /// The circuit that a test compares with. A circuit written inside the test is not part of the program, because nothing

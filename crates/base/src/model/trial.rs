@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Body, Schedule, SettingError, WorldFactors};
+use super::{Body, GroundProfile, Schedule, SettingError, WorldFactors};
 
 /// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1), and its physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,12 +16,20 @@ pub struct Setting {
     pub shift: f64,
     /// The physics as factors of the paper's.
     pub factors: WorldFactors,
+    /// How high the ground is. A body starts above the highest of the columns below it.
+    pub ground: GroundProfile,
 }
 
 impl Default for Setting {
     /// The paper's world of 500 ground voxels.
     fn default() -> Self {
-        Self { world_width: 500, start_x: None, shift: 0.0, factors: WorldFactors::default() }
+        Self {
+            world_width: 500,
+            start_x: None,
+            shift: 0.0,
+            factors: WorldFactors::default(),
+            ground: GroundProfile::default(),
+        }
     }
 }
 
@@ -43,6 +51,15 @@ impl Setting {
         }
         let (start, most) = (self.start_column(columns), width - columns);
         if start > most { Err(SettingError::OffGround { start, most, columns, width }) } else { Ok(()) }
+    }
+
+    /// The place of a body of that many columns at its start: the column of its left side and the row of its lower
+    /// side, in voxels from the lower left corner of the ground.
+    pub fn start(&self, body_width: usize) -> [f64; 2] {
+        let left = self.start_column(body_width) as f64 + self.shift;
+        let below = |side: f64| side.clamp(0.0, self.world_width as f64) as usize;
+        let columns = below(left.floor())..below((left + body_width as f64).ceil());
+        [left, 1.0 + self.ground.highest(columns) as f64]
     }
 
     /// The start column of a body of that many columns.

@@ -1,10 +1,11 @@
 //! Values of ports in the rows of tests and simulations: bits with the base in which the user wrote them.
 
 use std::fmt;
+use std::sync::Arc;
 
 use serde::ser::{Serialize, SerializeStruct, Serializer};
 
-use super::Column;
+use super::{Column, Enumeration};
 
 /// How a value is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,12 +19,21 @@ pub enum Base {
     Decimal,
     /// `4'h5`
     Hexadecimal,
+    /// The name of a member of the port's enumeration; other values as their bits.
+    Member,
+    /// `5`
+    Plain,
 }
 
 impl Base {
     /// The base for a port if no row defines its notation.
     pub fn of_width(width: usize) -> Self {
         if width == 1 { Self::Bits } else { Self::Decimal }
+    }
+
+    /// The base for the values of a port if no row defines its notation.
+    pub fn of_port(port: &Column) -> Self {
+        if port.members.is_some() { Self::Member } else { Self::of_width(port.width) }
     }
 
     /// The base of a letter in a constant such as `4'd5`.
@@ -44,6 +54,8 @@ pub struct Value {
     pub bits: Vec<Option<bool>>,
     /// The base in which it is written.
     pub base: Base,
+    /// The enumeration of the port, if it has one.
+    pub members: Option<Arc<Enumeration>>,
 }
 
 impl Value {
@@ -56,7 +68,8 @@ impl Value {
         let value = |(at, port): (usize, &Column)| {
             let bits: Vec<_> = bits.by_ref().take(port.width).collect();
             assert_eq!(bits.len(), port.width, "a bit for each bit of the ports");
-            Self { bits, base: bases.get(at).copied().unwrap_or(Base::of_width(port.width)) }
+            let base = bases.get(at).copied().unwrap_or(Base::of_port(port));
+            Self { bits, base, members: port.members.clone() }
         };
         ports.iter().enumerate().map(value).collect()
     }
@@ -91,7 +104,12 @@ impl fmt::Display for Value {
         let width = self.bits.len();
         let text = match (self.base, self.number()) {
             _ if self.is_open() => "-".to_owned(),
-            (Base::Bits, _) => self.digits(),
+            (Base::Member, Some(number)) => match self.members.as_ref().and_then(|members| members.named(number)) {
+                Some(name) => name.to_owned(),
+                None => self.digits(),
+            },
+            (Base::Plain, Some(number)) => number.to_string(),
+            (Base::Bits | Base::Member | Base::Plain, _) => self.digits(),
             (Base::Decimal, Some(number)) => format!("{width}'d{number}"),
             (Base::Decimal | Base::Hexadecimal, _) => match self.hexadecimal() {
                 Some(digits) => format!("{width}'h{digits}"),
@@ -124,7 +142,7 @@ mod tests {
             '1' => Some(true),
             _ => None,
         };
-        let value = Value { bits: digits.chars().map(bit).collect(), base };
+        let value = Value { bits: digits.chars().map(bit).collect(), base, members: None };
         assert_eq!((value.to_string().as_str(), value.digits().as_str()), (expected, digits));
     }
 

@@ -122,6 +122,7 @@ impl Variation {
                 dead: (noise.dead + dead).min(1.0),
                 seed,
             },
+            ground: around.ground,
         }
     }
 }

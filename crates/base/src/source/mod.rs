@@ -10,5 +10,7 @@ mod world;
 pub use file::{LineColumn, LineStarts, SourceFile, Sources};
 pub use file_error::FileError;
 pub use span::{FileId, Span};
-pub use verilog::{VerilogError, VerilogFault, VerilogModules, VerilogPlace};
+pub use verilog::{
+    VERILOG_SOURCE, VerilogError, VerilogFault, VerilogModules, VerilogName, VerilogPlace, verilog_line,
+};
 pub use world::{MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};

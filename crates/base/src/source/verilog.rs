@@ -1,14 +1,62 @@
 //! Verilog through a [`SourceWorld`](super::SourceWorld): what its translator gives, and why there may be none.
 
+use std::collections::BTreeMap;
+
 use super::FileError;
 
+/// The name of the text that Yosys reads, in the places that it gives.
+pub const VERILOG_SOURCE: &str = "source.v";
+
 /// The modules of a Verilog file as BLIF.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VerilogModules {
     /// A flat model for each module.
     pub blif: String,
     /// The names of the modules that no other module of the file contains, in order.
     pub tops: Vec<String>,
+    /// The wires of these modules that are used and that nothing drives. They are 0.
+    pub undriven: Vec<VerilogName>,
+    /// The modules that were left out, because they have no outputs.
+    pub left_out: Vec<VerilogName>,
+    /// The lines that declare nets, by module and name.
+    pub nets: BTreeMap<(String, String), usize>,
+    /// The place of each line that Yosys read.
+    pub lines: Vec<VerilogPlace>,
+}
+
+impl VerilogModules {
+    /// The place of the statement of the BLIF text at these bytes: that of a net in it. `module` is its model.
+    pub fn place(&self, module: &str, at: usize) -> Option<&VerilogPlace> {
+        let start = self.blif[..at].rfind('\n').map_or(0, |end| end + 1);
+        let words: Vec<&str> = self.blif[start..].lines().next()?.split_whitespace().collect();
+        // What a statement defines comes first: the last net of `.names`, the second one of `.latch`.
+        let defined = if words[0] == ".latch" { words.get(2) } else { words.last() };
+        let nets =
+            defined.into_iter().chain(&words[1..]).map(|word| word.split_once('=').map_or(*word, |(_, net)| net));
+        nets.filter_map(|net| self.line(module, net)).next()
+    }
+
+    /// The line of a net: that of its declaration, or one that is part of a name by Yosys, as in `$and$source.v:3$1`.
+    fn line(&self, module: &str, net: &str) -> Option<&VerilogPlace> {
+        let whole = net.strip_suffix(']').and_then(|net| net.rsplit_once('[')).map_or(net, |(bus, _)| bus);
+        let declared = self.nets.get(&(module.to_owned(), whole.to_owned())).copied();
+        let named = || verilog_line(net.split_once(VERILOG_SOURCE)?.1);
+        self.lines.get(declared.or_else(named)?.checked_sub(1)?)
+    }
+}
+
+/// The line in a place after the name of its file, such as `:3.2-3.8` or `:3$1_Y`.
+pub fn verilog_line(place: &str) -> Option<usize> {
+    place.strip_prefix(':')?.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
+}
+
+/// A name in a Verilog file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VerilogName {
+    /// The name.
+    pub name: String,
+    /// Its line, if it is known.
+    pub place: Option<VerilogPlace>,
 }
 
 /// A line of a Verilog file or of a file that it includes.
@@ -45,9 +93,35 @@ pub enum VerilogError {
         /// The limit, in megabytes.
         megabytes: u64,
     },
-    /// A register with an asynchronous set or reset.
-    Asynchronous {
-        /// Its place, if Yosys names it.
+    /// A module that the file does not have.
+    NoModule {
+        /// The module.
+        module: String,
+        /// The modules of the file.
+        known: Vec<String>,
+    },
+    /// A parameter that the top module does not have.
+    NoParameter {
+        /// The parameter.
+        parameter: String,
+        /// The parameters of the module.
+        known: Vec<String>,
+    },
+    /// Parameters without the module that they are for.
+    SeveralModules {
+        /// The modules that no other contains.
+        known: Vec<String>,
+    },
+    /// A power whose exponent has too many bits that can change.
+    WideExponent {
+        /// Its place, if it is known.
+        place: Option<VerilogPlace>,
+    },
+    /// A cell of Yosys that is no logic.
+    NotLogic {
+        /// The kind of the cell.
+        cell: String,
+        /// Its place, if it is known.
         place: Option<VerilogPlace>,
     },
     /// A word that could lead to other files or programs.

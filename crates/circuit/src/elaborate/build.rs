@@ -1,14 +1,25 @@
 //! Builds modules, each once for each choice of parameters.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::elaborate::frame::{Item, Scope};
 use crate::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
-use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModuleSignal};
-use crate::elaborate::wording::{ElaborateError, shown_at, unknown_circuit};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal};
+use crate::elaborate::wording::{ElaborateError, RangeError, shown_at, unknown_circuit};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use nbc_base::source::Span;
+
+/// What a module is built from.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) struct ModuleKey {
+    pub(super) circuit: CircuitId,
+    /// The values of its parameters.
+    pub(super) arguments: Vec<i64>,
+    /// The inputs that have their default values, by their places.
+    pub(super) absent: Vec<u32>,
+}
 
 /// Everything built so far.
 pub(super) struct Builder<'a> {
@@ -17,7 +28,7 @@ pub(super) struct Builder<'a> {
     references: Vec<&'a Circuit>,
     pub(super) modules: Vec<Module>,
     /// The module of each circuit and its parameters; `None` if it is invalid or under construction.
-    known: BTreeMap<(CircuitId, Vec<i64>), Option<ModuleId>>,
+    known: BTreeMap<ModuleKey, Option<ModuleId>>,
     pub(super) diagnostics: Vec<Diagnostic>,
     /// The same as a set, to find duplicates quickly.
     noted: BTreeSet<Diagnostic>,
@@ -87,7 +98,7 @@ impl<'a> Builder<'a> {
         let mut given: Vec<_> = arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
         given.resize(self.circuit(circuit).parameters.len(), None);
         let arguments = self.arguments(circuit, given, &[], place)?;
-        self.build(circuit, arguments)
+        self.build(ModuleKey { circuit, arguments, absent: Vec::new() })
     }
 
     /// The module of a circuit whose parameters all have defaults.
@@ -97,22 +108,21 @@ impl<'a> Builder<'a> {
             return None;
         }
         let arguments = self.arguments(circuit, vec![None; parameters.len()], &[], self.circuit(circuit).span)?;
-        self.build(circuit, arguments)
+        self.build(ModuleKey { circuit, arguments, absent: Vec::new() })
     }
 
-    /// The module of a circuit with these parameters.
-    pub(super) fn build(&mut self, circuit: CircuitId, arguments: Vec<i64>) -> Option<ModuleId> {
-        let key = (circuit, arguments);
+    /// The module of a circuit with these parameters and without some of its inputs.
+    pub(super) fn build(&mut self, key: ModuleKey) -> Option<ModuleId> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
         if self.depth >= MAX_HIERARCHY {
-            self.fault(ElaborateError::TooDeep { most: MAX_HIERARCHY }.at(self.circuit(circuit).span));
+            self.fault(ElaborateError::TooDeep { most: MAX_HIERARCHY }.at(self.circuit(key.circuit).span));
             return None;
         }
         self.known.insert(key.clone(), None);
         self.depth += 1;
-        let module = ModuleBuilder::new(self, circuit).run(key.1.clone());
+        let module = ModuleBuilder::new(self, key.circuit).run(&key);
         self.depth -= 1;
         let id = module.map(|module| {
             self.modules.push(module);
@@ -125,26 +135,33 @@ impl<'a> Builder<'a> {
 
     /// The circuits of the program that were built, in the order of the program.
     pub(super) fn instances(&self) -> impl Iterator<Item = Instance> + '_ {
-        let built = self
-            .known
-            .iter()
-            .filter(|((circuit, _), module)| module.is_some() && (circuit.0 as usize) < self.program.circuits.len());
-        built.filter_map(|((circuit, arguments), _)| {
-            let arguments = arguments.iter().map(|&value| u64::try_from(value).ok()).collect::<Option<_>>()?;
-            Some(Instance { circuit: self.circuit(*circuit).name.clone(), arguments })
+        let built = self.known.iter().filter(|(key, module)| {
+            let is_declared = (key.circuit.0 as usize) < self.program.circuits.len();
+            module.is_some() && is_declared && key.absent.is_empty()
+        });
+        built.filter_map(|(key, _)| {
+            let arguments = key.arguments.iter().map(|&value| u64::try_from(value).ok()).collect::<Option<_>>()?;
+            Some(Instance { circuit: self.circuit(key.circuit).name.clone(), arguments })
         })
     }
 
     /// The ports of a module, as columns of a test.
     pub(super) fn columns(&self, id: ModuleId) -> (Vec<Column>, Vec<Column>) {
         let module = self.module(id);
-        let circuit = self.circuit(module.circuit);
-        let column =
-            |(net, &width): (usize, &u32)| Column { name: circuit.nets[net].name.clone(), width: width as usize };
-        let inputs = module.inputs.iter().enumerate().map(column).collect();
-        let outputs =
-            module.outputs.iter().enumerate().map(|(at, width)| column((circuit.inputs + at, width))).collect();
+        let columns = |ports: &[ModulePort]| ports.iter().map(|port| self.column(module.circuit, port)).collect();
+        let (inputs, outputs) = (columns(&module.inputs), columns(&module.outputs));
         (inputs, outputs)
+    }
+
+    fn column(&self, circuit: CircuitId, port: &ModulePort) -> Column {
+        let circuit = self.circuit(circuit);
+        let net = circuit.nets[..circuit.inputs + circuit.outputs].get(port.net as usize);
+        let members = net.and_then(|net| self.program.enumerations.get(net.members?));
+        Column {
+            name: port.name.clone(),
+            width: port.width as usize,
+            members: members.map(|members| Arc::new(members.clone())),
+        }
     }
 }
 
@@ -175,6 +192,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             sites: Vec::new(),
             starts: Vec::new(),
             output_bits: Vec::new(),
+            memories: Vec::new(),
             cells: 0,
             size: 0,
         };
@@ -182,12 +200,13 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         Self { builder, circuit, module, frames, items, constants: [None; 2], unnamed: 0, failed: false }
     }
 
-    fn run(mut self, arguments: Vec<i64>) -> Option<Module> {
-        self.unroll(arguments);
+    fn run(mut self, key: &ModuleKey) -> Option<Module> {
+        self.unroll(key.arguments.clone());
         if self.failed {
             return None;
         }
-        self.ports()?;
+        self.ports(&key.absent)?;
+        self.memory_ports();
         self.infer_widths();
         if self.failed {
             return None;
@@ -206,28 +225,69 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         self.builder.fault(fault);
     }
 
-    fn ports(&mut self) -> Option<()> {
+    fn ports(&mut self, absent: &[u32]) -> Option<()> {
         let ports = self.circuit.inputs + self.circuit.outputs;
-        let mut input = 0;
         for net in 0..ports {
             let width = match self.circuit.nets[net].width {
                 Some(size) => self.width(size, 0)?,
                 None => 1,
             };
-            self.give_width(net, width);
-            let bits = self.module.nets[net].first..self.module.nets[net].first + width;
-            if net < self.circuit.inputs {
-                self.module.inputs.push(width);
-                for bit in bits {
-                    self.module.signals[bit as usize] = ModuleSignal::Input(input);
-                    input += 1;
-                }
+            let words = self.declared_words(NetSlot(net as u32), 0);
+            self.give_array(net, width, words);
+            if net >= self.circuit.inputs {
+                self.output(net);
+            } else if absent.contains(&(net as u32)) {
+                self.absent(net)?;
             } else {
-                self.module.outputs.push(width);
-                self.module.output_bits.extend(bits);
+                self.input(net);
             }
         }
         Some(())
+    }
+
+    /// Makes a net with a width an input of the module.
+    pub(super) fn input(&mut self, net: usize) {
+        let first = self.module.inputs.iter().map(|port| port.width).sum::<u32>();
+        let port = self.module.port(net);
+        for (at, bit) in (port.first..port.first + port.width).enumerate() {
+            self.module.signals[bit as usize] = ModuleSignal::Input(first + at as u32);
+        }
+        self.module.inputs.push(port);
+    }
+
+    /// Makes a net with a width an output of the module.
+    pub(super) fn output(&mut self, net: usize) {
+        let port = self.module.port(net);
+        self.module.output_bits.extend(port.first..port.first + port.width);
+        self.module.outputs.push(port);
+    }
+
+    /// Gives an input that a call leaves out its default value.
+    fn absent(&mut self, net: usize) -> Option<()> {
+        let default = self.circuit.nets[net].default.expect("only inputs with a value are left out");
+        let (value, span) = (self.size(default, 0)?, self.circuit.sizes[default.0 as usize].span);
+        let ModuleNet { first, width, .. } = self.module.nets[net];
+        let width = width?;
+        let Ok(value) = u128::try_from(value) else {
+            self.fault(RangeError::NegativeConstant { value }.at(span));
+            return None;
+        };
+        for (bit, value) in (first..).zip(self.fitting_bits(value, width, span)?) {
+            self.module.signals[bit as usize] = ModuleSignal::Constant(value);
+        }
+        Some(())
+    }
+
+    /// Adds an array of so many words of this width, or another net.
+    pub(super) fn give_array(&mut self, net: usize, width: u32, words: Option<u32>) {
+        let bits = i64::from(width) * i64::from(words.unwrap_or(1));
+        if bits > super::MAX_WIDTH {
+            let span = self.module.nets[net].span;
+            self.fault(RangeError::NetWidth { width: bits, most: super::MAX_WIDTH }.at(span));
+            return;
+        }
+        self.module.nets[net].words = words;
+        self.give_width(net, bits as u32);
     }
 
     /// Adds a net of this width.
@@ -250,13 +310,19 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         self.width(size, frame)
     }
 
+    /// The number of words of an array.
+    pub(super) fn declared_words(&mut self, slot: NetSlot, frame: u32) -> Option<u32> {
+        let size = self.circuit.nets[slot.0 as usize].words?;
+        self.width(size, frame)
+    }
+
     fn undriven(&mut self) {
         if self.failed {
             // The error may be in the drivers.
             return;
         }
         for net in self.circuit.inputs..self.module.nets.len() {
-            let ModuleNet { first, width, name, span } = &self.module.nets[net];
+            let ModuleNet { first, width, name, span, .. } = &self.module.nets[net];
             let bits = *first..first + width.unwrap_or(0);
             let missing: Vec<_> = bits.filter(|&bit| !self.is_driven(bit)).map(|bit| bit - first).collect();
             let span = *span;

@@ -31,7 +31,7 @@ impl Dense {
         let mut outputs = vec![otherwise; 1 << inputs];
         for (row, output_bit) in table.rows.iter().zip(values) {
             let value =
-                |wanted| row.pattern.iter().fold(0usize, |sum, digit| sum << 1 | usize::from(*digit == Some(wanted)));
+                |wanted| row.bits().iter().fold(0usize, |sum, digit| sum << 1 | usize::from(*digit == Some(wanted)));
             let (ones, zeros) = (value(true), value(false));
             for (pattern, output) in outputs.iter_mut().enumerate() {
                 if pattern & ones == ones && pattern & zeros == 0 {

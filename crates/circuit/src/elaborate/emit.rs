@@ -1,11 +1,14 @@
 //! From expressions to gates, bit by bit; the lowest bit of a value comes first.
 
-use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::build::{ModuleBuilder, ModuleKey};
+use crate::elaborate::frame::Item;
 use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
 use crate::elaborate::table::TableValues;
 use crate::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
 use crate::index::ListIndex;
-use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, Function, NetSlot, Operator, SizeId, Target};
+use nbc_base::model::{
+    CircuitId, ExpressionId, ExpressionKind, FreeNumber, Function, NetSlot, Operator, SizeId, SizeKind, Target,
+};
 use nbc_base::source::Span;
 
 /// `a` without `b`.
@@ -16,10 +19,29 @@ struct Call<'c> {
     callee: CircuitId,
     /// Its parameters; `None` if not given.
     arguments: &'c [Option<SizeId>],
-    operands: &'c [ExpressionId],
+    operands: &'c [Option<ExpressionId>],
     /// The turns of the loops around it.
     frame: u32,
     span: Span,
+}
+
+/// The word and the bits that are taken of a net.
+type NetPart = (Option<SizeId>, Option<(SizeId, SizeId)>);
+
+/// The values of the parts of an expression, each of which is used once.
+struct Parts {
+    first: u32,
+    values: Vec<Vec<Bit>>,
+}
+
+impl Parts {
+    fn take(&mut self, part: ExpressionId) -> Vec<Bit> {
+        std::mem::take(&mut self.values[(part.0 - self.first) as usize])
+    }
+
+    fn take_all(&mut self, parts: &[ExpressionId]) -> Vec<Vec<Bit>> {
+        parts.iter().map(|&part| self.take(part)).collect()
+    }
 }
 
 impl ModuleBuilder<'_, '_> {
@@ -27,21 +49,75 @@ impl ModuleBuilder<'_, '_> {
     pub(super) fn item(&mut self, at: u32) {
         let item = self.items[at as usize];
         let name = item.targets.first().and_then(|target| self.target_name(target, item.frame));
-        let Some(values) = self.values(item.value, item.frame, name) else {
+        let expected = self.targets_width(&item);
+        let Some(values) = self.values(item.value, item.frame, name, expected) else {
             self.failed = true;
             return;
         };
         let span = self.span(item.value);
+        if item.joined {
+            self.drive_parts(&item, &values[0], at, span);
+            return;
+        }
         for (target, value) in item.targets.iter().zip(values) {
             self.drive(target, &value, item.frame, at, span);
+        }
+    }
+
+    /// The number of bits that a statement drives with one value, if it is known.
+    fn targets_width(&mut self, item: &Item<'_>) -> Option<u32> {
+        if item.targets.len() != 1 && !item.joined {
+            return None;
+        }
+        let widths: Vec<Option<u32>> = item.targets.iter().map(|target| self.target_bits(target, item.frame)).collect();
+        widths.into_iter().try_fold(0u32, |sum, width| sum.checked_add(width?))
+    }
+
+    /// The number of bits of a target; one of a value that is discarded as a part of another.
+    fn target_bits(&mut self, target: &Target, frame: u32) -> Option<u32> {
+        let Some(slot) = target.net else { return Some(1) };
+        let (_, _, count) = self.target_range(slot, target, frame)?;
+        Some(count)
+    }
+
+    /// The net of a target, the lowest of its bits that are driven, and their number.
+    fn target_range(&mut self, slot: NetSlot, target: &Target, frame: u32) -> Option<(usize, u32, u32)> {
+        let net = self.net(slot, frame);
+        self.module.nets[net].width?;
+        let (low, count) = self.range(net, target.word, target.bits, frame)?;
+        Some((net, low, count))
+    }
+
+    /// Lets the parts of a value drive targets, the highest first.
+    fn drive_parts(&mut self, item: &Item<'_>, value: &[Bit], by: u32, span: Span) {
+        let mut widths = Vec::new();
+        for target in item.targets {
+            let Some(width) = self.target_bits(target, item.frame) else { return };
+            widths.push(width);
+        }
+        let total: u32 = widths.iter().sum();
+        if value.len() as u32 != total {
+            let found = OperandText { span, ..self.operand(item.value, value) };
+            let (first, last) = (item.targets[0].span, item.targets[item.targets.len() - 1].span);
+            self.fault(
+                WidthError::Wrong { what: Wide::Parts { targets: first.to(last) }, expected: total, found }.into(),
+            );
+            return;
+        }
+        let mut high = value.len();
+        for (target, width) in item.targets.iter().zip(widths) {
+            let low = high - width as usize;
+            self.drive(target, &value[low..high], item.frame, by, span);
+            high = low;
         }
     }
 
     /// A target as the name of a circuit inside.
     fn target_name(&self, target: &Target, frame: u32) -> Option<String> {
         let net = &self.module.nets[self.net(target.net?, frame)];
-        let bit = target.bits.and_then(|(high, _)| {
-            super::size::value(&self.circuit.sizes, high, &self.frames[frame as usize].variables).ok()
+        let size = target.word.or(target.bits.map(|(high, _)| high));
+        let bit = size.and_then(|size| {
+            super::size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables).ok()
         });
         Some(bit.map_or_else(|| net.name.clone(), |bit| format!("{}[{bit}]", net.name)))
     }
@@ -49,13 +125,8 @@ impl ModuleBuilder<'_, '_> {
     /// Lets a value drive a target.
     fn drive(&mut self, target: &Target, value: &[Bit], frame: u32, by: u32, span: Span) {
         let Some(slot) = target.net else { return };
-        let net = self.net(slot, frame);
-        let Some(width) = self.module.nets[net].width else { return };
+        let Some((net, low, count)) = self.target_range(slot, target, frame) else { return };
         let name = self.module.nets[net].name.clone();
-        let Some((low, count)) = target.bits.map_or(Some((0, width)), |bits| self.slice(bits, width, &name, frame))
-        else {
-            return;
-        };
         if value.len() as u32 != count {
             let found = OperandText { span, ..self.operand(self.items[by as usize].value, value) };
             let what = Wide::Value { net: name, target: target.span };
@@ -96,15 +167,24 @@ impl ModuleBuilder<'_, '_> {
         self.module.starts.extend((0..width).map(|at| (first + at, bit(at))));
     }
 
-    /// The values of an expression, from its leaves to its root without recursion; `None` after an error.
-    fn values(&mut self, root: ExpressionId, frame: u32, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
-        let circuit = self.circuit;
-        let mut done: Vec<Vec<Bit>> = Vec::new();
-        for at in circuit.first_leaf(root).0..root.0 {
-            let value = self.value(ExpressionId(at), frame, None, &mut done)?;
-            done.push(value.into_iter().next().expect("an expression inside has one value"));
+    /// The values of an expression, from its leaves to its root without recursion; `None` after an error. The whole is
+    /// expected to be so wide.
+    fn values(
+        &mut self,
+        root: ExpressionId,
+        frame: u32,
+        name: Option<String>,
+        expected: Option<u32>,
+    ) -> Option<Vec<Vec<Bit>>> {
+        let needed = self.needed_widths(root, frame, expected);
+        let first = self.circuit.first_leaf(root);
+        let mut parts = Parts { first: first.0, values: Vec::new() };
+        for at in first.0..root.0 {
+            let id = ExpressionId(at);
+            let value = self.value(id, frame, None, needed.of(id), &mut parts)?;
+            parts.values.push(value.into_iter().next().expect("an expression inside has one value"));
         }
-        self.value(root, frame, name, &mut done)
+        self.value(root, frame, name, needed.of(root), &mut parts)
     }
 
     fn value(
@@ -112,13 +192,17 @@ impl ModuleBuilder<'_, '_> {
         id: ExpressionId,
         frame: u32,
         name: Option<String>,
-        done: &mut Vec<Vec<Bit>>,
+        needed: Option<u32>,
+        parts: &mut Parts,
     ) -> Option<Vec<Vec<Bit>>> {
         let circuit = self.circuit;
         let span = self.span(id);
-        let mut take = |count: usize| done.split_off(done.len() - count);
         let value = match &circuit.expressions[id.0 as usize].kind {
             ExpressionKind::Bits(bits) => bits.iter().rev().map(|&bit| self.constant(bit)).collect(),
+            ExpressionKind::Unsized(number) => {
+                let (value, width) = self.free_number(id, *number, needed, frame)?;
+                self.number_bits(width, value, span)?
+            }
             ExpressionKind::Number { width, value } => self.number(*width, *value, frame, span)?,
             ExpressionKind::Computed { width, value } => {
                 let value = self.size(*value, frame)?;
@@ -128,24 +212,29 @@ impl ModuleBuilder<'_, '_> {
                 };
                 self.number(*width, value, frame, span)?
             }
-            ExpressionKind::Net(slot) => self.bits(*slot, None, frame)?,
-            ExpressionKind::Slice { net, high, low } => self.bits(*net, Some((*high, *low)), frame)?,
-            ExpressionKind::Concatenation(parts) => take(parts.len()).into_iter().rev().flatten().collect(),
-            ExpressionKind::Repetition { count, .. } => self.repetition(*count, &take(1)[0], frame)?,
+            ExpressionKind::Net(slot) => self.bits(*slot, (None, None), frame)?,
+            ExpressionKind::Slice { net, word, bits } => self.bits(*net, (*word, *bits), frame)?,
+            ExpressionKind::Element { net, index, bits } => {
+                let index = (*index, parts.take(*index));
+                self.element(*net, index, *bits, frame)?
+            }
+            ExpressionKind::Concatenation(list) => list.iter().rev().flat_map(|&part| parts.take(part)).collect(),
+            ExpressionKind::Repetition { count, value } => self.repetition(*count, &parts.take(*value), frame)?,
             ExpressionKind::Operation { operator, operands } => {
-                self.operation(*operator, operands, take(operands.len()), span)?
+                self.operation(*operator, operands, parts.take_all(operands), span)?
             }
             ExpressionKind::Choice { condition, then, otherwise } => {
-                self.choice([*condition, *then, *otherwise], take(3), span)?
+                let list = [*condition, *then, *otherwise];
+                self.choice(list, parts.take_all(&list), span)?
             }
             ExpressionKind::Table { inputs, outputs, table } => {
-                let values = take(outputs.len());
-                let inputs: Vec<Bit> = take(inputs.len()).into_iter().rev().flatten().collect();
-                let values = TableValues { expressions: outputs, bits: &values };
+                let values = parts.take_all(outputs);
+                let inputs: Vec<Bit> = inputs.iter().rev().flat_map(|&part| parts.take(part)).collect();
+                let values = TableValues { expressions: outputs, bits: &values, width: needed };
                 self.table(&circuit.tables[*table], &inputs, values)?
             }
             ExpressionKind::Call { circuit, arguments, operands } => {
-                let values = take(operands.len());
+                let values = operands.iter().map(|part| part.map(|part| parts.take(part))).collect();
                 return self.call(Call { callee: *circuit, arguments, operands, frame, span }, values, name);
             }
         };
@@ -178,22 +267,107 @@ impl ModuleBuilder<'_, '_> {
 
     fn number(&mut self, width: SizeId, value: u128, frame: u32, span: Span) -> Option<Vec<Bit>> {
         let width = self.width(width, frame)?;
-        if width < 128 && value >> width != 0 {
+        self.number_bits(width, value, span)
+    }
+
+    fn number_bits(&mut self, width: u32, value: u128, span: Span) -> Option<Vec<Bit>> {
+        let bits = self.fitting_bits(value, width, span)?;
+        Some(bits.into_iter().map(|bit| self.constant(bit)).collect())
+    }
+
+    /// The bits of a number, the lowest first; reports a number that does not fit into the width.
+    pub(super) fn fitting_bits(&mut self, value: u128, width: u32, span: Span) -> Option<Vec<bool>> {
+        if width < u128::BITS && value >> width != 0 {
             self.fault(RangeError::ConstantWidth { value, width }.at(span));
             return None;
         }
-        Some((0..width).map(|bit| self.constant(bit < 128 && value >> bit & 1 == 1)).collect())
+        Some((0..width).map(|bit| bit < u128::BITS && value >> bit & 1 == 1).collect())
     }
 
-    fn bits(&mut self, slot: NetSlot, bits: Option<(SizeId, SizeId)>, frame: u32) -> Option<Vec<Bit>> {
+    fn bits(&mut self, slot: NetSlot, part: NetPart, frame: u32) -> Option<Vec<Bit>> {
         let net = self.net(slot, frame);
-        let width = self.module.nets[net].width?;
+        self.module.nets[net].width?;
         let first = self.module.nets[net].first;
-        let (low, count) = match bits {
-            Some(bits) => self.slice(bits, width, &self.module.nets[net].name.clone(), frame)?,
+        let (low, count) = self.range(net, part.0, part.1, frame)?;
+        Some((first + low..first + low + count).map(|bit| self.known(bit)).collect())
+    }
+
+    /// The constant that a bit is, or the bit itself.
+    fn known(&mut self, bit: Bit) -> Bit {
+        match self.module.signals[bit as usize] {
+            ModuleSignal::Constant(value) => self.constant(value),
+            _ => bit,
+        }
+    }
+
+    /// The lowest bit, and the number of bits, of a word of a net or of some of its bits.
+    fn range(
+        &mut self,
+        net: usize,
+        word: Option<SizeId>,
+        bits: Option<(SizeId, SizeId)>,
+        frame: u32,
+    ) -> Option<(u32, u32)> {
+        let (width, words) = (self.module.nets[net].width?, self.module.nets[net].words.unwrap_or(1));
+        let name = self.module.nets[net].name.clone();
+        let (base, width) = match word {
+            Some(word) => {
+                let at = self.size(word, frame)?;
+                let Some(at) = u32::try_from(at).ok().filter(|at| *at < words) else {
+                    let span = self.circuit.sizes[word.0 as usize].span;
+                    self.fault(RangeError::NoSuchWord { net: name, word: at, words }.at(span));
+                    return None;
+                };
+                (at * (width / words), width / words)
+            }
             None => (0, width),
         };
-        Some((first + low..first + low + count).collect())
+        match bits {
+            Some(bits) => self.slice(bits, width, &name, frame).map(|(low, count)| (base + low, count)),
+            None => Some((base, width)),
+        }
+    }
+
+    /// The word of an array, or the bit of another net, that a value selects: a tree of choices. A place that does not
+    /// exist shows any other.
+    fn element(
+        &mut self,
+        slot: NetSlot,
+        (index, value): (ExpressionId, Vec<Bit>),
+        bits: Option<(SizeId, SizeId)>,
+        frame: u32,
+    ) -> Option<Vec<Bit>> {
+        let net = self.net(slot, frame);
+        let width = self.module.nets[net].width?;
+        let words = self.module.nets[net].words.unwrap_or(width);
+        let places = SizeKind::log2(words.into()).max(1) as u32;
+        if value.len() as u32 != places {
+            let found = self.operand(index, &value);
+            let what = Wide::Index { net: self.module.nets[net].name.clone(), words };
+            self.fault(WidthError::Wrong { what, expected: places, found }.into());
+            return None;
+        }
+        let (name, word) = (self.module.nets[net].name.clone(), width / words);
+        let (low, count) = match bits {
+            Some(bits) => self.slice(bits, word, &name, frame)?,
+            None => (0, word),
+        };
+        let first = self.module.nets[net].first;
+        let span = self.span(index);
+        let column = |builder: &mut Self, bit: u32| {
+            let mut level: Vec<Bit> = (0..words).map(|place| builder.known(first + place * word + low + bit)).collect();
+            for &selected in &value {
+                level = level
+                    .chunks(2)
+                    .map(|pair| match *pair {
+                        [zero, one] => builder.select(selected, one, zero, span),
+                        _ => pair[0],
+                    })
+                    .collect();
+            }
+            level[0]
+        };
+        Some((0..count).map(|bit| column(self, bit)).collect())
     }
 
     fn repetition(&mut self, count: SizeId, value: &[Bit], frame: u32) -> Option<Vec<Bit>> {
@@ -263,24 +437,28 @@ impl ModuleBuilder<'_, '_> {
         )
     }
 
-    /// `then` if the condition is 1, else `otherwise`.
+    /// `then` if the condition is 1, else `otherwise`. A choice by a constant needs no gates.
     pub(super) fn select(&mut self, condition: Bit, then: Bit, otherwise: Bit, span: Span) -> Bit {
+        if let Some(value) = [false, true].into_iter().find(|&value| self.is_constant(condition, value)) {
+            return if value { then } else { otherwise };
+        }
         let chosen = self.gate(Function::AND, [condition, then], span);
         let other = self.gate(Function::new(A_WITHOUT_B), [otherwise, condition], span);
         self.gate(Function::OR, [chosen, other], span)
     }
 
     /// Instantiates a circuit; `values` are the operands.
-    fn call(&mut self, call: Call, values: Vec<Vec<Bit>>, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
+    fn call(&mut self, call: Call, values: Vec<Option<Vec<Bit>>>, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
         let id = self.callee(&call, &values)?;
         let name = name.unwrap_or_else(|| {
             self.unnamed += 1;
             format!("{}_{}", self.builder.circuit(call.callee).name, self.unnamed)
         });
         let site = self.module.sites.len() as u32;
-        self.module.sites.push(Site { module: id, inputs: values.concat(), name });
+        let inputs = values.into_iter().flatten().flatten().collect();
+        self.module.sites.push(Site { module: id, inputs, name });
         let mut bits = 0..;
-        let outputs = self.builder.module(id).outputs.clone();
+        let outputs: Vec<u32> = self.builder.module(id).outputs.iter().map(|port| port.width).collect();
         let mut output = |width| {
             bits.by_ref().take(width as usize).map(|bit| self.signal(ModuleSignal::Output { site, bit })).collect()
         };
@@ -295,7 +473,7 @@ impl ModuleBuilder<'_, '_> {
             _ => None,
         };
         let constant = match kind {
-            ExpressionKind::Number { value, .. } => Some(*value),
+            ExpressionKind::Number { value, .. } | ExpressionKind::Unsized(FreeNumber::Literal(value)) => Some(*value),
             ExpressionKind::Bits(bits) if bits.len() == 1 => Some(u128::from(bits[0])),
             _ => None,
         };
@@ -303,7 +481,7 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// The module of a called circuit, if its parameters and the widths of the operands fit.
-    fn callee(&mut self, call: &Call, values: &[Vec<Bit>]) -> Option<ModuleId> {
+    fn callee(&mut self, call: &Call, values: &[Option<Vec<Bit>>]) -> Option<ModuleId> {
         let mut arguments = Vec::new();
         for size in call.arguments {
             arguments.push(match size {
@@ -311,16 +489,20 @@ impl ModuleBuilder<'_, '_> {
                 None => None,
             });
         }
-        let widths: Vec<_> = values.iter().map(|value| Some(value.len() as u32)).collect();
+        let widths: Vec<_> = values.iter().map(|value| value.as_ref().map(|value| value.len() as u32)).collect();
+        let absent = values.iter().zip(0..).filter(|(value, _)| value.is_none()).map(|(_, port)| port).collect();
         let known = self.builder.diagnostics.len();
         let arguments = self.builder.arguments(call.callee, arguments, &widths, call.span);
-        let id = arguments.and_then(|arguments| self.builder.build(call.callee, arguments));
+        let key = |arguments| ModuleKey { circuit: call.callee, arguments, absent };
+        let id = arguments.and_then(|arguments| self.builder.build(key(arguments)));
         self.builder.show_at(call.span, known);
         let id = id?;
-        let inputs = self.builder.module(id).inputs.clone();
-        for (port, (value, expected)) in values.iter().zip(inputs).enumerate() {
+        let inputs: Vec<u32> = self.builder.module(id).inputs.iter().map(|port| port.width).collect();
+        let given = values.iter().zip(call.operands).enumerate();
+        let given = given.filter_map(|(port, (value, operand))| Some((port, value.as_ref()?, (*operand)?)));
+        for ((port, value, operand), expected) in given.zip(inputs) {
             if value.len() as u32 != expected {
-                let found = self.operand(call.operands[port], value);
+                let found = self.operand(operand, value);
                 let circuit = self.builder.circuit(call.callee);
                 let what = Wide::Operand { port: circuit.nets[port].name.clone(), circuit: circuit.name.clone() };
                 self.fault(WidthError::Wrong { what, expected, found }.into());

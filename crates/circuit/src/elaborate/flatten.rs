@@ -4,7 +4,7 @@ use crate::elaborate::build::Builder;
 use crate::elaborate::module::{ModuleId, ModuleSignal};
 use crate::elaborate::wording::ElaborateError;
 use crate::index::ListIndex;
-use crate::{Cell, NetId, Netlist};
+use crate::{BlockId, Blocks, Cell, NetId, Netlist};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Span;
 
@@ -15,13 +15,14 @@ struct Place {
     /// The signals that drive its inputs.
     inputs: Vec<u32>,
     prefix: String,
+    block: BlockId,
 }
 
 /// The netlist of a module.
 pub(super) fn flatten(builder: &Builder<'_>, top: ModuleId, name: &str) -> Result<Netlist, Diagnostic> {
-    let places = places(builder, top);
-    let same = resolve(aliases(builder, &places)).map_err(|at| self_driven(builder, &places, at))?;
     let mut netlist = Netlist::new(name);
+    let places = places(builder, top, netlist.blocks_mut());
+    let same = resolve(aliases(builder, &places)).map_err(|at| self_driven(builder, &places, at))?;
     let mut nets = vec![None; same.len()];
     add_inputs(builder, top, &mut netlist, &mut nets);
     add_cells(builder, &places, &same, &mut netlist, &mut nets);
@@ -31,17 +32,20 @@ pub(super) fn flatten(builder: &Builder<'_>, top: ModuleId, name: &str) -> Resul
     Ok(netlist)
 }
 
-/// The module and everything inside it, outer modules first.
-fn places(builder: &Builder<'_>, top: ModuleId) -> Vec<Place> {
-    let mut places = vec![Place { module: top, base: 0, inputs: Vec::new(), prefix: String::new() }];
-    let mut next = builder.module(top).signals.len() as u32;
+/// The module and everything inside it, outer modules first; each is a block.
+fn places(builder: &Builder<'_>, top: ModuleId, blocks: &mut Blocks) -> Vec<Place> {
+    let top = Place { module: top, base: 0, inputs: Vec::new(), prefix: String::new(), block: BlockId::TOP };
+    let mut next = builder.module(top.module).signals.len() as u32;
+    let mut places = vec![top];
     let mut at = 0;
     while at < places.len() {
-        let (module, base) = (builder.module(places[at].module), places[at].base);
+        let (module, base, outer) = (builder.module(places[at].module), places[at].base, places[at].block);
         for site in &module.sites {
             let inputs = site.inputs.iter().map(|bit| base + bit).collect();
             let prefix = format!("{}{}/", places[at].prefix, site.name);
-            places.push(Place { module: site.module, base: next, inputs, prefix });
+            let circuit = &builder.circuit(builder.module(site.module).circuit).name;
+            let block = blocks.add(&site.name, circuit, outer);
+            places.push(Place { module: site.module, base: next, inputs, prefix, block });
             next += builder.module(site.module).signals.len() as u32;
         }
         at += 1;
@@ -116,13 +120,10 @@ fn self_driven(builder: &Builder<'_>, places: &[Place], at: usize) -> Diagnostic
 }
 
 fn add_inputs(builder: &Builder<'_>, top: ModuleId, netlist: &mut Netlist, nets: &mut [Option<NetId>]) {
-    let module = builder.module(top);
-    let mut first = 0;
-    for (column, &width) in builder.columns(top).0.iter().zip(&module.inputs) {
-        for (name, bit) in column.bits().into_iter().zip((0..width).rev()) {
-            nets[(first + bit) as usize] = Some(netlist.add_input(name));
+    for (column, port) in builder.columns(top).0.iter().zip(&builder.module(top).inputs) {
+        for (name, bit) in column.bits().into_iter().zip((0..port.width).rev()) {
+            nets[(port.first + bit) as usize] = Some(netlist.add_input(name));
         }
-        first += width;
     }
 }
 
@@ -135,7 +136,10 @@ fn add_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mu
             }
             nets[at] = match *signal {
                 ModuleSignal::Gate { function, span, .. } => {
-                    Some(netlist.add_loose_cell(Cell { function, name: None, start: None, span: Some(span) }))
+                    let cell = Cell { function, name: None, start: None, span: Some(span) };
+                    let id = netlist.add_loose_cell(cell);
+                    netlist.put_into(id, place.block);
+                    Some(id)
                 }
                 ModuleSignal::Constant(value) => {
                     Some(*constants[usize::from(value)].get_or_insert_with(|| netlist.add_constant(value)))
@@ -179,7 +183,7 @@ fn name_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &m
 fn add_outputs(builder: &Builder<'_>, top: ModuleId, same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
     let module = builder.module(top);
     let mut first = 0;
-    for (column, &width) in builder.columns(top).1.iter().zip(&module.outputs) {
+    for (column, &width) in builder.columns(top).1.iter().zip(module.outputs.iter().map(|port| &port.width)) {
         for (name, bit) in column.bits().into_iter().zip((0..width).rev()) {
             let signal = module.output_bits[(first + bit) as usize];
             netlist.add_output(name, nets[same[signal as usize] as usize].expect("every signal ends in a net"));

@@ -10,8 +10,10 @@ pub(super) struct Scope {
     pub(super) first_slot: u32,
     pub(super) first_net: u32,
     pub(super) nets: u32,
-    /// Parameters and loop variables.
+    /// Parameters, loop variables and integers with names.
     pub(super) variables: Vec<i64>,
+    /// The loop variables as a suffix of names.
+    pub(super) turn: String,
 }
 
 impl Scope {
@@ -26,5 +28,7 @@ impl Scope {
 pub(super) struct Item<'a> {
     pub(super) frame: u32,
     pub(super) targets: &'a [Target],
+    /// Whether the targets are the parts of one value.
+    pub(super) joined: bool,
     pub(super) value: ExpressionId,
 }

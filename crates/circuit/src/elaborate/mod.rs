@@ -13,10 +13,14 @@ mod inspection;
 mod instance;
 mod limits;
 mod loops;
+mod memories;
+mod memory_ports;
 mod module;
+mod numbers;
 mod size;
 mod starts;
 mod table;
+mod table_faults;
 mod unroll;
 mod width;
 mod wording;
@@ -24,6 +28,9 @@ mod wording;
 pub use inspection::{Inspection, NetWidths};
 pub(crate) use limits::MAX_CELLS;
 pub use limits::MAX_WIDTH;
+pub use memory_ports::MemoryPorts;
+pub use table_faults::{table_fault, table_in_bits};
+pub use wording::TableError;
 
 use crate::Netlist;
 use nbc_base::diag::Diagnostic;
@@ -55,6 +62,21 @@ pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Resul
         builder.modules[at as usize].show(net);
     }
     finish(builder, module, &instance.to_string())
+}
+
+/// The netlist of an environment, whose ports also have the accesses to its memories, and those of each memory.
+///
+/// # Errors
+/// As [`elaborate`].
+pub fn elaborate_environment(
+    program: &Program,
+    circuit: CircuitId,
+) -> Result<(Netlist, Vec<MemoryPorts>), Vec<Diagnostic>> {
+    let mut builder = Builder::new(program);
+    let module = builder.with_defaults(circuit);
+    let memories = module.map_or(Vec::new(), |module| builder.module(module).memories.clone());
+    let name = builder.circuit(circuit).name.clone();
+    finish(builder, module, &name).map(|netlist| (netlist, memories))
 }
 
 /// The netlist of a test's reference.

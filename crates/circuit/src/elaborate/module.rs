@@ -1,5 +1,6 @@
 //! A circuit with values for its parameters, built: bits with their drivers, and the circuits inside it.
 
+use crate::elaborate::memory_ports::MemoryPorts;
 use crate::index::ListIndex;
 use nbc_base::model::{CircuitId, Function};
 use nbc_base::source::Span;
@@ -49,16 +50,29 @@ pub(super) struct ModuleNet {
     pub(super) span: Span,
     /// Its bits; `None` until its width is known.
     pub(super) width: Option<u32>,
+    /// The number of words of an array, once its width is known.
+    pub(super) words: Option<u32>,
     /// The signal of its lowest bit, once its width is known.
     pub(super) first: Bit,
+}
+
+/// A port of a module.
+#[derive(Clone, Debug)]
+pub(super) struct ModulePort {
+    /// The net among those of the module; ports have the same place in the circuit.
+    pub(super) net: u32,
+    pub(super) name: String,
+    /// The signal of its lowest bit.
+    pub(super) first: Bit,
+    pub(super) width: u32,
 }
 
 /// A circuit with values for its parameters.
 #[derive(Clone, Debug)]
 pub(super) struct Module {
     pub(super) circuit: CircuitId,
-    pub(super) inputs: Vec<u32>,
-    pub(super) outputs: Vec<u32>,
+    pub(super) inputs: Vec<ModulePort>,
+    pub(super) outputs: Vec<ModulePort>,
     pub(super) signals: Vec<ModuleSignal>,
     /// The nets: input ports, output ports, others.
     pub(super) nets: Vec<ModuleNet>,
@@ -67,6 +81,8 @@ pub(super) struct Module {
     pub(super) starts: Vec<(Bit, bool)>,
     /// The output bits, over the ports in order, the lowest bit of a port first.
     pub(super) output_bits: Vec<Bit>,
+    /// The ports of the memories, if it is an environment.
+    pub(super) memories: Vec<MemoryPorts>,
     /// Gates, including those of the circuits inside.
     pub(super) cells: u64,
     /// Signals, including those of the circuits inside.
@@ -80,11 +96,20 @@ impl Module {
         Some(self.starts[at].1)
     }
 
+    /// A net with a width as a port.
+    pub(super) fn port(&self, net: usize) -> ModulePort {
+        let ModuleNet { name, width, first, .. } = &self.nets[net];
+        ModulePort { net: net as u32, name: name.clone(), first: *first, width: width.expect("a port has a width") }
+    }
+
     /// Makes the nets declared at a place its output.
     pub(super) fn show(&mut self, declared: Span) {
-        let shown = self.nets.iter().filter(|net| net.span == declared);
-        let bits = shown.flat_map(|net| net.first..net.first + net.width.unwrap_or_default());
+        let shown: Vec<usize> = (0..self.nets.len()).filter(|&net| self.nets[net].span == declared).collect();
+        let bits = shown.iter().map(|&net| &self.nets[net]);
+        let bits = bits.flat_map(|net| net.first..net.first + net.width.unwrap_or_default());
         self.output_bits = bits.collect();
-        self.outputs = vec![self.output_bits.len() as u32];
+        let port = self.outputs.first().cloned();
+        self.outputs =
+            port.map(|port| ModulePort { width: self.output_bits.len() as u32, ..port }).into_iter().collect();
     }
 }

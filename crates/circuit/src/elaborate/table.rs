@@ -3,6 +3,7 @@
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::dense::{Dense, Shape};
 use crate::elaborate::module::Bit;
+use crate::elaborate::table_faults::{table_fault, table_in_bits};
 use crate::elaborate::wording::{ElaborateError, OperandText, WidthError};
 use nbc_base::model::{ExpressionId, Function, OutputValue, Table, TableOutput, TableRow};
 use nbc_base::source::Span;
@@ -33,17 +34,38 @@ impl OutputBit {
 pub(super) struct TableValues<'a> {
     pub(super) expressions: &'a [ExpressionId],
     pub(super) bits: &'a [Vec<Bit>],
+    /// The width of the outputs, if it is known.
+    pub(super) width: Option<u32>,
 }
 
 impl ModuleBuilder<'_, '_> {
     /// The outputs of a table for these input bits, the lowest first.
     pub(super) fn table(&mut self, table: &Table, inputs: &[Bit], values: TableValues) -> Option<Vec<Bit>> {
-        if let Some(row) = table.rows.iter().find(|row| row.pattern.len() != inputs.len()) {
-            let error = ElaborateError::PatternWidth { found: row.pattern.len(), expected: inputs.len() };
+        let resolved;
+        let digits = inputs.len() != 1 && table.rows.iter().all(|row| row.pattern.digit().is_some());
+        let table = if table.is_in_bits() && !digits {
+            table
+        } else {
+            match table_in_bits(table, inputs.len()).and_then(|table| table_fault(&table).map_or(Ok(table), Err)) {
+                Ok(table) => {
+                    resolved = table;
+                    &resolved
+                }
+                Err(fault) => {
+                    self.fault(fault);
+                    return None;
+                }
+            }
+        };
+        if let Some(row) = table.rows.iter().find(|row| row.bits().len() != inputs.len()) {
+            let error = ElaborateError::PatternWidth { found: row.bits().len(), expected: inputs.len() };
             self.fault(error.at(row.span));
             return None;
         }
-        let outputs: Vec<Vec<OutputBit>> = table.outputs().map(|output| self.output_bits(output, values)).collect();
+        let mut outputs: Vec<Vec<OutputBit>> = Vec::new();
+        for output in table.outputs() {
+            outputs.push(self.output_bits(output, values)?);
+        }
         let width = outputs.first()?.len();
         if let Some(at) = outputs.iter().position(|output| output.len() != width) {
             let mut texts = table.outputs().zip(&outputs).map(|(output, bits)| self.output_text(output, bits, values));
@@ -57,21 +79,34 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// The bits of an output, the lowest first.
-    fn output_bits(&self, output: &TableOutput, values: TableValues) -> Vec<OutputBit> {
+    fn output_bits(&mut self, output: &TableOutput, values: TableValues) -> Option<Vec<OutputBit>> {
+        if let OutputValue::Number(value) = output.value {
+            let width = match values.width {
+                Some(width) => width,
+                None if value <= 1 => 1,
+                None => {
+                    self.fault(ElaborateError::NumberWithoutWidth { value }.at(output.span));
+                    return None;
+                }
+            };
+            let bits = self.fitting_bits(value, width, output.span)?;
+            return Some(bits.into_iter().map(|bit| OutputBit::Fixed(Some(bit))).collect());
+        }
         let value = |bit| match [false, true].into_iter().find(|&value| self.is_constant(bit, value)) {
             Some(value) => OutputBit::Fixed(Some(value)),
             None => OutputBit::Net(bit),
         };
-        match &output.value {
+        Some(match &output.value {
+            OutputValue::Number(_) => unreachable!("numbers were handled"),
             OutputValue::Bits(bits) => bits.iter().rev().map(|&bit| OutputBit::Fixed(bit)).collect(),
             OutputValue::Expression(index) => values.bits[*index].iter().map(|&bit| value(bit)).collect(),
-        }
+        })
     }
 
     /// An output for a message about its width.
     fn output_text(&self, output: &TableOutput, bits: &[OutputBit], values: TableValues) -> OperandText {
         match output.value {
-            OutputValue::Bits(_) => {
+            OutputValue::Bits(_) | OutputValue::Number(_) => {
                 OperandText { width: bits.len() as u32, span: output.span, net: None, constant: None }
             }
             OutputValue::Expression(index) => self.operand(values.expressions[index], &values.bits[index]),
@@ -117,7 +152,7 @@ impl ModuleBuilder<'_, '_> {
     /// Whether the inputs match a row.
     fn term(&mut self, row: &TableRow, inputs: &[Bit], span: Span) -> Bit {
         let mut literals = Vec::new();
-        for (value, &input) in row.pattern.iter().rev().zip(inputs) {
+        for (value, &input) in row.bits().iter().rev().zip(inputs) {
             match value {
                 Some(true) => literals.push(input),
                 Some(false) => literals.push(self.gate(Function::NOT, [input; 2], span)),

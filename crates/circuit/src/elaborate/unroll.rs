@@ -13,17 +13,16 @@ impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls loops: fills the list of statements to build.
     pub(super) fn unroll(&mut self, variables: Vec<i64>) {
         let body = &self.circuit.body;
-        let root = self.open_frame(None, body, variables);
+        let root = self.open_frame(None, body, variables, String::new());
         self.unroll_block(root, body);
     }
 
-    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i64>) -> u32 {
+    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i64>, turn: String) -> u32 {
         let first_net = self.module.nets.len() as u32;
-        let turn = self.turn(&variables);
         for slot in block.nets.clone() {
             let net = &self.circuit.nets[slot as usize];
             let name = if parent.is_none() { net.name.clone() } else { format!("{}{turn}", net.name) };
-            self.module.nets.push(ModuleNet { name, span: net.span, width: None, first: 0 });
+            self.module.nets.push(ModuleNet { name, span: net.span, width: None, words: None, first: 0 });
         }
         self.frames.push(Scope {
             parent,
@@ -31,19 +30,33 @@ impl<'a> ModuleBuilder<'a, '_> {
             first_net,
             nets: block.nets.len() as u32,
             variables,
+            turn,
         });
         self.frames.len() as u32 - 1
     }
 
-    /// The loop variables as a suffix of names.
-    fn turn(&self, variables: &[i64]) -> String {
-        variables.iter().skip(self.circuit.parameters.len()).map(|value| format!(".{value}")).collect()
-    }
-
     fn unroll_block(&mut self, frame: u32, block: &'a Block) {
         for statement in &block.statements {
+            if let Statement::Let { variable, value } = statement {
+                self.name_integer(frame, *variable, *value);
+            }
+        }
+        for statement in &block.statements {
             match statement {
-                Statement::Drive { targets, value } => self.items.push(Item { frame, targets, value: *value }),
+                Statement::Let { .. } => {}
+                Statement::Drive { targets, joined, value } => {
+                    self.items.push(Item { frame, targets, joined: *joined, value: *value });
+                }
+                Statement::If { condition, then, otherwise } => {
+                    let (left, right) = (self.size(condition.left, frame), self.size(condition.right, frame));
+                    let (Some(left), Some(right)) = (left, right) else {
+                        self.failed = true;
+                        return;
+                    };
+                    let block = if condition.comparison.holds(&left, &right) { then } else { otherwise };
+                    self.unroll_inside(frame, block);
+                }
+                Statement::Scope(block) => self.unroll_inside(frame, block),
                 Statement::For { variable, from, to, span, body } => {
                     self.unroll_loop(frame, *variable, (*from, *to), *span, body)
                 }
@@ -51,6 +64,20 @@ impl<'a> ModuleBuilder<'a, '_> {
             if self.failed {
                 return;
             }
+        }
+    }
+
+    /// Unrolls a block inside another, in the same turn of the loops.
+    fn unroll_inside(&mut self, frame: u32, block: &'a Block) {
+        let Scope { variables, turn, .. } = &self.frames[frame as usize];
+        let inner = self.open_frame(Some(frame), block, variables.clone(), turn.clone());
+        self.unroll_block(inner, block);
+    }
+
+    fn name_integer(&mut self, frame: u32, variable: u32, value: SizeId) {
+        match self.size(value, frame) {
+            Some(value) => set_variable(&mut self.frames[frame as usize].variables, variable, value),
+            None => self.failed = true,
         }
     }
 
@@ -68,10 +95,9 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
         for value in from..to {
             let mut variables = self.frames[frame as usize].variables.clone();
-            variables.truncate(variable as usize);
-            variables.resize(variable as usize + 1, 0);
-            variables[variable as usize] = value;
-            let inner = self.open_frame(Some(frame), body, variables);
+            set_variable(&mut variables, variable, value);
+            let turn = format!("{}.{value}", self.frames[frame as usize].turn);
+            let inner = self.open_frame(Some(frame), body, variables, turn);
             self.unroll_block(inner, body);
             if self.failed {
                 return;
@@ -130,4 +156,10 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
         Some((low as u32, (high - low + 1) as u32))
     }
+}
+
+fn set_variable(variables: &mut Vec<i64>, slot: u32, value: i64) {
+    let slot = slot as usize;
+    variables.resize(variables.len().max(slot + 1), 0);
+    variables[slot] = value;
 }

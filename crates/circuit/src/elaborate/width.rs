@@ -5,12 +5,61 @@ use std::collections::VecDeque;
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::instance;
 use crate::elaborate::wording::ElaborateError;
-use nbc_base::model::{ExpressionId, ExpressionKind, NetSlot, OutputValue, TableOutput};
+use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, NetSlot, OutputValue, SizeId, TableOutput};
 
-/// The widths of an expression's values, if known, and the first net whose width is missing.
-struct Widths {
-    values: Vec<Option<u32>>,
+/// The width of a part of an expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PartWidth {
+    /// So many bits.
+    Known(u32),
+    /// As many as its context needs: it has only numbers without a width.
+    Free,
+    /// Not known yet.
+    Unknown,
+}
+
+impl PartWidth {
+    fn known(width: Option<u32>) -> Self {
+        width.map_or(Self::Unknown, Self::Known)
+    }
+
+    /// The width, if it is known.
+    fn bits(self) -> Option<u32> {
+        match self {
+            Self::Known(width) => Some(width),
+            _ => None,
+        }
+    }
+
+    /// The width of parts that are equally wide: a known one before one that may become known.
+    fn common(parts: impl Iterator<Item = Self>) -> Self {
+        parts.fold(Self::Free, |common, part| match (common, part) {
+            (Self::Known(_), _) | (_, Self::Free) => common,
+            _ => part,
+        })
+    }
+}
+
+/// The widths of the parts of an expression and of its values, and the first net whose width is missing.
+pub(super) struct ExpressionWidths {
+    first: u32,
+    parts: Vec<PartWidth>,
+    pub(super) values: Vec<PartWidth>,
     missing: Option<usize>,
+}
+
+impl ExpressionWidths {
+    fn part(&self, id: ExpressionId) -> PartWidth {
+        self.parts[(id.0 - self.first) as usize]
+    }
+
+    /// The width of a part or of the whole, if it is known.
+    pub(super) fn of(&self, id: ExpressionId) -> Option<u32> {
+        match self.parts.get((id.0 - self.first) as usize) {
+            Some(part) => part.bits(),
+            None => self.values.first().and_then(|value| value.bits()),
+        }
+    }
 }
 
 impl ModuleBuilder<'_, '_> {
@@ -37,7 +86,8 @@ impl ModuleBuilder<'_, '_> {
                 if self.module.nets[net].width.is_none()
                     && let Some(width) = self.declared_width(NetSlot(first_slot + at), frame)
                 {
-                    self.give_width(net, width);
+                    let words = self.declared_words(NetSlot(first_slot + at), frame);
+                    self.give_array(net, width, words);
                 }
             }
         }
@@ -47,8 +97,8 @@ impl ModuleBuilder<'_, '_> {
     fn is_open(&self, item: u32) -> bool {
         let item = self.items[item as usize];
         item.targets.iter().any(|target| {
-            target.bits.is_none()
-                && target.net.is_some_and(|slot| self.module.nets[self.net(slot, item.frame)].width.is_none())
+            let whole = target.bits.is_none() && target.word.is_none() && !item.joined;
+            whole && target.net.is_some_and(|slot| self.module.nets[self.net(slot, item.frame)].width.is_none())
         })
     }
 
@@ -79,16 +129,24 @@ impl ModuleBuilder<'_, '_> {
 
     /// Sets the widths of a statement's targets, or returns the net it waits for.
     fn settle_item(&mut self, item: u32) -> Option<usize> {
-        let Widths { values, missing } = self.widths(self.items[item as usize].value, self.items[item as usize].frame);
         let item = self.items[item as usize];
-        for (target, width) in item.targets.iter().zip(values) {
-            let (Some(slot), None, Some(width)) = (target.net, target.bits, width) else { continue };
+        let found = self.widths(item.value, item.frame);
+        // A call with several outputs tells their widths.
+        let of_numbers = found.values == [PartWidth::Free];
+        for (target, width) in item.targets.iter().zip(found.values) {
+            let (Some(slot), None, None, false) = (target.net, target.bits, target.word, item.joined) else { continue };
             let net = self.net(slot, item.frame);
-            if self.module.nets[net].width.is_none() {
-                self.give_width(net, width);
+            if self.module.nets[net].width.is_some() {
+                continue;
+            }
+            match width {
+                PartWidth::Known(width) => self.give_width(net, width),
+                // Numbers alone are bits.
+                PartWidth::Free if of_numbers && !self.wide_number(item.value) => self.give_width(net, 1),
+                _ => {}
             }
         }
-        missing
+        found.missing
     }
 
     fn unknown_widths(&mut self, open: &VecDeque<u32>) {
@@ -104,78 +162,104 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// The widths of an expression, from its leaves to its root without recursion.
-    fn widths(&mut self, root: ExpressionId, frame: u32) -> Widths {
-        let circuit = self.circuit;
-        let mut done: Vec<Option<u32>> = Vec::new();
-        let mut missing = None;
-        for at in circuit.first_leaf(root).0..root.0 {
-            let width = self.width_of(ExpressionId(at), frame, &mut done, &mut missing)[..].first().copied().flatten();
-            done.push(width);
+    pub(super) fn widths(&mut self, root: ExpressionId, frame: u32) -> ExpressionWidths {
+        let first = self.circuit.first_leaf(root).0;
+        let mut found = ExpressionWidths { first, parts: Vec::new(), values: Vec::new(), missing: None };
+        for at in first..root.0 {
+            let width = self.width_of(ExpressionId(at), frame, &mut found);
+            found.parts.push(width.first().copied().unwrap_or(PartWidth::Unknown));
         }
-        let values = self.width_of(root, frame, &mut done, &mut missing);
-        let known = values.iter().all(Option::is_some);
-        Widths { values, missing: missing.filter(|_| !known) }
+        found.values = self.width_of(root, frame, &mut found);
+        if found.values.iter().all(|value| matches!(value, PartWidth::Known(_))) {
+            found.missing = None;
+        }
+        found
     }
 
-    fn width_of(
-        &mut self,
-        id: ExpressionId,
-        frame: u32,
-        done: &mut Vec<Option<u32>>,
-        missing: &mut Option<usize>,
-    ) -> Vec<Option<u32>> {
+    fn width_of(&mut self, id: ExpressionId, frame: u32, found: &mut ExpressionWidths) -> Vec<PartWidth> {
         let circuit = self.circuit;
-        let mut take = |count: usize| done.split_off(done.len() - count);
-        let one = |width| vec![width];
+        let one = |width| vec![PartWidth::known(width)];
         match &circuit.expressions[id.0 as usize].kind {
             ExpressionKind::Bits(bits) => one(Some(bits.len() as u32)),
+            ExpressionKind::Unsized(_) => vec![PartWidth::Free],
             ExpressionKind::Number { width, .. } | ExpressionKind::Computed { width, .. } => {
                 one(self.width(*width, frame))
             }
-            ExpressionKind::Net(slot) => {
-                let net = self.net(*slot, frame);
-                let width = self.module.nets[net].width;
-                if width.is_none() {
-                    missing.get_or_insert(net);
-                }
-                one(width)
-            }
-            ExpressionKind::Slice { high, low, .. } => {
+            ExpressionKind::Net(slot) => one(self.net_width(*slot, frame, found)),
+            ExpressionKind::Slice { bits: Some((high, low)), .. }
+            | ExpressionKind::Element { bits: Some((high, low)), .. } => {
                 let (high, low) = (self.size(*high, frame), self.size(*low, frame));
                 one(high.zip(low).and_then(|(high, low)| u32::try_from(high.checked_sub(low)?.checked_add(1)?).ok()))
             }
-            ExpressionKind::Concatenation(parts) => {
-                one(take(parts.len()).into_iter().try_fold(0u32, |sum, part| sum.checked_add(part?)))
+            ExpressionKind::Slice { net, .. } | ExpressionKind::Element { net, .. } => {
+                let width = self.net_width(*net, frame, found);
+                let words = self.module.nets[self.net(*net, frame)].words;
+                one(width.map(|width| words.map_or(1, |words| width / words)))
             }
-            ExpressionKind::Repetition { count, .. } => {
-                let value = take(1)[0];
+            ExpressionKind::Concatenation(parts) => {
+                let width = |part: &ExpressionId| match found.part(*part) {
+                    PartWidth::Free => Some(1),
+                    part => part.bits(),
+                };
+                one(parts.iter().try_fold(0u32, |sum, part| sum.checked_add(width(part)?)))
+            }
+            ExpressionKind::Repetition { count, value } => {
+                let value = match found.part(*value) {
+                    PartWidth::Free => Some(1),
+                    part => part.bits(),
+                };
                 let count = self.size(*count, frame);
                 one(count.zip(value).and_then(|(count, value)| u32::try_from(count).ok()?.checked_mul(value)))
             }
-            ExpressionKind::Operation { operands, .. } => one(take(operands.len()).into_iter().flatten().next()),
-            ExpressionKind::Choice { .. } => {
-                let branches = take(3);
-                one(branches[1].or(branches[2]))
+            ExpressionKind::Operation { operands, .. } => {
+                vec![PartWidth::common(operands.iter().map(|part| found.part(*part)))]
             }
-            ExpressionKind::Table { inputs, outputs, table } => {
-                let expressions = take(outputs.len());
-                take(inputs.len());
+            ExpressionKind::Choice { then, otherwise, .. } => {
+                vec![PartWidth::common([*then, *otherwise].map(|part| found.part(part)).into_iter())]
+            }
+            ExpressionKind::Table { outputs, table, .. } => {
                 let width = |output: &TableOutput| match &output.value {
-                    OutputValue::Bits(bits) => Some(bits.len() as u32),
-                    OutputValue::Expression(index) => expressions[*index],
+                    OutputValue::Bits(bits) => PartWidth::Known(bits.len() as u32),
+                    OutputValue::Number(_) => PartWidth::Free,
+                    OutputValue::Expression(index) => found.part(outputs[*index]),
                 };
-                one(circuit.tables[*table].outputs().find_map(width))
+                vec![PartWidth::common(circuit.tables[*table].outputs().map(width))]
             }
             ExpressionKind::Call { circuit: callee, arguments, operands } => {
-                let operands = take(operands.len());
-                let given = arguments.iter().map(|size| size.and_then(|size| self.size(size, frame))).collect();
-                let callee = self.builder.circuit(*callee);
-                let arguments = instance::arguments(callee, given, &operands, self.span(id)).ok();
-                match arguments.and_then(|arguments| instance::output_widths(callee, &arguments)) {
-                    Some(widths) => widths.into_iter().map(Some).collect(),
-                    None => vec![None; callee.outputs],
-                }
+                let parts: Vec<_> =
+                    operands.iter().map(|part| part.map_or(PartWidth::Unknown, |part| found.part(part))).collect();
+                self.call_widths(id, *callee, arguments, &parts, frame)
             }
+        }
+    }
+
+    fn net_width(&self, slot: NetSlot, frame: u32, found: &mut ExpressionWidths) -> Option<u32> {
+        let net = self.net(slot, frame);
+        let width = self.module.nets[net].width;
+        if width.is_none() {
+            found.missing.get_or_insert(net);
+        }
+        width
+    }
+
+    /// The widths of the outputs of a call. Where only a number tells a parameter, the outputs are as free as the
+    /// number.
+    fn call_widths(
+        &mut self,
+        id: ExpressionId,
+        callee: CircuitId,
+        arguments: &[Option<SizeId>],
+        operands: &[PartWidth],
+        frame: u32,
+    ) -> Vec<PartWidth> {
+        let given: Vec<_> = arguments.iter().map(|size| size.and_then(|size| self.size(size, frame))).collect();
+        let (callee, span) = (self.builder.circuit(callee), self.span(id));
+        let widths: Vec<_> = operands.iter().map(|part| part.bits()).collect();
+        let known = instance::arguments(callee, given, &widths, span).ok();
+        match known.and_then(|arguments| instance::output_widths(callee, &arguments)) {
+            Some(widths) => widths.into_iter().map(PartWidth::Known).collect(),
+            None if callee.outputs == 1 && operands.contains(&PartWidth::Free) => vec![PartWidth::Free],
+            None => vec![PartWidth::Unknown; callee.outputs],
         }
     }
 }

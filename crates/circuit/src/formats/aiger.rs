@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::formats::design::{Design, Register, RegisterKind};
+use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::FileNames;
 use crate::formats::wording::{AigerError, AigerPlace};
 use crate::network::{Gate, View};
@@ -273,6 +273,7 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
         kind: RegisterKind::Rising,
         clock: clock.clone(),
         start: latch.start,
+        forcing: Forcing::Never,
     };
     let registers = latches.iter().enumerate().map(register).collect();
     Ok(Design { logic, registers })

@@ -1,7 +1,7 @@
 //! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no
 //! name.
 
-use crate::formats::design::{Design, Register, RegisterKind};
+use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
 use crate::formats::wording::{BenchError, TextError};
 use nbc_base::diag::Diagnostic;
@@ -56,8 +56,14 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
         (Some(target), "DFF", &[next]) => {
             let output = draft.name(target);
             let clock = Some(clock.unwrap_or("clk").to_owned());
-            let register = Register { name: target.to_owned(), kind: RegisterKind::Rising, clock, start: Some(false) };
-            draft.registers.push(DraftRegister { register, output, next, span });
+            let register = Register {
+                name: target.to_owned(),
+                kind: RegisterKind::Rising,
+                clock,
+                start: Some(false),
+                forcing: Forcing::Never,
+            };
+            draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
         }
         (Some(target), word, pins) => match gate(word, pins.len()) {
             Some((function, inverted)) => {

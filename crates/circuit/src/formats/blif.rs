@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use crate::formats::design::{Design, Register, RegisterKind};
+use crate::formats::blif_register::{cell_of, forced_cell};
+use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
@@ -423,14 +424,37 @@ impl<'m, 't> Flat<'m, 't> {
             let (latch, input) = (name.clone(), words[0].0.to_owned());
             self.draft.fault(ModelError::NoClock { latch, input }, span);
         }
-        let register = Register { name, kind, clock, start };
-        self.draft.registers.push(DraftRegister { register, output, next, span });
+        let register = Register { name, kind, clock, start, forcing: Forcing::Never };
+        self.draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
+    }
+
+    /// A register with a set or a reset, as a cell of Yosys; `pins` are its nets by its ports.
+    fn forced(&mut self, cell: &str, pins: &BTreeMap<&str, String>, start: Option<bool>, span: Span) -> bool {
+        let Some(form) = forced_cell(cell) else { return false };
+        let mut net = |port: &str| pins.get(port).map(|net| self.draft.name(net));
+        let nets = (net("D"), net("Q"), form.ports.iter().map(|port| net(port)).collect::<Option<Vec<_>>>());
+        let (Some(next), Some(output), Some(forcing)) = nets else { return false };
+        let Some(clock) = pins.get(form.clock).cloned() else { return false };
+        let name = self.draft.text(output).to_owned();
+        let start = form.start.or(start);
+        let register = Register { name, kind: form.kind, clock: Some(clock), start, forcing: form.forcing };
+        self.draft.registers.push(DraftRegister { register, output, next, forcing, span });
+        true
     }
 
     fn subcircuit(&mut self, words: &Words<'t>, start: Option<bool>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
         let (name, span) = words[0];
         let Some(&model) = self.models.by_name.get(name) else {
-            return self.draft.fault(ModelError::MissingModel { model: name.to_owned() }, span);
+            let parts = words[1..].iter().filter_map(|(word, _)| word.split_once('='));
+            let pins = parts.map(|(port, net)| {
+                let number = self.net(net, prefix, ports);
+                (port, self.draft.text(number).to_owned())
+            });
+            let pins = pins.collect();
+            if !self.forced(name, &pins, start, span) {
+                self.draft.fault(ModelError::MissingModel { model: name.to_owned() }, span);
+            }
+            return;
         };
         if self.path.contains(&model) {
             return self.draft.fault(ModelError::RecursiveModel { model: name.to_owned() }, span);
@@ -479,13 +503,18 @@ impl<'m, 't> Flat<'m, 't> {
     }
 }
 
+/// Whether a cell of Yosys is a register that can be read: one with an asynchronous set or reset.
+pub fn is_register_cell(cell: &str) -> bool {
+    forced_cell(cell).is_some()
+}
+
 /// A design as BLIF text, with a `.latch` for each register.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);
     let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], legal);
     let starts = starts(netlist);
-    let mut stand_ins = stand_ins(netlist, design.registers.len());
+    let mut stand_ins = stand_ins(design);
     // A memory element keeps its own name, by which it is compared.
     stand_ins.retain(|cell, output| !starts.contains_key(cell) || netlist.net_name(*cell) == netlist.net_name(*output));
     let name = |id: NetId| match netlist.node(id) {
@@ -500,7 +529,19 @@ pub fn write(design: &Design) -> String {
     for clock in names.own_clocks() {
         let _ = writeln!(text, ".clock {clock}");
     }
-    for ((register, state), next) in design.registers.iter().zip(states).zip(nexts) {
+    for (((register, state), next), forcing) in
+        design.registers.iter().zip(states).zip(nexts).zip(design.forcing_nets())
+    {
+        if register.forcing != Forcing::Never {
+            let clock = match names.clock(register) {
+                Some(ClockName::Net(id)) => name(id),
+                Some(ClockName::Own(clock)) => clock,
+                None => Register::CLOCK,
+            };
+            let forcing: Vec<&str> = forcing.iter().map(|&net| name(net)).collect();
+            text.push_str(&cell_of(register, clock, [names.net(*next), name(*state)], &forcing));
+            continue;
+        }
         let kind = match register.kind {
             RegisterKind::Rising => "re",
             RegisterKind::Falling => "fe",
@@ -527,7 +568,7 @@ pub fn write(design: &Design) -> String {
             let _ = writeln!(text, ".names {}{}", constant(value), if value { "\n1" } else { "" });
         }
     }
-    for &output in netlist.outputs() {
+    for &output in outputs.iter().chain(&nexts[..states.len()]) {
         let driver = netlist.pins(output)[0];
         if stand_ins.get(&driver) != Some(&output) {
             let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names.net(output));

@@ -1,6 +1,6 @@
 //! Designs, the contents of an exchange file: a circuit and the registers of its state.
 
-use crate::Netlist;
+use crate::{NetId, Netlist};
 
 /// When a register takes its next value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -15,6 +15,29 @@ pub enum RegisterKind {
     Low,
 }
 
+/// How a register changes without its clock.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Forcing {
+    /// It does not.
+    #[default]
+    Never,
+    /// A reset gives it its start value as soon as it is 1, and keeps it while it is 1.
+    ToStart,
+    /// A set and a reset make it 1 and 0. The reset is stronger.
+    SetReset,
+}
+
+impl Forcing {
+    /// The words for its nets, in order.
+    pub(crate) fn nets(self) -> &'static [&'static str] {
+        match self {
+            Self::Never => &[],
+            Self::ToStart => &["reset"],
+            Self::SetReset => &["set", "reset"],
+        }
+    }
+}
+
 /// A register for one bit of state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
@@ -26,11 +49,18 @@ pub struct Register {
     pub clock: Option<String>,
     /// Its value before the first cycle, if known.
     pub start: Option<bool>,
+    /// How it changes without its clock.
+    pub forcing: Forcing,
 }
 
 impl Register {
     /// The clock of registers for which a file names none.
     pub const CLOCK: &str = "clk";
+
+    /// The number of outputs that the logic has for registers.
+    pub(crate) fn outputs(registers: &[Self]) -> usize {
+        registers.iter().map(|register| 1 + register.forcing.nets().len()).sum()
+    }
 
     /// The name of its clock.
     pub(crate) fn clock_name(&self) -> &str {
@@ -46,8 +76,8 @@ impl Register {
 /// A circuit and its registers.
 #[derive(Clone, Debug)]
 pub struct Design {
-    /// The logic: its inputs are the ports and then a register's value each, its outputs the ports and then a
-    /// register's next value each.
+    /// The logic: its inputs are the ports and then a register's value each, its outputs the ports, then a register's
+    /// next value each, and then the nets that force registers.
     pub logic: Netlist,
     /// The registers in order.
     pub registers: Vec<Register>,
@@ -61,6 +91,19 @@ impl Design {
 
     /// The number of output ports.
     pub fn outputs(&self) -> usize {
-        self.logic.outputs().len() - self.registers.len()
+        self.logic.outputs().len() - Register::outputs(&self.registers)
+    }
+
+    /// For each register, the outputs that force it.
+    pub(crate) fn forcing(&self) -> Vec<&[NetId]> {
+        let mut rest = &self.logic.outputs()[self.outputs() + self.registers.len()..];
+        let mut next = |register: &Register| rest.split_off(..register.forcing.nets().len()).expect("one for each net");
+        self.registers.iter().map(&mut next).collect()
+    }
+
+    /// The nets that force a register, for each register.
+    pub(crate) fn forcing_nets(&self) -> Vec<Vec<NetId>> {
+        let driver = |&output: &NetId| self.logic.pins(output)[0];
+        self.forcing().into_iter().map(|outputs| outputs.iter().map(driver).collect()).collect()
     }
 }

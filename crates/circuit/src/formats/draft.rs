@@ -46,6 +46,8 @@ pub struct DraftRegister {
     pub output: NetName,
     /// The net of its next value.
     pub next: NetName,
+    /// The nets that force it.
+    pub forcing: Vec<NetName>,
     /// The place of the register in the source.
     pub span: Span,
 }
@@ -188,8 +190,8 @@ impl Draft {
             .iter()
             .copied()
             .chain(self.registers.iter().map(|register| (register.next, register.span)))
+            .chain(self.registers.iter().flat_map(|register| register.forcing.iter().map(|&net| (net, register.span))))
             .collect();
-        let sinks_count = self.outputs.len();
         let feedback = self.feedback(&mut logic, &mut nets);
         for &(name, span) in &sinks {
             self.build(name, span, &mut logic, &mut nets);
@@ -203,14 +205,22 @@ impl Draft {
         if !self.errors.is_empty() {
             return Err(self.errors);
         }
-        for (i, &(name, _)) in sinks.iter().enumerate() {
-            let label = match i.checked_sub(sinks_count) {
-                None => self.text(name).to_owned(),
-                Some(register) => format!("{}_next", self.registers[register].register.name),
-            };
+        for (&(name, _), label) in sinks.iter().zip(self.labels()) {
             logic.add_output(label, nets[name as usize].expect("every output was built"));
         }
         Ok(Design { logic, registers: self.registers.into_iter().map(|register| register.register).collect() })
+    }
+
+    /// The names of the outputs of the logic: ports, next values, and nets that force registers.
+    fn labels(&self) -> Vec<String> {
+        let registers = || self.registers.iter().map(|draft| &draft.register);
+        let ports = self.outputs.iter().map(|&(name, _)| self.text(name).to_owned());
+        let nexts = registers().map(|register| format!("{}_next", register.name));
+        let forced = |register: &Register| {
+            let name = register.name.clone();
+            register.forcing.nets().iter().map(move |word| format!("{name}_{word}"))
+        };
+        ports.chain(nexts).chain(registers().flat_map(forced)).collect()
     }
 
     /// A wire for each net with a start value, to be driven when all is built.

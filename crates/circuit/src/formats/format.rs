@@ -4,7 +4,7 @@ use std::collections::BTreeSet;
 
 use crate::Loops;
 use crate::formats::wording::EncodeError;
-use crate::formats::{Design, RegisterKind, aiger, blif, dot, nb, verilog};
+use crate::formats::{Design, Forcing, RegisterKind, aiger, blif, dot, nb, verilog};
 use nbc_base::diag::Diagnostic;
 
 /// A format that a design can be read from.
@@ -95,6 +95,9 @@ fn fits_aiger(design: &Design) -> Result<(), EncodeError> {
     if !Loops::of(&design.logic).cores().is_empty() {
         return Err(EncodeError::AigerLoop);
     }
+    if let Some(register) = design.registers.iter().find(|register| register.forcing != Forcing::Never) {
+        return Err(EncodeError::AigerForced { register: register.name.clone() });
+    }
     if let Some(register) = design.registers.iter().find(|register| register.kind != RegisterKind::Rising) {
         return Err(EncodeError::AigerRegister { register: register.name.clone(), kind: register.kind });
     }
@@ -131,6 +134,7 @@ mod tests {
             kind,
             clock: Some(clock.to_owned()),
             start: None,
+            forcing: Forcing::Never,
         };
         Design { logic, registers: registers.iter().enumerate().map(register).collect() }
     }

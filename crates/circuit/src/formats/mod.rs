@@ -3,6 +3,7 @@
 pub mod aiger;
 pub mod bench;
 pub mod blif;
+mod blif_register;
 pub mod buses;
 mod design;
 pub mod dot;
@@ -14,9 +15,12 @@ pub mod nb;
 mod nb_names;
 mod starts;
 pub mod verilog;
+mod verilog_module;
 mod verilog_names;
+mod verilog_ports;
 mod wording;
 
-pub use design::{Design, Register, RegisterKind};
+pub use design::{Design, Forcing, Register, RegisterKind};
 pub use format::{CircuitFormat, CircuitSource};
 pub use nb_names::is_word;
+pub use verilog_module::verilog_module;

@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::formats::Register;
+use crate::formats::{Design, Register};
 use crate::{NetId, Netlist, Node};
 
 /// The names of a design's nets and clocks in one file.
@@ -27,13 +27,13 @@ impl FileNames {
     /// A name for every input, output, cell and clock. `legal` turns a name into a valid one of the format, and `kept`
     /// are reserved words.
     ///
-    /// Names are assigned first to ports, then to clocks that are not ports, then to the values and next values of
-    /// registers (the last inputs and outputs), then to cells.
+    /// Names are assigned first to ports, then to clocks that are not ports, then to the values of registers and to the
+    /// outputs for them (the last inputs and outputs), then to cells.
     pub fn new(netlist: &Netlist, registers: &[Register], kept: &[&str], legal: impl Fn(&str) -> String) -> Self {
         let mut taken: BTreeSet<String> = kept.iter().map(|&word| word.to_owned()).collect();
         let mut nets = BTreeMap::new();
         let (inputs, states) = netlist.inputs().split_at(netlist.inputs().len() - registers.len());
-        let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - registers.len());
+        let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - Register::outputs(registers));
         for &id in inputs.iter().chain(outputs) {
             nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
         }
@@ -84,11 +84,12 @@ pub fn visible(name: &str, unreadable: &[char]) -> String {
     if visible.is_empty() { "_".to_owned() } else { visible }
 }
 
-/// For each cell or register value that drives outputs, the output that names it: the first.
-pub fn stand_ins(netlist: &Netlist, registers: usize) -> BTreeMap<NetId, NetId> {
+/// For each cell or register value that drives a port or a next value, the output that names it: the first.
+pub fn stand_ins(design: &Design) -> BTreeMap<NetId, NetId> {
+    let netlist = &design.logic;
     let mut stand_ins = BTreeMap::new();
-    let states = &netlist.inputs()[netlist.inputs().len() - registers..];
-    for &output in netlist.outputs() {
+    let states = &netlist.inputs()[design.inputs()..];
+    for &output in &netlist.outputs()[..design.outputs() + design.registers.len()] {
         let driver = netlist.pins(output)[0];
         if matches!(netlist.node(driver), Node::Cell(_)) || states.contains(&driver) {
             stand_ins.entry(driver).or_insert(output);

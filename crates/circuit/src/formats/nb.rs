@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use crate::formats::names::cells_in_order;
 use crate::formats::nb_names::{NamedBit, NamedNet, NbNames, word};
-use crate::formats::{Design, Register, RegisterKind};
+use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::{Loops, NetId, Node};
 use nbc_base::model::Function;
 
@@ -14,7 +14,8 @@ const MOST_BITS: usize = 32;
 
 /// Writes a design: feedback keeps its start values, registers become calls of the standard circuits.
 pub fn write(design: &Design) -> String {
-    let writer = Writer { design, names: NbNames::new(design), loops: Loops::of(&design.logic) };
+    let (names, loops) = (NbNames::new(design), Loops::of(&design.logic));
+    let writer = Writer { design, names, loops, forcing: design.forcing_nets() };
     let mut statements = Vec::new();
     let declared = writer.registers(&mut statements);
     writer.cells(&mut statements);
@@ -34,6 +35,8 @@ struct Writer<'d> {
     design: &'d Design,
     names: NbNames,
     loops: Loops,
+    /// The nets that force each register.
+    forcing: Vec<Vec<NetId>>,
 }
 
 impl Writer<'_> {
@@ -74,9 +77,11 @@ impl Writer<'_> {
     /// Registers of a net of `width` bits, in runs that one call can make.
     fn runs<'r>(&self, known: &'r [(NetId, usize)], width: usize) -> Vec<&'r [(NetId, usize)]> {
         let register = |at: usize| &self.design.registers[at];
-        let alike = |one: &Register, other: &Register| one.kind == other.kind && one.clock == other.clock;
-        let together =
-            known.len() == width && known.windows(2).all(|pair| alike(register(pair[0].1), register(pair[1].1)));
+        let change = |at: usize| {
+            let register = register(at);
+            (register.kind, &register.clock, register.forcing, &self.forcing[at])
+        };
+        let together = known.len() == width && known.windows(2).all(|pair| change(pair[0].1) == change(pair[1].1));
         known.chunks(if together { MOST_BITS } else { 1 }).collect()
     }
 
@@ -95,10 +100,16 @@ impl Writer<'_> {
             RegisterKind::High => ("latch", clock),
             RegisterKind::Low => ("latch", format!("not {clock}")),
         };
+        let word = match register.forcing {
+            Forcing::Never => word.to_owned(),
+            Forcing::ToStart => format!("async_{word}"),
+            Forcing::SetReset => format!("set_reset_{word}"),
+        };
+        let forcing: String = self.forcing[run[0].1].iter().map(|&net| format!(", {}", self.bit(net).text())).collect();
         let value = |at: usize| u64::from(self.design.registers[at].starts_at());
         let start = run.iter().rev().fold(0, |sum, (_, at)| sum << 1 | value(*at));
         let start = if start == 0 { String::new() } else { format!("[start = {start}]") };
-        format!("{target} = {word}{start}({next}, {clock})")
+        format!("{target} = {word}{start}({next}, {clock}{forcing})")
     }
 
     fn clock(&self, register: &Register) -> String {

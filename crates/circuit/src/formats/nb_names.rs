@@ -76,7 +76,7 @@ impl NbNames {
         let logic = &design.logic;
         let (inputs, states) = logic.inputs().split_at(design.inputs());
         let (outputs, nexts) = logic.outputs().split_at(design.outputs());
-        let mut stand_ins = stand_ins(logic, states.len());
+        let mut stand_ins = stand_ins(design);
         // A register is not named by the next value of another.
         stand_ins.retain(|driver, output| outputs.contains(output) || !states.contains(driver));
         let mut names = Self {
@@ -164,6 +164,7 @@ pub(super) fn word(name: &str) -> String {
 /// Whether letters, digits and underscores are a name in the language, and not a reserved word.
 fn is_legal(word: &str) -> bool {
     match word {
+        "async_latch" | "async_register" | "set_reset_latch" | "set_reset_register" => false,
         "and" | "circuit" | "else" | "evolution" | "for" | "if" | "import" | "in" | "init" | "latch" | "library"
         | "log2" | "material" | "nand" | "net" | "nor" | "not" | "or" | "register" | "schedule" | "simulate"
         | "stimulus" | "swarm" | "table" | "test" | "then" | "use" | "world" | "xnor" | "xor" => false,

@@ -10,6 +10,7 @@ use crate::formats::design::{Design, Register, RegisterKind};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, visible};
 use crate::formats::starts::starts;
 use crate::formats::verilog_names::escaped;
+use crate::formats::verilog_ports::VerilogPorts;
 use crate::guarded::Guarded;
 use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;
@@ -35,6 +36,7 @@ struct Writer<'d> {
     design: &'d Design,
     /// The names of nets before they are escaped: a number appended to an escaped name would be outside of it.
     names: FileNames,
+    ports: VerilogPorts,
     /// The names that no instance may have.
     taken: BTreeSet<String>,
     title: String,
@@ -50,15 +52,19 @@ struct Writer<'d> {
 impl<'d> Writer<'d> {
     fn new(design: &'d Design) -> Self {
         let netlist = &design.logic;
-        let names = FileNames::new(netlist, &design.registers, &[], |name| visible(name, &[]));
+        let starts = starts(netlist);
+        let ports = VerilogPorts::new(design, |driver| starts.contains_key(&driver));
+        let kept: Vec<&str> = ports.names().into_iter().collect();
+        let names = FileNames::new(netlist, &design.registers, &kept, |name| visible(name, &[]));
         let title = if netlist.name.is_empty() { "circuit".to_owned() } else { visible(&netlist.name, &[]) };
         let mut taken: BTreeSet<String> = names.own_clocks().map(str::to_owned).collect();
+        taken.extend(kept.into_iter().map(str::to_owned));
         taken.extend(netlist.ids().filter(|&id| !is_constant(netlist, id)).map(|id| names.net(id).to_owned()));
-        let starts = starts(netlist);
-        let mut stand_ins = stand_ins(netlist, design.registers.len());
+        let mut stand_ins = stand_ins(design);
         stand_ins.retain(|cell, _| starts.contains_key(cell));
         let guarded = Guarded::of(netlist);
-        let mut writer = Self { design, names, taken, title, starts, guarded, stand_ins, modules: BTreeMap::new() };
+        let mut writer =
+            Self { design, names, ports, taken, title, starts, guarded, stand_ins, modules: BTreeMap::new() };
         writer.name_modules();
         writer
     }
@@ -77,17 +83,20 @@ impl<'d> Writer<'d> {
     fn name(&self, id: NetId) -> String {
         match self.design.logic.node(id) {
             Node::Constant(value) => format!("1'b{}", u8::from(*value)),
-            _ => escaped(self.names.net(*self.stand_ins.get(&id).unwrap_or(&id))),
+            _ => {
+                let id = *self.stand_ins.get(&id).unwrap_or(&id);
+                self.ports.bit(id).unwrap_or_else(|| escaped(self.names.net(id)))
+            }
         }
     }
 
     fn head(&self) -> String {
         let logic = &self.design.logic;
-        let clocks = self.names.own_clocks().map(escaped);
-        let inputs = clocks.chain(logic.inputs()[..self.design.inputs()].iter().map(|&id| self.name(id)));
-        let ports = inputs.map(|name| format!("input {name}"));
-        let outputs = logic.outputs()[..self.design.outputs()].iter().map(|&id| format!("output {}", self.name(id)));
-        format!("module {}({});\n", escaped(&self.title), ports.chain(outputs).collect::<Vec<_>>().join(", "))
+        let mut ports: Vec<String> = self.names.own_clocks().map(|clock| format!("input {}", escaped(clock))).collect();
+        let name = |id| self.name(id);
+        ports.extend(self.ports.declared("input", &logic.inputs()[..self.design.inputs()], name));
+        ports.extend(self.ports.declared("output", &logic.outputs()[..self.design.outputs()], name));
+        format!("module {}({});\n", escaped(&self.title), ports.join(", "))
     }
 
     fn declarations(&self, text: &mut String) {
@@ -98,7 +107,8 @@ impl<'d> Writer<'d> {
             let _ = writeln!(text, "    reg {}{start};", self.name(*state));
         }
         let cells = cells_in_order(logic).into_iter().filter(|id| !self.stand_ins.contains_key(id));
-        for id in cells.chain(logic.outputs()[self.design.outputs()..].iter().copied()) {
+        let nexts = &logic.outputs()[self.design.outputs()..][..self.design.registers.len()];
+        for id in cells.chain(nexts.iter().copied()) {
             let _ = writeln!(text, "    wire {};", self.name(id));
         }
     }
@@ -123,7 +133,7 @@ impl<'d> Writer<'d> {
 
     fn outputs(&self, text: &mut String) {
         let logic = &self.design.logic;
-        for &id in logic.outputs() {
+        for &id in &logic.outputs()[..self.design.outputs() + self.design.registers.len()] {
             let driver = logic.pins(id)[0];
             if self.stand_ins.get(&driver) != Some(&id) {
                 let _ = writeln!(text, "    assign {} = {};", self.name(id), self.name(driver));
@@ -135,15 +145,33 @@ impl<'d> Writer<'d> {
         let logic = &self.design.logic;
         let states = &logic.inputs()[self.design.inputs()..];
         let nexts = &logic.outputs()[self.design.outputs()..];
-        for ((register, state), next) in self.design.registers.iter().zip(states).zip(nexts) {
+        let forcing = self.design.forcing_nets();
+        for (((register, state), next), forcing) in self.design.registers.iter().zip(states).zip(nexts).zip(forcing) {
             let clock = self.clock(register);
             let (state, next) = (self.name(*state), self.name(*next));
-            let _ = match register.kind {
-                RegisterKind::Rising => writeln!(text, "    always @(posedge {clock}) {state} <= {next};"),
-                RegisterKind::Falling => writeln!(text, "    always @(negedge {clock}) {state} <= {next};"),
-                RegisterKind::High => writeln!(text, "    always @* if ({clock}) {state} = {next};"),
-                RegisterKind::Low => writeln!(text, "    always @* if (!{clock}) {state} = {next};"),
+            let forcing: Vec<String> = forcing.into_iter().map(|net| self.name(net)).collect();
+            let start = u8::from(register.starts_at());
+            let (assign, change) = match register.kind {
+                RegisterKind::Rising => ("<=", format!("posedge {clock}")),
+                RegisterKind::Falling => ("<=", format!("negedge {clock}")),
+                RegisterKind::High => ("=", format!("if ({clock}) ")),
+                RegisterKind::Low => ("=", format!("if (!{clock}) ")),
             };
+            let forced = match &forcing[..] {
+                [reset] => format!("if ({reset}) {state} {assign} 1'b{start}; else "),
+                [set, reset] => {
+                    format!("if ({reset}) {state} {assign} 1'b0; else if ({set}) {state} {assign} 1'b1; else ")
+                }
+                _ => String::new(),
+            };
+            let (events, open) = match register.kind {
+                RegisterKind::Rising | RegisterKind::Falling => {
+                    let edges = forcing.iter().map(|net| format!(", posedge {net}")).collect::<String>();
+                    (format!("({change}{edges})"), String::new())
+                }
+                RegisterKind::High | RegisterKind::Low => ("*".to_owned(), change),
+            };
+            let _ = writeln!(text, "    always @{events} {forced}{open}{state} {assign} {next};");
         }
     }
 

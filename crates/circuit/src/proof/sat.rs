@@ -76,8 +76,8 @@ pub struct SatSweep {
     /// Signals by their hashes. If different values have the same hash, the solver finds a pattern that distinguishes
     /// them.
     classes: BTreeMap<u64, Signal>,
-    /// The signal of each gate, by its function and pins.
-    known: BTreeMap<(u8, [Signal; 2]), (Signal, bool)>,
+    /// The signal of each gate, by its function and pins as one number.
+    known: BTreeMap<u128, (Signal, bool)>,
     /// The number of calls of the solver.
     pub calls: usize,
 }
@@ -139,9 +139,12 @@ impl SatSweep {
                 function = if inverted { function.with_input_inverted(pin) } else { function };
             }
             let (function, pins) = if a.0 <= b.0 { (function, [a.0, b.0]) } else { (function.swapped(), [b.0, a.0]) };
-            let key = (function.bits(), pins);
-            let known = self.known.get(&key).copied().unwrap_or_else(|| self.gate(function, pins));
-            self.known.insert(key, known);
+            let key = pins.iter().fold(u128::from(function.bits()), |key, &pin| key << 32 | u128::from(pin));
+            let known = self.known.get(&key).copied().unwrap_or_else(|| {
+                let found = self.gate(function, pins);
+                self.known.insert(key, found);
+                found
+            });
             made.push(known);
         }
         made

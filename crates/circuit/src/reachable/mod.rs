@@ -8,7 +8,7 @@ mod invariant;
 mod why;
 
 use crate::cells::CellLibrary;
-use crate::formats::{Design, RegisterKind};
+use crate::formats::{Design, Forcing, RegisterKind};
 use crate::network::{Network, Signal, View};
 use crate::options::MapOptions;
 use crate::proof::Comparison;
@@ -46,6 +46,9 @@ pub fn simplify(
     let is_latch = |kind| matches!(kind, RegisterKind::High | RegisterKind::Low);
     if let Some(latch) = design.registers.iter().find(|register| is_latch(register.kind)) {
         return Err(WhyEveryState::Latch(latch.name.clone()));
+    }
+    if let Some(forced) = design.registers.iter().find(|register| register.forcing != Forcing::Never) {
+        return Err(WhyEveryState::Forced(forced.name.clone()));
     }
     let network = View::of(&design.logic, &[]).map_err(|_| WhyEveryState::Loop)?.network;
     let cycle = Cycle::of(design, &network);

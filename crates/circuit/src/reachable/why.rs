@@ -9,6 +9,8 @@ pub enum WhyEveryState {
     NoRegisters,
     /// A register that is not a flip-flop.
     Latch(String),
+    /// A register with an asynchronous set or reset.
+    Forced(String),
     /// The logic has feedback.
     Loop,
 }
@@ -18,6 +20,7 @@ impl fmt::Display for WhyEveryState {
         match self {
             Self::NoRegisters => f.write_str("the design has no registers"),
             Self::Latch(name) => write!(f, "`{name}` is a level-sensitive latch"),
+            Self::Forced(name) => write!(f, "`{name}` has an asynchronous set or reset"),
             Self::Loop => f.write_str("the logic has feedback"),
         }
     }

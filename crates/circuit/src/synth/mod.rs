@@ -2,6 +2,7 @@
 
 mod candidates;
 mod care;
+mod chains;
 pub mod exact;
 mod graph;
 mod parts;

@@ -9,6 +9,7 @@ use crate::network::{Network, Signal};
 use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::candidates::below;
 use crate::synth::care::CareSet;
+use crate::synth::chains::{balanced, levels};
 use crate::synth::exact::{self, ExactResult};
 use crate::synth::graph::{Graph, every_pattern};
 use crate::synth::parts::in_parts;
@@ -55,15 +56,30 @@ pub fn reduce(
     let target = Prices::of(library);
     let reduction = Reduction { prices: &target, stages, effort: options.effort, cancel: &options.cancel };
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_796e_7468);
-    let direct = cover(network, &target, stages)?;
+    let mut direct = cover(network, &target, stages)?;
     if direct.gates.len() > MOST_GATES || direct.gates.is_empty() {
         return Ok(direct);
     }
-    let best = reduction.search_both_ways(network, &direct, &mut random)?;
+    let tree = reduction.tree(network, &direct)?;
+    let mut source = network;
+    if let Some((balanced, covered)) = &tree
+        && cost(covered, &target) <= cost(&direct, &target)
+    {
+        (source, direct) = (balanced, covered.clone());
+    }
+    let best = reduction.search_both_ways(source, &direct, &mut random)?;
     let best = reduction.fewest(best);
-    Ok(match options.objective {
-        MappingObjective::Delay => reduction.shorten_slowest_path(&best, &mut random),
-        _ => reduction.shorten(&best, &mut random),
+    if options.objective != MappingObjective::Delay {
+        return Ok(reduction.shorten(&best, &mut random));
+    }
+    let best = reduction.shorten_slowest_path(&best, &mut random);
+    Ok(match tree {
+        Some((_, covered)) if depth(&covered, &target) < depth(&best, &target) => {
+            let other = reduction.shorten_slowest_path(&covered, &mut random);
+            let rank = |network: &Network| (depth(network, &target), cost(network, &target));
+            if rank(&other) < rank(&best) { other } else { best }
+        }
+        _ => best,
     })
 }
 
@@ -144,6 +160,15 @@ struct Reduction<'a> {
 }
 
 impl<'a> Reduction<'a> {
+    /// The network with trees in the place of chains, if it is deeper than one and a half times these, and its cells.
+    fn tree(&self, network: &Network, direct: &Network) -> Result<Option<(Network, Network)>, Function> {
+        let highest = |network: &Network| levels(network).into_iter().max().unwrap_or(0);
+        let Some(tree) = balanced(&network.swept()) else { return Ok(None) };
+        let covered = cover(&tree, self.prices, self.stages)?;
+        let is_lower = 3 * highest(&covered) < 2 * highest(direct);
+        Ok((is_lower && covered.gates.len() <= MOST_GATES).then_some((tree, covered)))
+    }
+
     /// A walk that never climbs and never turns back.
     fn downhill(&self, visits: u64) -> WalkPlan<'a> {
         WalkPlan { cancel: Some(self.cancel), ..WalkPlan::downhill(visits) }

@@ -84,7 +84,9 @@ fn make(netlist: &Netlist, plans: &[Plan], library: &CellLibrary) -> (Netlist, V
     for Plan { open, shown, .. } in plans {
         let first = made.cell(shown[0]).expect("a latch is made of cells").clone();
         let function = if *open { OPEN_HIGH } else { OPEN_LOW };
+        let block = made.block(shown[0]);
         let latch = made.add_loose_cell(Cell { function, ..first });
+        made.put_into(latch, block);
         new.extend(shown.iter().map(|&cell| (cell, latch)));
         latches.push(latch);
     }
@@ -95,6 +97,8 @@ fn make(netlist: &Netlist, plans: &[Plan], library: &CellLibrary) -> (Netlist, V
             let inverter = Cell { function: inverter(library), name, start: None, span: None };
             let pins = [latch; 2];
             let net = made.add_cell(inverter.clone(), &pins[..inverter.function.arity()]);
+            let block = made.block(cell);
+            made.put_into(net, block);
             new.insert(cell, net);
         }
     }

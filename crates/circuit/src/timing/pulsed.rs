@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use crate::cells::CellLibrary;
 use crate::passes::{Pass, Sweep};
 use crate::timing::phase::{MOST_ROOTS, earliest, passages, phases};
-use crate::{Cell, FlipFlop, Latch, NetId, Netlist, Node, Storage};
+use crate::{BlockId, Cell, FlipFlop, Latch, NetId, Netlist, Node, Storage};
 use nbc_base::model::Function;
 
 /// The numbers of inverters that are tried for a pulse.
@@ -182,7 +182,8 @@ impl Plan<'_> {
             let needed = group.iter().map(|(register, _)| self.needed(register)).max().unwrap_or(0);
             let Some(mut pulse) = self.generate(&mut made, clock, rises, needed) else { continue };
             for &&(Register { data, set, reset, .. }, padding) in &group {
-                let late = (0..padding).fold(data, |net, _| self.invert(&mut made, net));
+                let block = made.block(set);
+                let late = (0..padding).fold(data, |net, _| self.invert(&mut made, net, block));
                 made.drive(set, 0, late);
                 made.drive(set, 1, pulse.net);
                 let [from, to] = [set, pulse.net];
@@ -216,15 +217,18 @@ impl Plan<'_> {
         };
         let width = |chain: usize| (chain as u32 + and_cells).saturating_sub(and_cycles);
         let chain = CHAINS.into_iter().find(|&chain| width(chain) >= needed)?;
-        let base = if rises { clock } else { self.invert(made, clock) };
-        let late = (0..chain).fold(base, |net, _| self.invert(made, net));
+        let block = made.blocks_mut().add(&name, "pulse", BlockId::TOP);
+        let base = if rises { clock } else { self.invert(made, clock, block) };
+        let late = (0..chain).fold(base, |net, _| self.invert(made, net, block));
         let net = match self.clock(Function::AND) {
             Some(_) => made.add_gate(Function::AND, &[base, late]),
             None => {
                 let opposite = made.add_gate(Function::NAND, &[base, late]);
-                self.invert(made, opposite)
+                made.put_into(opposite, block);
+                self.invert(made, opposite, block)
             }
         };
+        made.put_into(net, block);
         made.rename(net, &name);
         let before = if rises { 0 } else { inverter };
         let ends = before + chain as u32 * inverter + and_cycles;
@@ -237,10 +241,12 @@ impl Plan<'_> {
         if self.clock(Function::NOT).is_some_and(is_quick) { Function::NOT } else { Function::NAND }
     }
 
-    fn invert(&self, made: &mut Netlist, net: NetId) -> NetId {
+    fn invert(&self, made: &mut Netlist, net: NetId, block: BlockId) -> NetId {
         let function = self.inverter();
         let cell = Cell { function, name: None, start: None, span: None };
-        made.add_cell(cell, &[net, net][..function.arity()])
+        let id = made.add_cell(cell, &[net, net][..function.arity()]);
+        made.put_into(id, block);
+        id
     }
 
     /// For each register, by how many cycles its data may change too early; one without a pulse is beyond padding.

@@ -5,9 +5,10 @@ use std::collections::BTreeMap;
 use crate::cells::CellKind;
 use crate::network::{Network, Signal, View};
 use crate::passes::{DissolveWires, Pass, Sweep};
+use crate::signal_blocks::SignalBlocks;
 use crate::storage::{Follower, Inverters};
 use crate::waves::wording::WaveError;
-use crate::{Latch, NetId, Netlist, Node, Storage};
+use crate::{Blocks, Latch, NetId, Netlist, Node, Storage};
 use nbc_base::model::Function;
 
 /// A bit of the state.
@@ -36,6 +37,10 @@ pub struct ClockStep {
     pub state: Vec<StateBit>,
     /// The logic: its inputs are the ports and then the state, its outputs the ports and then the next state.
     pub logic: Network,
+    /// The calls of the source.
+    pub(super) blocks: Blocks,
+    /// The call of each signal of the logic.
+    pub(super) signal_blocks: SignalBlocks,
 }
 
 /// A register as the latches of a flip-flop.
@@ -79,7 +84,7 @@ impl ClockStep {
         let wanted = netlist.outputs().iter().map(|&id| netlist.pins(id)[0]);
         let data = registers.iter().map(|register| register.data.0);
         logic.outputs = wanted.chain(data).map(|net| view.signal[&net]).collect();
-        let logic = logic.swept();
+        let (logic, swept) = logic.swept_signals();
         // What each input of the cut logic is: a port, or a bit of the state, maybe inverted.
         let mut place: BTreeMap<NetId, (usize, bool)> = BTreeMap::new();
         for (at, register) in registers.iter().enumerate() {
@@ -109,6 +114,8 @@ impl ClockStep {
         for (at, _) in (netlist.outputs().len()..).zip(registers).filter(|(_, register)| register.data.1) {
             step.outputs[at] = step.add(Function::NOT, [step.outputs[at]; 2]);
         }
+        let logical: Vec<Signal> = swept.iter().map(|&signal| made[signal as usize]).collect();
+        let signal_blocks = SignalBlocks::of(netlist, &view).renumbered(&logical, step.signals());
         let names = |ids: &[NetId]| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<_>>();
         Ok(Self {
             name: netlist.name.clone(),
@@ -118,6 +125,8 @@ impl ClockStep {
             rises: clock.is_none_or(|(_, rises)| rises),
             state: registers.iter().map(|register| state_bit(netlist, register)).collect(),
             logic: step,
+            blocks: netlist.blocks().without_nodes(),
+            signal_blocks,
         })
     }
 

@@ -1,5 +1,6 @@
 //! The gates of a step and the nets between them, each with the number of steps by which its listener is later.
 
+use crate::BlockId;
 use crate::network::{Network, Signal};
 use crate::synth::{CellNetwork, NetworkCell};
 use crate::waves::clock_step::ClockStep;
@@ -97,6 +98,14 @@ impl WaveLogic {
             outputs: network.outputs[..outputs].iter().map(shown).collect(),
             state: (0..bits).map(|bit| tap((2 + ports + bit) as Signal)).collect(),
         }
+    }
+
+    /// The block of each gate of a network that was mapped from the logic of a step.
+    pub fn blocks(&self, step: &ClockStep, mapped: &CellNetwork) -> Vec<BlockId> {
+        let mut network = mapped.clone();
+        self.show_state(&mut network);
+        let ports: Vec<usize> = (0..step.logic.inputs).chain(self.late.iter().copied()).collect();
+        step.signal_blocks.of_cells(&step.logic, &network, &ports)
     }
 
     /// The bit of the state that a signal is.

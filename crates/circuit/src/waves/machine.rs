@@ -6,7 +6,7 @@ use crate::map::name_outputs;
 use crate::waves::clock_step::{ClockStep, StateBit};
 use crate::waves::graph::{Driver, Tap, WaveGraph};
 use crate::waves::phases::Phases;
-use crate::{Cell, CellLibrary, NetId, Netlist};
+use crate::{BlockId, Cell, CellLibrary, NetId, Netlist};
 use nbc_base::model::Function;
 
 /// The beats before the first step in which robots take their shape and show their first outputs.
@@ -79,12 +79,13 @@ impl WaveMachine {
     pub(super) fn new(
         step: &ClockStep,
         graph: &WaveGraph,
+        blocks: &[BlockId],
         phases: &Phases,
         library: &CellLibrary,
         beat: u32,
     ) -> Option<Self> {
         let buffer = BUFFERS.into_iter().find(|(function, _)| library.get(*function).is_some())?;
-        Some(Builder::new(step, graph, phases, buffer, beat).build())
+        Some(Builder::new(step, graph, blocks, phases, buffer, beat).build())
     }
 
     /// The number of robots.
@@ -179,18 +180,22 @@ impl<'a> Builder<'a> {
     fn new(
         step: &'a ClockStep,
         graph: &'a WaveGraph,
+        blocks: &[BlockId],
         phases: &'a Phases,
         buffer: (Function, usize),
         beat: u32,
     ) -> Self {
         let mut netlist = Netlist::new(&step.name);
+        *netlist.blocks_mut() = step.blocks.clone();
         let mut chains = BTreeMap::new();
         for (at, name) in step.inputs.iter().enumerate() {
             chains.insert(Driver::Input(at), vec![netlist.add_input(name)]);
         }
         for (at, gate) in graph.gates.iter().enumerate() {
             let cell = Cell { function: gate.function, name: None, start: None, span: None };
-            chains.insert(Driver::Gate(at), vec![netlist.add_loose_cell(cell)]);
+            let id = netlist.add_loose_cell(cell);
+            netlist.put_into(id, blocks[at]);
+            chains.insert(Driver::Gate(at), vec![id]);
         }
         let machine = WaveMachine {
             netlist,
@@ -256,6 +261,8 @@ impl<'a> Builder<'a> {
             let cell = Cell { function, name: None, start: None, span: None };
             let last = chain[chain.len() - 1];
             let net = self.machine.netlist.add_cell(cell, &[last; 2][..pins]);
+            let block = self.machine.netlist.block(last);
+            self.machine.netlist.put_into(net, block);
             self.machine.phase.insert(net, drives_from + chain.len() as i64);
             self.machine.buffers += 1;
             chain.push(net);

@@ -5,6 +5,7 @@
 //! one machine there is room for those of others.
 
 mod certify;
+mod clock_run;
 mod clock_step;
 mod graph;
 mod machine;
@@ -14,6 +15,7 @@ mod search;
 mod wording;
 
 pub use certify::{Certificate, certify};
+pub use clock_run::{ClockRun, LANES};
 pub use clock_step::{ClockStep, StateBit};
 pub use machine::{Reading, WaveMachine, WaveOutput, WaveState};
 pub use wording::{CertifyError, WaveError};
@@ -23,7 +25,7 @@ use crate::network::Network;
 use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::reduce;
 use crate::waves::graph::WaveLogic;
-use crate::waves::search::search;
+use crate::waves::search::{WaveCells, search};
 use crate::{MapError, Netlist};
 
 /// What a wave machine is made for.
@@ -68,7 +70,8 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
         let quick = found(Effort::Normal)?;
         balanced = if quick.weight < balanced.weight { quick } else { balanced };
     }
-    WaveMachine::new(&step, &balanced.graph, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
+    let blocks = logic.blocks(&step, &WaveCells::new(&cells).of(&balanced.network));
+    WaveMachine::new(&step, &balanced.graph, &blocks, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
 }
 
 /// The most gates of logic that is mapped in more than one way.

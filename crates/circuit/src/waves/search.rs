@@ -67,7 +67,8 @@ impl<'a> WaveCells<'a> {
         Self(library.is_wide().then(|| Coverer::new(library, MappingObjective::Area)))
     }
 
-    fn of(&self, network: &Network) -> CellNetwork {
+    /// A network in these cells.
+    pub fn of(&self, network: &Network) -> CellNetwork {
         self.0.as_ref().map_or_else(|| CellNetwork::of(network), |coverer| coverer.cover(network))
     }
 }

@@ -15,7 +15,7 @@ fn thin_cells() -> CellLibrary {
 }
 
 /// A random machine with some ports and registers.
-fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
+pub(super) fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
     let mut draw = |bound: usize| (random.next_u32() as usize) % bound;
     let mut netlist = Netlist::new("machine");
     let ports: Vec<NetId> = (0..draw(3)).map(|at| netlist.add_input(format!("i{at}"))).collect();

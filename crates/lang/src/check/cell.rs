@@ -20,13 +20,22 @@ pub(crate) enum RowCell {
 /// Reads a value for a column.
 pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
     match word.text.as_str() {
-        "-" => return Ok(RowCell::Bits(vec![None; column.width], Base::of_width(column.width))),
+        "-" => return Ok(RowCell::Bits(vec![None; column.width], Base::of_port(column))),
         "^" if column.width == 1 => return Ok(RowCell::Pulse),
         "^" => {
             let error = CellError::WidePulse { column: column.name.clone(), width: column.width };
             return Err(error.at(word.span));
         }
         _ => {}
+    }
+    if let Some(members) = &column.members
+        && let Some(member) = members.member(&word.text)
+    {
+        let bits = members.bits(member.value).into_iter().map(Some).collect();
+        return Ok(RowCell::Bits(bits, Base::Member));
+    }
+    if let Some(bits) = number(word, column)? {
+        return Ok(RowCell::Bits(bits, Base::Plain));
     }
     let bits = match word.text.split_once('\'') {
         Some((width, constant)) => sized(word, width, constant, column)?,
@@ -38,6 +47,19 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
     } else {
         Err(wrong_width(word, &counted(bits.len(), "bit"), column))
     }
+}
+
+/// The bits of a number without a width, if the word is one. Several digits of 0 and 1 are bits.
+fn number(word: &NameSyntax, column: &Column) -> Result<Option<Vec<Option<bool>>>, Diagnostic> {
+    let is_bits = word.text.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'_'));
+    if is_bits && (word.text.len() != 1 || column.width == 1) {
+        return Ok(None);
+    }
+    let Some(value) = constant::unsized_number(&word.text) else { return Ok(None) };
+    if column.width < 128 && value >> column.width != 0 {
+        return Err(CellError::Unfitting { value, width: column.width }.at(word.span));
+    }
+    Ok(Some((0..column.width).rev().map(|bit| Some(bit < 128 && value >> bit & 1 == 1)).collect()))
 }
 
 /// As [`cell`], for an input, whose bits are all known.
@@ -59,7 +81,10 @@ fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
     // Digits of 0 and 1 may be bits or a number.
     let is_bits = word.text.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-' | b'_'));
     let meant = if is_bits { None } else { meant(&word.text, column.width) };
-    CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width, meant }.at(word.span)
+    let number = word.text.parse::<u128>().ok().filter(|value| column.width >= 128 || value >> column.width == 0);
+    let number = number.filter(|_| is_bits && word.text.len() > 1).map(|value| format!("{}'d{value}", column.width));
+    CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width, meant, number }
+        .at(word.span)
 }
 
 /// How a value of another language is written for a column of that width.

@@ -4,16 +4,21 @@
 use std::collections::BTreeMap;
 
 use crate::check::constant;
-use crate::check::names::{Home, NameTable, duplicate};
+use crate::check::names::{Home, duplicate};
 use crate::check::uses::{NameKind, NameUse};
-use crate::check::wording::{CircuitError, NameError};
+use crate::check::vocabulary::Vocabulary;
+use crate::check::wording::{CircuitError, EnumerationError, NameError};
 use crate::syntax::tree;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, suggest};
 use nbc_base::model::{
-    Block, Circuit, CircuitId, Expression, ExpressionId, ExpressionKind, Net, NetSlot, Parameter, SizeId, Statement,
-    Target,
+    Block, Circuit, CircuitId, Condition, Expression, ExpressionId, ExpressionKind, FreeNumber, Net, NetSlot,
+    Parameter, SizeId, SizeKind, Statement, Target,
 };
 use nbc_base::source::Span;
+
+/// The kind of an output of an environment that writes text, and its width: whether it writes, and the character.
+const TEXT: &str = "text";
+const TEXT_BITS: i64 = 9;
 
 /// The interface of circuits, enough to check calls.
 #[derive(Clone, Debug, Default)]
@@ -27,6 +32,8 @@ pub(crate) struct Header {
     pub(crate) name: String,
     pub(crate) parameters: Vec<String>,
     pub(crate) inputs: Vec<String>,
+    /// For each input, whether a call may leave it out.
+    pub(crate) optional: Vec<bool>,
     pub(crate) outputs: Vec<String>,
     /// The places of the parameters, and of the ports in order.
     pub(crate) places: [Vec<Span>; 2],
@@ -39,6 +46,7 @@ impl Header {
             name: circuit.name.text.clone(),
             parameters: circuit.parameters.iter().map(|parameter| parameter.name.text.clone()).collect(),
             inputs: names(&circuit.inputs),
+            optional: circuit.inputs.iter().map(|port| port.absent.is_some()).collect(),
             outputs: names(&circuit.outputs),
             places: [
                 circuit.parameters.iter().map(|parameter| parameter.name.span).collect(),
@@ -61,7 +69,9 @@ impl Header {
 
     /// The interface as declared, without widths.
     pub(crate) fn signature(&self) -> String {
-        format!("{}({}) -> ({})", self.name, self.inputs.join(", "), self.outputs.join(", "))
+        let input = |(name, optional): (&String, &bool)| if *optional { format!("{name}?") } else { name.clone() };
+        let inputs: Vec<String> = self.inputs.iter().zip(&self.optional).map(input).collect();
+        format!("{}({}) -> ({})", self.name, inputs.join(", "), self.outputs.join(", "))
     }
 }
 
@@ -75,15 +85,20 @@ pub(crate) enum Binding {
 /// A circuit that is being checked.
 pub(crate) struct CircuitChecker<'a> {
     pub(crate) body: &'a tree::BodySyntax,
-    pub(crate) names: &'a NameTable,
+    pub(crate) declared: Vocabulary<'a>,
     pub(crate) headers: &'a Headers,
     pub(crate) home: Home,
+    pub(crate) is_environment: bool,
     pub(crate) circuit: Circuit,
     pub(crate) scopes: Vec<BTreeMap<&'a str, Binding>>,
     /// For each net, whether it is read.
     pub(crate) used: Vec<bool>,
     /// For each net, whether it is driven.
-    driven: Vec<bool>,
+    pub(crate) driven: Vec<bool>,
+    /// The integers with names that have no statement yet, by the slots of their values.
+    integers: BTreeMap<u32, SizeId>,
+    /// The addresses of the memories that the statement reads, each with its value.
+    pub(crate) reads: Vec<(NetSlot, ExpressionId)>,
     pub(crate) calls: Vec<(CircuitId, Span)>,
     pub(crate) diagnostics: Vec<Diagnostic>,
     pub(crate) uses: Vec<NameUse>,
@@ -101,7 +116,7 @@ pub(crate) struct CheckedCircuit {
 pub(crate) fn circuit(
     source: &tree::CircuitSyntax,
     home: Home,
-    names: &NameTable,
+    declared: Vocabulary<'_>,
     headers: &Headers,
 ) -> CheckedCircuit {
     let circuit = Circuit {
@@ -116,16 +131,20 @@ pub(crate) fn circuit(
         tables: Vec::new(),
         body: Block::default(),
         variables: 0,
+        memories: Vec::new(),
     };
     let mut checker = CircuitChecker {
         body: &source.body,
-        names,
+        declared,
         headers,
         home,
+        is_environment: source.is_environment,
         circuit,
         scopes: vec![BTreeMap::new()],
         used: Vec::new(),
         driven: Vec::new(),
+        integers: BTreeMap::new(),
+        reads: Vec::new(),
         calls: Vec::new(),
         diagnostics: Vec::new(),
         uses: Vec::new(),
@@ -151,8 +170,7 @@ impl<'a> CircuitChecker<'a> {
 
     fn ports(&mut self, source: &'a tree::CircuitSyntax) {
         for port in source.inputs.iter().chain(&source.outputs) {
-            let width = port.width.map(|size| self.size(size));
-            self.declare(&port.name, width);
+            self.port(port, source.outputs.iter().any(|output| std::ptr::eq(output, port)));
         }
         for slot in 0..source.inputs.len() {
             self.driven[slot] = true;
@@ -169,12 +187,55 @@ impl<'a> CircuitChecker<'a> {
         slot
     }
 
-    fn declare(&mut self, name: &'a tree::NameSyntax, width: Option<SizeId>) -> NetSlot {
-        let slot = NetSlot(self.circuit.nets.len() as u32);
-        self.circuit.nets.push(Net { name: name.text.clone(), span: name.span, width });
-        self.used.push(name.text.starts_with('_'));
-        self.driven.push(false);
+    /// Declares a port or a net with what is written after its name.
+    fn port(&mut self, port: &'a tree::Port, is_output: bool) -> NetSlot {
+        let width = port.width.map(|size| self.size(size));
+        let is_text = port.members.as_ref().is_some_and(|name| name.text == TEXT) && is_output && self.is_environment;
+        let named = port.members.as_ref().filter(|_| !is_text);
+        let members = named.and_then(|name| self.members(name));
+        let width = match members {
+            None if is_text => Some(self.push_size(SizeKind::Literal(TEXT_BITS), port.name.span)),
+            Some((_, bits)) => {
+                if port.width.is_some() {
+                    self.diagnostics.push(EnumerationError::Width { net: port.name.text.clone() }.at(port.name.span));
+                }
+                Some(self.push_size(SizeKind::Literal(bits.into()), port.name.span))
+            }
+            None => width,
+        };
+        let words = port.words.map(|size| self.size(size));
+        let default = port.absent.map(|size| self.size(size));
+        let slot = self.declare(&port.name, width);
+        let net = &mut self.circuit.nets[slot.0 as usize];
+        (net.words, net.default, net.members) = (words, default, members.map(|(place, _)| place));
+        net.is_text = is_text;
+        slot
+    }
+
+    /// The enumeration of that name, and its width.
+    fn members(&mut self, name: &tree::NameSyntax) -> Option<(usize, u32)> {
+        match self.declared.enumerations.resolve(name, self.home) {
+            Ok(place) => Some((place, self.declared.all.get(place)?.width)),
+            Err(fault) => {
+                self.diagnostics.push(fault);
+                None
+            }
+        }
+    }
+
+    pub(crate) fn declare(&mut self, name: &'a tree::NameSyntax, width: Option<SizeId>) -> NetSlot {
+        let slot = self.add_net(name.text.clone(), name.span, width);
         self.bind(name, Binding::Net(slot));
+        slot
+    }
+
+    /// Adds a net that no name refers to yet.
+    pub(crate) fn add_net(&mut self, name: String, span: Span, width: Option<SizeId>) -> NetSlot {
+        let slot = NetSlot(self.circuit.nets.len() as u32);
+        let is_quiet = name.starts_with('_');
+        self.circuit.nets.push(Net { name, span, width, words: None, default: None, members: None, is_text: false });
+        self.used.push(is_quiet);
+        self.driven.push(false);
         slot
     }
 
@@ -221,32 +282,57 @@ impl<'a> CircuitChecker<'a> {
     /// Nets may be used before they are driven, so the nets of a block are declared before its statements are read.
     fn declare_nets(&mut self, statements: &'a [tree::StatementSyntax]) {
         for statement in statements {
-            if let tree::StatementKind::Nets(nets) = &statement.kind {
-                for port in nets {
-                    // A declared net without a width is one bit wide, like a port.
-                    let width = match port.width {
-                        Some(size) => self.size(size),
-                        None => self.one(port.name.span),
-                    };
-                    self.declare(&port.name, Some(width));
+            match &statement.kind {
+                tree::StatementKind::Nets(nets) => nets.iter().for_each(|port| self.declared_net(port)),
+                // A name for an integer has its meaning in the lines after it.
+                tree::StatementKind::Let { name, value } => {
+                    let value = self.size(*value);
+                    let variable = self.variable(name);
+                    self.integers.insert(variable, value);
                 }
+                _ => {}
             }
         }
         for statement in statements {
-            if let tree::StatementKind::Drive { targets, .. } = &statement.kind {
-                for target in targets.iter().filter(|target| target.name.text != "_") {
-                    if self.lookup(&target.name.text).is_none() {
-                        self.declare(&target.name, None);
-                    }
+            let tree::StatementKind::Drive { targets, grouping, .. } = &statement.kind else { continue };
+            for target in targets.iter().filter(|target| target.name.text != "_") {
+                if self.lookup(&target.name.text).is_none() {
+                    // The parts of a value have a width of their own, as declared nets.
+                    let width = (*grouping == tree::Grouping::Joined).then(|| self.one(target.name.span));
+                    self.declare(&target.name, width);
                 }
             }
+        }
+    }
+
+    fn declared_net(&mut self, port: &'a tree::Port) {
+        let slot = self.port(port, false);
+        if self.circuit.nets[slot.0 as usize].width.is_none() {
+            // A declared net without a width is one bit wide, like a port.
+            let width = self.one(port.name.span);
+            self.circuit.nets[slot.0 as usize].width = Some(width);
+        }
+        if self.is_environment && port.words.is_some() {
+            self.memory(slot, port);
+        } else if let Some(contents) = &port.contents {
+            self.diagnostics.push(CircuitError::ContentsOfNet { net: port.name.text.clone() }.at(contents.span));
         }
     }
 
     fn statement(&mut self, statement: &'a tree::StatementSyntax) -> Option<Statement> {
         match &statement.kind {
             tree::StatementKind::Nets(_) => None,
-            tree::StatementKind::Drive { targets, value, .. } => self.drive(targets, *value),
+            tree::StatementKind::Drive { targets, grouping, value } => self.drive(targets, *grouping, *value),
+            tree::StatementKind::Let { name, .. } => {
+                let Some(Binding::Variable(variable, _)) = self.lookup(&name.text) else { return None };
+                Some(Statement::Let { variable, value: self.integers.remove(&variable)? })
+            }
+            tree::StatementKind::If { left, comparison, right, then, otherwise, .. } => {
+                let (left, right) = (self.size(*left), self.size(*right));
+                let [then, otherwise] = [then, otherwise].map(|statements| self.inner_block(statements));
+                let condition = Condition { left, comparison: *comparison, right };
+                Some(Statement::If { condition, then, otherwise })
+            }
             tree::StatementKind::For { variable, from, to, statements } => {
                 let span = self.body.sizes[from.0 as usize].span.to(self.body.sizes[to.0 as usize].span);
                 let (from, to) = (self.size(*from), self.size(*to));
@@ -259,23 +345,51 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    fn drive(&mut self, targets: &'a [tree::TargetSyntax], value: tree::ExpressionSyntaxId) -> Option<Statement> {
+    fn inner_block(&mut self, statements: &'a [tree::StatementSyntax]) -> Block {
+        self.scopes.push(BTreeMap::new());
+        let block = self.block(statements);
+        self.scopes.pop();
+        block
+    }
+
+    fn drive(
+        &mut self,
+        targets: &'a [tree::TargetSyntax],
+        grouping: tree::Grouping,
+        value: tree::ExpressionSyntaxId,
+    ) -> Option<Statement> {
+        if let [target] = targets
+            && let Some(written) = self.written_word(target)
+        {
+            return self.write_word(written, value);
+        }
+        let first = self.circuit.nets.len() as u32;
+        let statement = self.plain_drive(targets, grouping, value);
+        self.with_reads(first, statement)
+    }
+
+    fn plain_drive(
+        &mut self,
+        targets: &'a [tree::TargetSyntax],
+        grouping: tree::Grouping,
+        value: tree::ExpressionSyntaxId,
+    ) -> Option<Statement> {
+        let joined = grouping == tree::Grouping::Joined;
         let lowered: Vec<_> = targets.iter().map(|target| self.target(target)).collect();
         let span = self.body.expressions[value.0 as usize].span;
         let start_fault = self.start_fault(targets, value);
         let root = value;
-        let value = self.expression(root, targets);
-        if let Some(fault) = self.value_count(root, value, targets, span) {
-            self.diagnostics.push(fault);
-        }
+        let value = self.expression(root, if joined { 1 } else { targets.len() });
+        let fault = (!joined).then(|| self.value_count(root, value, targets, span));
+        self.diagnostics.extend(fault.flatten());
         self.diagnostics.extend(start_fault);
-        Some(Statement::Drive { targets: lowered.into_iter().collect::<Option<_>>()?, value })
+        Some(Statement::Drive { targets: lowered.into_iter().collect::<Option<_>>()?, joined, value })
     }
 
     fn target(&mut self, target: &'a tree::TargetSyntax) -> Option<Target> {
         let start = target.start.map(|size| self.size(size));
         if target.name.text == "_" {
-            return Some(Target { net: None, bits: None, start, span: target.span });
+            return Some(Target { net: None, word: None, bits: None, start, span: target.span });
         }
         let binding = self.lookup(&target.name.text).expect("the targets of a block are declared first");
         self.refer(target.name.span, binding);
@@ -286,13 +400,13 @@ impl<'a> CircuitChecker<'a> {
                 return None;
             }
         };
-        let bits = target.index.map(|index| self.index(&index));
+        let (word, bits) = self.constant_bits(slot, [target.index.as_ref(), target.second.as_ref()])?;
         self.driven[slot.0 as usize] = true;
         self.target_faults(target, slot).map_or(Some(()), |fault| {
             self.diagnostics.push(fault);
             None
         })?;
-        Some(Target { net: Some(slot), bits, start, span: target.span })
+        Some(Target { net: Some(slot), word, bits, start, span: target.span })
     }
 
     fn target_faults(&self, target: &tree::TargetSyntax, slot: NetSlot) -> Option<Diagnostic> {
@@ -305,11 +419,6 @@ impl<'a> CircuitChecker<'a> {
         let is_port = slot < self.circuit.inputs + self.circuit.outputs;
         let open = target.index.is_some() && net.width.is_none() && !is_port;
         open.then(|| CircuitError::UnknownWidth { net: net.name.clone() }.at(target.span))
-    }
-
-    pub(crate) fn index(&mut self, index: &tree::Index) -> (SizeId, SizeId) {
-        let high = self.size(index.high);
-        (high, index.low.map_or(high, |low| self.size(low)))
     }
 
     /// Reports nets that are never driven and nets that are never read.
@@ -347,8 +456,31 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
+    /// What a name in an expression stands for if it is no net: an integer or a member of an enumeration.
+    pub(crate) fn named_constant(&mut self, name: &tree::NameSyntax) -> Option<ExpressionKind> {
+        let declared = self.declared;
+        match self.lookup(&name.text) {
+            Some(binding @ Binding::Variable(slot, _)) => {
+                self.refer(name.span, binding);
+                let size = self.push_size(SizeKind::Variable(slot), name.span);
+                Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
+            }
+            Some(Binding::Net(_)) => None,
+            None => {
+                if let Some((place, member)) = declared.member(&name.text, self.home) {
+                    declared.members.refer_to(&name.text, name.span, self.home);
+                    return Some(ExpressionKind::Bits(declared.all[place].bits(member.value)));
+                }
+                let value = declared.integers.find(&name.text, self.home)?;
+                declared.integers.refer_to(&name.text, name.span, self.home);
+                let size = self.push_size(SizeKind::Literal(value), name.span);
+                Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
+            }
+        }
+    }
+
     fn unknown_net(&self, name: &tree::NameSyntax) -> Diagnostic {
-        let circuit = self.names.find(&name.text, self.home);
+        let circuit = self.declared.circuits.find(&name.text, self.home);
         let circuit = circuit.map(|circuit| self.headers.circuits[circuit].signature());
         if let (None, Some(bit)) = (&circuit, constant::truth(&name.text)) {
             return NameError::Truth { word: name.text.clone(), bit }.at(name.span);
@@ -356,7 +488,8 @@ impl<'a> CircuitChecker<'a> {
         let meant = if circuit.is_some() || self.diagnostics.len() >= suggest::MOST {
             Suggestion::None
         } else {
-            Suggestion::of(&name.text, self.nets_in_scope())
+            let members = self.declared.members.all().collect::<Vec<_>>();
+            Suggestion::of(&name.text, self.nets_in_scope().chain(members))
         };
         if circuit.is_none() && !matches!(meant, Suggestion::Near(_)) && constant::is_unknown(&name.text) {
             return NameError::UnknownBit { word: name.text.clone() }.at(name.span);

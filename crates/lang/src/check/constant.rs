@@ -48,3 +48,23 @@ pub fn value(digits: &str, radix: u32) -> Result<u128, IntErrorKind> {
     }
     u128::from_str_radix(&digits, radix).map_err(|error| *error.kind())
 }
+
+/// The value of a number as it is written, and its width if it has one: `12`, `0x1f`, `4'b0101`.
+pub(crate) fn sized(word: &str) -> Option<(Option<u32>, u128)> {
+    if let Some((width, constant)) = word.split_once('\'') {
+        let width = width.parse::<u32>().ok().filter(|width| (1..=128).contains(width))?;
+        let value = value(constant.get(1..)?, radix(constant.chars().next()?)?).ok()?;
+        return (width == u128::BITS || value >> width == 0).then_some((Some(width), value));
+    }
+    unsized_number(word).map(|value| (None, value))
+}
+
+/// The value of a number without a width: `12`, `0x1f`, `0b101`.
+pub(crate) fn unsized_number(word: &str) -> Option<u128> {
+    let (digits, base) = match word.as_bytes().get(1) {
+        Some(b'x' | b'X') => (word.get(2..)?, 16),
+        Some(b'b' | b'B') => (word.get(2..)?, 2),
+        _ => (word, 10),
+    };
+    (word.starts_with(|c: char| c.is_ascii_digit())).then(|| value(digits, base).ok()).flatten()
+}

@@ -6,11 +6,12 @@ use std::num::IntErrorKind;
 use crate::check::circuit::{CircuitChecker, Header};
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::check::number::NumberPlace;
 use crate::check::wording::{CircuitError, NameError, OperandError};
 use crate::syntax::tree::{self, Infix};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, Operator, SizeId};
+use nbc_base::model::{
+    CircuitId, ExpressionId, ExpressionKind, FreeNumber, Operator, Relation, SizeId, SizeKind, SizeOperator,
+};
 use nbc_base::source::Span;
 
 /// The operators that can be written as calls.
@@ -21,35 +22,31 @@ fn circuit_of(infix: Infix) -> &'static str {
     match infix {
         Infix::Add => "add",
         Infix::Subtract => "subtract",
-        Infix::Equal => "equal",
-        Infix::NotEqual => "not_equal",
-        Infix::Less => "less",
-        Infix::Greater => "greater",
-        Infix::AtMost => "at_most",
-        Infix::AtLeast => "at_least",
+        Infix::Multiply => "multiply",
+        Infix::ShiftLeft => "shift_left",
+        Infix::ShiftRight => "shift_right",
+        Infix::Compare(Relation::Equal) => "equal",
+        Infix::Compare(Relation::NotEqual) => "not_equal",
+        Infix::Compare(Relation::Less) => "less",
+        Infix::Compare(Relation::Greater) => "greater",
+        Infix::Compare(Relation::AtMost) => "at_most",
+        Infix::Compare(Relation::AtLeast) => "at_least",
         Infix::Bitwise(operator) => operator.word(),
     }
 }
 
 impl<'a> CircuitChecker<'a> {
-    /// Resolves an expression from its leaves to its root without recursion. The root has a value for each target.
-    pub(crate) fn expression(
-        &mut self,
-        root: tree::ExpressionSyntaxId,
-        targets: &[tree::TargetSyntax],
-    ) -> ExpressionId {
+    /// Resolves an expression from its leaves to its root without recursion. The root has so many values.
+    pub(crate) fn expression(&mut self, root: tree::ExpressionSyntaxId, values: usize) -> ExpressionId {
         let body = self.body;
         let mut done: Vec<ExpressionId> = Vec::new();
         for at in first_leaf(&body.expressions, root) as usize..=root.0 as usize {
             let expression = &body.expressions[at];
-            let outputs = if at == root.0 as usize { targets.len() } else { 1 };
+            let outputs = if at == root.0 as usize { values } else { 1 };
             if let tree::ExpressionSyntaxKind::Group(_) = expression.kind {
                 continue;
             }
-            let kind = match &expression.kind {
-                tree::ExpressionSyntaxKind::Digits(digits) => self.digits(digits, NumberPlace { at, root, targets }),
-                _ => self.kind(expression, outputs, &mut done),
-            };
+            let kind = self.kind(expression, outputs, &mut done);
             let id = self.push(kind, expression.span);
             done.push(id);
         }
@@ -85,10 +82,11 @@ impl<'a> CircuitChecker<'a> {
             tree::ExpressionSyntaxKind::Computed { width, value } => {
                 ExpressionKind::Computed { width: self.size(*width), value: self.size(*value) }
             }
-            tree::ExpressionSyntaxKind::Net { name, index } => self.reference(name, index.as_ref()),
-            tree::ExpressionSyntaxKind::Group(_) | tree::ExpressionSyntaxKind::Digits(_) => {
-                unreachable!("groups are passed over, and numbers without a width are read before")
+            tree::ExpressionSyntaxKind::Net { name, index, second } => {
+                self.reference(name, [index.as_ref(), second.as_ref()], done)
             }
+            tree::ExpressionSyntaxKind::Digits(digits) => self.digits(digits, span),
+            tree::ExpressionSyntaxKind::Group(_) => unreachable!("groups are passed over"),
             tree::ExpressionSyntaxKind::Concatenation(parts) => ExpressionKind::Concatenation(take(done, parts.len())),
             tree::ExpressionSyntaxKind::Repetition { count, values } => {
                 self.repetition(*count, take(done, values.len()), span)
@@ -105,10 +103,10 @@ impl<'a> CircuitChecker<'a> {
                 ExpressionKind::Choice { condition, then, otherwise }
             }
             tree::ExpressionSyntaxKind::Call { name, arguments, operands } => {
-                let operands = take(done, operands.len());
-                self.call(name, arguments, operands, outputs, span)
+                let values = take(done, operands.len());
+                self.call(name, arguments, operands, &values, outputs, span)
             }
-            tree::ExpressionSyntaxKind::Table { inputs, rows } => {
+            tree::ExpressionSyntaxKind::Table { inputs, rows, .. } => {
                 let outputs = take(done, table_values(rows).count());
                 let inputs = take(done, inputs.len());
                 let table = self.table(rows, &outputs, span);
@@ -132,12 +130,14 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Number { width, value }
     }
 
-    fn reference(&mut self, name: &tree::NameSyntax, index: Option<&tree::Index>) -> ExpressionKind {
-        let bits = index.map(|index| self.index(index));
-        match (self.net(name), bits) {
-            (None, _) => ExpressionKind::Bits(vec![false]),
-            (Some(net), None) => ExpressionKind::Net(net),
-            (Some(net), Some((high, low))) => ExpressionKind::Slice { net, high, low },
+    /// A number without a width.
+    fn digits(&mut self, digits: &str, span: Span) -> ExpressionKind {
+        match constant::unsized_number(digits) {
+            Some(value) => ExpressionKind::Unsized(FreeNumber::Literal(value)),
+            None => {
+                self.diagnostics.push(CircuitError::ConstantTooLarge.at(span));
+                ExpressionKind::Bits(vec![false])
+            }
         }
     }
 
@@ -150,16 +150,68 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Repetition { count, value }
     }
 
-    fn infix(&mut self, infix: Infix, place: Span, operands: Vec<ExpressionId>) -> ExpressionKind {
+    pub(crate) fn infix(&mut self, infix: Infix, place: Span, operands: Vec<ExpressionId>) -> ExpressionKind {
         if let Infix::Bitwise(operator) = infix {
             return operation(operator, operands);
         }
+        if let Some(folded) = self.folded(infix, &operands) {
+            return folded;
+        }
+        if let (Infix::ShiftLeft | Infix::ShiftRight, [value, by]) = (infix, &operands[..])
+            && let ExpressionKind::Unsized(number) = self.circuit.expressions[by.0 as usize].kind
+        {
+            self.forget(*by);
+            return self.shift_by(infix, place, *value, number);
+        }
         let name = circuit_of(infix);
-        let circuit = self.names.find(name, Home::Prelude).expect("the prelude declares the operators");
+        let circuit = self.declared.circuits.find(name, Home::Prelude).expect("the prelude declares the operators");
         let circuit = CircuitId(circuit as u32);
         self.calls.push((circuit, place));
         let arguments = vec![None; self.headers.circuits[circuit.0 as usize].parameters.len()];
-        ExpressionKind::Call { circuit, arguments, operands }
+        ExpressionKind::Call { circuit, arguments, operands: operands.into_iter().map(Some).collect() }
+    }
+
+    /// An operation on integers, which is one itself.
+    fn folded(&mut self, infix: Infix, operands: &[ExpressionId]) -> Option<ExpressionKind> {
+        let operator = match infix {
+            Infix::Add => SizeOperator::Add,
+            Infix::Subtract => SizeOperator::Subtract,
+            Infix::Multiply => SizeOperator::Multiply,
+            _ => return None,
+        };
+        let number = |id: ExpressionId| match self.circuit.expressions[id.0 as usize].kind {
+            ExpressionKind::Unsized(number) => Some((number, self.circuit.expressions[id.0 as usize].span)),
+            _ => None,
+        };
+        let (left, right) = (number(operands[0])?, number(operands[1])?);
+        // The parts of an integer stand before it.
+        let span = left.1.to(right.1);
+        let [left, right] = [left, right].map(|number| self.size_of_number(number));
+        let size = self.push_size(SizeKind::Binary(operator, left?, right?), span);
+        operands.iter().for_each(|&operand| self.forget(operand));
+        Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
+    }
+
+    /// Replaces a number that became a part of an integer, and is no part of the expression any more.
+    fn forget(&mut self, number: ExpressionId) {
+        self.circuit.expressions[number.0 as usize].kind = ExpressionKind::Bits(vec![false]);
+    }
+
+    fn size_of_number(&mut self, (number, span): (FreeNumber, Span)) -> Option<SizeId> {
+        match number {
+            FreeNumber::Literal(value) => Some(self.push_size(SizeKind::Literal(i64::try_from(value).ok()?), span)),
+            FreeNumber::Size(size) => Some(self.copy_of_size(size)),
+        }
+    }
+
+    /// A shift by an integer.
+    fn shift_by(&mut self, infix: Infix, place: Span, value: ExpressionId, number: FreeNumber) -> ExpressionKind {
+        let name = if infix == Infix::ShiftLeft { "shift_left_by" } else { "shift_right_by" };
+        let circuit = self.declared.circuits.find(name, Home::Prelude).expect("the prelude declares the shifts");
+        let circuit = CircuitId(circuit as u32);
+        self.calls.push((circuit, place));
+        let by = self.size_of_number((number, place)).unwrap_or_else(|| self.one(place));
+        ExpressionKind::Call { circuit, arguments: vec![None, Some(by)], operands: vec![Some(value)] }
     }
 
     fn operand_count(&mut self, operator: Operator, count: usize, span: Span) {
@@ -181,11 +233,12 @@ impl<'a> CircuitChecker<'a> {
         &mut self,
         name: &tree::NameSyntax,
         arguments: &[tree::Argument],
-        operands: Vec<ExpressionId>,
+        operands: &[tree::OperandSyntax],
+        values: &[ExpressionId],
         outputs: usize,
         span: Span,
     ) -> ExpressionKind {
-        let circuit = match self.names.resolve_beside(name, self.home, &OPERATORS) {
+        let circuit = match self.declared.circuits.resolve_beside(name, self.home, &OPERATORS) {
             Ok(circuit) => circuit,
             Err(fault) => {
                 self.diagnostics.push(match Operator::parse(&name.text.to_lowercase()) {
@@ -198,16 +251,63 @@ impl<'a> CircuitChecker<'a> {
         let headers = self.headers;
         let header = &headers.circuits[circuit];
         self.calls.push((CircuitId(circuit as u32), name.span));
-        self.call_counts(name, header, [operands.len(), outputs], span);
+        let before = self.diagnostics.len();
+        let operands = self.operands(name, header, operands, values);
+        if self.diagnostics.len() == before {
+            self.call_counts(name, header, &operands, [values.len(), outputs], span);
+        }
         self.uses.extend(arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
         let arguments = self.arguments(name, &header.parameters, arguments);
         ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
     }
 
+    /// The operands in the order of the ports. One without a name is for the port at its own place.
+    fn operands(
+        &mut self,
+        name: &tree::NameSyntax,
+        header: &Header,
+        written: &[tree::OperandSyntax],
+        values: &[ExpressionId],
+    ) -> Vec<Option<ExpressionId>> {
+        let mut operands = vec![None; header.inputs.len().max(values.len())];
+        for (at, (operand, &value)) in written.iter().zip(values).enumerate() {
+            let place = match &operand.name {
+                None => at,
+                Some(port) => {
+                    self.uses.extend(header.port(port));
+                    match header.inputs.iter().position(|input| *input == port.text) {
+                        Some(place) => place,
+                        None => {
+                            let meant = Suggestion::of(&port.text, header.inputs.iter().map(String::as_str));
+                            let (circuit, name) = (name.text.clone(), port.text.clone());
+                            let error = NameError::UnknownInput { circuit, name, is_output: false, meant };
+                            self.diagnostics.push(error.at(port.span));
+                            continue;
+                        }
+                    }
+                }
+            };
+            if operands[place].replace(value).is_some() {
+                let span = self.circuit.expressions[value.0 as usize].span;
+                let port = header.inputs.get(place).cloned().unwrap_or_default();
+                self.diagnostics.push(OperandError::TwoOperands { circuit: name.text.clone(), port }.at(span));
+            }
+        }
+        operands
+    }
+
     /// Counts the operands and outputs of a call.
-    fn call_counts(&mut self, name: &tree::NameSyntax, header: &Header, [operands, outputs]: [usize; 2], span: Span) {
+    fn call_counts(
+        &mut self,
+        name: &tree::NameSyntax,
+        header: &Header,
+        given: &[Option<ExpressionId>],
+        [operands, outputs]: [usize; 2],
+        span: Span,
+    ) {
         let (circuit, signature) = (name.text.clone(), header.signature());
-        let error = if operands != header.inputs.len() {
+        let missing = given.iter().zip(&header.optional).any(|(given, optional)| given.is_none() && !optional);
+        let error = if missing || given.len() != header.inputs.len() {
             OperandError::CallOperands { circuit, expected: header.inputs.len(), found: operands, signature }
         } else if outputs != header.outputs.len() {
             OperandError::CallOutputs { circuit, expected: header.outputs.len(), found: outputs, signature }
@@ -279,15 +379,21 @@ fn first_leaf(expressions: &[tree::ExpressionSyntax], root: tree::ExpressionSynt
     loop {
         use tree::ExpressionSyntaxKind as Kind;
         let first = match &expressions[at.0 as usize].kind {
-            Kind::Digits(_) | Kind::Constant { .. } | Kind::Computed { .. } | Kind::Net { .. } => None,
+            Kind::Net { index, second, .. } => {
+                [index, second].into_iter().flatten().find_map(|index| match index.kind {
+                    tree::IndexKind::Value(value) => Some(value),
+                    _ => None,
+                })
+            }
+            Kind::Digits(_) | Kind::Constant { .. } | Kind::Computed { .. } => None,
             Kind::Group(inner) | Kind::Not(inner) => Some(*inner),
             Kind::Infix { left, .. } => Some(*left),
             Kind::Choice { condition, .. } => Some(*condition),
             Kind::Concatenation(values)
             | Kind::Repetition { values, .. }
-            | Kind::Operation { operands: values, .. }
-            | Kind::Call { operands: values, .. } => values.first().copied(),
-            Kind::Table { inputs, rows } => inputs.first().copied().or(table_values(rows).next()),
+            | Kind::Operation { operands: values, .. } => values.first().copied(),
+            Kind::Call { operands, .. } => operands.first().map(|operand| operand.value),
+            Kind::Table { inputs, rows, .. } => inputs.first().copied().or(table_values(rows).next()),
         };
         match first {
             Some(first) => at = first,

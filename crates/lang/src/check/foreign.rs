@@ -1,10 +1,10 @@
 //! Circuits of other tools' files, translated to source text of the language.
 
-use crate::check::wording::{LoadError, at_use, of_translation};
+use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::source::{FileId, SourceFile, SourceWorld, Span};
+use nbc_base::source::{SourceFile, SourceWorld, Span, VerilogModules};
 use nbc_circuit::correspondence;
-use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb};
+use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, verilog_module};
 
 /// A file of another tool that a program uses.
 pub(super) struct Foreign<'a> {
@@ -26,10 +26,17 @@ impl Foreign<'_> {
         self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)
     }
 
-    /// The circuits of a Verilog file as source text of the language.
-    pub(super) fn verilog(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
-        let texts: Result<Vec<String>, _> = self.modules(source)?.iter().map(|design| self.circuit(design)).collect();
-        Ok(texts?.join("\n"))
+    /// The circuits of a Verilog file as source text of the language, and warnings.
+    pub(super) fn verilog(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let modules = self.world.translate_verilog(self.name, &source.text);
+        let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(source, &error), self.place)])?;
+        if modules.tops.is_empty() {
+            return Err(self.fault(LoadError::NoModules { file: self.name.to_owned() }));
+        }
+        let circuit = |name: &String| self.circuit(&self.module(&modules, source, name)?);
+        let texts: Result<Vec<String>, _> = modules.tops.iter().map(circuit).collect();
+        let warning = |wire| at_use(Diagnostic::undriven_wire(source, wire), self.place);
+        Ok((texts?.join("\n"), modules.undriven.iter().map(warning).collect()))
     }
 
     /// The circuit of an AIGER file as source text of the language.
@@ -49,20 +56,10 @@ impl Foreign<'_> {
         design
     }
 
-    /// The modules of a Verilog file that no other module contains.
-    fn modules(&self, source: &SourceFile) -> Result<Vec<Design>, Vec<Diagnostic>> {
-        let modules = self.world.translate_verilog(self.name, &source.text);
-        let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(source, &error), self.place)])?;
-        if modules.tops.is_empty() {
-            return Err(self.fault(LoadError::NoModules { file: self.name.to_owned() }));
-        }
-        modules.tops.iter().map(|name| self.module(&modules.blif, source.id, name)).collect()
-    }
-
-    fn module(&self, blif: &str, file: FileId, name: &str) -> Result<Design, Vec<Diagnostic>> {
+    fn module(&self, modules: &VerilogModules, source: &SourceFile, name: &str) -> Result<Design, Vec<Diagnostic>> {
         self.legal(name)?;
-        let design = blif::read_model(blif, file, Some(Register::CLOCK), Some(name));
-        design.map_err(|faults| faults.into_iter().map(|fault| of_translation(fault, self.place)).collect())
+        let design = verilog_module(modules, name, source, Some(Register::CLOCK));
+        design.map_err(|faults| faults.into_iter().map(|fault| at_use(fault, self.place)).collect())
     }
 
     fn circuit(&self, design: &Design) -> Result<String, Vec<Diagnostic>> {

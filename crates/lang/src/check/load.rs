@@ -180,7 +180,10 @@ impl Loader<'_> {
             CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
             CircuitSource::Blif => self.text(sources, name, path).and_then(|file| foreign.blif(sources.file(file))),
             CircuitSource::Verilog => {
-                self.text(sources, name, path).and_then(|file| foreign.verilog(sources.file(file)))
+                let file = self.text(sources, name, path)?;
+                let (text, warnings) = foreign.verilog(sources.file(file))?;
+                self.loaded.faults.extend(warnings);
+                Ok(text)
             }
         }?;
         if let Some(error) = over_limits(sources, &text) {

@@ -2,12 +2,14 @@
 //! declaration. Checking never stops at the first error.
 
 mod analysis;
+mod array;
 mod cell;
 mod circuit;
 mod consequences;
 pub mod constant;
 mod declarations;
 mod derived;
+mod enumeration;
 mod evolution;
 mod expression;
 mod fields;
@@ -18,7 +20,6 @@ mod limit;
 mod load;
 mod material;
 mod names;
-mod number;
 mod program;
 mod quantity;
 mod recursion;
@@ -30,6 +31,7 @@ mod swarm;
 mod table;
 mod test;
 mod uses;
+mod vocabulary;
 mod wording;
 mod world;
 

@@ -87,6 +87,13 @@ impl<T: Copy> NameTable<T> {
         Ok(entry.meaning)
     }
 
+    /// Notes the use of a name that [`NameTable::find`] found.
+    pub(crate) fn refer_to(&self, name: &str, place: Span, home: Home) {
+        if let Some(entry) = self.entry(name, home) {
+            self.refer(place, entry.span);
+        }
+    }
+
     fn refer(&self, place: Span, declared: Span) {
         self.uses.borrow_mut().push(NameUse { place, declared, kind: self.kind });
     }
@@ -129,6 +136,12 @@ pub(crate) struct Names {
     /// Nothing refers to a library but by its name.
     pub(crate) libraries: NameTable<()>,
     pub(crate) circuits: NameTable,
+    /// With positions in the program, and those of their members.
+    pub(crate) enumerations: NameTable,
+    pub(crate) members: NameTable<(usize, usize)>,
+    /// With their values.
+    pub(crate) integers: NameTable<i64>,
+    pub(crate) files: NameTable,
     pub(crate) swarms: NameTable<Option<usize>>,
     /// With positions among the declarations.
     pub(crate) worlds: NameTable,
@@ -143,6 +156,10 @@ impl Names {
             evolutions: NameTable::new(NameKind::Evolution),
             libraries: NameTable::new(NameKind::Library),
             circuits: NameTable::new(NameKind::Circuit),
+            enumerations: NameTable::new(NameKind::Enumeration),
+            members: NameTable::new(NameKind::Member),
+            integers: NameTable::new(NameKind::Number),
+            files: NameTable::new(NameKind::File),
             swarms: NameTable::new(NameKind::Swarm),
             worlds: NameTable::new(NameKind::World),
         }
@@ -150,9 +167,12 @@ impl Names {
 
     /// The names declared and resolved so far.
     pub(crate) fn take_uses(&self) -> Vec<NameUse> {
-        let positions = [&self.stimuli, &self.evolutions, &self.circuits, &self.worlds].map(NameTable::take_uses);
+        let positions =
+            [&self.stimuli, &self.evolutions, &self.circuits, &self.worlds, &self.enumerations, &self.files];
+        let positions = positions.map(NameTable::take_uses);
         let optional = [&self.materials, &self.schedules, &self.swarms].map(NameTable::take_uses);
-        [positions.concat(), optional.concat(), self.libraries.take_uses()].concat()
+        let others = [self.libraries.take_uses(), self.members.take_uses(), self.integers.take_uses()];
+        [positions.concat(), optional.concat(), others.concat()].concat()
     }
 }
 

@@ -7,9 +7,11 @@ use crate::check::analysis::Analysis;
 use crate::check::circuit::{Header, Headers, circuit};
 use crate::check::declarations::Declarations;
 use crate::check::derived::{CheckState, order};
+use crate::check::enumeration;
 use crate::check::evolution::{self, evolution};
 use crate::check::instance::instance;
 use crate::check::library::library;
+use crate::check::load::beside;
 use crate::check::material::material;
 use crate::check::names::{Home, Names};
 use crate::check::recursion;
@@ -18,13 +20,14 @@ use crate::check::simulate::{Schedules, spells};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::test;
 use crate::check::uses::{NameUse, NameUses};
-use crate::check::wording::{CircuitError, EvolutionError};
+use crate::check::vocabulary::Vocabulary;
+use crate::check::wording::{CircuitError, EnvironmentError, EvolutionError};
 use crate::check::world::{Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
-    CircuitId, CircuitTest, Column, Evolution, Instance, NamedWorld, Pattern, PhysicsWorld, Program, Reference,
-    Simulation, Stimulation,
+    CircuitId, CircuitTest, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, PhysicsWorld, Program,
+    Reference, Script, Simulation, Stimulation,
 };
 use nbc_base::source::{Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -39,6 +42,7 @@ pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
     assembly.library_names();
     assembly.evolutions();
     assembly.libraries();
+    assembly.named_values();
     assembly.circuits();
     assembly.swarms();
     assembly.unused_libraries();
@@ -216,6 +220,40 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    /// The enumerations, integers and files.
+    fn named_values(&mut self) {
+        for (home, declaration) in self.declarations.all() {
+            match &declaration.kind {
+                DeclarationKind::Enumeration(source) => self.enumeration(source, home),
+                DeclarationKind::Let(source) => {
+                    let value = enumeration::integer(source, home, &self.names.integers, &mut self.faults);
+                    let declared = self.names.integers.declare(&source.name, value.unwrap_or(1), home);
+                    self.note(declared);
+                }
+                DeclarationKind::File(source) => {
+                    let path = beside(&self.declarations.sources.file(source.path.span.file).name, &source.path.text);
+                    let declared = self.names.files.declare(&source.name, self.program.files.len(), home);
+                    self.note(declared);
+                    let name = source.name.text.clone();
+                    self.program.files.push(NamedFile { name, path, span: source.path.span });
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn enumeration(&mut self, source: &tree::EnumerationSyntax, home: Home) {
+        let Some(checked) = enumeration::enumeration(source, &mut self.faults) else { return };
+        let place = self.program.enumerations.len();
+        let declared = self.names.enumerations.declare(&source.name, place, home);
+        self.note(declared);
+        for (at, member) in source.members.iter().enumerate() {
+            let declared = self.names.members.declare(&member.name, (place, at), home);
+            self.note(declared);
+        }
+        self.program.enumerations.push(checked);
+    }
+
     /// Checks all circuits except their widths.
     fn circuits(&mut self) {
         let mut sources = Vec::new();
@@ -229,13 +267,16 @@ impl<'a> Assembly<'a> {
         }
         let mut calls = Vec::new();
         for &(home, source) in &sources {
-            let checked = circuit(source, home, &self.names.circuits, &self.circuits.headers);
+            let checked = circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers);
             let is_whole = !self.declarations.is_broken(source.name.span);
             self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
             self.circuits.homes.push(home);
             self.faults.extend(checked.diagnostics);
             self.inner.extend(checked.uses);
             calls.push(checked.calls);
+            if source.is_environment {
+                self.program.environments.push(CircuitId(self.program.circuits.len() as u32));
+            }
             self.program.circuits.push(checked.circuit);
         }
         let (faults, sound) = recursion::look(&calls, &self.circuits.sound, &self.circuits.headers);
@@ -336,7 +377,7 @@ impl<'a> Assembly<'a> {
         let simulations = self.simulations(&program, &mut inspector);
         let mut tests = Vec::new();
         for (span, test) in self.declarations.own_tests() {
-            tests.extend(self.test(span, test, &mut inspector));
+            tests.extend(self.test(span, test, &program, &mut inspector));
         }
         for test in &tests {
             if let Stimulation::All { reference: Reference::Body(body) } = &test.stimulation {
@@ -366,17 +407,10 @@ impl<'a> Assembly<'a> {
         let mut simulations = Vec::new();
         for declaration in self.declarations.own() {
             let DeclarationKind::Simulate(source) = &declaration.kind else { continue };
-            let swarm = match self.names.swarms.resolve(&source.swarm, Home::Own) {
-                Ok(swarm) => swarm.map(|swarm| &program.swarms[swarm]),
-                Err(fault) => {
-                    self.faults.push(fault);
-                    None
-                }
-            };
-            let Some(swarm) = swarm else { continue };
-            let Some((inputs, _)) = self.ports(&swarm.circuit, source.swarm.span, inspector) else { continue };
+            let Some(simulated) = self.simulated(&source.swarm, program) else { continue };
+            let Some((inputs, _)) = self.ports(&simulated, source.swarm.span, inspector) else { continue };
             if let tree::With::Spells { columns, .. } = &source.with {
-                self.ports_named(&swarm.circuit.circuit, columns);
+                self.ports_named(&simulated.circuit, columns);
             }
             let schedules = Schedules { names: &self.names.schedules, declared: &program.schedules };
             let at = source.swarm.span;
@@ -384,26 +418,75 @@ impl<'a> Assembly<'a> {
                 spells(&source.with, at, &inputs, Home::Own, schedules, self.declarations.sources, &mut self.faults);
             let world = self.world(source.world.as_ref());
             let (file, line) = self.declarations.line(declaration.span);
-            let (swarm, span) = (swarm.name.clone(), source.swarm.span);
-            simulations.push(Simulation { swarm, span, file, line, inputs, spells, world });
+            let (swarm, span) = (source.swarm.text.clone(), source.swarm.span);
+            simulations.push(Simulation { swarm, circuit: simulated, span, file, line, inputs, spells, world });
         }
         simulations
     }
 
-    fn test(&mut self, span: Span, source: &'a tree::Test, inspector: &mut Inspector<'_>) -> Option<CircuitTest> {
-        let world = self.world(source.world.as_ref());
+    /// The circuit of the swarm of that name, or the circuit of that name if there is no such swarm.
+    fn simulated(&mut self, name: &NameSyntax, program: &Program) -> Option<Instance> {
+        let is_circuit = self.names.circuits.find(&name.text, Home::Own).is_some();
+        if self.names.swarms.find(&name.text, Home::Own).is_none() && is_circuit {
+            let circuit = self.names.circuits.resolve(name, Home::Own).ok()?;
+            return Some(Instance::from(self.circuits.headers.circuits[circuit].name.as_str()));
+        }
+        match self.names.swarms.resolve(name, Home::Own) {
+            Ok(swarm) => swarm.map(|swarm| program.swarms[swarm].circuit.clone()),
+            Err(fault) => {
+                self.faults.push(fault);
+                None
+            }
+        }
+    }
+
+    /// The test in each of its worlds.
+    fn test(
+        &mut self,
+        span: Span,
+        source: &'a tree::Test,
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Vec<CircuitTest> {
+        let worlds: Vec<Option<PhysicsWorld>> = match &source.worlds[..] {
+            [] => vec![None],
+            worlds => worlds.iter().map(|world| self.world(Some(world))).collect(),
+        };
+        let Some(test) = self.test_in(span, source, program, inspector) else { return Vec::new() };
+        worlds.into_iter().map(|world| CircuitTest { world, ..test.clone() }).collect()
+    }
+
+    fn test_in(
+        &mut self,
+        span: Span,
+        source: &'a tree::Test,
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<CircuitTest> {
         let tested = self.instance(&source.circuit)?;
         let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
+        let ports = (&inputs[..], &outputs[..]);
+        let environment = match &source.environment {
+            Some(name) => Some(self.environment(name, &tested, ports, program, inspector)?),
+            None => None,
+        };
         let stimulation = match &source.kind {
             tree::TestKind::Table(table) => {
                 self.ports_named(&tested.circuit, &table.inputs);
                 self.ports_named(&tested.circuit, &table.outputs);
-                let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs };
-                Stimulation::Rows(test::rows(table, &ports, self.declarations.sources, &mut self.faults))
+                let given = environment.as_ref().map_or(Vec::new(), |(_, given)| given.clone());
+                let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs, given };
+                let steps = test::steps(table, &ports, self.declarations.sources, &mut self.faults);
+                let environment = environment.map(|(environment, _)| environment);
+                if environment.is_some() || steps.iter().any(|step| step.until.is_some()) {
+                    Stimulation::Script(Script { environment, steps })
+                } else {
+                    Stimulation::Rows(steps.into_iter().flat_map(|step| step.rows).collect())
+                }
             }
-            tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, (&inputs, &outputs))?,
+            tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, ports)?,
             tree::TestKind::Reference(body) => {
-                let circuit = self.reference(&tested, &source.circuit.name, body, (&inputs, &outputs))?;
+                let circuit = self.reference(&tested, &source.circuit.name, body, ports, program)?;
                 Stimulation::All { reference: Reference::Body(Box::new(circuit)) }
             }
         };
@@ -417,7 +500,61 @@ impl<'a> Assembly<'a> {
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
-        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world })
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world: None })
+    }
+
+    /// The environment of a test, and the inputs of the circuit that it gives. Its inputs are outputs of the circuit,
+    /// or inputs that have columns; its outputs are inputs of the circuit, or what it prints.
+    fn environment(
+        &mut self,
+        name: &NameSyntax,
+        tested: &Instance,
+        (inputs, outputs): (&[Column], &[Column]),
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<(CircuitId, Vec<String>)> {
+        let place = match self.names.circuits.resolve(name, Home::Own) {
+            Ok(place) => CircuitId(place as u32),
+            Err(fault) => {
+                self.faults.push(fault);
+                return None;
+            }
+        };
+        if !program.environments.contains(&place) {
+            self.faults.push(EnvironmentError::NoEnvironment { circuit: name.text.clone() }.at(name.span));
+            return None;
+        }
+        if !self.circuits.is_sound(place) {
+            return None;
+        }
+        let (own_inputs, own_outputs) = inspector.ports(place, &[], name.span)?;
+        let circuit = &program.circuits[place.0 as usize];
+        let declared = |columns: Vec<Column>, count: usize| columns.into_iter().take(count).collect::<Vec<_>>();
+        let (own_inputs, own_outputs) = (declared(own_inputs, circuit.inputs), declared(own_outputs, circuit.outputs));
+        let before = self.faults.len();
+        let mut same = |own: &Column, others: &[&[Column]]| {
+            let found = others.iter().flat_map(|ports| ports.iter()).find(|port| port.name == own.name);
+            if let Some(port) = found.filter(|port| port.width != own.width) {
+                let error = EnvironmentError::Width { port: own.name.clone(), widths: [own.width, port.width] };
+                self.faults.push(error.at(name.span));
+            }
+            found.is_some()
+        };
+        let mut given = Vec::new();
+        for own in &own_outputs {
+            if same(own, &[inputs]) {
+                given.push(own.name.clone());
+            }
+        }
+        let (mut unknown, circuit) = (Vec::new(), tested.circuit.clone());
+        for own in &own_inputs {
+            if given.contains(&own.name) || !same(own, &[outputs, inputs]) {
+                unknown
+                    .push(EnvironmentError::NoPort { port: own.name.clone(), circuit: circuit.clone() }.at(name.span));
+            }
+        }
+        self.faults.extend(unknown);
+        (self.faults.len() == before).then_some((place, given))
     }
 
     /// Warns of tests that only their line tells apart.
@@ -431,7 +568,7 @@ impl<'a> Assembly<'a> {
                 .last()
                 .map_or(test.circuit.name.span, |last| test.circuit.name.span.to(last.span));
             let circuit = self.declarations.sources.text(instance);
-            let world = test.world.as_ref().map(|world| &world.text);
+            let world: Vec<&String> = test.worlds.iter().map(|world| &world.text).collect();
             match known.entry((circuit, &title.text, world)) {
                 Entry::Vacant(entry) => _ = entry.insert(title.span),
                 Entry::Occupied(first) => {
@@ -475,18 +612,19 @@ impl<'a> Assembly<'a> {
         tested: &NameSyntax,
         body: &tree::BodySyntax,
         ports: (&[Column], &[Column]),
+        program: &Program,
     ) -> Option<nbc_base::model::Circuit> {
         let mut body = body.clone();
         let mut port = |column: &Column| {
             let kind = tree::SizeSyntaxKind::Literal(column.width.to_string());
             body.sizes.push(tree::SizeSyntax { kind, span: tested.span });
             let name = NameSyntax { text: column.name.clone(), span: tested.span };
-            tree::Port { name, width: Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)) }
+            tree::Port::new(name, Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)))
         };
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
-        let source = tree::CircuitSyntax { name, parameters: Vec::new(), inputs, outputs, body };
-        let checked = circuit(&source, Home::Own, &self.names.circuits, &self.circuits.headers);
+        let source = tree::CircuitSyntax { is_environment: false, name, parameters: Vec::new(), inputs, outputs, body };
+        let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers);
         let sound = !self.declarations.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|&(callee, _)| self.circuits.is_sound(callee));
         // Its ports are those of the tested circuit.

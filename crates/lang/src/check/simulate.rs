@@ -107,7 +107,7 @@ fn rows(
         return None;
     }
     let mut bits: Vec<Vec<bool>> = inputs.iter().map(|input| vec![false; input.width]).collect();
-    let mut bases: Vec<Base> = inputs.iter().map(|input| Base::of_width(input.width)).collect();
+    let mut bases: Vec<Base> = inputs.iter().map(Base::of_port).collect();
     for (word, &place) in spell.cells.iter().zip(places) {
         match input_cell(word, &inputs[place]) {
             Ok(RowCell::Bits(values, base)) if values.iter().all(Option::is_some) => {

@@ -3,7 +3,7 @@
 use crate::check::circuit::{Binding, CircuitChecker};
 use crate::check::wording::{NameError, ValueError};
 use crate::syntax::tree;
-use nbc_base::diag::Suggestion;
+use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Size, SizeId, SizeKind};
 use nbc_base::source::Span;
 
@@ -33,7 +33,24 @@ impl CircuitChecker<'_> {
         self.push_size(SizeKind::Literal(1), span)
     }
 
-    fn push_size(&mut self, kind: SizeKind, span: Span) -> SizeId {
+    /// The same integer again, to be a part of another one.
+    pub(crate) fn copy_of_size(&mut self, size: SizeId) -> SizeId {
+        let first = Size::first_part(&self.circuit.sizes, size);
+        let shift = self.circuit.sizes.len() as u32 - first.0;
+        let moved = |id: SizeId| SizeId(id.0 + shift);
+        for at in first.0..=size.0 {
+            let Size { kind, span } = self.circuit.sizes[at as usize];
+            let kind = match kind {
+                SizeKind::Log2(inner) => SizeKind::Log2(moved(inner)),
+                SizeKind::Binary(operator, left, right) => SizeKind::Binary(operator, moved(left), moved(right)),
+                leaf => leaf,
+            };
+            self.push_size(kind, span);
+        }
+        moved(size)
+    }
+
+    pub(crate) fn push_size(&mut self, kind: SizeKind, span: Span) -> SizeId {
         self.circuit.sizes.push(Size { kind, span });
         SizeId(self.circuit.sizes.len() as u32 - 1)
     }
@@ -57,6 +74,10 @@ impl CircuitChecker<'_> {
                 self.used[slot.0 as usize] = true;
                 NameError::NetForNumber { name }
             }
+            None if self.declared.integers.find(&name, self.home).is_some() => {
+                self.declared.integers.refer_to(&name, span, self.home);
+                return SizeKind::Literal(self.declared.integers.find(&name, self.home).expect("it was found"));
+            }
             None => NameError::UnknownNumber { meant: Suggestion::of(&name, self.numbers_in_scope()), name },
         };
         self.diagnostics.push(error.at(span));
@@ -72,8 +93,27 @@ impl CircuitChecker<'_> {
     }
 }
 
+/// The value of the last of some sizes, where only names that `known` knows are defined.
+pub(crate) fn value(sizes: &[tree::SizeSyntax], known: impl Fn(&str) -> Option<i64>) -> Result<i64, Diagnostic> {
+    let mut values: Vec<i64> = Vec::with_capacity(sizes.len());
+    for size in sizes {
+        let at = |id: tree::SizeSyntaxId| values[id.0 as usize];
+        let value = match &size.kind {
+            tree::SizeSyntaxKind::Literal(digits) => digits.parse::<u32>().ok().map(i64::from),
+            tree::SizeSyntaxKind::Name(name) => Some(known(name).ok_or_else(|| {
+                NameError::UnknownNumber { name: name.clone(), meant: Suggestion::None }.at(size.span)
+            })?),
+            tree::SizeSyntaxKind::Log2(inner) => Some(SizeKind::log2(at(*inner))),
+            tree::SizeSyntaxKind::Group(inner) => Some(at(*inner)),
+            tree::SizeSyntaxKind::Binary(operator, left, right) => operator.apply(at(*left), at(*right)),
+        };
+        values.push(value.ok_or_else(|| ValueError::TooLarge.at(size.span))?);
+    }
+    Ok(*values.last().expect("an integer has a size"))
+}
+
 /// The first size of the contiguous range that ends with `root`.
-fn first_leaf(sizes: &[tree::SizeSyntax], root: tree::SizeSyntaxId) -> u32 {
+pub(crate) fn first_leaf(sizes: &[tree::SizeSyntax], root: tree::SizeSyntaxId) -> u32 {
     let mut at = root;
     loop {
         at = match sizes[at.0 as usize].kind {

@@ -1,18 +1,12 @@
-//! Truth tables: exactly one row for every pattern.
+//! Truth tables: their patterns and outputs as written.
 
 use crate::check::circuit::CircuitChecker;
 use crate::check::constant;
-use crate::check::wording::TableError;
 use crate::syntax::tree;
-use nbc_base::diag::Diagnostic;
-use nbc_base::model::{ExpressionId, OutputValue, Table, TableOutput, TableRow};
+use nbc_base::diag::Suggestion;
+use nbc_base::model::{ExpressionId, OutputValue, Table, TableOutput, TablePattern, TableRow};
 use nbc_base::source::Span;
-
-/// The most rows of a table. All pairs of rows are compared.
-const MAX_ROWS: usize = 4096;
-
-/// The most input bits of a table.
-const MAX_BITS: usize = 64;
+use nbc_circuit::elaborate::{TableError, table_fault};
 
 impl CircuitChecker<'_> {
     /// The table of these rows; `values` are the outputs that are expressions.
@@ -22,8 +16,8 @@ impl CircuitChecker<'_> {
         for row in rows {
             let output = match &row.output {
                 tree::TableOutputSyntax::Bits(word) => {
-                    let Some(bits) = self.bits(word) else { continue };
-                    TableOutput { value: OutputValue::Bits(bits), span: word.span }
+                    let Some(value) = self.output_value(word) else { continue };
+                    TableOutput { value, span: word.span }
                 }
                 tree::TableOutputSyntax::Value(_) => {
                     let (index, value) = values.next().expect("every expression has its value");
@@ -31,15 +25,24 @@ impl CircuitChecker<'_> {
                     TableOutput { value: OutputValue::Expression(index), span }
                 }
             };
-            match &row.pattern {
-                Some(pattern) => {
-                    let span = pattern.span;
-                    table.rows.extend(self.bits(pattern).map(|pattern| TableRow { pattern, span, output }));
-                }
-                None => self.otherwise(&mut table, output, row.span),
+            for word in &row.patterns {
+                let row = |pattern| TableRow { pattern, span: word.span, output: output.clone() };
+                table.rows.extend(self.pattern(word).map(row));
+            }
+            if row.patterns.is_empty() {
+                self.otherwise(&mut table, output, row.span);
             }
         }
-        self.table_faults(&table);
+        if !table.is_in_bits() {
+            // A single digit beside numbers is one, too.
+            for row in &mut table.rows {
+                if let Some(value) = row.pattern.digit() {
+                    row.pattern = TablePattern::Number(value);
+                }
+            }
+        } else {
+            self.diagnostics.extend(table_fault(&table));
+        }
         table
     }
 
@@ -52,95 +55,35 @@ impl CircuitChecker<'_> {
         }
     }
 
-    /// All of `1`, `0` and `-`; underscores separate.
-    fn bits(&mut self, word: &tree::NameSyntax) -> Option<Vec<Option<bool>>> {
-        let bits = constant::pattern(&word.text);
-        if bits.is_none() {
-            self.diagnostics.push(TableError::NotAPattern { word: word.text.clone() }.at(word.span));
+    /// A pattern: bits, a member of an enumeration, or a number.
+    fn pattern(&mut self, word: &tree::NameSyntax) -> Option<TablePattern> {
+        if let Some(bits) = constant::pattern(&word.text) {
+            return Some(TablePattern::Bits(bits));
         }
-        bits
+        if let Some(value) = constant::unsized_number(&word.text) {
+            return Some(TablePattern::Number(value));
+        }
+        let declared = self.declared;
+        if let Some((place, member)) = declared.member(&word.text, self.home) {
+            declared.members.refer_to(&word.text, word.span, self.home);
+            let bits = declared.all[place].bits(member.value);
+            return Some(TablePattern::Bits(bits.into_iter().map(Some).collect()));
+        }
+        let meant = Suggestion::of(&word.text, declared.members.all());
+        self.diagnostics.push(TableError::NotAPattern { word: word.text.clone(), meant }.at(word.span));
+        None
     }
 
-    fn table_faults(&mut self, table: &Table) {
-        let found = if table.rows.len() > MAX_ROWS {
-            Some(TableError::TooManyRows { rows: table.rows.len(), most: MAX_ROWS }.at(table.span))
-        } else if let Some(row) = table.rows.iter().find(|row| row.pattern.len() > MAX_BITS) {
-            Some(TableError::TooManyBits { bits: row.pattern.len(), most: MAX_BITS }.at(row.span))
-        } else {
-            let patterns = uneven(table.rows.iter().map(|row| (row.pattern.len(), row.span)), "patterns");
-            patterns
-                .or_else(|| uneven(table.outputs().filter_map(written), "outputs"))
-                .or_else(|| overlap(table))
-                .or_else(|| missing(table))
-        };
-        self.diagnostics.extend(found);
+    /// An output of digits: bits, or a number that is as wide as the others; a single digit is both.
+    fn output_value(&mut self, word: &tree::NameSyntax) -> Option<OutputValue> {
+        match (constant::pattern(&word.text), constant::unsized_number(&word.text)) {
+            (Some(bits), _) if bits.len() != 1 || bits[0].is_none() => Some(OutputValue::Bits(bits)),
+            (_, Some(value)) => Some(OutputValue::Number(value)),
+            _ => {
+                let error = TableError::NotAPattern { word: word.text.clone(), meant: Suggestion::None };
+                self.diagnostics.push(error.at(word.span));
+                None
+            }
+        }
     }
-}
-
-/// The width of an output that is not an expression, with its place.
-fn written(output: &TableOutput) -> Option<(usize, Span)> {
-    match &output.value {
-        OutputValue::Bits(bits) => Some((bits.len(), output.span)),
-        OutputValue::Expression(_) => None,
-    }
-}
-
-/// The first width that differs from the previous one.
-fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &'static str) -> Option<Diagnostic> {
-    let widths: Vec<_> = widths.collect();
-    let pair = widths.windows(2).find(|pair| pair[0].0 != pair[1].0)?;
-    let [(before, first), (here, span)] = [pair[0], pair[1]];
-    Some(TableError::Uneven { what, bits: [before, here], first }.at(span))
-}
-
-fn overlap(table: &Table) -> Option<Diagnostic> {
-    let both = |a: &TableRow, b: &TableRow| {
-        a.pattern.iter().zip(&b.pattern).all(|(a, b)| a.is_none() || b.is_none() || a == b)
-    };
-    table.rows.iter().enumerate().find_map(|(at, row)| {
-        let first = table.rows[..at].iter().find(|first| both(first, row))?;
-        Some(TableError::Overlap { first: first.span }.at(row.span))
-    })
-}
-
-/// A pattern that no row matches, if there is no `else`. The rows do not overlap, so counting tells whether such a
-/// pattern exists.
-fn missing(table: &Table) -> Option<Diagnostic> {
-    if table.otherwise.is_some() {
-        return None;
-    }
-    let width = table.rows.first().map_or(0, |row| row.pattern.len());
-    let mut left: Vec<&TableRow> = table.rows.iter().collect();
-    let mut example = String::new();
-    for bit in 0..width {
-        let side = [false, true].into_iter().find(|side| !covers(&left, bit, *side, width))?;
-        left.retain(|row| row.pattern[bit].is_none_or(|value| value == side));
-        example.push(if side { '1' } else { '0' });
-    }
-    if !left.is_empty() {
-        return None;
-    }
-    let error = match example.is_empty() {
-        true => TableError::Empty,
-        false => TableError::MissingRow { pattern: example, rest: rest(table) },
-    };
-    Some(error.at(table.span))
-}
-
-/// A row of zeros for the remaining patterns, and the end of the last row; `None` if the width of the outputs is not
-/// written in a row.
-fn rest(table: &Table) -> Option<(u32, String)> {
-    let last = table.rows.last()?.output.span.end;
-    let bits = table.outputs().find_map(|output| match &output.value {
-        OutputValue::Bits(bits) => Some(bits.len()),
-        OutputValue::Expression(_) => None,
-    })?;
-    Some((last, format!("else: {}", "0".repeat(bits))))
-}
-
-/// Whether non-overlapping rows match every pattern with this value at `bit`, where the bits before it are fixed.
-fn covers(rows: &[&TableRow], bit: usize, side: bool, width: usize) -> bool {
-    let here = rows.iter().filter(|row| row.pattern[bit].is_none_or(|value| value == side));
-    let free = |row: &&&TableRow| row.pattern[bit + 1..width].iter().filter(|value| value.is_none()).count();
-    here.map(|row| 1u128 << free(&row)).sum::<u128>() >= 1 << (width - bit - 1)
 }

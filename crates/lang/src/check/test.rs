@@ -4,9 +4,9 @@ use crate::check::cell::{RowCell, cell, input_cell};
 use crate::check::names::duplicate;
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
-use crate::syntax::tree::{self, NameSyntax, TestTable};
+use crate::syntax::tree::{self, NameSyntax, TestItem, TestTable, UntilSyntax};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::model::{Base, Column, TestRow};
+use nbc_base::model::{Base, Column, ScriptStep, TestRow, Until};
 use nbc_base::source::{Sources, Span};
 
 /// The ports of the circuit under test.
@@ -14,15 +14,20 @@ pub(crate) struct Ports<'a> {
     pub(crate) circuit: &'a str,
     pub(crate) inputs: &'a [Column],
     pub(crate) outputs: &'a [Column],
+    /// The inputs that an environment gives, which have no columns.
+    pub(crate) given: Vec<String>,
 }
 
-/// The rows of a test, as bits in order of the ports.
-pub(crate) fn rows(
+/// The most rows of a test, those that are repeated counted each time.
+const MAX_ROWS: usize = 1_000_000;
+
+/// The steps of a test, as bits in order of the ports.
+pub(crate) fn steps(
     table: &TestTable,
     ports: &Ports<'_>,
     sources: &Sources,
     faults: &mut Vec<Diagnostic>,
-) -> Vec<TestRow> {
+) -> Vec<ScriptStep> {
     let before = faults.len();
     let inputs = ports.places(&table.inputs, true, faults);
     let outputs = ports.places(&table.outputs, false, faults);
@@ -34,7 +39,9 @@ pub(crate) fn rows(
         return Vec::new();
     }
     let columns = Columns { ports, inputs: &inputs, outputs: &outputs, sources };
-    table.rows.iter().enumerate().flat_map(|(at, row)| columns.row(at + 1, row, faults)).collect()
+    let (mut steps, mut number) = (Vec::new(), 0);
+    columns.items(&table.rows, &mut number, &mut steps, faults);
+    steps
 }
 
 impl Ports<'_> {
@@ -47,6 +54,9 @@ impl Ports<'_> {
                 faults.push(duplicate("column", name, first.span));
             }
             match own.iter().position(|column| column.name == name.text) {
+                Some(_) if inputs && self.given.contains(&name.text) => {
+                    faults.push(RowError::GivenInput { input: name.text.clone() }.at(name.span));
+                }
                 Some(place) => places.push(place),
                 None => faults.push(self.no_port(name, inputs)),
             }
@@ -72,6 +82,7 @@ fn missing_inputs(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnos
         .inputs
         .iter()
         .map(|column| column.name.clone())
+        .filter(|input| !ports.given.contains(input))
         .filter(|input| !table.inputs.iter().any(|name| name.text == *input))
         .collect();
     if !missing.is_empty() {
@@ -89,6 +100,56 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
+    /// The steps of rows and repeated rows; `number` is that of the last row.
+    fn items(&self, items: &[TestItem], number: &mut usize, steps: &mut Vec<ScriptStep>, faults: &mut Vec<Diagnostic>) {
+        for item in items {
+            match item {
+                TestItem::Row(row) => {
+                    *number += 1;
+                    let rows = self.row(*number, row, faults);
+                    let until = row.until.as_ref().map(|until| self.until(until));
+                    let until = until.map(|until| until.map_err(|fault| faults.push(fault)).ok());
+                    if !rows.is_empty() {
+                        steps.push(ScriptStep { rows, until: until.flatten() });
+                    }
+                }
+                TestItem::Repeat { times, rows, span } => {
+                    let Some(times) = times.text.parse::<usize>().ok().filter(|times| *times > 0) else {
+                        faults.push(RowError::NoTimes { text: times.text.clone() }.at(times.span));
+                        continue;
+                    };
+                    let mut once = Vec::new();
+                    self.items(rows, number, &mut once, faults);
+                    if steps.len().saturating_add(once.len().saturating_mul(times)) > MAX_ROWS {
+                        faults.push(RowError::TooManyRows { most: MAX_ROWS }.at(*span));
+                        continue;
+                    }
+                    steps.extend(std::iter::repeat_n(once, times).flatten());
+                }
+            }
+        }
+    }
+
+    /// When the repetition of a row ends.
+    fn until(&self, source: &UntilSyntax) -> Result<Until, Diagnostic> {
+        let name = &source.output;
+        let place = self.ports.outputs.iter().position(|column| column.name == name.text);
+        let place = place.ok_or_else(|| self.ports.no_port(name, false))?;
+        let column = &self.ports.outputs[place];
+        let bits = match &source.value {
+            None if column.width == 1 => vec![Some(true)],
+            None => return Err(RowError::UntilWithoutValue { output: name.text.clone() }.at(name.span)),
+            Some(word) => match cell(word, column)? {
+                RowCell::Bits(bits, _) => bits,
+                RowCell::Pulse => return Err(CellError::PulsedOutput.at(word.span)),
+            },
+        };
+        let most = source.most.text.parse::<usize>().ok().filter(|most| (1..=MAX_ROWS).contains(most));
+        let most = most.ok_or_else(|| RowError::TooManyRows { most: MAX_ROWS }.at(source.most.span))?;
+        let first = self.ports.outputs[..place].iter().map(|column| column.width).sum();
+        Ok(Until { first, bits, most, output: name.text.clone(), span: name.span })
+    }
+
     /// A row as bits; two rows for a rising edge of a clock.
     fn row(&self, number: usize, row: &tree::TestRowSyntax, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
         if let Some(fault) = self.shape_fault(row) {
@@ -96,7 +157,12 @@ impl Columns<'_> {
             return Vec::new();
         }
         let mut found = Vec::new();
-        let inputs = cells(&row.inputs, self.inputs, self.ports.inputs, input_cell, &mut found);
+        let mut inputs = cells(&row.inputs, self.inputs, self.ports.inputs, input_cell, &mut found);
+        for (input, port) in inputs.iter_mut().zip(self.ports.inputs) {
+            if self.ports.given.contains(&port.name) {
+                *input = Some(RowCell::Bits(vec![Some(false); port.width], Base::of_port(port)));
+            }
+        }
         let outputs = cells(&row.outputs, self.outputs, self.ports.outputs, cell, &mut found);
         let hold = row.hold.as_ref().and_then(|hold| quantity::cycles(hold).map_err(|fault| found.push(fault)).ok());
         let expected = output_bits(&outputs, &row.outputs, &mut found);
@@ -141,7 +207,7 @@ fn cells(
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<Option<RowCell>> {
     let mut cells: Vec<_> =
-        ports.iter().map(|port| Some(RowCell::Bits(vec![None; port.width], Base::of_width(port.width)))).collect();
+        ports.iter().map(|port| Some(RowCell::Bits(vec![None; port.width], Base::of_port(port)))).collect();
     for (word, &place) in words.iter().zip(places) {
         cells[place] = read(word, &ports[place]).map_err(|fault| faults.push(fault)).ok();
     }

@@ -21,9 +21,15 @@ pub enum NameKind {
     World,
     /// A circuit, with or without parameters.
     Circuit,
+    /// An enumeration of values.
+    Enumeration,
+    /// A member of an enumeration.
+    Member,
+    /// A file that memories begin with.
+    File,
     /// A port or another net of a circuit.
     Net,
-    /// A parameter of a circuit, or the variable of a loop.
+    /// A parameter of a circuit, the variable of a loop, or an integer with a name.
     Number,
 }
 
@@ -39,6 +45,9 @@ impl NameKind {
             Self::Swarm => "swarm",
             Self::World => "world",
             Self::Circuit => "circuit",
+            Self::Enumeration => "enumeration",
+            Self::Member => "member of an enumeration",
+            Self::File => "file",
             Self::Net => "net",
             Self::Number => "number",
         }

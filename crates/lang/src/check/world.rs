@@ -5,10 +5,10 @@ use crate::check::derived::{self, CheckState};
 use crate::check::fields::{self, Fields};
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::Expected;
+use crate::check::wording::{Expected, ValueError};
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
+use nbc_base::model::{GroundProfile, NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
 
 /// The worlds that other declarations may name.
 #[derive(Clone, Copy)]
@@ -62,10 +62,11 @@ pub(crate) fn world(
         dead: fields.read("dead", base.noise.dead, share),
         seed: fields.read("seed", base.noise.seed as u32, |value| quantity::count(value, 0..=u32::MAX)).into(),
     };
+    let ground = fields.read("ground", base.ground, ground);
     let found = fields.finish();
     let sound = found.is_empty() && whole;
     faults.extend(found);
-    let world = PhysicsWorld { factors, noise };
+    let world = PhysicsWorld { factors, noise, ground };
     let named = || NamedWorld { name: source.name.text.clone(), world };
     if sound { CheckState::Sound(Box::new(named())) } else { CheckState::Faulty }
 }
@@ -90,6 +91,21 @@ pub(crate) fn variation(value: &ValueSyntax) -> Result<Variation, Diagnostic> {
 /// The largest change of a quantity.
 fn change(name: &str, value: &ValueSyntax) -> Result<f64, Diagnostic> {
     if name == "start" { voxels(value) } else { ratio(value, 0.0..=Variation::most(name)) }
+}
+
+/// The heights of the columns of the ground, one after another.
+fn ground(value: &ValueSyntax) -> Result<GroundProfile, Diagnostic> {
+    let (values, most) = (fields::list(value), GroundProfile::MOST_COLUMNS);
+    match values.len() {
+        0 => return Err(ValueError::EmptyList { field: "ground" }.at(value.span)),
+        entries if entries > most => {
+            return Err(ValueError::LongList { field: "ground", entries, most }.at(value.span));
+        }
+        _ => (),
+    }
+    let height = |value| quantity::count(value, 0..=GroundProfile::MOST_HEIGHT.into()).map(|height| height as u8);
+    let heights: Vec<u8> = values.iter().map(height).collect::<Result<_, _>>()?;
+    Ok(GroundProfile::new(&heights).expect("each height is in its range"))
 }
 
 /// A factor of the paper's physics.

@@ -9,7 +9,8 @@ use crate::syntax::arena::Arena;
 use crate::syntax::grammar::Rule;
 use crate::syntax::lexer::is_word;
 use crate::syntax::tree::{
-    CircuitSyntax, Declaration, DeclarationKind, NameSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, Text,
+    CircuitSyntax, Declaration, DeclarationKind, EnumerationSyntax, FileSyntax, LetSyntax, MemberSyntax, NameSyntax,
+    Number, Quantity, RecordDeclaration, RecordKeyword, Text,
 };
 use crate::syntax::wording::Slip;
 use nbc_base::diag::Diagnostic;
@@ -50,7 +51,20 @@ impl Converter<'_> {
             Rule::world => self.record_declaration(RecordKeyword::World, pair),
             Rule::schedule => DeclarationKind::Schedule(self.schedule(pair)),
             Rule::simulate => DeclarationKind::Simulate(self.simulate(pair)),
-            Rule::circuit => DeclarationKind::Circuit(self.circuit(pair)),
+            Rule::circuit => DeclarationKind::Circuit(self.circuit(pair, false)),
+            Rule::environment => DeclarationKind::Circuit(self.circuit(pair, true)),
+            Rule::enumeration => DeclarationKind::Enumeration(self.enumeration(pair)),
+            Rule::constant_integer => {
+                let (mut arena, mut parts) = (Arena::default(), parts(pair));
+                let name = self.name(&parts.next().expect("a name"));
+                self.size(parts.next().expect("an integer"), &mut arena);
+                DeclarationKind::Let(LetSyntax { name, sizes: arena.sizes })
+            }
+            Rule::file_name => {
+                let mut parts = parts(pair);
+                let name = self.name(&parts.next().expect("a name"));
+                DeclarationKind::File(FileSyntax { name, path: self.quoted(parts.next().expect("a path")) })
+            }
             Rule::test => DeclarationKind::Test(self.test(pair)),
             Rule::slip_declaration => {
                 self.slip_declaration(pair);
@@ -76,7 +90,21 @@ impl Converter<'_> {
         DeclarationKind::Record(RecordDeclaration { keyword, name, record })
     }
 
-    fn circuit(&mut self, pair: Pair<Rule>) -> CircuitSyntax {
+    fn enumeration(&mut self, pair: Pair<Rule>) -> EnumerationSyntax {
+        let mut parts = parts(pair).peekable();
+        let name = self.name(&parts.next().expect("a name"));
+        let encoding = parts.next_if(|part| part.as_rule() == Rule::encoding);
+        let encoding = encoding.map(|word| self.name(&crate::syntax::convert::parts(word).next().expect("a name")));
+        let member = |pair: Pair<Rule>| {
+            let mut parts = crate::syntax::convert::parts(pair);
+            let name = self.name(&parts.next().expect("a name"));
+            MemberSyntax { name, value: parts.next().map(|value| self.name(&value)) }
+        };
+        let members = parts.map(member).collect();
+        EnumerationSyntax { name, encoding, members }
+    }
+
+    fn circuit(&mut self, pair: Pair<Rule>, is_environment: bool) -> CircuitSyntax {
         let mut arena = Arena::default();
         let mut parts = parts(pair).peekable();
         if let Some(word) = parts.next_if(|part| part.as_rule() == Rule::slip_circuit) {
@@ -90,7 +118,7 @@ impl Converter<'_> {
         let inputs = self.ports(parts.next().expect("inputs"), &mut arena);
         let outputs = self.outputs(parts.next().expect("outputs"), &mut arena);
         let statements = self.statements(parts.next().expect("a body"), &mut arena);
-        CircuitSyntax { name, parameters, inputs, outputs, body: arena.body(statements) }
+        CircuitSyntax { is_environment, name, parameters, inputs, outputs, body: arena.body(statements) }
     }
 
     /// Notes a slip that the grammar knows.
@@ -177,6 +205,17 @@ fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
                 | Rule::then_word
                 | Rule::table_word
                 | Rule::log2_word
+                | Rule::environment_word
+                | Rule::enum_word
+                | Rule::file_word
+                | Rule::let_word
+                | Rule::repeat_word
+                | Rule::until_word
+                | Rule::at_word
+                | Rule::most_word
+                | Rule::rows_word
+                | Rule::match_word
+                | Rule::or_word
         )
     })
 }

@@ -8,10 +8,11 @@ use crate::syntax::convert_expression::choice_of;
 use crate::syntax::grammar::Rule;
 use crate::syntax::lexer::is_word;
 use crate::syntax::tree::{
-    Argument, Index, ParameterSyntax, Port, SizeSyntaxId, SizeSyntaxKind, StatementKind, StatementSyntax, TargetSyntax,
+    Argument, Grouping, Index, IndexKind, ParameterSyntax, Port, SizeSyntaxId, SizeSyntaxKind, StatementKind,
+    StatementSyntax, TargetSyntax,
 };
 use crate::syntax::wording::Slip;
-use nbc_base::model::SizeOperator;
+use nbc_base::model::{Relation, SizeOperator};
 use nbc_base::source::Span;
 
 impl Converter<'_> {
@@ -25,8 +26,23 @@ impl Converter<'_> {
             .collect()
     }
 
+    /// Ports or nets, each with what follows it.
     pub(crate) fn ports(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Port> {
-        parts(pair).map(|port| self.port(port, arena)).collect()
+        let mut ports: Vec<Port> = Vec::new();
+        for part in parts(pair) {
+            match part.as_rule() {
+                Rule::absent => {
+                    let size = self.size(parts(part).next().expect("a size"), arena);
+                    ports.last_mut().expect("a port before its value").absent = Some(size);
+                }
+                Rule::contents => {
+                    let name = self.name(&parts(part).next().expect("a name"));
+                    ports.last_mut().expect("a net before its contents").contents = Some(name);
+                }
+                _ => ports.push(self.port(part, arena)),
+            }
+        }
+        ports
     }
 
     /// The outputs of a circuit, whose parentheses may be missing.
@@ -55,17 +71,23 @@ impl Converter<'_> {
             let (span, (width, text)) = (self.span(&range), self.width_of_range(range, arena));
             let slip = Slip::WidthBeforeName { name: name.text.clone(), width: text, both: span.to(name.span) };
             self.slip(slip, Span { end: span.start + 1, ..span });
-            return Port { name, width: Some(width) };
+            return Port::new(name, Some(width));
         }
-        let width = parts.next().map(|size| match size.as_rule() {
-            Rule::slip_range => {
-                let (span, (width, text)) = (self.span(&size), self.width_of_range(size, arena));
-                self.slip(Slip::RangeOfPort { port: name.text.clone(), width: text }, span);
-                width
-            }
-            _ => self.size(size, arena),
-        });
-        Port { name, width }
+        let kind = |part: &Pair<Rule>| part.as_rule() == Rule::kind;
+        let mut sizes = Vec::new();
+        while let Some(size) = parts.next_if(|part| !kind(part)) {
+            sizes.push(match size.as_rule() {
+                Rule::slip_range => {
+                    let (span, (width, text)) = (self.span(&size), self.width_of_range(size, arena));
+                    self.slip(Slip::RangeOfPort { port: name.text.clone(), width: text }, span);
+                    width
+                }
+                _ => self.size(size, arena),
+            });
+        }
+        let members = parts.next().map(|kind| self.name(&crate::syntax::convert::parts(kind).next().expect("a name")));
+        let width = sizes.pop();
+        Port { words: sizes.pop(), members, ..Port::new(name, width) }
     }
 
     /// The number of bits in brackets, which may be a range such as `[7:0]`, and its text.
@@ -100,6 +122,12 @@ impl Converter<'_> {
             Rule::nets => StatementKind::Nets(self.ports(pair, arena)),
             Rule::slip_nets => self.slip_nets(pair, arena),
             Rule::loop_ => self.for_loop(pair, arena),
+            Rule::integer => {
+                let mut parts = parts(pair);
+                let name = self.name(&parts.next().expect("a name"));
+                StatementKind::Let { name, value: self.size(parts.next().expect("an integer"), arena) }
+            }
+            Rule::conditional => self.conditional(pair, arena),
             Rule::slip_if => return self.if_block(pair, arena),
             Rule::slip_end => {
                 self.slip(Slip::StatementEnd { sign: pair.as_str().to_owned() }, span);
@@ -155,6 +183,30 @@ impl Converter<'_> {
         StatementKind::For { variable, from, to, statements: self.statements(parts.next().expect("a body"), arena) }
     }
 
+    /// Statements that depend on a comparison of integers.
+    fn conditional(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
+        let mut branches = parts(pair).filter(|part| part.as_rule() != Rule::else_word);
+        let mut compared = parts(branches.next().expect("a condition"));
+        let left = self.size(compared.next().expect("an integer"), arena);
+        let sign = compared.next().expect("a comparison");
+        let comparison = Relation::parse(sign.as_str()).expect("the grammar knows the comparisons");
+        let right = self.size(compared.next().expect("an integer"), arena);
+        let body = branches.next().expect("a body");
+        let first = self.span(&body);
+        let then = self.statements(body, arena);
+        let (otherwise, second) = match branches.next() {
+            None => (Vec::new(), Span { start: first.end, ..first }),
+            Some(branch) => {
+                let span = self.span(&branch);
+                match branch.as_rule() {
+                    Rule::body => (self.statements(branch, arena), span),
+                    _ => (vec![StatementSyntax { kind: self.conditional(branch, arena), span }], span),
+                }
+            }
+        };
+        StatementKind::If { left, comparison, right, then, otherwise, blocks: [first, second] }
+    }
+
     /// `if` with statements in braces. If each branch drives the same nets, it is a choice for each of them.
     fn if_block(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
         let span = self.span(&pair);
@@ -192,7 +244,10 @@ impl Converter<'_> {
             let value = arena.expression(kind, span);
             choices.push(text);
             let targets = vec![self.target(target.clone(), arena)];
-            statements.push(StatementSyntax { kind: StatementKind::Drive { targets, grouped: false, value }, span });
+            statements.push(StatementSyntax {
+                kind: StatementKind::Drive { targets, grouping: Grouping::Single, value },
+                span,
+            });
         }
         self.slip(Slip::IfBlock { choices, whole: span }, if_span);
         statements
@@ -212,32 +267,47 @@ impl Converter<'_> {
     fn drive(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
         let mut parts = parts(pair).peekable();
         let left = parts.next().expect("a target");
-        let grouped = left.as_rule() == Rule::targets;
+        let grouping = match left.as_rule() {
+            Rule::targets => Grouping::Outputs,
+            Rule::joined => Grouping::Joined,
+            _ => Grouping::Single,
+        };
         let targets = match left.as_rule() {
-            Rule::targets => crate::syntax::convert::parts(left).map(|target| self.target(target, arena)).collect(),
+            Rule::targets | Rule::joined => {
+                crate::syntax::convert::parts(left).map(|target| self.target(target, arena)).collect()
+            }
             _ => vec![self.target(left, arena)],
         };
         if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_arrow) {
             self.slip(Slip::DriveSign { sign: slip.as_str().to_owned() }, self.span(&slip));
         }
-        StatementKind::Drive { targets, grouped, value: self.expression(parts.next().expect("a value"), arena) }
+        StatementKind::Drive { targets, grouping, value: self.expression(parts.next().expect("a value"), arena) }
     }
 
     fn target(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TargetSyntax {
         let span = self.span(&pair);
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
-        let index = parts.next_if(|part| part.as_rule() == Rule::index).map(|index| self.index(index, arena));
-        TargetSyntax { name, index, start: parts.next().map(|size| self.size(size, arena)), span }
+        let mut index = || parts.next_if(|part| part.as_rule() == Rule::index);
+        let (first, second) = (index(), index());
+        let [index, second] = [first, second].map(|index| index.map(|index| self.index(index, arena)));
+        TargetSyntax { name, index, second, start: parts.next().map(|size| self.size(size, arena)), span }
     }
 
     pub(crate) fn index(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Index {
         let span = self.span(&pair);
         let mut parts = parts(pair).peekable();
         let high = parts.next().expect("a bit");
+        if high.as_rule() == Rule::expression {
+            return Index { kind: IndexKind::Value(self.expression(high, arena)), span };
+        }
         let Some(colon) = parts.next_if(|part| part.as_rule() == Rule::slip_colon) else {
             let high = self.size(high, arena);
-            return Index { high, low: parts.next().map(|size| self.size(size, arena)), span };
+            let kind = match parts.next() {
+                Some(low) => IndexKind::Slice(high, self.size(low, arena)),
+                None => IndexKind::One(high),
+            };
+            return Index { kind, span };
         };
         // In other languages the first bit may be the lowest.
         let low = parts.next().expect("the other end");
@@ -249,7 +319,7 @@ impl Converter<'_> {
         let slip = Slip::ColonInSlice { net: net.to_owned(), slice, index: span };
         self.slip(slip, self.span(&colon));
         let high = self.size(high, arena);
-        Index { high, low: Some(self.size(low, arena)), span }
+        Index { kind: IndexKind::Slice(high, self.size(low, arena)), span }
     }
 
     pub(crate) fn arguments(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Argument> {

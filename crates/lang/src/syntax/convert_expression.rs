@@ -6,8 +6,8 @@ use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
-    ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntaxId, SizeSyntaxKind, TableOutputSyntax,
-    TableRowSyntax,
+    ExpressionSyntaxId, ExpressionSyntaxKind, Index, IndexKind, Infix, OperandSyntax, SizeSyntaxId, SizeSyntaxKind,
+    TableOutputSyntax, TableRowSyntax,
 };
 use crate::syntax::wording::{Slip, SyntaxError};
 use nbc_base::model::Operator;
@@ -48,7 +48,7 @@ impl Converter<'_> {
                     self.slip_prefix(&part, span, &stacks);
                     stacks.waiting.push(Waiting::Not(span));
                 }
-                Rule::operator | Rule::sum | Rule::comparison | Rule::slip_infix => {
+                Rule::operator | Rule::sum | Rule::product_sign | Rule::shift | Rule::comparison | Rule::slip_infix => {
                     let infix = self.infix(&part);
                     let next = parts.peek().map_or("…", |next| next.as_str());
                     self.push_infix((infix, span), next, &mut stacks, arena);
@@ -139,8 +139,8 @@ impl Converter<'_> {
             self.slip(Slip::OperatorSign { sign, operator: operator.word(), text }, span);
             return Infix::Bitwise(operator);
         }
-        let sign = Infix::SIGNS.iter().find(|(_, sign)| *sign == word).map(|(infix, _)| *infix);
-        sign.unwrap_or_else(|| Infix::Bitwise(Operator::parse(word).expect("the grammar knows the operators")))
+        Infix::of_sign(word)
+            .unwrap_or_else(|| Infix::Bitwise(Operator::parse(word).expect("the grammar knows the operators")))
     }
 
     fn operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxId {
@@ -148,6 +148,7 @@ impl Converter<'_> {
         let kind = match pair.as_rule() {
             Rule::choice => self.choice(pair, arena),
             Rule::table => self.table(pair, arena),
+            Rule::match_ => self.match_table(pair, arena),
             Rule::operation => self.operation(pair, arena),
             Rule::constant => self.constant(pair, arena),
             Rule::reference => self.reference(pair, arena),
@@ -229,13 +230,25 @@ impl Converter<'_> {
     fn reference(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
-        let brackets = parts.next_if(|part| matches!(part.as_rule(), Rule::index | Rule::arguments));
+        let mut brackets = || parts.next_if(|part| matches!(part.as_rule(), Rule::index | Rule::arguments));
+        let (first, second) = (brackets(), brackets());
         let Some(operands) = parts.next() else {
-            let index = brackets.and_then(|brackets| self.index_of_net(brackets, arena));
-            return ExpressionSyntaxKind::Net { name, index };
+            let [index, second] =
+                [first, second].map(|index| index.and_then(|brackets| self.index_of_net(brackets, arena)));
+            return ExpressionSyntaxKind::Net { name, index, second };
         };
-        let arguments = brackets.map_or(Vec::new(), |brackets| self.arguments_of_call(brackets, arena));
-        ExpressionSyntaxKind::Call { name, arguments, operands: self.expressions(operands, arena) }
+        if let Some(second) = second {
+            self.slip(Slip::SliceOfCircuit, self.span(&second));
+        }
+        let arguments = first.map_or(Vec::new(), |brackets| self.arguments_of_call(brackets, arena));
+        let operands = crate::syntax::convert::parts(operands).map(|operand| self.call_operand(operand, arena));
+        ExpressionSyntaxKind::Call { name, arguments, operands: operands.collect() }
+    }
+
+    fn call_operand(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> OperandSyntax {
+        let mut parts = parts(pair).peekable();
+        let name = parts.next_if(|part| part.as_rule() == Rule::name).map(|name| self.name(&name));
+        OperandSyntax { name, value: self.expression(parts.next().expect("an expression"), arena) }
     }
 
     fn index_of_net(&mut self, brackets: Pair<Rule>, arena: &mut Arena) -> Option<Index> {
@@ -251,30 +264,45 @@ impl Converter<'_> {
             return self.arguments(brackets, arena);
         }
         let index = self.index(brackets, arena);
-        if index.low.is_some() {
-            self.slip(Slip::SliceOfCircuit, index.span);
-        }
-        let span = arena.sizes[index.high.0 as usize].span;
-        vec![crate::syntax::tree::Argument { name: None, value: index.high, span }]
+        let value = match index.kind {
+            IndexKind::One(value) => value,
+            IndexKind::Slice(value, _) => {
+                self.slip(Slip::SliceOfCircuit, index.span);
+                value
+            }
+            IndexKind::Value(_) => {
+                self.slip(Slip::ValueForParameter, index.span);
+                return Vec::new();
+            }
+        };
+        let span = arena.sizes[value.0 as usize].span;
+        vec![crate::syntax::tree::Argument { name: None, value, span }]
     }
 
     fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut parts = parts(pair);
         let inputs = self.expressions(parts.next().expect("operands"), arena);
-        ExpressionSyntaxKind::Table { inputs, rows: parts.map(|row| self.table_row(row, arena)).collect() }
+        let rows = parts.map(|row| self.table_row(row, arena)).collect();
+        ExpressionSyntaxKind::Table { is_match: false, inputs, rows }
+    }
+
+    fn match_table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let mut parts = parts(pair);
+        let inputs = vec![self.expression(parts.next().expect("an expression"), arena)];
+        let rows = parts.map(|row| self.table_row(row, arena)).collect();
+        ExpressionSyntaxKind::Table { is_match: true, inputs, rows }
     }
 
     pub(crate) fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {
         let span = self.span(&pair);
-        let mut parts = parts(pair);
-        let pattern = parts.next().expect("a pattern");
-        let pattern = (pattern.as_rule() == Rule::pattern).then(|| self.name(&pattern));
-        let output = parts.next().expect("an output");
+        let (patterns, mut rest): (Vec<_>, Vec<_>) = parts(pair).partition(|part| part.as_rule() == Rule::pattern);
+        let patterns = patterns.iter().map(|pattern| self.name(pattern)).collect();
+        let output = rest.pop().expect("an output");
         let output = match output.as_rule() {
             Rule::output_bits => TableOutputSyntax::Bits(self.name(&output)),
             _ => TableOutputSyntax::Value(self.expression(output, arena)),
         };
-        TableRowSyntax { pattern, output, span }
+        TableRowSyntax { patterns, output, span }
     }
 }
 

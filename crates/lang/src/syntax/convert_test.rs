@@ -8,7 +8,8 @@ use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{
-    NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestKind, TestRowSyntax, TestTable, With,
+    NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestItem, TestKind, TestRowSyntax, TestTable, UntilSyntax,
+    With,
 };
 
 impl Converter<'_> {
@@ -56,13 +57,16 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
         let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
-        let world = self.world(&mut parts);
+        let environment = parts.next_if(|part| part.as_rule() == Rule::beside);
+        let environment =
+            environment.and_then(|named| super::convert::parts(named).next()).map(|name| self.name(&name));
+        let worlds = parts.next_if(|part| part.as_rule() == Rule::in_worlds).map_or(Vec::new(), |all| self.names(all));
         let what = parts.next().expect("a table or `for all inputs`");
         let kind = match what.as_rule() {
             Rule::test_table => TestKind::Table(self.test_table(what)),
             _ => self.for_all(what),
         };
-        Test { circuit, title, world, kind }
+        Test { circuit, title, environment, worlds, kind }
     }
 
     fn for_all(&mut self, pair: Pair<Rule>) -> TestKind {
@@ -82,15 +86,33 @@ impl Converter<'_> {
         let header = parts.next().expect("a header");
         let span = self.span(&header);
         let (inputs, _, outputs) = self.columns_of(header);
-        TestTable { inputs, outputs, rows: parts.map(|row| self.test_row(row)).collect(), header: span }
+        TestTable { inputs, outputs, rows: parts.map(|row| self.test_item(row)).collect(), header: span }
+    }
+
+    fn test_item(&self, pair: Pair<Rule>) -> TestItem {
+        if pair.as_rule() == Rule::row {
+            return TestItem::Row(Box::new(self.test_row(pair)));
+        }
+        let span = self.span(&pair);
+        let mut parts = parts(pair);
+        let times = self.number(&parts.next().expect("a number"));
+        TestItem::Repeat { times, rows: parts.map(|row| self.test_item(row)).collect(), span }
     }
 
     fn test_row(&self, pair: Pair<Rule>) -> TestRowSyntax {
         let span = self.span(&pair);
         let hold = parts(pair.clone()).find(|part| part.as_rule() == Rule::held);
         let hold = hold.map(|held| self.quantity(parts(held).next().expect("a quantity")));
+        let until = parts(pair.clone()).find(|part| part.as_rule() == Rule::until).map(|until| self.until(until));
         let (inputs, bars, outputs) = self.columns_of(pair);
-        TestRowSyntax { inputs, bars, outputs, hold, span }
+        TestRowSyntax { inputs, bars, outputs, hold, until, span }
+    }
+
+    fn until(&self, pair: Pair<Rule>) -> UntilSyntax {
+        let mut parts = parts(pair).peekable();
+        let output = self.name(&parts.next().expect("a name"));
+        let value = parts.next_if(|part| part.as_rule() == Rule::cell).map(|value| self.name(&value));
+        UntilSyntax { output, value, most: self.number(&parts.next().expect("a number")) }
     }
 
     /// The text before the first bar, the bars, and the text after it.
@@ -99,7 +121,7 @@ impl Converter<'_> {
         for part in parts(pair) {
             match part.as_rule() {
                 Rule::bar => bars.push(self.span(&part)),
-                Rule::held => {}
+                Rule::held | Rule::until => {}
                 _ if bars.is_empty() => before.push(self.name(&part)),
                 _ => after.push(self.name(&part)),
             }

@@ -96,29 +96,38 @@ fn word(rule: Rule) -> Option<&'static str> {
         Rule::list | Rule::product | Rule::range | Rule::bins | Rule::applied | Rule::function | Rule::instance => {
             "a value"
         }
-        Rule::columns | Rule::inputs | Rule::outputs | Rule::operands => "`(`",
+        Rule::columns | Rule::inputs | Rule::outputs | Rule::operands | Rule::named_operands => "`(`",
         Rule::spells | Rule::body | Rule::test_table => "`{`",
-        Rule::spell | Rule::row | Rule::cell => "a row",
+        Rule::spell | Rule::row | Rule::cell | Rule::repeated => "a row",
+        Rule::until => "`until`",
+        Rule::at_word => "`at`",
+        Rule::most_word => "`most`",
+        Rule::rows_word => "`rows`",
+        Rule::member => "a member",
+        Rule::encoding | Rule::kind => "`:`",
+        Rule::beside => "`with`",
         Rule::header => "column names",
         Rule::bar => "`|`",
         Rule::slip_arrow => "`=`",
         Rule::parameters | Rule::arguments | Rule::index => "`[`",
         Rule::parameter | Rule::argument => "a parameter",
         Rule::port => "a port",
-        Rule::loop_ | Rule::nets | Rule::drive => "a statement",
-        Rule::targets | Rule::target => "a net",
+        Rule::loop_ | Rule::nets | Rule::drive | Rule::integer | Rule::conditional => "a statement",
+        Rule::targets | Rule::joined | Rule::target => "a net",
         Rule::expression | Rule::choice | Rule::operation | Rule::constant | Rule::reference | Rule::group => {
             "an expression"
         }
-        Rule::table | Rule::repetition | Rule::concatenation | Rule::prefix => "an expression",
-        Rule::operator | Rule::sum | Rule::comparison => "an operator",
+        Rule::table | Rule::match_ | Rule::named_operand | Rule::repetition | Rule::concatenation | Rule::prefix => {
+            "an expression"
+        }
+        Rule::operator | Rule::sum | Rule::product_sign | Rule::shift | Rule::comparison => "an operator",
         Rule::base => "`b`, `d` or `h`",
         Rule::pattern | Rule::table_row | Rule::pattern_digits => "a pattern of `0`, `1` and `-`",
         Rule::size | Rule::size_group | Rule::log2 => "a number",
         Rule::size_infix => "an operator",
         Rule::with_word => "`with`",
         Rule::times_word => "`x`",
-        Rule::in_word | Rule::in_world => "`in`",
+        Rule::in_word | Rule::in_world | Rule::in_worlds => "`in`",
         Rule::bins_word => "`bins`",
         Rule::for_word | Rule::for_all => "`for`",
         Rule::all_word => "`all`",

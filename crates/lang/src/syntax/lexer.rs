@@ -32,7 +32,7 @@ pub struct Token {
 }
 
 /// Operators of two characters.
-const PAIRS: [&str; 8] = ["->", "==", "!=", "<=", ">=", "..", "**", ":="];
+const PAIRS: [&str; 10] = ["->", "==", "!=", "<=", ">=", "<<", ">>", "..", "**", ":="];
 
 /// The tokens of a text, in order.
 pub fn tokens(text: &str) -> impl Iterator<Item = Token> {

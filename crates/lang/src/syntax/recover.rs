@@ -116,7 +116,7 @@ impl Recovery<'_> {
             {
                 let end = self.closing(at, tokens.end);
                 let mut start = at + 1;
-                if holds == PartKind::Row {
+                if kind == PartKind::Declaration && holds == PartKind::Row {
                     // The header belongs to the test.
                     start += 1;
                     while start < end && !self.tokens[start].is_first {
@@ -136,14 +136,17 @@ impl Recovery<'_> {
     /// What the block holds that begins at `at`, in a part that begins at `start`.
     fn holds(&self, kind: PartKind, start: usize, at: usize) -> Option<PartKind> {
         match (kind, self.word(start)) {
-            (PartKind::Declaration, "circuit" | "module" | "fn" | "def" | "function") => Some(PartKind::Statement),
+            (PartKind::Declaration, "circuit" | "environment" | "module" | "fn" | "def" | "function") => {
+                Some(PartKind::Statement)
+            }
             (PartKind::Declaration, "test") if self.word(at - 1) == "inputs" => Some(PartKind::Statement),
             (PartKind::Declaration, "test") => Some(PartKind::Row),
             (PartKind::Declaration, "schedule" | "simulate") => Some(PartKind::Spell),
             (PartKind::Declaration, "material" | "evolution" | "library" | "swarm" | "world") => Some(PartKind::Field),
             (PartKind::Statement, "for") => Some(PartKind::Statement),
+            (PartKind::Row, "repeat") => Some(PartKind::Row),
             (PartKind::Field, _) => Some(PartKind::Field),
-            (PartKind::Statement, _) if self.is_table(at) => Some(PartKind::TableRow),
+            (PartKind::Statement, _) if self.is_table(at) || self.is_match(start, at) => Some(PartKind::TableRow),
             _ => None,
         }
     }
@@ -162,6 +165,16 @@ impl Recovery<'_> {
             }
         }
         false
+    }
+
+    /// Whether the brace at `at` follows `match` and an expression, in a part that begins at `start`.
+    fn is_match(&self, start: usize, at: usize) -> bool {
+        let Some(word) = (start..at).rfind(|&back| self.word(back) == "match") else { return false };
+        let mut open = Vec::new();
+        for place in word + 1..at {
+            bracket(&mut open, self.word(place), place, |&open| self.word(open));
+        }
+        open.is_empty() && at > word + 1 && !matches!(self.word(word + 1), "=" | "," | ")")
     }
 
     /// The brace that closes the one at `at`.
@@ -228,8 +241,8 @@ fn continues(before: &str, here: &str) -> bool {
     let infix = |word: &str| {
         let words = ["and", "nand", "or", "nor", "xor", "xnor", "then", "else", "init", "in"];
         let signs = [
-            "=", "+", "-", "*", "/", "%", "**", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^", "?", ":", ":=",
-            ",",
+            "=", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^", "?",
+            ":", ":=", ",",
         ];
         words.contains(&word) || signs.contains(&word)
     };

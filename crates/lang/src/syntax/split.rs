@@ -8,9 +8,13 @@ use std::ops::Range;
 use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens};
 
 /// The keywords that begin declarations.
-pub const KEYWORDS: [&str; 11] = [
+pub const KEYWORDS: [&str; 15] = [
     "circuit",
+    "enum",
+    "environment",
     "evolution",
+    "file",
+    "let",
     "library",
     "material",
     "schedule",
@@ -128,6 +132,8 @@ fn starts_declaration(keyword: &str, rest: &str) -> bool {
     let rest = rest.trim_start_matches([' ', '\t']);
     match keyword {
         "use" => rest.starts_with('"'),
+        // Statements begin with it too.
+        "let" => false,
         _ => {
             let name = rest.find(|c| !is_word(c)).unwrap_or(rest.len());
             name > 0 && !rest[..name].eq("init")

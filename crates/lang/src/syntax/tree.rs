@@ -1,6 +1,7 @@
 //! The syntax tree: declarations as written, with unresolved names. Expressions and sizes are stored in arenas,
 //! children before parents, so that deep nesting needs no deep stack.
 
+use nbc_base::model::Relation;
 use nbc_base::source::Span;
 
 /// A file's declarations and its comments, both in order of text.
@@ -45,8 +46,14 @@ pub enum DeclarationKind {
     Schedule(ScheduleSyntax),
     /// `simulate`
     Simulate(Simulate),
-    /// `circuit`
+    /// `circuit` or `environment`
     Circuit(CircuitSyntax),
+    /// `enum phase { fetch, execute }`
+    Enumeration(EnumerationSyntax),
+    /// `let n = 8`
+    Let(LetSyntax),
+    /// `file program = "hello.hex"`
+    File(FileSyntax),
     /// `test`
     Test(Test),
 }
@@ -67,6 +74,44 @@ pub struct Text {
     pub text: String,
     /// The place, including the quotes.
     pub span: Span,
+}
+
+/// `enum phase: gray { fetch, execute }`
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnumerationSyntax {
+    /// The name of the enumeration.
+    pub name: NameSyntax,
+    /// The word that says how its members get values.
+    pub encoding: Option<NameSyntax>,
+    /// The members in order of text.
+    pub members: Vec<MemberSyntax>,
+}
+
+/// A member of an enumeration: `fetch` or `load = 5'b00000`
+#[derive(Clone, Debug, PartialEq)]
+pub struct MemberSyntax {
+    /// The name of the member.
+    pub name: NameSyntax,
+    /// The constant that is its value, as written.
+    pub value: Option<NameSyntax>,
+}
+
+/// `let n = 8`
+#[derive(Clone, Debug, PartialEq)]
+pub struct LetSyntax {
+    /// The name of the integer.
+    pub name: NameSyntax,
+    /// The integer, in an arena of its own.
+    pub sizes: Vec<SizeSyntax>,
+}
+
+/// `file program = "hello.hex"`
+#[derive(Clone, Debug, PartialEq)]
+pub struct FileSyntax {
+    /// What memories and the command line call the file.
+    pub name: NameSyntax,
+    /// The file unless the command line names another.
+    pub path: Text,
 }
 
 /// The keyword of a declaration that is a record.
@@ -255,8 +300,10 @@ pub struct Test {
     pub circuit: InstanceSyntax,
     /// The text after the circuit that tells tests apart.
     pub title: Option<Text>,
-    /// The world after `in`, if it is given: `in slippery`.
-    pub world: Option<NameSyntax>,
+    /// The environment after `with`, if it is given.
+    pub environment: Option<NameSyntax>,
+    /// The worlds after `in`: `in slippery` or `in [paper, worn]`.
+    pub worlds: Vec<NameSyntax>,
     /// What the circuit must do.
     pub kind: TestKind,
 }
@@ -280,9 +327,46 @@ pub struct TestTable {
     /// The names of the columns after the bar.
     pub outputs: Vec<NameSyntax>,
     /// The rows in order of time.
-    pub rows: Vec<TestRowSyntax>,
+    pub rows: Vec<TestItem>,
     /// The place of the header.
     pub header: Span,
+}
+
+/// A row of a test, or rows that are repeated.
+#[derive(Clone, Debug, PartialEq)]
+pub enum TestItem {
+    /// One row.
+    Row(Box<TestRowSyntax>),
+    /// `repeat 32 { … }`
+    Repeat {
+        /// The number of times.
+        times: Number,
+        /// What is repeated.
+        rows: Vec<TestItem>,
+        /// The place, including the braces.
+        span: Span,
+    },
+}
+
+impl TestItem {
+    /// The place in the source.
+    pub fn span(&self) -> Span {
+        match self {
+            Self::Row(row) => row.span,
+            Self::Repeat { span, .. } => *span,
+        }
+    }
+}
+
+/// `until ready, at most 100 rows`
+#[derive(Clone, Debug, PartialEq)]
+pub struct UntilSyntax {
+    /// The output that ends the repetition.
+    pub output: NameSyntax,
+    /// The value that it must have; 1 if it is not given.
+    pub value: Option<NameSyntax>,
+    /// The most rows.
+    pub most: Number,
 }
 
 /// One row of a test.
@@ -296,6 +380,8 @@ pub struct TestRowSyntax {
     pub outputs: Vec<NameSyntax>,
     /// The hold of this row, if it sets one.
     pub hold: Option<Quantity>,
+    /// When the repetition of this row ends, if it is repeated.
+    pub until: Option<UntilSyntax>,
     /// The place of the row in the source.
     pub span: Span,
 }
@@ -303,6 +389,8 @@ pub struct TestRowSyntax {
 /// `circuit half_adder(a, b) -> (s, c) { … }`
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitSyntax {
+    /// Whether it is the environment of circuits, and not one itself.
+    pub is_environment: bool,
     /// The name of the circuit.
     pub name: NameSyntax,
     /// The width parameters in brackets.
@@ -343,13 +431,28 @@ pub struct ParameterSyntax {
     pub default: Option<SizeSyntaxId>,
 }
 
-/// A port or another net with its width: `a` or `a[8]`.
+/// A port or another net with its width: `a`, `a[8]` or `r[32][8]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Port {
     /// The name of the net.
     pub name: NameSyntax,
-    /// The width in bits, if it is given.
+    /// The number of words, if it is an array.
+    pub words: Option<SizeSyntaxId>,
+    /// The width in bits, if it is given; of an array, that of a word.
     pub width: Option<SizeSyntaxId>,
+    /// The enumeration of its values: `state: phase`.
+    pub members: Option<NameSyntax>,
+    /// The value of an input that a call leaves out: `enable = 1`.
+    pub absent: Option<SizeSyntaxId>,
+    /// The file with the first contents of a memory: `init program`.
+    pub contents: Option<NameSyntax>,
+}
+
+impl Port {
+    /// A net of one bit, or of the width that is given.
+    pub fn new(name: NameSyntax, width: Option<SizeSyntaxId>) -> Self {
+        Self { name, words: None, width, members: None, absent: None, contents: None }
+    }
 }
 
 /// A statement with its place.
@@ -368,8 +471,8 @@ pub enum StatementKind {
     Drive {
         /// What is driven, left of the `=`.
         targets: Vec<TargetSyntax>,
-        /// Whether the targets are in parentheses.
-        grouped: bool,
+        /// How the targets are written.
+        grouping: Grouping,
         /// The driver.
         value: ExpressionSyntaxId,
     },
@@ -386,6 +489,39 @@ pub enum StatementKind {
         /// The repeated statements.
         statements: Vec<StatementSyntax>,
     },
+    /// `let n = 8`
+    Let {
+        /// The name of the integer.
+        name: NameSyntax,
+        /// The integer.
+        value: SizeSyntaxId,
+    },
+    /// `if n == 1 { … } else { … }`
+    If {
+        /// The left integer.
+        left: SizeSyntaxId,
+        /// How it must compare with the right one.
+        comparison: Relation,
+        /// The right integer.
+        right: SizeSyntaxId,
+        /// The statements if it does.
+        then: Vec<StatementSyntax>,
+        /// The statements if it does not; those after `else if` are one statement.
+        otherwise: Vec<StatementSyntax>,
+        /// The places of both blocks.
+        blocks: [Span; 2],
+    },
+}
+
+/// How the targets of a drive are written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grouping {
+    /// `a = …`
+    Single,
+    /// `(a, b) = …`: the outputs of a call.
+    Outputs,
+    /// `{a, b} = …`: the parts of a value.
+    Joined,
 }
 
 /// The left side of a drive.
@@ -393,23 +529,34 @@ pub enum StatementKind {
 pub struct TargetSyntax {
     /// The net that is driven, or `_`.
     pub name: NameSyntax,
-    /// The bits, if not the whole net is driven.
+    /// The bits or the word, if not the whole net is driven.
     pub index: Option<Index>,
+    /// The bits of the word.
+    pub second: Option<Index>,
     /// The value before the first cycle, if it is given: `init 0`.
     pub start: Option<SizeSyntaxId>,
     /// The place of the target in the source.
     pub span: Span,
 }
 
-/// The bits of a net: `[3]` or `[3..0]`.
+/// The bits of a net: `[3]` or `[3..0]`; the word of an array: `[3]` or `[address]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Index {
-    /// The bit, or the highest of them.
-    pub high: SizeSyntaxId,
-    /// The lowest bit of a slice; `None` for one bit.
-    pub low: Option<SizeSyntaxId>,
+    /// What selects.
+    pub kind: IndexKind,
     /// The place, including the brackets.
     pub span: Span,
+}
+
+/// What selects bits or a word.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum IndexKind {
+    /// `[3]`
+    One(SizeSyntaxId),
+    /// `[3..0]`: the highest and the lowest.
+    Slice(SizeSyntaxId, SizeSyntaxId),
+    /// `[{a, b}]`: a value that is no integer.
+    Value(ExpressionSyntaxId),
 }
 
 /// An integer with its place.
@@ -481,8 +628,10 @@ pub enum ExpressionSyntaxKind {
     Net {
         /// The net whose bits are taken.
         name: NameSyntax,
-        /// The bits, if not the whole net is read.
+        /// The bits or the word, if not the whole net is read.
         index: Option<Index>,
+        /// The bits of the word.
+        second: Option<Index>,
     },
     /// `add[8](a, b)`
     Call {
@@ -490,8 +639,8 @@ pub enum ExpressionSyntaxKind {
         name: NameSyntax,
         /// The parameters given.
         arguments: Vec<Argument>,
-        /// The expressions between the parentheses.
-        operands: Vec<ExpressionSyntaxId>,
+        /// The operands between the parentheses.
+        operands: Vec<OperandSyntax>,
     },
     /// `(a)`
     Group(ExpressionSyntaxId),
@@ -533,8 +682,10 @@ pub enum ExpressionSyntaxKind {
         /// The value if it is 0.
         otherwise: ExpressionSyntaxId,
     },
-    /// `table(a, b) { 00: 1, else: 0 }`
+    /// `table(a, b) { 00: 1, else: 0 }` or `match a { 0: 1, else: 0 }`
     Table {
+        /// Whether it is written with `match`, which has one input.
+        is_match: bool,
         /// The expressions whose bits select the row.
         inputs: Vec<ExpressionSyntaxId>,
         /// The rows in order of text.
@@ -542,11 +693,20 @@ pub enum ExpressionSyntaxKind {
     },
 }
 
-/// `0-1: 1` or `else: 0`
+/// An operand of a call: `a` or `enable: a`
+#[derive(Clone, Debug, PartialEq)]
+pub struct OperandSyntax {
+    /// The port, if it is named.
+    pub name: Option<NameSyntax>,
+    /// The value for it.
+    pub value: ExpressionSyntaxId,
+}
+
+/// `0-1: 1`, `load or store: 1` or `else: 0`
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableRowSyntax {
-    /// The pattern; `None` is `else`.
-    pub pattern: Option<NameSyntax>,
+    /// The patterns; none is `else`.
+    pub patterns: Vec<NameSyntax>,
     /// What the row shows.
     pub output: TableOutputSyntax,
     /// The place of the row.
@@ -571,39 +731,39 @@ pub enum Infix {
     Add,
     /// `-`
     Subtract,
-    /// `==`
-    Equal,
-    /// `!=`
-    NotEqual,
-    /// `<`
-    Less,
-    /// `>`
-    Greater,
-    /// `<=`
-    AtMost,
-    /// `>=`
-    AtLeast,
+    /// `*`
+    Multiply,
+    /// `<<`
+    ShiftLeft,
+    /// `>>`
+    ShiftRight,
+    /// A comparison.
+    Compare(Relation),
 }
 
 impl Infix {
-    /// The operators written as symbols.
-    pub const SIGNS: [(Self, &'static str); 8] = [
+    /// The operators written as symbols, but for the comparisons.
+    const SIGNS: [(Self, &'static str); 5] = [
         (Self::Add, "+"),
         (Self::Subtract, "-"),
-        (Self::Equal, "=="),
-        (Self::NotEqual, "!="),
-        (Self::Less, "<"),
-        (Self::Greater, ">"),
-        (Self::AtMost, "<="),
-        (Self::AtLeast, ">="),
+        (Self::Multiply, "*"),
+        (Self::ShiftLeft, "<<"),
+        (Self::ShiftRight, ">>"),
     ];
 
     /// The notation of the language.
     pub fn word(self) -> &'static str {
         match self {
             Self::Bitwise(operator) => operator.word(),
+            Self::Compare(relation) => relation.sign(),
             _ => Self::SIGNS.iter().find(|(infix, _)| *infix == self).expect("every sign has its word").1,
         }
+    }
+
+    /// The operator with that symbol, if there is one.
+    pub fn of_sign(sign: &str) -> Option<Self> {
+        let known = Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(infix, _)| *infix);
+        known.or_else(|| Relation::parse(sign).map(Self::Compare))
     }
 
     /// The precedence: 1 is the loosest.
@@ -613,8 +773,10 @@ impl Infix {
             Self::Bitwise(Operator::Or | Operator::Nor) => 1,
             Self::Bitwise(Operator::Xor | Operator::Xnor) => 2,
             Self::Bitwise(_) => 3,
-            Self::Add | Self::Subtract => 5,
-            _ => 4,
+            Self::ShiftLeft | Self::ShiftRight => 5,
+            Self::Add | Self::Subtract => 6,
+            Self::Multiply => 7,
+            Self::Compare(_) => 4,
         }
     }
 
@@ -622,7 +784,7 @@ impl Infix {
     pub(crate) fn chains_after(self, before: Self) -> bool {
         use nbc_base::model::Operator;
         match self {
-            Self::Add | Self::Subtract => true,
+            Self::Add | Self::Subtract | Self::Multiply => true,
             Self::Bitwise(Operator::And | Operator::Or | Operator::Xor) => self == before,
             _ => false,
         }

@@ -173,6 +173,8 @@ pub(crate) enum Slip {
     ParametersOfNet,
     /// A slice where a circuit has its parameters.
     SliceOfCircuit,
+    /// A value where a circuit has its parameters.
+    ValueForParameter,
 }
 
 impl Slip {
@@ -222,6 +224,7 @@ impl Slip {
             Self::NetsInBraces { .. } => "{",
             Self::FieldSign { .. } => "=",
             Self::SliceOfCircuit => "..",
+            Self::ValueForParameter => "[",
             Self::BaseOfComputed { base } => return format!("unexpected `{base}`"),
             Self::KindOfPort { kind: word, .. }
             | Self::MisspelledOperator { word, .. }
@@ -266,6 +269,7 @@ impl Slip {
             Self::BaseOfComputed { .. } => "expected `d` before a computed value",
             Self::ParametersOfNet => "expected a bit or a slice",
             Self::SliceOfCircuit => "expected parameters",
+            Self::ValueForParameter => "expected an integer",
             Self::MissingComma { close, .. } => return format!("expected `,` or `{close}`"),
             Self::OperatorSign { operator, .. } => return format!("expected `{operator}`"),
         };
@@ -327,6 +331,9 @@ impl Slip {
                                       before its operands: `add[8](a, b)`"
                 .to_owned(),
             Self::SliceOfCircuit => "separate parameters with commas: `register[4, 0](d, clk)`".to_owned(),
+            Self::ValueForParameter => "parameters are integers that are known when the circuit is built; a value of \
+                                        nets is an operand, in parentheses"
+                .to_owned(),
         })
     }
 

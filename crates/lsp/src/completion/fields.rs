@@ -90,7 +90,7 @@ const SWARM: [(&str, Holds); 8] = [
     ("world", Holds::Name(NameKind::World, &[])),
 ];
 
-const WORLD: [(&str, Holds); 12] = [
+const WORLD: [(&str, Holds); 13] = [
     ("from", Holds::Name(NameKind::World, &[])),
     ("friction", Holds::Words(&[])),
     ("gravity", Holds::Words(&[])),
@@ -98,6 +98,7 @@ const WORLD: [(&str, Holds); 12] = [
     ("drag", Holds::Words(&[])),
     ("damping", Holds::Words(&[])),
     ("swelling", Holds::Words(&[])),
+    ("ground", Holds::Words(&[])),
     ("start", Holds::Words(&[])),
     ("missed", Holds::Words(&[])),
     ("weak", Holds::Words(&[])),

@@ -5,7 +5,7 @@ use nbc_lang::syntax::tree::RecordKeyword;
 const MANUAL: &str = include_str!("../../language.md");
 
 /// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 37] = [
+const KEYWORDS: [(&str, &str); 44] = [
     ("against", "Tests"),
     ("all", "Tests"),
     ("and", "Expressions"),
@@ -14,14 +14,19 @@ const KEYWORDS: [(&str, &str); 37] = [
     ("cycles", "Units"),
     ("deg", "Units"),
     ("else", "Expressions"),
+    ("enum", "Enumerations"),
+    ("environment", "Environments"),
     ("evolution", "Evolutions"),
+    ("file", "Environments"),
     ("for", "Parameters and `for`"),
     ("if", "Expressions"),
     ("in", "Parameters and `for`"),
     ("init", "Memory"),
     ("inputs", "Tests"),
+    ("let", "Parameters and `for`"),
     ("library", "Libraries, swarms and simulations"),
     ("log2", "Parameters and `for`"),
+    ("match", "Truth tables"),
     ("material", "Stimuli and materials"),
     ("ms", "Units"),
     ("nand", "Expressions"),
@@ -29,6 +34,7 @@ const KEYWORDS: [(&str, &str); 37] = [
     ("nor", "Expressions"),
     ("not", "Expressions"),
     ("or", "Expressions"),
+    ("repeat", "Tests"),
     ("s", "Units"),
     ("schedule", "Schedules"),
     ("simulate", "Libraries, swarms and simulations"),
@@ -38,6 +44,7 @@ const KEYWORDS: [(&str, &str); 37] = [
     ("table", "Truth tables"),
     ("test", "Tests"),
     ("then", "Expressions"),
+    ("until", "Tests"),
     ("use", "Files"),
     ("with", "Libraries, swarms and simulations"),
     ("world", "Worlds"),

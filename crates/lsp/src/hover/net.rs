@@ -58,7 +58,10 @@ fn drivers(circuit: &Circuit) -> BTreeMap<NetSlot, BTreeSet<NetSlot>> {
         for statement in &block.statements {
             match statement {
                 Statement::For { body, .. } => blocks.push(body),
-                Statement::Drive { targets, value } => {
+                Statement::If { then, otherwise, .. } => blocks.extend([then, otherwise]),
+                Statement::Scope(block) => blocks.push(block),
+                Statement::Let { .. } => {}
+                Statement::Drive { targets, value, .. } => {
                     for net in targets.iter().filter_map(|target| target.net) {
                         direct.entry(net).or_insert_with(BTreeSet::new).extend(nets(circuit, *value));
                     }
@@ -73,7 +76,7 @@ fn drivers(circuit: &Circuit) -> BTreeMap<NetSlot, BTreeSet<NetSlot>> {
 fn nets(circuit: &Circuit, root: ExpressionId) -> impl Iterator<Item = NetSlot> + '_ {
     let parts = circuit.first_leaf(root).0 as usize..=root.0 as usize;
     circuit.expressions[parts].iter().filter_map(|part| match part.kind {
-        ExpressionKind::Net(net) | ExpressionKind::Slice { net, .. } => Some(net),
+        ExpressionKind::Net(net) | ExpressionKind::Slice { net, .. } | ExpressionKind::Element { net, .. } => Some(net),
         _ => None,
     })
 }

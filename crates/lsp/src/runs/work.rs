@@ -30,7 +30,8 @@ pub(super) fn perform(
             finish(checked, *level, &report, results)
         }
         RunTask::Schematic(choice) => {
-            let picture = compile(&session, checked, choice, watcher)?.schematic(Scheme::default());
+            let compiled = compile(&session, checked, choice, watcher)?;
+            let picture = compiled.schematic(Scheme::default()).top();
             let path = written(checked, results, "schematic.svg", &picture.finish())?;
             Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path)))
         }

@@ -64,6 +64,6 @@ pub(crate) struct PortEntry {
 impl PortEntry {
     /// The ports of columns.
     pub(crate) fn of(columns: &[Column]) -> Vec<Self> {
-        columns.iter().map(|Column { name, width }| Self { name: name.clone(), width: *width }).collect()
+        columns.iter().map(|Column { name, width, .. }| Self { name: name.clone(), width: *width }).collect()
     }
 }

@@ -6,6 +6,7 @@ use ts_rs::TS;
 
 use super::bodies::VoxelLook;
 use super::program::PortEntry;
+use nbc_session::report::{SchematicPages, SheetPage};
 use nbc_swarm::StimulusSource;
 
 /// The answer to `compile` and to `replay`.
@@ -29,17 +30,50 @@ pub(crate) struct ShownSwarm {
     pub(crate) shown: Vec<BitSource>,
     pub(crate) robots: Vec<SwarmRobot>,
     pub(crate) looks: Vec<VoxelLook>,
-    /// An SVG.
-    pub(crate) schematic: String,
+    pub(crate) schematic: ShownSchematic,
     pub(crate) timing: String,
     /// Cycles after which every change has settled.
     pub(crate) hold: u32,
     /// Cycles at the start in which the robots take their shape.
     pub(crate) start: usize,
+    /// How high the ground is in voxels: of columns that repeat; none if it is flat.
+    pub(crate) ground: Vec<u8>,
     /// Poses in a cycle.
     pub(crate) frames: u32,
     /// What it is as a wave machine.
     pub(crate) waves: Option<ShownWaves>,
+}
+
+/// A schematic, of which the page shows a sheet at a time.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownSchematic {
+    /// The sheets, each after the one around it; the first shows the whole.
+    pub(crate) sheets: Vec<ShownSheet>,
+    /// The bodies of the robots, each an SVG.
+    pub(crate) bodies: Vec<String>,
+    /// For each robot, the sheet that shows it.
+    pub(crate) homes: Vec<usize>,
+}
+
+/// A part of a circuit.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownSheet {
+    pub(crate) name: String,
+    pub(crate) about: String,
+    /// The sheet around it.
+    pub(crate) outer: Option<usize>,
+    /// An SVG.
+    pub(crate) svg: String,
+}
+
+impl From<SchematicPages> for ShownSchematic {
+    fn from(pages: SchematicPages) -> Self {
+        let SchematicPages { sheets, bodies, homes } = pages;
+        let sheet = |SheetPage { name, about, outer, svg, .. }| ShownSheet { name, about, outer, svg };
+        Self { sheets: sheets.into_iter().map(sheet).collect(), bodies, homes }
+    }
 }
 
 /// A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle.

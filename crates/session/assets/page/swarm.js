@@ -1,70 +1,61 @@
 "use strict";
 // The player of a run's page: a swarm in lanes, in step with its waveform. Everything is in the page; nothing is fetched.
 
-const HINT = "Point at a cell to see its robot; choose it to follow the robot.";
+const ROW = 22;
+
+/** Bits as digits, from hexadecimal digits of four of them, the first bit highest. */
+const unpacked = (hex, count) => [...hex].map(digit => parseInt(digit, 16).toString(2).padStart(4, "0")).join("").slice(0, count);
 
 class Player {
   constructor(section, swarm, looks) {
-    Object.assign(this, { section, swarm, looks, chosen: -1, cameras: [] });
+    Object.assign(this, { section, swarm, looks, chosen: -1, lanes: [], rows: [], cameras: [] });
     this.stage = section.querySelector(".stage");
     this.wave = section.querySelector(".wave");
-    this.panel = section.querySelector(".robot");
-    this.cells = [...section.querySelectorAll('[data-id^="cell-"]')];
+    this.note = section.querySelector(".unrecorded");
+    this.byCell = new Map(swarm.robots.map((robot, k) => [robot.cell, k]));
     this.clock = new Clock(section, swarm.cycles, () => this.draw());
-    this.cells.forEach(cell => this.bindCell(cell));
-    this.stage.onclick = event => this.choose(this.chosen < 0 ? Math.floor(event.offsetY / this.laneHeight()) : this.chosen);
+    this.stage.onclick = event => {
+      const k = this.chosen < 0 ? this.lanes[Math.floor(event.offsetY / this.laneHeight())] : this.chosen;
+      if (k !== undefined) this.schematic.choose(swarm.robots[k].cell);
+    };
     this.wave.onclick = event => {
+      const row = this.rows[Math.floor(event.offsetY / ROW)];
+      if (row?.sheet !== undefined) return this.schematic.open(row.sheet);
       const left = this.labelWidth();
       this.clock.seek((event.offsetX - left) / (this.wave.clientWidth - left - 8) * this.clock.cycles);
     };
     new ResizeObserver(() => this.draw()).observe(this.stage);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.draw());
-    this.show(-1);
-    this.draw();
+    const follower = { open: () => this.arrange(), choose: cell => this.follow(cell) };
+    this.schematic = { shown: () => [], sheet: 0 };
+    this.schematic = new Schematic(section.querySelector(".schematic"), swarm.schematic, swarm.cells, follower);
+    this.arrange();
   }
 
-  bindCell(cell) {
-    const number = Number(cell.dataset.id.slice(5)), k = this.swarm.robots.findIndex(robot => robot.cell === number);
-    cell.tabIndex = 0;
-    cell.setAttribute("role", "button");
-    cell.setAttribute("aria-label", cell.querySelector("title").textContent);
-    cell.setAttribute("aria-pressed", "false");
-    cell.onmouseenter = cell.onfocus = () => this.show(k);
-    cell.onmouseleave = cell.onblur = () => this.show(this.chosen);
-    cell.onclick = () => this.choose(k);
-    cell.onkeydown = event => {
-      if (event.key !== "Enter" && event.key !== " ") return;
-      event.preventDefault();
-      this.choose(k);
-    };
+  /** Takes the lanes and rows of the sheet that is shown; parts inside it are rows that open. */
+  arrange() {
+    const { cells, inputs, outputs, schematic: { sheets } } = this.swarm, shown = this.schematic.shown();
+    this.lanes = shown.map(cell => this.byCell.get(cell)).filter(k => k !== undefined);
+    const bits = cell => ({ name: cells[cell].net, color: "dim", shift: 1, values: unpacked(cells[cell].bits, this.swarm.cycles) });
+    const parts = sheets.map((sheet, at) => ({ sheet: at, name: sheet.name, about: sheet.about, outer: sheet.outer }));
+    this.rows = [...inputs, ...shown.map(bits), ...parts.filter(part => part.outer === this.schematic.sheet), ...outputs];
+    this.note.hidden = this.lanes.length === shown.length;
+    this.note.textContent = shown.length - this.lanes.length + " robots of this sheet were not recorded: there is no room for all.";
+    this.draw();
   }
 
   laneHeight() { return this.chosen < 0 ? 92 : 240; }
   labelWidth() { return Math.min(110, this.wave.clientWidth * .3); }
 
-  /** Follows robot `k` alone, or all again when it is followed already. */
-  choose(k) {
-    if (!this.swarm.robots[k]) return;
-    this.chosen = this.chosen === k ? -1 : k;
+  /** Follows the robot of a cell alone, if it was recorded; else all of the sheet. */
+  follow(cell) {
+    this.chosen = this.byCell.get(cell) ?? -1;
     this.cameras = [];
-    const followed = this.swarm.robots[this.chosen];
-    for (const cell of this.cells) {
-      const chosen = followed !== undefined && cell.dataset.id === "cell-" + followed.cell;
-      cell.classList.toggle("chosen", chosen);
-      cell.setAttribute("aria-pressed", String(chosen));
-    }
-    this.show(this.chosen);
     this.draw();
   }
 
-  show(k) {
-    const robot = this.swarm.robots[k];
-    if (robot) describe(this.panel, robot.net + " = " + robot.function, robot.about);
-    else this.panel.textContent = HINT;
-  }
-
   draw() {
-    const lanes = this.chosen < 0 ? this.swarm.robots.map((_, k) => k) : [this.chosen];
+    const lanes = this.chosen < 0 ? this.lanes : [this.chosen];
     const [pen, width] = fit(this.stage, Math.max(40, lanes.length * this.laneHeight()));
     lanes.forEach((k, lane) => this.drawLane(pen, width, k, lane));
     this.drawWave();
@@ -75,7 +66,7 @@ class Player {
     const frame = this.clock.time * this.swarm.pace, pose = poseAt(robot, frame);
     const scale = Math.min((height - 30) / (robot.size[1] * 1.3), (width - label) / 12);
     const view = { left: label, top: lane * height, width: width - label, ground: (lane + 1) * height - 14, scale };
-    view.camera = this.cameras[k] = this.follow(k, middle(pose), view.width / 2 / scale);
+    view.camera = this.cameras[k] = this.camera(k, middle(pose), view.width / 2 / scale);
     pen.save();
     pen.beginPath();
     pen.rect(label, view.top, view.width, height);
@@ -85,7 +76,8 @@ class Player {
     pen.restore();
     pen.fillStyle = themed("ink");
     pen.font = "13px system-ui, sans-serif";
-    pen.fillText(robot.net + " = " + robot.function, 4, view.ground - 34, label - 8);
+    const { net, function: gate } = this.swarm.cells[robot.cell];
+    pen.fillText(net + " = " + gate, 4, view.ground - 34, label - 8);
     const cycle = this.clock.cycle();
     if (cycle < this.swarm.cycles) drawStimuli(pen, robot.sensed.map(bits => Number(bits[cycle])), 6, view.ground - 24);
     if (robot.fault !== null && frame >= robot.fault) {
@@ -95,13 +87,13 @@ class Player {
   }
 
   /** Where the camera of a lane stands: it moves only when the robot leaves the middle. */
-  follow(k, place, half) {
+  camera(k, place, half) {
     const slack = this.chosen < 0 ? half / 2 : half / 4, camera = this.cameras[k] ?? place;
     return Math.min(place + slack, Math.max(place - slack, camera));
   }
 
   drawWave() {
-    const rows = this.swarm.waves, height = 22, bottom = rows.length * height, cycles = this.clock.cycles;
+    const rows = this.rows, height = ROW, bottom = rows.length * height, cycles = this.clock.cycles;
     const [pen, width] = fit(this.wave, bottom + 26), left = this.labelWidth(), span = width - left - 8;
     const x = cycle => left + Math.min(cycle, cycles) / cycles * span;
     const upright = (cycle, color, thick) => {
@@ -126,6 +118,7 @@ class Player {
   drawRow(pen, row, top, x, left) {
     const high = top + 5, low = top + 17;
     pen.fillStyle = themed("ink");
+    if (row.sheet !== undefined) return pen.fillText("▸ " + row.name + ": " + row.about, 4, low - 1);
     pen.fillText(row.name, 4, low - 1, left - 10);
     pen.strokeStyle = themed(row.color);
     pen.lineWidth = 1.6;
@@ -154,4 +147,4 @@ class Player {
 
 const data = JSON.parse(document.getElementById("data").textContent);
 window.players = data.swarms.map((swarm, i) =>
-  swarm.robots.length ? new Player(document.getElementById("swarm-" + i), swarm, data.looks) : null);
+  new Player(document.getElementById("swarm-" + i), swarm, data.looks));

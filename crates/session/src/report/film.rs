@@ -14,6 +14,7 @@ use crate::report::sprite::Pose;
 use crate::report::stage::{Moment, Stage};
 use crate::report::svg::{Svg, shorten};
 use crate::report::swatches::{Swatches, UNCHANGED};
+use nbc_base::model::GroundProfile;
 
 /// Frames for each cycle, where nothing else is asked for.
 pub const FRAMES_PER_CYCLE: u32 = 12;
@@ -39,6 +40,8 @@ pub struct Film {
     pub largest: usize,
     /// The number of stimuli to show; of more than four, the first four.
     pub stimuli: usize,
+    /// How high the ground is below each robot.
+    pub ground: GroundProfile,
 }
 
 /// A film being drawn.
@@ -105,6 +108,22 @@ impl<'a> Painter<'a> {
         }
     }
 
+    /// The columns of ground that are higher than the lowest.
+    fn paint_ground(&mut self, camera: f64, half: f64, lane: usize, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
+        let film = self.film;
+        let (left, top) = (film.left(lane) + film.labels(), film.top(lane));
+        let columns = (camera - half).floor().max(0.0) as usize..(camera + half).ceil().max(0.0) as usize;
+        for column in columns.filter(|column| film.ground.height(*column) > 0) {
+            let high = film.ground.height(column) as f64;
+            let corner = |x: f64, y: f64| {
+                let (x, y) = to_pixel((x, y));
+                (x.clamp(left, left + film.span()), y.max(top))
+            };
+            let (from, to) = (corner(column as f64, 1.0 + high), corner(column as f64 + 1.0, 1.0));
+            fill_rect(&mut self.frame, from, to.0 - from.0, to.1 - from.1, Color::GROUND);
+        }
+    }
+
     fn paint_lane(&mut self, moment: &Moment, lane: usize) {
         let film = self.film;
         let (scale, ground, left) = (film.scale(), film.ground(lane), film.left(lane));
@@ -116,6 +135,7 @@ impl<'a> Painter<'a> {
             let tall = if voxel % 5 == 0 { 7.0 } else { 3.0 };
             fill_rect(&mut self.frame, (to_pixel((voxel as f64, 0.0)).0, ground), 1.0, tall, Color::PALE);
         }
+        self.paint_ground(camera, half, lane, to_pixel);
         paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, !film.is_dense(), to_pixel);
         for (i, color) in Color::STIMULI.into_iter().take(film.stimuli).enumerate() {
             let side = film.lamp();
@@ -189,7 +209,8 @@ impl Film {
 
     /// Whole pixels, so that the edges of the ground are sharp.
     fn lane_height(&self) -> f64 {
-        ((self.largest as f64 * 1.25 + 0.5) * self.scale()).round() + 26.0
+        let high = self.ground.heights().iter().max().map_or(0.0, |most| f64::from(*most));
+        ((self.largest as f64 * 1.25 + 0.5 + high) * self.scale()).round() + 26.0
     }
 
     /// The left edge of a lane.
@@ -202,6 +223,11 @@ impl Film {
         HEAD + ((lane % self.rows()) as f64 + 1.0) * self.lane_height() - 16.0
     }
 
+    /// The upper edge of a lane's sky.
+    fn top(&self, lane: usize) -> f64 {
+        self.ground(lane) - self.lane_height() + 16.0
+    }
+
     fn backdrop(&self) -> Svg {
         let width = self.lane_width() * self.columns() as f64;
         let height = HEAD + self.lane_height() * self.rows() as f64 + FOOT;
@@ -211,7 +237,7 @@ impl Film {
         svg.text((width - 10.0, 21.0), "squares: stimuli 1, 2; long ticks: 5 voxels", legend);
         for (lane, name) in self.lanes.iter().enumerate() {
             let (left, ground) = (self.left(lane), self.ground(lane));
-            let top = ground - self.lane_height() + 16.0;
+            let top = self.top(lane);
             svg.rect((left + self.labels(), top), self.span(), ground - top, Paint::fill(Color::SKY));
             svg.rect((left + self.labels(), ground), self.span(), 9.0, Paint::fill(Color::GROUND));
             let (letters, size) = if self.is_dense() { (13, 7.0) } else { (15, 11.0) };

@@ -5,7 +5,7 @@ use serde_json::{Value, json};
 use crate::report::looks::{Look, Looks, material_words};
 use nbc_base::diag::counted;
 use nbc_base::model::{Body, Material};
-use nbc_swarm::{Member, Recorded, RobotTrace, StimulusSource};
+use nbc_swarm::{Assembly, Member, Recorded, StimulusSource};
 
 /// The appearance of materials, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {
@@ -32,16 +32,21 @@ pub fn materials(body: &Body) -> String {
 }
 
 /// The description of a robot of a swarm for a page: pairs of a word and a text.
-pub fn about_robot(robot: &RobotTrace, member: &Member) -> Vec<[String; 2]> {
-    let (body, character) = (&member.robot.body, &member.robot.character);
-    let wired = |i: usize| match robot.senses[i] {
-        StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(value)),
-        StimulusSource::Input(_) | StimulusSource::Robot(_) => robot.sensed_nets[i].clone(),
+pub fn about_robot(assembly: &Assembly, number: usize) -> Vec<[String; 2]> {
+    let member = &assembly.members[number];
+    let (robot, body, character) = (&member.robot, &member.robot.body, &member.robot.character);
+    let wired = |source: &StimulusSource| match source {
+        StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(*value)),
+        StimulusSource::Input(_) | StimulusSource::Robot(_) => assembly.source_name(*source),
     };
     let (clock, switches) = (counted(character.clock as usize, "cycle"), character.switches);
     let pair = |word: &str, text: String| [word.to_owned(), text];
-    let mut pairs = vec![pair("robot", robot.robot.clone()), pair("behavior", member.robot.behavior.to_string())];
-    pairs.extend((0..robot.senses.len()).map(|i| pair(&format!("stimulus {}", i + 1), wired(i))));
+    let mut pairs = vec![pair("robot", robot.name.clone()), pair("behavior", robot.behavior.to_string())];
+    if !member.block.is_empty() {
+        pairs.push(pair("part", member.block.join(" / ")));
+    }
+    let stimuli = member.senses.iter().enumerate();
+    pairs.extend(stimuli.map(|(i, source)| pair(&format!("stimulus {}", i + 1), wired(source))));
     pairs.extend([
         pair("body", body.rows().join(" ")),
         pair("materials", materials(body)),
@@ -49,4 +54,18 @@ pub fn about_robot(robot: &RobotTrace, member: &Member) -> Vec<[String; 2]> {
         pair("errors", format!("{:.2} % of {switches} switches", character.error_rate * 100.0)),
     ]);
     pairs
+}
+
+/// The robots of a swarm for the page's schematic: what they are, and the nets that they read.
+pub fn cell_data(assembly: &Assembly) -> Vec<Value> {
+    let data = |(number, member): (usize, &Member)| {
+        let wired = member.senses.iter().filter(|source| !matches!(source, StimulusSource::Constant(_)));
+        json!({
+            "net": member.net,
+            "function": member.robot.function().name(),
+            "about": about_robot(assembly, number),
+            "reads": wired.map(|&source| assembly.source_name(source)).collect::<Vec<_>>(),
+        })
+    };
+    assembly.members.iter().enumerate().map(data).collect()
 }

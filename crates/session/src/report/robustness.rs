@@ -66,6 +66,9 @@ fn declaration(world: &PhysicsWorld) -> String {
     ];
     let changed = fields.into_iter().filter(|(_, value, own)| value != own);
     let mut words: Vec<String> = changed.map(|(name, value, _)| format!("{name}: {value}")).collect();
+    if !world.ground.is_flat() {
+        words.push(format!("ground: {:?}", world.ground.heights()));
+    }
     if [noise.start, noise.missed, noise.dead].iter().any(|amount| *amount > 0.0) {
         words.push(format!("seed: {}", noise.seed));
     }

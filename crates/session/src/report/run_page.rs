@@ -5,14 +5,17 @@ use serde_json::{Value as Json, json};
 
 use crate::report::html::{Html, base64, controls, escape, picture};
 use crate::report::looks::Looks;
-use crate::report::page_bodies::{about_robot, look_data, voxel_data};
+use crate::report::page_bodies::{cell_data, look_data, voxel_data};
+use crate::report::schematic::SchematicPages;
+use crate::report::schematic_page::explorer;
 use crate::report::scheme::Scheme;
 use crate::report::svg::Svg;
 use nbc_base::diag::counted;
 use nbc_base::model::{CYCLE_STEPS, Column, Value};
 use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
-const SCRIPT: &str = include_str!("../../assets/page/swarm.js");
+const SCRIPT: &str =
+    concat!(include_str!("../../assets/page/schematic.js"), include_str!("../../assets/page/swarm.js"));
 
 /// The result of a test or a simulation.
 #[derive(Clone, Copy)]
@@ -32,7 +35,7 @@ pub struct PageSwarm<'a> {
     /// The swarm's robots.
     pub assembly: &'a Assembly,
     /// The circuit.
-    pub schematic: &'a Svg,
+    pub schematic: &'a SchematicPages,
     /// The swarm in space and time.
     pub spacetime: &'a Svg,
     /// Its static timing, as text.
@@ -104,24 +107,14 @@ impl SwarmOutcome<'_> {
 }
 
 fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
-    let shown = swarm.trace.recording.robots.len();
-    let left_out = match swarm.trace.robots.len() - shown {
-        0 => String::new(),
-        _ => format!(
-            "<p class=\"dim\">The player has room for {shown} robots: those of outputs and of named nets come \
-             first.</p>\n"
-        ),
-    };
-    let player = if shown == 0 { String::new() } else { player() };
     format!(
-        "<section id=\"swarm-{number}\">\n<h2>{heading}</h2>\n{table}\
-         <h3>Schematic</h3>\n<div class=\"beside\">{schematic}<div class=\"robot\" \
-         aria-live=\"polite\"></div></div>\n{left_out}{player}\
+        "<section id=\"swarm-{number}\">\n<h2>{heading}</h2>\n{table}<h3>Schematic</h3>\n{explorer}{player}\
          <details><summary>The swarm in space and time</summary>\n{spacetime}</details>\n\
          <details><summary>Timing, in cycles</summary>\n<pre>{timing}</pre></details>\n</section>\n",
         heading = swarm.outcome.heading(),
         table = swarm.outcome.table(),
-        schematic = picture(swarm.schematic, "schematic"),
+        explorer = explorer(),
+        player = player(),
         spacetime = picture(swarm.spacetime, "paths of the robots over time"),
         timing = escape(&swarm.timing),
     )
@@ -129,9 +122,10 @@ fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
 
 fn player() -> String {
     format!(
-        "<h3>Robots</h3>\n{}<canvas class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas>\n\
-         <h3>Waveform</h3>\n<canvas class=\"wave\" role=\"img\" aria-label=\"inputs, robots' bits and outputs over \
-         the cycles\"></canvas>\n",
+        "<h3>Robots of the sheet</h3>\n{}<p class=\"dim unrecorded\"></p>\n<div class=\"scroller\"><canvas \
+         class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas></div>\n\
+         <h3>Waveform of the sheet</h3>\n<div class=\"scroller\"><canvas class=\"wave\" role=\"img\" \
+         aria-label=\"inputs, bits of the sheet's robots, parts and outputs over the cycles\"></canvas></div>\n",
         controls("2")
     )
 }
@@ -202,13 +196,31 @@ fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
     let pairs = trace.cycles.windows(2).enumerate();
     let marks: Vec<usize> = pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(i, _)| i + 1).collect();
     let robots: Vec<Json> = trace.recording.robots.iter().map(|recorded| robot_data(swarm, recorded, looks)).collect();
+    let mut cells = cell_data(swarm.assembly);
+    for (k, cell) in cells.iter_mut().enumerate() {
+        cell["bits"] = json!(packed(trace.cycles.iter().map(|cycle| cycle.bits[k])));
+    }
+    let [inputs, outputs] = port_waves(trace);
     json!({
         "pace": trace.recording.frames_per_cycle,
         "robots": robots,
+        "cells": cells,
+        "schematic": swarm.schematic,
         "cycles": trace.cycles.len(),
         "marks": marks,
-        "waves": waves(trace),
+        "inputs": inputs,
+        "outputs": outputs,
     })
+}
+
+/// A bit in each cycle, four of them in a hexadecimal digit, the first one highest.
+fn packed(bits: impl Iterator<Item = bool>) -> String {
+    let bits: Vec<bool> = bits.collect();
+    let digit = |four: &[bool]| {
+        let value = (0..4).fold(0, |value, i| 2 * value + u32::from(four.get(i).copied().unwrap_or(false)));
+        char::from_digit(value, 16).expect("four bits are a digit")
+    };
+    bits.chunks(4).map(digit).collect()
 }
 
 /// A bit in each cycle, as digits.
@@ -218,29 +230,26 @@ fn digits(bits: impl Iterator<Item = bool>) -> String {
 
 fn robot_data(swarm: &PageSwarm<'_>, recorded: &Recorded, looks: &Looks) -> Json {
     let (trace, k) = (swarm.trace, recorded.robot);
-    let (robot, member) = (&trace.robots[k], &swarm.assembly.members[k]);
+    let robot = &trace.robots[k];
     let pace = f64::from(CYCLE_STEPS) / f64::from(trace.recording.frames_per_cycle.max(1));
     let fault = robot.fault.map(|fault| f64::from(fault.env_step) / pace);
-    let body = &member.robot.body;
+    let body = &swarm.assembly.members[k].robot.body;
     let strip = |i: usize| digits(trace.cycles.iter().map(|cycle| cycle.sensed[k].has(i)));
     let sensed: Vec<String> = (0..robot.senses.len()).map(strip).collect();
     json!({
         "cell": k,
-        "net": robot.net,
-        "function": robot.function.name(),
         "fault": fault,
         "sensed": sensed,
         "size": [body.width(), body.height()],
         "voxels": voxel_data(recorded, body, looks),
         "corners": recorded.points,
         "frames": base64(&recorded.frames),
-        "about": about_robot(robot, member),
     })
 }
 
-/// The rows of the waveform: inputs, the recorded robots, outputs. An output changes at the end of its cycle. The row
-/// of a bit is a text of digits, that of a bus a list of values.
-fn waves(trace: &SwarmTrace) -> Vec<Json> {
+/// The rows of the inputs and of the outputs in the waveform. An output changes at the end of its cycle. The row of a
+/// bit is a text of digits, that of a bus a list of values.
+fn port_waves(trace: &SwarmTrace) -> [Vec<Json>; 2] {
     let cycles = 0..trace.cycles.len();
     let words = |port: &Column, value: &dyn Fn(usize) -> Value| {
         let words: Vec<String> = cycles.clone().map(|cycle| value(cycle).to_string()).collect();
@@ -248,16 +257,10 @@ fn waves(trace: &SwarmTrace) -> Vec<Json> {
     };
     let input =
         |(i, port): (usize, &Column)| row(&port.name, "s1", 0, words(port, &|c| trace.input_values(c).swap_remove(i)));
-    let robot = |recorded: &Recorded| {
-        let k = recorded.robot;
-        row(&trace.robots[k].net, "dim", 1, json!(digits(trace.cycles.iter().map(|cycle| cycle.bits[k]))))
-    };
     let output = |(o, port): (usize, &Column)| {
         row(&format!("output {}", port.name), "out", 1, words(port, &|c| trace.output_values(c).swap_remove(o)))
     };
-    let inputs = trace.inputs.iter().enumerate().map(input);
-    let robots = trace.recording.robots.iter().map(robot);
-    inputs.chain(robots).chain(trace.outputs.iter().enumerate().map(output)).collect()
+    [trace.inputs.iter().enumerate().map(input).collect(), trace.outputs.iter().enumerate().map(output).collect()]
 }
 
 /// A row of the waveform, whose values apply `shift` cycles later.

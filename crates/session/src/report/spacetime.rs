@@ -76,7 +76,7 @@ impl Strip {
 
     /// The strip of a port of a swarm: a bus is one strip.
     fn of_input(trace: &SwarmTrace, port: usize, color: Color) -> Self {
-        let Column { name, width } = &trace.inputs[port];
+        let Column { name, width, .. } = &trace.inputs[port];
         let values = (0..trace.cycles.len()).map(|cycle| trace.input_values(cycle).swap_remove(port));
         if *width == 1 {
             return Self::of_cycles(name, color, values.map(|value| value.bits[0] == Some(true)));

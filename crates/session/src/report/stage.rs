@@ -3,13 +3,14 @@
 use std::sync::Arc;
 
 use crate::report::sprite::Pose;
-use nbc_base::model::{Body, CYCLE_STEPS, Palette, Pattern, Schedule, Setting};
+use nbc_base::model::{Body, CYCLE_STEPS, GroundProfile, Palette, Pattern, Schedule, Setting};
 use nbc_sim::{Flock, Simulator, Snapshot};
 use nbc_swarm::{Assembly, Recording, SwarmTrace};
 
 /// Robots during their simulation.
 pub struct Stage {
     flock: Box<dyn Flock>,
+    ground: GroundProfile,
     /// The materials of each robot's codes.
     palettes: Vec<Arc<Palette>>,
     /// Consecutive spells: env steps, and each robot's stimuli.
@@ -48,7 +49,7 @@ impl Stage {
     pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
         let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
         let palettes = bodies.iter().map(|body| Arc::clone(body.palette())).collect();
-        Self::new(Simulator::default().flock(setting, bodies), palettes, spells, stride)
+        Self::new((Simulator::default().flock(setting, bodies), setting.ground), palettes, spells, stride)
     }
 
     /// A swarm in its setting, with the stimuli that its robots sensed.
@@ -77,13 +78,23 @@ impl Stage {
     fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
         let palettes = assembly.members.iter().map(|member| Arc::clone(member.robot.body.palette())).collect();
         let spells = trace.cycles.iter().map(|cycle| (CYCLE_STEPS, cycle.sensed.clone())).collect();
-        Self::new(assembly.flock(&Simulator::default(), cycles), palettes, spells, stride)
+        Self::new((assembly.flock(&Simulator::default(), cycles), assembly.world.ground), palettes, spells, stride)
     }
 
-    fn new(flock: Box<dyn Flock>, palettes: Vec<Arc<Palette>>, spells: Vec<(u32, Vec<Pattern>)>, stride: u32) -> Self {
+    fn new(
+        (flock, ground): (Box<dyn Flock>, GroundProfile),
+        palettes: Vec<Arc<Palette>>,
+        spells: Vec<(u32, Vec<Pattern>)>,
+        stride: u32,
+    ) -> Self {
         assert!(stride > 0, "frames are some steps apart");
         let left = spells.first().map_or(0, |spell| spell.0);
-        Self { flock, palettes, spells, spell: 0, left, stride, step: 0, started: false }
+        Self { flock, ground, palettes, spells, spell: 0, left, stride, step: 0, started: false }
+    }
+
+    /// How high the ground is below each robot.
+    pub fn ground(&self) -> GroundProfile {
+        self.ground
     }
 
     /// The number of robots.

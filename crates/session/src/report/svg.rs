@@ -99,6 +99,11 @@ impl Svg {
         self.elements.push(Element::Placed(corner, scale, other.elements.clone()));
     }
 
+    /// The same drawing with nothing in the groups whose identity begins with `prefix`.
+    pub fn emptied(&self, prefix: &str) -> Self {
+        Self { elements: emptied(&self.elements, prefix), ..self.clone() }
+    }
+
     /// What is drawn, in the order in which they are drawn.
     #[cfg(feature = "pictures")]
     pub(super) fn elements(&self) -> &[Element] {
@@ -115,6 +120,16 @@ impl Svg {
             Lines(&self.elements)
         )
     }
+}
+
+fn emptied(elements: &[Element], prefix: &str) -> Vec<Element> {
+    let element = |element: &Element| match element {
+        Element::Group(id, title, _) if id.starts_with(prefix) => Element::Group(id.clone(), title.clone(), Vec::new()),
+        Element::Group(id, title, inner) => Element::Group(id.clone(), title.clone(), emptied(inner, prefix)),
+        Element::Placed(at, scale, inner) => Element::Placed(*at, *scale, emptied(inner, prefix)),
+        other => other.clone(),
+    };
+    elements.iter().map(element).collect()
 }
 
 /// Each element on a line.
@@ -177,6 +192,14 @@ pub fn shorten(text: &str, most: usize) -> String {
     match text.char_indices().nth(most) {
         Some(_) => text.chars().take(most - 1).chain(['…']).collect(),
         None => text.to_owned(),
+    }
+}
+
+/// The last characters of a text that has more than `most`: the end of a path tells it from others.
+pub fn shorten_start(text: &str, most: usize) -> String {
+    match text.chars().count().checked_sub(most) {
+        Some(over @ 1..) => ['…'].into_iter().chain(text.chars().skip(over + 1)).collect(),
+        _ => text.to_owned(),
     }
 }
 
@@ -244,6 +267,24 @@ mod tests {
             |svg| svg.polygon(&[(f64::NAN, 1.0), (f64::INFINITY, 100.0)], Paint::fill(Color::WHITE)),
             "<polygon points=\"0,1 0,100\" fill=\"#ffffff\"/>",
         );
+    }
+
+    #[test]
+    fn long_texts_are_cut_at_one_end() {
+        assert_eq!((shorten("carry", 5), shorten("carries", 5)), ("carry".to_owned(), "carr…".to_owned()));
+        assert_eq!(
+            (shorten_start("sum[3]", 6), shorten_start("sum[13]", 6)),
+            ("sum[3]".to_owned(), "…m[13]".to_owned())
+        );
+    }
+
+    #[test]
+    fn groups_can_be_emptied() {
+        let mut svg = Svg::transparent(10.0, 10.0, "t");
+        svg.group("cell-0", "", |svg| svg.group("body-1", "", |svg| svg.circle((1.0, 1.0), 1.0, Paint::default())));
+        assert!(svg.finish().contains("<circle") && svg.finish().contains("body-1"));
+        let emptied = svg.emptied("body-").finish();
+        assert!(!emptied.contains("<circle") && emptied.contains("body-1"));
     }
 
     #[test]

@@ -24,10 +24,13 @@ enum Values {
     Bits(usize, Vec<(u64, String)>),
     /// Numbers with their start times.
     Reals(Vec<(u64, f64)>),
+    /// Words with their start times: an extension that GTKWave, Surfer and others read.
+    Words(Vec<(u64, String)>),
 }
 
-/// Signals with one name in front.
+/// Signals with one name in front, in a part of the circuit.
 struct Scope {
+    part: Vec<String>,
     name: String,
     waves: Vec<Wave>,
 }
@@ -71,11 +74,26 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
         name: port.name.clone(),
         values: values(port.width, 1, &|c| trace.output_values(c)[o].digits()),
     };
+    // The members of enumerations have their names beside the bits.
+    let named = |port: &Column, delay: u64, text: &dyn Fn(usize) -> String| {
+        let words = cycles.clone().map(|c| ((c as u64 + delay) * CYCLE, text(c)));
+        port.members
+            .as_ref()
+            .map(|_| Wave { name: format!("{}_name", port.name), values: Values::Words(words.collect()) })
+    };
+    let named_input = |(i, port): (usize, &Column)| named(port, 0, &|c| trace.input_values(c)[i].to_string());
+    let named_output = |(o, port): (usize, &Column)| named(port, 1, &|c| trace.output_values(c)[o].to_string());
+    let inputs = trace.inputs.iter().enumerate();
+    let outputs = trace.outputs.iter().enumerate();
+    let input_waves = inputs.clone().map(input).chain(inputs.filter_map(named_input)).collect();
+    let output_waves = outputs.clone().map(output).chain(outputs.filter_map(named_output)).collect();
     let mut scopes = vec![
-        Scope { name: "inputs".to_owned(), waves: trace.inputs.iter().enumerate().map(input).collect() },
-        Scope { name: "outputs".to_owned(), waves: trace.outputs.iter().enumerate().map(output).collect() },
+        Scope { part: Vec::new(), name: "inputs".to_owned(), waves: input_waves },
+        Scope { part: Vec::new(), name: "outputs".to_owned(), waves: output_waves },
     ];
-    for (k, robot) in trace.robots.iter().enumerate() {
+    let mut robots: Vec<_> = trace.robots.iter().enumerate().collect();
+    robots.sort_by(|(_, a), (_, b)| a.block.cmp(&b.block));
+    for (k, robot) in robots {
         let wave = |name: &str, values| Wave { name: name.to_owned(), values };
         let ends = robot.com_x.iter().step_by(trace.samples_per_cycle.max(1)).enumerate();
         let places = ends.map(|(cycle, &x)| (cycle as u64 * CYCLE, (x * 100.0).round() / 100.0));
@@ -86,7 +104,9 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
         let mut waves = vec![wave("bit", values(1, 1, &|c| digit(trace.cycles[c].bits[k])))];
         waves.extend((0..robot.senses.len()).map(stimulus));
         waves.push(wave("x", Values::Reals(places.collect())));
-        scopes.push(Scope { name: format!("robot_{}", robot.net), waves });
+        let path = robot.block.join("/") + "/";
+        let net = robot.net.strip_prefix(&path).unwrap_or(&robot.net);
+        scopes.push(Scope { part: robot.block.clone(), name: format!("robot_{net}"), waves });
     }
     scopes
 }
@@ -94,20 +114,32 @@ fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
 fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
     let mut number = 0;
     text.push_str(&format!("$scope module {circuit} $end\n"));
+    let mut part: &[String] = &[];
     for (scope, name) in scopes.iter().zip(identifiers(scopes.iter().map(|scope| scope.name.as_str()))) {
+        enter(text, part, &scope.part);
+        part = &scope.part;
         text.push_str(&format!("$scope module {name} $end\n"));
         for (wave, name) in scope.waves.iter().zip(identifiers(scope.waves.iter().map(|wave| wave.name.as_str()))) {
             let (kind, range) = match wave.values {
                 Values::Bits(1, _) => ("wire 1".to_owned(), String::new()),
                 Values::Bits(width, _) => (format!("wire {width}"), format!(" [{}:0]", width - 1)),
                 Values::Reals(_) => ("real 64".to_owned(), String::new()),
+                Values::Words(_) => ("string 1".to_owned(), String::new()),
             };
             text.push_str(&format!("$var {kind} {} {name}{range} $end\n", code(number)));
             number += 1;
         }
         text.push_str("$upscope $end\n");
     }
+    enter(text, part, &[]);
     text.push_str("$upscope $end\n$enddefinitions $end\n");
+}
+
+/// Leaves a part of the circuit for another one.
+fn enter(text: &mut String, from: &[String], to: &[String]) {
+    let common = from.iter().zip(to).take_while(|(from, to)| from == to).count();
+    from[common..].iter().for_each(|_| text.push_str("$upscope $end\n"));
+    to[common..].iter().for_each(|part| text.push_str(&format!("$scope module {} $end\n", identifier(part))));
 }
 
 /// The moments at which a signal changes, with their lines; before its first value it is unknown.
@@ -126,7 +158,16 @@ fn changes_of(wave: &Wave, number: usize) -> Vec<(u64, usize, String)> {
                 reals.iter().enumerate().filter(|&(i, &(_, x))| i == 0 || reals[i - 1].1.to_bits() != x.to_bits());
             changed.map(|(_, &(time, x))| (time, number, format!("r{x} {code}"))).collect()
         }
+        Values::Words(words) => {
+            let changed = words.iter().enumerate().filter(|&(i, value)| i == 0 || words[i - 1].1 != value.1);
+            changed.map(|(_, (time, text))| (*time, number, format!("s{} {code}", word(text)))).collect()
+        }
     }
+}
+
+/// A word as a value of a signal, which has no blanks.
+fn word(text: &str) -> String {
+    text.chars().filter(|c| !c.is_whitespace()).collect()
 }
 
 /// The short name of a signal: printable ASCII, counted like numbers.

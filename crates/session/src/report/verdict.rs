@@ -37,7 +37,15 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
     let threads = if threads > 1 { format!(" in {threads} threads") } else { String::new() };
     let heading = format!("test {}{swarm}{title}{threads}: {}\n", verdict.circuit, pass_word(verdict.passed));
     let robots = describe_weak_robots(verdict);
-    format!("{heading}{robots}{}{}", indented(&table), describe_rows(verdict))
+    let printed = describe_printed(verdict);
+    format!("{heading}{printed}{robots}{}{}", indented(&table), describe_rows(verdict))
+}
+
+/// What the environment of a test wrote, line by line.
+pub fn describe_printed(verdict: &TestVerdict) -> String {
+    let Some(printed) = &verdict.printed else { return String::new() };
+    let lines = printed.lines().map(|line| format!("    > {}\n", line.escape_debug()));
+    lines.collect()
 }
 
 /// The failures of a test; empty if it passed. First the unreliable robots, then each failing row with its place, the
@@ -192,11 +200,11 @@ mod tests {
     use nbc_swarm::{Level, WeakRobot};
 
     fn port(name: &str, width: usize) -> Column {
-        Column { name: name.to_owned(), width }
+        Column::new(name, width)
     }
 
     fn bits(bits: &[Option<bool>]) -> Vec<Value> {
-        bits.iter().map(|&bit| Value { bits: vec![bit], base: Base::Bits }).collect()
+        bits.iter().map(|&bit| Value { bits: vec![bit], base: Base::Bits, members: None }).collect()
     }
 
     fn verdict(passed: bool) -> TestVerdict {
@@ -217,6 +225,7 @@ mod tests {
             inputs: vec![port("d", 1), port("en", 1)],
             outputs: vec![port("q", 1), port("nq", 1)],
             weak_robots: Vec::new(),
+            printed: None,
             rows: vec![RowVerdict {
                 row: 2,
                 thread: None,
@@ -276,6 +285,7 @@ mod tests {
         let decimal = |number: u8| Value {
             bits: (0..4).rev().map(|b| Some(number >> b & 1 == 1)).collect(),
             base: Base::Decimal,
+            members: None,
         };
         let mut verdict = verdict(false);
         verdict.outputs = vec![port("sum", 4)];

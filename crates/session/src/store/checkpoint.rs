@@ -56,8 +56,7 @@ impl Checkpoint {
             env_steps,
             left_out,
         };
-        let text = serde_json::to_string(&record).expect("a search can be written as JSON");
-        format!("{MAGIC} {FORMAT} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
+        framed(MAGIC, FORMAT, &serde_json::to_string(&record).expect("a search can be written as JSON"))
     }
 
     /// Writes a search's checkpoint file, whole or not at all.
@@ -90,22 +89,13 @@ impl Checkpoint {
     }
 
     fn read_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
-        let none = CheckpointError::NotACheckpoint;
-        let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n');
-        let Some((header, rest)) = end.map(|end| (&bytes[..end], &bytes[end + 1..])) else { return Err(none) };
-        let Ok(header) = std::str::from_utf8(header) else { return Err(none) };
-        let words: Vec<&str> = header.split(' ').collect();
-        let [MAGIC, format, checksum, length] = words[..] else { return Err(none) };
+        let (format, text) = unframed(MAGIC, bytes)?;
         let read = match format {
             "1" => read_first,
             FORMAT => read_record,
             _ => return Err(CheckpointError::Format { found: format.to_owned(), expected: FORMAT }),
         };
-        let text = length.parse().ok().and_then(|length: usize| rest.get(..length));
-        let text = text.ok_or(CheckpointError::Damaged)?;
-        if rest[text.len()..] != *b"\n" || format!("{:08x}", crc32fast::hash(text)) != checksum {
-            return Err(CheckpointError::Damaged);
-        }
+        let text = text?;
         read(text).map_err(CheckpointError::Unreadable)
     }
 
@@ -126,6 +116,34 @@ impl Checkpoint {
         };
         Err(error.of(name))
     }
+}
+
+/// A text with a header: the kind of the file, its format, a checksum and the length.
+pub(super) fn framed(magic: &str, format: &str, text: &str) -> Vec<u8> {
+    format!("{magic} {format} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
+}
+
+/// The format of a file with such a header, and its text, or that it is damaged.
+///
+/// # Errors
+/// When it has no such header.
+pub(super) fn unframed<'b>(
+    magic: &str,
+    bytes: &'b [u8],
+) -> Result<(&'b str, Result<&'b [u8], CheckpointError>), CheckpointError> {
+    let none = CheckpointError::NotACheckpoint;
+    let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n');
+    let Some((header, rest)) = end.map(|end| (&bytes[..end], &bytes[end + 1..])) else { return Err(none) };
+    let Ok(header) = std::str::from_utf8(header) else { return Err(none) };
+    let words: Vec<&'b str> = header.split(' ').collect();
+    let [kind, format, checksum, length] = words[..] else { return Err(none) };
+    if kind != magic {
+        return Err(none);
+    }
+    let text = length.parse().ok().and_then(|length: usize| rest.get(..length));
+    let whole =
+        text.filter(|text| rest[text.len()..] == *b"\n" && format!("{:08x}", crc32fast::hash(text)) == checksum);
+    Ok((format, whole.ok_or(CheckpointError::Damaged)))
 }
 
 /// The longest header in bytes, so that a large file that is not a checkpoint is rejected at once.
@@ -247,10 +265,7 @@ mod tests {
         let later = text.replacen("nbc-checkpoint 2", "nbc-checkpoint 9", 1);
         let message = Checkpoint::read("a", later.as_bytes()).unwrap_err().message;
         assert_eq!(message, "`a` is a checkpoint of format 9, expected format 2");
-        assert_eq!(
-            Checkpoint::read("a", b"hello\n").unwrap_err().message,
-            "`a` is not a checkpoint of an evolution run"
-        );
+        assert_eq!(Checkpoint::read("a", b"hello\n").unwrap_err().message, "`a` is not a checkpoint of such a run");
     }
 
     #[test]

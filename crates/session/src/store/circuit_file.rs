@@ -2,45 +2,73 @@
 
 use std::path::Path;
 
-use crate::store::verilog::Verilog;
+use crate::store::verilog::{TopModule, Verilog};
 use crate::store::wording::StoreError;
 use crate::store::{DiskWorld, disk};
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, Sources};
+use nbc_base::source::{FileError, FileId, Sources, VerilogModules};
 use nbc_circuit::CancelFlag;
-use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif};
+use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
 use nbc_lang::syntax;
 
-/// Reads a circuit; `clock` names the clock of registers for which the file names none.
-///
-/// # Errors
-/// A file that cannot be read, of an unknown format, or damaged.
-pub fn read_circuit(path: &Path, clock: Option<&str>) -> Result<Design, Diagnostics> {
-    let name = path.display().to_string();
-    match CircuitSource::of_path(&name) {
-        Some(CircuitSource::Aiger) => {
-            let bytes = disk::read(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))?;
-            Ok(aiger::read(&bytes, clock)?)
-        }
-        Some(CircuitSource::Bench) => parse(name, text(path)?, |text, file| bench::read(text, file, clock)),
-        Some(CircuitSource::Blif) => parse(name, text(path)?, |text, file| blif::read(text, file, clock)),
-        Some(CircuitSource::Verilog) => {
-            let flat = translated(name.clone(), text(path)?)?;
-            parse(format!("{name} (as BLIF)"), flat, |text, file| blif::read(text, file, clock))
-        }
-        None => Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
-    }
+/// A circuit file to be read.
+#[derive(Clone, Copy, Debug)]
+pub struct CircuitFile<'a> {
+    /// Its path.
+    pub path: &'a Path,
+    /// The clock of registers for which the file names none.
+    pub clock: Option<&'a str>,
+    /// The module or model to read.
+    pub top: &'a TopModule,
 }
 
-/// The top module of a Verilog text as BLIF.
-fn translated(name: String, text: String) -> Result<String, Diagnostics> {
+/// Reads a circuit, with warnings about it.
+///
+/// # Errors
+/// A file that cannot be read, of an unknown format, or damaged; or a module that it does not have.
+pub fn read_circuit(from: &CircuitFile<'_>) -> Result<(Design, Diagnostics), Diagnostics> {
+    let &CircuitFile { path, clock, top } = from;
+    let name = path.display().to_string();
+    let format = CircuitSource::of_path(&name);
+    let has_modules = matches!(format, Some(CircuitSource::Verilog | CircuitSource::Blif));
+    if format.is_some() && top.name.is_some() && !has_modules {
+        return Err(Diagnostic::from(StoreError::NoModules { file: name }).into());
+    }
+    if format.is_some() && !top.parameters.is_empty() && format != Some(CircuitSource::Verilog) {
+        return Err(Diagnostic::from(StoreError::NoParameters { file: name }).into());
+    }
+    let design = match format {
+        Some(CircuitSource::Aiger) => {
+            let bytes = disk::read(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))?;
+            aiger::read(&bytes, clock)?
+        }
+        Some(CircuitSource::Bench) => parse(name, text(path)?, |text, file| bench::read(text, file, clock))?,
+        Some(CircuitSource::Blif) => {
+            let model = top.name.as_deref();
+            parse(name, text(path)?, |text, file| blif::read_model(text, file, clock, model))?
+        }
+        Some(CircuitSource::Verilog) => return verilog(name, text(path)?, from),
+        None => return Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
+    };
+    Ok((design, Diagnostics::default()))
+}
+
+/// The top module of a Verilog text.
+fn verilog(name: String, text: String, from: &CircuitFile<'_>) -> Result<(Design, Diagnostics), Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
     let (source, cancel) = (sources.file(file), &CancelFlag::default());
-    Verilog { world: &DiskWorld, path: &source.name, text: &source.text, cancel }.flatten().map_err(|error| {
-        let fault = Diagnostic::untranslated(sources.file(file), &error);
-        Diagnostics { list: vec![fault], sources }
-    })
+    let modules = Verilog { world: &DiskWorld, path: &source.name, text: &source.text, cancel }.top(from.top);
+    let read = modules.map_err(|error| vec![Diagnostic::untranslated(source, &error)]).and_then(|modules| {
+        let VerilogModules { undriven, left_out, .. } = &modules;
+        let left_out = left_out.iter().map(|module| Diagnostic::left_out(source, module));
+        let warnings = left_out.chain(undriven.iter().map(|wire| Diagnostic::undriven_wire(source, wire))).collect();
+        Ok((verilog_module(&modules, &modules.tops[0], source, from.clock)?, warnings))
+    });
+    match read {
+        Ok((design, list)) => Ok((design, Diagnostics { list, sources })),
+        Err(list) => Err(Diagnostics { list, sources }),
+    }
 }
 
 /// A design as the bytes of a file; a program of the language is written as the formatter writes it.

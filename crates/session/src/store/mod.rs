@@ -34,6 +34,8 @@ mod soundness;
 #[cfg(feature = "disk")]
 mod source_files;
 #[cfg(feature = "disk")]
+mod swarm_checkpoint;
+#[cfg(feature = "disk")]
 mod temporary;
 #[cfg(feature = "disk")]
 mod verilog;
@@ -45,7 +47,7 @@ pub use atomic::{create_folder, write, write_file, write_with};
 #[cfg(feature = "disk")]
 pub use checkpoint::Checkpoint;
 #[cfg(feature = "disk")]
-pub use circuit_file::{encode_circuit, read_circuit};
+pub use circuit_file::{CircuitFile, encode_circuit, read_circuit};
 #[cfg(feature = "disk")]
 pub use declared::Declared;
 #[cfg(feature = "disk")]
@@ -66,7 +68,9 @@ pub use shape::read_body;
 #[cfg(feature = "disk")]
 pub use source_files::source_files;
 #[cfg(feature = "disk")]
+pub use swarm_checkpoint::SwarmCheckpoint;
+#[cfg(feature = "disk")]
 pub use temporary::{PrivateFile, temporary_folder};
 #[cfg(feature = "disk")]
-pub use verilog::VerilogFiles;
+pub use verilog::{TopModule, VerilogFiles};
 pub use yaml::MAX_ROBOT_BYTES;

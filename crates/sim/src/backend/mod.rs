@@ -67,11 +67,13 @@ pub trait Flock: Debug + Send {
     /// Sets robot `i` to an earlier snapshot of a robot with the same body.
     fn restore(&mut self, i: usize, snapshot: &Snapshot);
 
-    /// Moves robot `i` to the right by that many voxels.
-    fn shift(&mut self, i: usize, voxels: f64) {
+    /// Moves robot `i` to the right and up by that many voxels.
+    fn shift(&mut self, i: usize, voxels: [f64; 2]) {
         let (constants, mut snapshot) = (Constants::default(), self.snapshot(i));
         let State { position, previous, .. } = &mut snapshot.state;
-        position.iter_mut().chain(previous).for_each(|point| point[0] += voxels * constants.cell);
+        position.iter_mut().chain(previous).for_each(|point| {
+            (0..2).for_each(|axis| point[axis] += voxels[axis] * constants.cell);
+        });
         snapshot.center = snapshot.state.center(&constants);
         self.restore(i, &snapshot);
     }

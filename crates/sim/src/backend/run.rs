@@ -41,9 +41,9 @@ struct Build {
 
 impl Run {
     /// A body at its start, without a schedule.
-    fn new(build: &Build, start: f64, constants: &Constants) -> Self {
+    fn new(build: &Build, origin: [f64; 2], constants: &Constants) -> Self {
         let Build { body, lattice, signals } = build.clone();
-        let state = State::start(&lattice, start, constants);
+        let state = State::start(&lattice, origin, constants);
         let center = state.center(constants);
         Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
     }
@@ -137,7 +137,7 @@ pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoItera
             let lattice = Arc::new(Lattice::new(body, constants));
             Build { body: number, lattice, signals: Arc::clone(signals) }
         });
-        Run::new(build, setting.start_column(body.width()) as f64 + setting.shift, constants)
+        Run::new(build, setting.start(body.width()), constants)
     };
     bodies.into_iter().map(run).collect()
 }

@@ -77,7 +77,7 @@ function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: n
   const circuit = written(tokens.slice(start + 1, name + 1));
   const titled = tokens[name + 1]?.kind === "text";
   const title = titled ? tokens[name + 1]!.text.slice(1, -1) : "";
-  const at = name + (titled ? 2 : 1);
+  const at = afterClauses(tokens, name + (titled ? 2 : 1));
   const allInputs = is(tokens[at], "for");
   const body = allInputs ? at + 3 : at;
   const against = allInputs && is(tokens[body], "against");
@@ -88,6 +88,17 @@ function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: n
   const rows = allInputs ? [] : rowsOf(tokens.slice(body + 1, last));
   const endLine = tokens[last]!.line;
   return { test: { circuit, title, line: tokens[start]!.line, endLine, rows }, last };
+}
+
+/** The token after what a test says before its rows: what answers it, and its worlds. */
+function afterClauses(tokens: Token[], at: number): number {
+  if (is(tokens[at], "with")) {
+    return afterClauses(tokens, afterInstance(tokens, at + 1) + 1);
+  }
+  if (is(tokens[at], "in")) {
+    return (is(tokens[at + 1], "[") ? closing(tokens, at + 1, "[", "]") : at + 1) + 1;
+  }
+  return at;
 }
 
 /** The last token of an instance such as `adder[8]`. */
@@ -107,13 +118,24 @@ function closing(tokens: Token[], open: number, opening: string, closing: string
   return tokens.length - 1;
 }
 
-/** The lines after the first one, which names the columns. */
+/** The lines after the first one, which names the columns, without the braces of repetitions. */
 function rowsOf(tokens: Token[]): DeclaredRow[] {
   const byLine = new Map<number, Token[]>();
   for (const token of tokens) {
     byLine.set(token.line, [...(byLine.get(token.line) ?? []), token]);
   }
-  return [...byLine].slice(1).map(([line, row]) => ({ line, text: written(row) }));
+  const rows = [...byLine].slice(1).map(([line, row]) => ({ line, text: written(withoutRepetition(row)) }));
+  return rows.filter(row => row.text !== "");
+}
+
+/** A line without `repeat 3 {` before the row and `}` after it. */
+function withoutRepetition(row: Token[]): Token[] {
+  const open = is(row[0], "repeat") ? row.findIndex(token => is(token, "{")) : -1;
+  let rest = row.slice(open + 1);
+  while (rest.reduce((depth, token) => depth + nesting(token, "{", "}"), 0) < 0 && is(rest.at(-1), "}")) {
+    rest = rest.slice(0, -1);
+  }
+  return open >= 0 ? withoutRepetition(rest) : rest;
 }
 
 /** Tokens as they are written, with single spaces for blanks and line ends. */

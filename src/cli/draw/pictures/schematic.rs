@@ -3,6 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
+use nbc_session::report::draw_schematic_page;
 
 pub(super) struct SchematicPicture;
 
@@ -11,11 +12,15 @@ impl PictureKind for SchematicPicture {
         let options = &["--safe-colors"];
         KindDescription {
             options,
+            extensions: &["svg", "png", "html"],
             ..KindDescription::new("schematic", "The cells of a circuit with their robots", SubjectKind::Program)
         }
     }
 
     fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(request.compiled()?.schematic(request.scheme())))
+        let compiled = request.compiled()?;
+        let schematic = compiled.schematic(request.scheme());
+        let page = draw_schematic_page(&compiled.assembly, &schematic.pages());
+        Ok(Drawing::Sheets { top: schematic.top(), page })
     }
 }

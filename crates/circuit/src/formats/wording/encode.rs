@@ -10,6 +10,8 @@ pub enum EncodeError {
     AigerLoop,
     /// A register other than a flip-flop of the rising edge, in AIGER.
     AigerRegister { register: String, kind: RegisterKind },
+    /// A register with an asynchronous set or reset, in AIGER.
+    AigerForced { register: String },
     /// Registers of several clocks, in AIGER.
     AigerClocks { clocks: Vec<String> },
     /// A circuit without outputs, in the project's own language.
@@ -31,6 +33,9 @@ impl From<EncodeError> for Diagnostic {
                     RegisterKind::High | RegisterKind::Low => "a level-sensitive latch",
                 };
                 (format!("AIGER only has flip-flops of the rising edge, but `{register}` is {kind}"), other_format)
+            }
+            EncodeError::AigerForced { register } => {
+                (format!("AIGER has no asynchronous set or reset, but `{register}` has one"), other_format)
             }
             EncodeError::AigerClocks { clocks } => {
                 let clocks: Vec<_> = clocks.iter().map(|clock| format!("`{clock}`")).collect();

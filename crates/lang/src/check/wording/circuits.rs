@@ -10,12 +10,12 @@ pub(crate) enum CircuitError {
     DrivenInput { net: String, declared: Span },
     /// A net without a declared width, some of whose bits are driven.
     UnknownWidth { net: String },
-    /// A constant of several bits without its width; it needs at least `bits`.
-    ConstantWithoutWidth { number: String, constant: String, is_certain: bool },
     /// A constant of too many bits.
     ConstantTooLarge,
     /// Digits that are not of their base.
     WrongDigits { digits: String, radix: u32 },
+    /// A net that begins with the contents of a file, and is no memory.
+    ContentsOfNet { net: String },
     /// A net or output without a driver.
     Undriven { what: &'static str, net: String },
     /// A net or input that is not used.
@@ -69,12 +69,6 @@ impl CircuitError {
                 Diagnostic::new(Code::UnknownWidth, message, span, "only some of its bits are driven here")
                     .with_help(format!("declare it first: `net {net}[8]`"))
             }
-            Self::ConstantWithoutWidth { number, constant, is_certain } => {
-                let message = format!("the width of `{number}` is unknown");
-                Diagnostic::new(Code::UnknownWidth, message, span, "expected a constant with its width")
-                    .with_help(format!("write `{constant}`"))
-                    .with_fix(is_certain.then(|| Fix::replace(span, constant)))
-            }
             Self::ConstantTooLarge => {
                 Diagnostic::new(Code::OutOfRange, "constant is too large", span, "expected at most 128 bits")
                     .with_help("join several constants: `{64'h…, 64'h…}`")
@@ -83,6 +77,11 @@ impl CircuitError {
                 let message = format!("`{digits}` is not a number in base {radix}");
                 Diagnostic::new(Code::Syntax, message, span, format!("expected digits of base {radix}"))
                     .with_help("`4'b1010` is binary, `4'd10` decimal, `4'ha` hexadecimal")
+            }
+            Self::ContentsOfNet { net } => {
+                let message = format!("`{net}` cannot begin with the contents of a file");
+                Diagnostic::new(Code::StartValue, message, span, "expected a memory: an array of an environment")
+                    .with_help("declare it in an `environment`: `net words[1024][32] init program`")
             }
             Self::Undriven { what, net } => {
                 let message = format!("nothing drives the {what} `{net}`");
@@ -157,6 +156,8 @@ pub(crate) enum OperandError {
     WideXnor { found: usize },
     /// A call with too many or too few operands.
     CallOperands { circuit: String, expected: usize, found: usize, signature: String },
+    /// Two operands for one port.
+    TwoOperands { circuit: String, port: String },
     /// A call with more or fewer targets than the circuit has outputs.
     CallOutputs { circuit: String, expected: usize, found: usize, signature: String },
     /// One parameter too many.
@@ -191,6 +192,10 @@ impl OperandError {
                 operands(format!("`{circuit}` takes {}", counted(expected, "operand")), format!("found {found}"))
                     .with_help(format!("it is declared as `{signature}`"))
             }
+            Self::TwoOperands { circuit, port } => operands(
+                format!("two operands for the input `{port}` of `{circuit}`"),
+                "an operand without a name is for the input at its own place".to_owned(),
+            ),
             Self::CallOutputs { circuit, expected, found, signature } => {
                 operands(format!("`{circuit}` has {}", counted(expected, "output")), format!("{found} taken here"))
                     .with_help(format!("it is declared as `{signature}`"))
@@ -206,72 +211,122 @@ impl OperandError {
     }
 }
 
-/// A truth table that is not a function.
+/// An invalid use of an array, or of brackets after a net.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum TableError {
-    /// A pattern with anything but `0`, `1` and `-`.
-    NotAPattern { word: String },
-    /// A table with too many rows.
-    TooManyRows { rows: usize, most: usize },
-    /// A pattern of too many bits.
-    TooManyBits { bits: usize, most: usize },
-    /// Patterns or outputs of different widths.
-    Uneven { what: &'static str, bits: [usize; 2], first: Span },
-    /// A second `else`.
-    TwoElse { first: Span },
-    /// Two rows for one pattern.
-    Overlap { first: Span },
-    /// No row for a pattern; `rest` is a row for all remaining patterns, and the byte at which it would follow the
-    /// others.
-    MissingRow { pattern: String, rest: Option<(u32, String)> },
-    /// No rows at all.
-    Empty,
+pub(crate) enum ArrayError {
+    /// Two brackets after a net that is no array.
+    NoArray { net: String },
+    /// A range of words.
+    SeveralWords { net: String },
+    /// A value of nets where the bits of a slice stand.
+    ValueForBits,
+    /// An operation on integers that nets do not have.
+    NoValue { operator: &'static str },
+    /// Parameters of the register that writes words of a memory.
+    StartOfMemory { net: String },
+    /// A word that a value selects, driven by anything but a register.
+    NoRegister { net: String },
 }
 
-impl TableError {
-    /// The error at the table, the row or the pattern.
+impl ArrayError {
+    /// The error at the brackets or the target.
     pub(crate) fn at(self, span: Span) -> Diagnostic {
         match self {
-            Self::NotAPattern { word } => {
-                let message = format!("`{word}` is not a pattern");
-                Diagnostic::new(Code::Syntax, message, span, "expected `0`, `1` and `-`")
+            Self::NoArray { net } => {
+                let message = format!("`{net}` is not an array");
+                Diagnostic::new(Code::Operands, message, span, "only a word of an array has brackets after it")
+                    .with_help(format!(
+                        "an array is declared with two numbers: `net {net}[4][8]` has 4 words of 8 bits"
+                    ))
             }
-            Self::TooManyRows { rows, most } => {
-                let message = format!("a table of {rows} rows is too large");
-                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            Self::SeveralWords { net } => {
+                let message = format!("a range of words of `{net}`");
+                Diagnostic::new(Code::Operands, message, span, "expected one word")
+                    .with_help(format!("join the words: `{{{net}[1], {net}[0]}}`"))
             }
-            Self::TooManyBits { bits, most } => {
-                let message = format!("a pattern of {bits} bits is too wide");
-                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            Self::ValueForBits => {
+                Diagnostic::new(Code::Operands, "a value selects bits of a word", span, "expected integers")
+                    .with_help("name the word, `t = …`, and select a bit with `t[n]`")
             }
-            Self::Uneven { what, bits: [before, here], first } => {
-                let message = format!("the {what} of a table differ in width");
-                Diagnostic::new(Code::RowWidth, message, span, counted(here, "bit"))
-                    .with_label(first, counted(before, "bit"))
+            Self::NoValue { operator } => {
+                let message = format!("`{operator}` is for integers, not for nets");
+                Diagnostic::new(Code::Operands, message, span, "this value selects a word or a bit")
             }
-            Self::TwoElse { first } => {
-                Diagnostic::new(Code::TableOverlap, "the table has two `else` rows", span, "this row")
-                    .with_label(first, "and this row")
+            Self::StartOfMemory { net } => {
+                let message = format!("the memory `{net}` has no start value of a register");
+                Diagnostic::new(Code::StartValue, message, span, "written here")
+                    .with_help(format!("it begins with zeros, or with a file: `net {net}[8][8] init program`"))
             }
-            Self::Overlap { first } => {
-                let message = "two rows of the table match the same pattern";
-                Diagnostic::new(Code::TableOverlap, message, span, "this row")
-                    .with_label(first, "and this row")
-                    .with_help("remove one of them, or write `0` or `1` for `-`")
+            Self::NoRegister { net } => {
+                let message = format!("a value selects the word of `{net}` that is driven");
+                Diagnostic::new(Code::Operands, message, span, "expected a register")
+                    .with_help(format!("`{net}[…] = register(d, clk, enable: e)` writes a word when the clock rises"))
             }
-            Self::MissingRow { pattern, rest } => {
-                let fix = rest.map(|(end, row)| Fix {
-                    title: format!("add `{row}`"),
-                    edits: vec![Edit { span: Span { start: end, end, ..span }, text: format!(", {row}") }],
-                });
-                missing_row(format!("the table has no row for `{pattern}`"), span).with_fix(fix)
-            }
-            Self::Empty => missing_row("the table has no rows".to_owned(), span),
         }
     }
 }
 
-fn missing_row(message: String, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::TableIncomplete, message, span, "in this table")
-        .with_help("add the row, or `else: 0` for all remaining patterns")
+/// An invalid enumeration, or an invalid use of one.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EnumerationError {
+    /// No members.
+    Empty,
+    /// Too many members.
+    TooMany { members: usize, most: usize },
+    /// A member without a value among others that have one.
+    WithoutValue { member: String },
+    /// An encoding beside values.
+    TwoEncodings,
+    /// A value that is no constant.
+    NotAConstant { word: String },
+    /// Values of different widths.
+    Widths { widths: [u32; 2], first: Span },
+    /// A value that does not fit into the width of the others.
+    TooWide { word: String, width: u32 },
+    /// Two members with one value.
+    SameValue { names: [String; 2], first: Span },
+    /// A net with an enumeration and a width.
+    Width { net: String },
+}
+
+impl EnumerationError {
+    /// The error at the name or the value.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        let value = |message: String, label: &str| Diagnostic::new(Code::Value, message, span, label);
+        match self {
+            Self::Empty => Diagnostic::new(Code::Empty, "the enumeration has no members", span, "declared here")
+                .with_help("list them: `enum phase { fetch, execute }`"),
+            Self::TooMany { members, most } => {
+                let message = format!("an enumeration of {members} members is too large");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            }
+            Self::WithoutValue { member } => {
+                value(format!("`{member}` has no value"), "expected a value, because another member has one")
+            }
+            Self::TwoEncodings => {
+                value("the members have values and an encoding".to_owned(), "expected only one of them")
+            }
+            Self::NotAConstant { word } => {
+                value(format!("`{word}` is not a constant"), "expected one such as `5'b01100`")
+            }
+            Self::Widths { widths: [before, here], first } => {
+                let message = "the values of the enumeration differ in width";
+                Diagnostic::new(Code::Width, message, span, counted(here as usize, "bit"))
+                    .with_label(first, counted(before as usize, "bit"))
+            }
+            Self::TooWide { word, width } => {
+                let message = format!("`{word}` does not fit into {}", counted(width as usize, "bit"));
+                Diagnostic::new(Code::OutOfRange, message, span, "the width of the other values")
+            }
+            Self::SameValue { names: [first_name, name], first } => {
+                let message = format!("`{first_name}` and `{name}` have the same value");
+                Diagnostic::new(Code::Duplicate, message, span, "this member").with_label(first, "and this member")
+            }
+            Self::Width { net } => {
+                let message = format!("`{net}` has an enumeration and a width");
+                Diagnostic::new(Code::Width, message, span, "the enumeration has a width")
+                    .with_help("remove the brackets")
+            }
+        }
+    }
 }

@@ -1,6 +1,6 @@
 //! Files: those of the program, and folders of robots.
 
-use nbc_base::diag::{Code, Diagnostic, Label, Suggestion, counted, folder_error};
+use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, folder_error};
 use nbc_base::source::{FileError, Span};
 
 /// A file or folder that a program cannot use.
@@ -95,12 +95,6 @@ impl LoadError {
 /// A fault of a file that a program uses, with the place of the use.
 pub(crate) fn at_use(fault: Diagnostic, span: Span) -> Diagnostic {
     if fault.labels.is_empty() { fault.with_label(span, "used here") } else { fault.with_related(span, "used here") }
-}
-
-/// A fault of a text that a translator wrote, at the use of the file that was translated.
-pub(crate) fn of_translation(fault: Diagnostic, span: Span) -> Diagnostic {
-    let labels = vec![Label { span, text: "used here".to_owned() }];
-    Diagnostic { labels, related: Vec::new(), fix: None, ..fault }
 }
 
 fn too_large(message: String, span: Span) -> Diagnostic {

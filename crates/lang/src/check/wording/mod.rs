@@ -7,9 +7,9 @@ mod names;
 mod rows;
 mod values;
 
-pub(crate) use circuits::{CircuitError, OperandError, StartEdit, TableError};
+pub(crate) use circuits::{ArrayError, CircuitError, EnumerationError, OperandError, StartEdit};
 pub(crate) use evolutions::EvolutionError;
-pub(crate) use files::{LoadError, at_use, of_translation};
+pub(crate) use files::{LoadError, at_use};
 pub(crate) use names::NameError;
-pub(crate) use rows::{CellError, RowError};
+pub(crate) use rows::{CellError, EnvironmentError, RowError};
 pub(crate) use values::{Bounds, Expected, FieldError, Record, ValueError};

@@ -75,8 +75,9 @@ impl NameError {
             }
             Self::NetForNumber { name } => {
                 let message = format!("`{name}` is a net, not a number");
-                Diagnostic::new(Code::Unknown, message, span, "expected a parameter or a loop variable")
-                    .with_help("to select a bit by a net, use `select(a, n)`")
+                Diagnostic::new(Code::Unknown, message, span, "expected a parameter or a loop variable").with_help(
+                    "integers are known when the circuit is built; a choice by nets is `q = if c then a else b`",
+                )
             }
             Self::NumberForNet { name } => {
                 let message = format!("`{name}` is a number, not a net");

@@ -14,7 +14,7 @@ pub(crate) enum CellError {
     /// A pulse on a column of several bits.
     WidePulse { column: String, width: usize },
     /// A value that is not as wide as its column.
-    Width { found: String, column: String, width: usize, meant: Option<String> },
+    Width { found: String, column: String, width: usize, meant: Option<String>, number: Option<String> },
     /// A number that does not fit into its width.
     Unfitting { value: u128, width: usize },
     /// A number of too many bits.
@@ -42,11 +42,16 @@ impl CellError {
                 Diagnostic::new(Code::Value, message, span, "expected a value of all bits")
                     .with_help(format!("write a number with its width, for example `{width}'d0`"))
             }
-            Self::Width { found, column, width, meant } => {
+            Self::Width { found, column, width, meant, number } => {
                 let label = format!("expected {}, found {found}", counted(width, "bit"));
                 let message = format!("wrong width of a value for `{column}`");
                 let error = Diagnostic::new(Code::Width, message, span, label);
-                written_so(error, span, meant).unwrap_or_else(|error| error.with_help(example_of(width)))
+                written_so(error, span, meant).unwrap_or_else(|error| {
+                    error.with_help(match number {
+                        Some(number) => format!("digits of 0 and 1 are bits; as a number it is `{number}`"),
+                        None => example_of(width),
+                    })
+                })
             }
             Self::Unfitting { value, width } => {
                 let message = format!("`{value}` does not fit into {}", counted(width, "bit"));
@@ -110,6 +115,14 @@ pub(crate) enum RowError {
     BarElsewhere { inputs: usize },
     /// `-` for an input.
     InputWithoutValue { input: String },
+    /// A column of an input that the environment gives.
+    GivenInput { input: String },
+    /// Rows that are repeated no times, or a number of times that is too large.
+    NoTimes { text: String },
+    /// Too many rows.
+    TooManyRows { most: usize },
+    /// A row that is repeated until an output of several bits has no value that is given.
+    UntilWithoutValue { output: String },
 }
 
 impl RowError {
@@ -156,6 +169,58 @@ impl RowError {
             Self::InputWithoutValue { input } => {
                 let message = format!("the input `{input}` has no value");
                 Diagnostic::new(Code::Value, message, span, "expected `0` or `1` for an input, found `-`")
+            }
+            Self::GivenInput { input } => {
+                let message = format!("the environment gives the input `{input}`");
+                Diagnostic::new(Code::RowWidth, message, span, "expected no column for it")
+                    .with_help("remove the column")
+            }
+            Self::NoTimes { text } => {
+                let message = format!("rows cannot be repeated {text} times");
+                Diagnostic::new(Code::OutOfRange, message, span, "expected a number from 1")
+            }
+            Self::TooManyRows { most } => {
+                Diagnostic::new(Code::TooLarge, "the test has too many rows", span, format!("expected at most {most}"))
+            }
+            Self::UntilWithoutValue { output } => {
+                let message = format!("`{output}` has several bits");
+                Diagnostic::new(Code::Value, message, span, "expected a value").with_help(format!(
+                    "write the value that ends the repetition: `until {output} = 5, at most 100 rows`"
+                ))
+            }
+        }
+    }
+}
+
+/// An environment that does not fit the circuit of a test.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EnvironmentError {
+    /// A circuit that is none.
+    NoEnvironment { circuit: String },
+    /// A port with another width than that of the circuit.
+    Width { port: String, widths: [usize; 2] },
+    /// An input that is neither an output of the circuit nor an input with a column.
+    NoPort { port: String, circuit: String },
+}
+
+impl EnvironmentError {
+    /// The error at the name of the environment.
+    pub(crate) fn at(self, span: Span) -> Diagnostic {
+        match self {
+            Self::NoEnvironment { circuit } => {
+                let message = format!("`{circuit}` is a circuit, not an environment");
+                Diagnostic::new(Code::Unknown, message, span, "expected an environment")
+                    .with_help(format!("declare it so: `environment {circuit}(…) -> (…) {{ … }}`"))
+            }
+            Self::Width { port, widths: [own, other] } => {
+                let message =
+                    format!("the port `{port}` of the environment has another width than that of the circuit");
+                let label = format!("{} instead of {}", counted(own, "bit"), counted(other, "bit"));
+                Diagnostic::new(Code::Width, message, span, label)
+            }
+            Self::NoPort { port, circuit } => {
+                let message = format!("the environment needs `{port}`, which `{circuit}` does not give");
+                Diagnostic::new(Code::Unknown, message, span, "expected an output or another input of the circuit")
             }
         }
     }

@@ -163,6 +163,8 @@ pub(crate) enum ValueError {
     UnknownChoice { found: String, expected: Expected, meant: Suggestion },
     /// A list without entries.
     EmptyList { field: &'static str },
+    /// A list with more entries than there may be.
+    LongList { field: &'static str, entries: usize, most: usize },
     /// A number that needs a unit.
     MissingUnit { number: String, wanted: Vec<&'static str> },
     /// A number with a unit of something else.
@@ -195,6 +197,10 @@ impl ValueError {
             Self::EmptyList { field } => {
                 let message = format!("`{field}` is an empty list");
                 Diagnostic::new(Code::OutOfRange, message, span, "expected at least one entry")
+            }
+            Self::LongList { field, entries, most } => {
+                let message = format!("`{field}` is a list of {entries} entries");
+                Diagnostic::new(Code::OutOfRange, message, span, format!("expected {most} at most"))
             }
             Self::MissingUnit { number, wanted } => {
                 let after = Span { start: span.end, ..span };

@@ -4,15 +4,20 @@ use crate::syntax::format::expression::{Written, expression, index, size};
 use crate::syntax::format::layout::{LayoutPiece, layout};
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{
-    BodySyntax, CircuitSyntax, ParameterSyntax, Port, SizeSyntax, StatementKind, StatementSyntax, TargetSyntax,
+    BodySyntax, CircuitSyntax, Grouping, ParameterSyntax, Port, SizeSyntax, StatementKind, StatementSyntax,
+    TargetSyntax,
 };
 use nbc_base::source::Span;
 
 impl Printer<'_> {
     pub(super) fn circuit(&mut self, circuit: &CircuitSyntax, span: Span) {
         let sizes = &circuit.body.sizes;
-        let mut pieces =
-            vec![LayoutPiece::Text(format!("circuit {}{}", circuit.name.text, parameters(sizes, &circuit.parameters)))];
+        let mut pieces = vec![LayoutPiece::Text(format!(
+            "{} {}{}",
+            keyword(circuit),
+            circuit.name.text,
+            parameters(sizes, &circuit.parameters)
+        ))];
         ports(sizes, &circuit.inputs, &mut pieces);
         pieces.push(LayoutPiece::Text(" -> ".to_owned()));
         ports(sizes, &circuit.outputs, &mut pieces);
@@ -37,7 +42,9 @@ impl Printer<'_> {
 
     /// The number of statements at the start whose `=` are aligned: drivers of one target on adjacent lines.
     fn aligned_run(&self, statements: &[StatementSyntax]) -> usize {
-        let plain = |statement: &StatementSyntax| matches!(statement.kind, StatementKind::Drive { grouped: false, .. });
+        let plain = |statement: &StatementSyntax| {
+            matches!(statement.kind, StatementKind::Drive { grouping: Grouping::Single, .. })
+        };
         let follows = |pair: &&[StatementSyntax]| {
             plain(&pair[0])
                 && plain(&pair[1])
@@ -52,6 +59,7 @@ impl Printer<'_> {
             StatementKind::For { statements, .. } => {
                 statements.first().map_or(statement.span.end, |first| first.span.start)
             }
+            StatementKind::If { blocks, .. } => blocks[0].start + 1,
             _ => statement.span.end,
         };
         let pieces = match &statement.kind {
@@ -63,7 +71,8 @@ impl Printer<'_> {
         };
         self.place(places(&pieces));
         self.item_with_inside(statement.span, head, |printer| match &statement.kind {
-            StatementKind::Nets(_) => printer.write(left),
+            StatementKind::Nets(_) | StatementKind::Let { .. } => printer.write(left),
+            StatementKind::If { .. } => printer.conditional(body, statement, left),
             StatementKind::For { statements, .. } => {
                 printer.write(left);
                 printer.block(statement.span.end, |printer| printer.statements(body, statements));
@@ -75,6 +84,33 @@ impl Printer<'_> {
             }
         });
     }
+}
+
+impl Printer<'_> {
+    /// The blocks of an `if`, after its head.
+    fn conditional(&mut self, body: &BodySyntax, statement: &StatementSyntax, head: &str) {
+        let StatementKind::If { then, otherwise, blocks, .. } = &statement.kind else { return };
+        self.write(head);
+        self.block(blocks[0].end, |printer| printer.statements(body, then));
+        self.last_end(blocks[0].end);
+        match &otherwise[..] {
+            [] if blocks[1].start == blocks[1].end => {}
+            [next] if next.span == blocks[1] && matches!(next.kind, StatementKind::If { .. }) => {
+                self.write(" else ");
+                let head = left(body, next);
+                self.conditional(body, next, &head);
+            }
+            _ => {
+                self.write(" else ");
+                self.block(blocks[1].end, |printer| printer.statements(body, otherwise));
+            }
+        }
+    }
+}
+
+/// The word that begins a circuit.
+fn keyword(circuit: &CircuitSyntax) -> &'static str {
+    if circuit.is_environment { "environment" } else { "circuit" }
 }
 
 /// Where the comments in pieces begin.
@@ -92,24 +128,37 @@ fn left(body: &BodySyntax, statement: &StatementSyntax) -> String {
         StatementKind::Nets(nets) => {
             format!("net {}", nets.iter().map(|net| port(sizes, net)).collect::<Vec<_>>().join(", "))
         }
+        StatementKind::Let { name, value } => format!("let {} = {}", name.text, size(sizes, *value)),
+        StatementKind::If { left, comparison, right, .. } => {
+            format!("if {} {} {} ", size(sizes, *left), comparison.sign(), size(sizes, *right))
+        }
         StatementKind::For { variable, from, to, .. } => {
             format!("for {} in {}..{} ", variable.text, size(sizes, *from), size(sizes, *to))
         }
-        StatementKind::Drive { targets, grouped, .. } => {
-            let targets = targets.iter().map(|one| target(sizes, one)).collect::<Vec<_>>().join(", ");
-            if *grouped { format!("({targets})") } else { targets }
+        StatementKind::Drive { targets, grouping, .. } => {
+            let targets = targets.iter().map(|one| target(body, one)).collect::<Vec<_>>().join(", ");
+            match grouping {
+                Grouping::Single => targets,
+                Grouping::Outputs => format!("({targets})"),
+                Grouping::Joined => format!("{{{targets}}}"),
+            }
         }
     }
 }
 
-fn target(sizes: &[SizeSyntax], target: &TargetSyntax) -> String {
-    let start = target.start.map_or(String::new(), |start| format!(" init {}", size(sizes, start)));
-    format!("{}{}{start}", target.name.text, index(sizes, target.index.as_ref()))
+fn target(body: &BodySyntax, target: &TargetSyntax) -> String {
+    let start = target.start.map_or(String::new(), |start| format!(" init {}", size(&body.sizes, start)));
+    let [index, second] = [&target.index, &target.second].map(|bits| bits.as_ref().map(|bits| index(body, bits)));
+    format!("{}{}{}{start}", target.name.text, index.unwrap_or_default(), second.unwrap_or_default())
 }
 
 fn port(sizes: &[SizeSyntax], port: &Port) -> String {
-    let width = port.width.map_or(String::new(), |width| format!("[{}]", size(sizes, width)));
-    format!("{}{width}", port.name.text)
+    let mut text = port.name.text.clone();
+    text.extend([port.words, port.width].into_iter().flatten().map(|bits| format!("[{}]", size(sizes, bits))));
+    text.extend(port.members.iter().map(|name| format!(": {}", name.text)));
+    text.extend(port.absent.iter().map(|value| format!(" = {}", size(sizes, *value))));
+    text.extend(port.contents.iter().map(|name| format!(" init {}", name.text)));
+    text
 }
 
 fn parameters(sizes: &[SizeSyntax], parameters: &[ParameterSyntax]) -> String {

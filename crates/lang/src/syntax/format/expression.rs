@@ -1,9 +1,9 @@
 //! Expressions and sizes as pieces of text.
 
-use crate::syntax::format::layout::LayoutPiece;
+use crate::syntax::format::layout::{LayoutPiece, layout};
 use crate::syntax::tree::{
-    Argument, BodySyntax, ExpressionSyntax, ExpressionSyntaxId, ExpressionSyntaxKind, Index, Infix, SizeSyntax,
-    SizeSyntaxId, SizeSyntaxKind, TableOutputSyntax, TableRowSyntax,
+    Argument, BodySyntax, ExpressionSyntax, ExpressionSyntaxId, ExpressionSyntaxKind, Index, IndexKind, Infix,
+    SizeSyntax, SizeSyntaxId, SizeSyntaxKind, TableOutputSyntax, TableRowSyntax,
 };
 use nbc_base::source::Span;
 
@@ -40,12 +40,16 @@ fn push(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>)
         ExpressionSyntaxKind::Computed { width, value } => {
             text(pieces, format!("{}'d({})", size(&written.body.sizes, *width), size(&written.body.sizes, *value)));
         }
-        ExpressionSyntaxKind::Net { name, index: bits } => {
-            text(pieces, format!("{}{}", name.text, index(&written.body.sizes, bits.as_ref())));
+        ExpressionSyntaxKind::Net { name, index: first, second } => {
+            text(pieces, &*name.text);
+            pieces_of_index(written, first.as_ref(), pieces);
+            pieces_of_index(written, second.as_ref(), pieces);
         }
         ExpressionSyntaxKind::Call { name, arguments: given, operands } => {
             text(pieces, format!("{}{}", name.text, arguments(&written.body.sizes, given)));
-            list(written, "(", operands, ")", pieces);
+            let names = operands.iter().map(|operand| operand.name.as_ref().map(|name| name.text.as_str()));
+            let values: Vec<_> = operands.iter().map(|operand| operand.value).collect();
+            named_list(written, "(", names, &values, ")", pieces);
         }
         ExpressionSyntaxKind::Group(inner) => list(written, "(", &[*inner], ")", pieces),
         ExpressionSyntaxKind::Concatenation(parts) => list(written, "{", parts, "}", pieces),
@@ -65,11 +69,35 @@ fn push(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>)
     }
 }
 
+/// The bits or the word of a net.
+fn pieces_of_index(written: Written, bits: Option<&Index>, pieces: &mut Vec<LayoutPiece>) {
+    match bits {
+        Some(Index { kind: IndexKind::Value(value), .. }) => list(written, "[", &[*value], "]", pieces),
+        Some(bits) => text(pieces, index(written.body, bits)),
+        None => {}
+    }
+}
+
 fn list(written: Written, open: &str, values: &[ExpressionSyntaxId], close: &str, pieces: &mut Vec<LayoutPiece>) {
+    named_list(written, open, values.iter().map(|_| None), values, close, pieces);
+}
+
+/// A list of values, of which some have a name before them.
+fn named_list<'n>(
+    written: Written,
+    open: &str,
+    names: impl Iterator<Item = Option<&'n str>>,
+    values: &[ExpressionSyntaxId],
+    close: &str,
+    pieces: &mut Vec<LayoutPiece>,
+) {
     text(pieces, open);
     pieces.push(LayoutPiece::Open);
-    for (at, &value) in values.iter().enumerate() {
+    for (at, (&value, name)) in values.iter().zip(names).enumerate() {
         pieces.push(LayoutPiece::Break(if at == 0 { "" } else { ", " }));
+        if let Some(name) = name {
+            text(pieces, format!("{name}: "));
+        }
         push(written, value, pieces);
     }
     pieces.push(LayoutPiece::EndBreak(""));
@@ -127,16 +155,27 @@ fn choice(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece
 }
 
 fn table(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>) {
-    let ExpressionSyntax { kind: ExpressionSyntaxKind::Table { inputs, rows }, span } =
+    let ExpressionSyntax { kind: ExpressionSyntaxKind::Table { is_match, inputs, rows }, span } =
         &written.body.expressions[id.0 as usize]
     else {
         return;
     };
-    text(pieces, "table");
-    list(written, "(", inputs, ")", pieces);
+    match (is_match, &inputs[..]) {
+        (true, [input]) => {
+            text(pieces, "match ");
+            push(written, *input, pieces);
+        }
+        _ => {
+            text(pieces, "table");
+            list(written, "(", inputs, ")", pieces);
+        }
+    }
     text(pieces, " {");
     pieces.push(LayoutPiece::Open);
-    let pattern = |row: &TableRowSyntax| row.pattern.as_ref().map_or("else", |pattern| &pattern.text).to_owned();
+    let pattern = |row: &TableRowSyntax| match &row.patterns[..] {
+        [] => "else".to_owned(),
+        patterns => patterns.iter().map(|pattern| pattern.text.as_str()).collect::<Vec<_>>().join(" or "),
+    };
     let width = rows.iter().map(|row| pattern(row).len()).max().unwrap_or(0);
     let inputs_end = inputs.last().map_or(span.start, |last| written.body.expressions[last.0 as usize].span.end);
     let mut lines = RowLines { written, at: inputs_end, count: 0 };
@@ -219,12 +258,16 @@ fn size_chain(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     text
 }
 
-/// `[3]`, `[3..0]` or nothing.
-pub(super) fn index(sizes: &[SizeSyntax], index: Option<&Index>) -> String {
-    match index {
-        None => String::new(),
-        Some(Index { high, low: None, .. }) => format!("[{}]", size(sizes, *high)),
-        Some(Index { high, low: Some(low), .. }) => format!("[{}..{}]", size(sizes, *high), size(sizes, *low)),
+/// `[3]` or `[3..0]`, on one line.
+pub(super) fn index(body: &BodySyntax, index: &Index) -> String {
+    let sizes = &body.sizes;
+    match index.kind {
+        IndexKind::One(bit) => format!("[{}]", size(sizes, bit)),
+        IndexKind::Slice(high, low) => format!("[{}..{}]", size(sizes, high), size(sizes, low)),
+        IndexKind::Value(value) => {
+            let pieces = expression(Written { body, source: "", comments: &[] }, value);
+            format!("[{}]", layout(&pieces, 0, 0))
+        }
     }
 }
 

@@ -9,7 +9,7 @@ mod record;
 mod rows;
 
 use crate::syntax::format::printer::Printer;
-use crate::syntax::tree::{Declaration, DeclarationKind, Tree};
+use crate::syntax::tree::{Declaration, DeclarationKind, SizeSyntaxId, Tree};
 use nbc_base::source::{FileId, Sources};
 
 /// The formatted text of a file that was parsed without errors.
@@ -37,7 +37,10 @@ impl Printer<'_> {
             return run.len();
         }
         let declaration = &rest[0];
-        let long = !matches!(declaration.kind, DeclarationKind::Use(_) | DeclarationKind::Stimulus(_));
+        let long = !matches!(
+            declaration.kind,
+            DeclarationKind::Use(_) | DeclarationKind::Stimulus(_) | DeclarationKind::Let(_) | DeclarationKind::File(_)
+        );
         self.separate(long);
         self.item_with_inside(declaration.span, head_end(declaration), |printer| printer.declaration(declaration));
         self.separate_next(long);
@@ -52,6 +55,12 @@ impl Printer<'_> {
             DeclarationKind::Schedule(schedule) => self.schedule(schedule, declaration.span),
             DeclarationKind::Simulate(simulate) => self.simulate(simulate, declaration.span),
             DeclarationKind::Circuit(circuit) => self.circuit(circuit, declaration.span),
+            DeclarationKind::Enumeration(enumeration) => self.enumeration(enumeration, declaration.span),
+            DeclarationKind::Let(integer) => {
+                let value = expression::size(&integer.sizes, SizeSyntaxId(integer.sizes.len() as u32 - 1));
+                self.write(&format!("let {} = {value}", integer.name.text));
+            }
+            DeclarationKind::File(file) => self.write(&format!("file {} = \"{}\"", file.name.text, file.path.text)),
             DeclarationKind::Test(test) => self.test(test, declaration.span),
         }
     }
@@ -64,6 +73,7 @@ fn head_end(declaration: &Declaration) -> u32 {
     let first = |spans: Vec<u32>| spans.first().copied().unwrap_or(declaration.span.end);
     match &declaration.kind {
         DeclarationKind::Circuit(circuit) => first(circuit.body.statements.iter().map(|one| one.span.start).collect()),
+        DeclarationKind::Enumeration(one) => first(one.members.iter().map(|one| one.name.span.start).collect()),
         DeclarationKind::Schedule(schedule) => first(schedule.spells.iter().map(|one| one.span.start).collect()),
         DeclarationKind::Record(record) => first(record.record.fields.iter().map(|one| one.name.span.start).collect()),
         DeclarationKind::Simulate(simulate) => match &simulate.with {

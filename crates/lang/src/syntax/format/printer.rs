@@ -86,6 +86,11 @@ impl<'a> Printer<'a> {
         self.comment_behind();
     }
 
+    /// Notes that the source was printed up to a place.
+    pub(super) fn last_end(&mut self, end: u32) {
+        self.last = Some(end);
+    }
+
     /// Prints a block in braces: `items` prints its contents, and `end` is the end of the closing brace.
     pub(super) fn block(&mut self, end: u32, items: impl FnOnce(&mut Self)) {
         self.write("{");

@@ -4,8 +4,8 @@ use crate::syntax::format::expression::arguments;
 use crate::syntax::format::layout::WIDTH;
 use crate::syntax::format::printer::Printer;
 use crate::syntax::tree::{
-    Declaration, DeclarationKind, Field, InstanceSyntax, Quantity, RecordDeclaration, RecordSyntax, ValueKind,
-    ValueSyntax,
+    Declaration, DeclarationKind, EnumerationSyntax, Field, InstanceSyntax, Quantity, RecordDeclaration, RecordSyntax,
+    ValueKind, ValueSyntax,
 };
 use nbc_base::source::Span;
 
@@ -37,6 +37,30 @@ impl Printer<'_> {
         }
         // A single record is printed like any other declaration, with a blank line around it.
         if texts.len() > 1 { texts } else { Vec::new() }
+    }
+
+    /// An enumeration: on one line if it fits and its members have no values of their own.
+    pub(super) fn enumeration(&mut self, enumeration: &EnumerationSyntax, span: Span) {
+        let encoding = enumeration.encoding.as_ref().map_or(String::new(), |word| format!(": {}", word.text));
+        self.write(&format!("enum {}{encoding} ", enumeration.name.text));
+        let names: Vec<&str> = enumeration.members.iter().map(|member| member.name.text.as_str()).collect();
+        let flat = format!("{{ {} }}", names.join(", "));
+        let plain = enumeration.members.iter().all(|member| member.value.is_none());
+        if plain && !self.has_comment_inside(span) && self.column() + flat.chars().count() <= WIDTH {
+            return self.write(&flat);
+        }
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        self.block(span.end, |printer| {
+            for member in &enumeration.members {
+                let name = &member.name;
+                let text = match &member.value {
+                    Some(value) => format!("{:width$} = {},", name.text, value.text),
+                    None => format!("{},", name.text),
+                };
+                let place = member.value.as_ref().map_or(name.span, |value| name.span.to(value.span));
+                printer.item(place, |printer| printer.write(&text));
+            }
+        });
     }
 
     pub(super) fn record_declaration(&mut self, declaration: &RecordDeclaration) {

@@ -2,7 +2,9 @@
 
 use crate::syntax::format::printer::Printer;
 use crate::syntax::format::record::{instance, quantity};
-use crate::syntax::tree::{NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestKind, TestTable, With};
+use crate::syntax::tree::{
+    NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestItem, TestKind, TestRowSyntax, TestTable, With,
+};
 use nbc_base::source::Span;
 
 impl Printer<'_> {
@@ -38,7 +40,14 @@ impl Printer<'_> {
         if let Some(title) = &test.title {
             self.write(&format!("\"{}\" ", title.text));
         }
-        self.write(&in_world(test.world.as_ref()));
+        if let Some(environment) = &test.environment {
+            self.write(&format!("with {} ", environment.text));
+        }
+        self.write(&match &test.worlds[..] {
+            [] => String::new(),
+            [world] => in_world(Some(world)),
+            worlds => format!("in [{}] ", names(worlds)),
+        });
         match &test.kind {
             TestKind::Table(table) => self.test_table(table, span),
             TestKind::Against(other) => self.write(&format!("for all inputs against {}", instance(other))),
@@ -50,28 +59,64 @@ impl Printer<'_> {
     }
 
     fn test_table(&mut self, table: &TestTable, span: Span) {
-        let even = |row: &&crate::syntax::tree::TestRowSyntax| row.bars.len() == 1;
-        let header = [&table.inputs[..], &table.outputs[..]];
-        let rows: Vec<_> = table.rows.iter().filter(even).collect();
-        let inputs = widths(rows.iter().map(|row| &row.inputs[..]).chain([header[0]]));
-        let outputs = widths(rows.iter().map(|row| &row.outputs[..]).chain([header[1]]));
-        let line = |left: &[NameSyntax], right: &[NameSyntax]| {
-            let words = [aligned(left, &inputs), vec!["|".to_owned()], aligned(right, &outputs)].concat();
-            words.join(" ")
-        };
+        let mut rows = Vec::new();
+        even_rows(&table.rows, &mut rows);
+        let inputs = widths(rows.iter().map(|row| &row.inputs[..]).chain([&table.inputs[..]]));
+        let outputs = widths(rows.iter().map(|row| &row.outputs[..]).chain([&table.outputs[..]]));
+        let widths = [inputs, outputs];
         self.block(span.end, |printer| {
-            let text = line(&table.inputs, &table.outputs);
+            let text = line(&widths, &table.inputs, &table.outputs);
             printer.item(table.header, |printer| printer.write(text.trim_end()));
-            for row in &table.rows {
-                let text = match (row.bars.len(), &row.hold) {
-                    (1, None) => line(&row.inputs, &row.outputs),
-                    (1, Some(hold)) => format!("{} for {}", line(&row.inputs, &row.outputs), quantity(hold)),
-                    // The checker reports rows that are out of order.
-                    _ => printer.text(row.span).to_owned(),
-                };
-                printer.item(row.span, |printer| printer.write(text.trim_end()));
-            }
+            printer.test_rows(&table.rows, &widths);
         });
+    }
+
+    fn test_rows(&mut self, items: &[TestItem], widths: &[Vec<usize>; 2]) {
+        for item in items {
+            match item {
+                TestItem::Row(row) => {
+                    let text = self.test_row(row, widths);
+                    self.item(row.span, |printer| printer.write(text.trim_end()));
+                }
+                TestItem::Repeat { times, rows, span } => {
+                    let head = rows.first().map_or(span.end, |row| row.span().start);
+                    self.item_with_inside(*span, head, |printer| {
+                        printer.write(&format!("repeat {} ", times.text));
+                        printer.block(span.end, |printer| printer.test_rows(rows, widths));
+                    });
+                }
+            }
+        }
+    }
+
+    fn test_row(&self, row: &TestRowSyntax, widths: &[Vec<usize>; 2]) -> String {
+        // The checker reports rows that are out of order.
+        if row.bars.len() != 1 {
+            return self.text(row.span).to_owned();
+        }
+        let mut text = line(widths, &row.inputs, &row.outputs);
+        text.extend(row.hold.iter().map(|hold| format!(" for {}", quantity(hold))));
+        text.extend(row.until.iter().map(|until| {
+            let value = until.value.as_ref().map_or(String::new(), |value| format!(" = {}", value.text));
+            format!(" until {}{value}, at most {} rows", until.output.text, until.most.text)
+        }));
+        text
+    }
+}
+
+/// A row with its values in columns.
+fn line(widths: &[Vec<usize>; 2], left: &[NameSyntax], right: &[NameSyntax]) -> String {
+    [aligned(left, &widths[0]), vec!["|".to_owned()], aligned(right, &widths[1])].concat().join(" ")
+}
+
+/// The rows with one bar, those that are repeated included.
+fn even_rows<'t>(items: &'t [TestItem], rows: &mut Vec<&'t TestRowSyntax>) {
+    for item in items {
+        match item {
+            TestItem::Row(row) if row.bars.len() == 1 => rows.push(row),
+            TestItem::Row(_) => {}
+            TestItem::Repeat { rows: inner, .. } => even_rows(inner, rows),
+        }
     }
 }
 

@@ -1,36 +1,58 @@
 //! The text that Yosys reads, and where its lines come from.
 
 use crate::store::verilog::checker::{TokenChecker, TokenFault};
+use crate::store::verilog::modules::ModuleList;
 use crate::store::verilog::source::{Reader, Source};
 use crate::store::verilog::token::{TokenPlace, VerilogToken, VerilogTokenKind};
-use nbc_base::source::{VerilogError, VerilogPlace};
+use nbc_base::source::{VerilogError, VerilogName, VerilogPlace};
 
 /// A text that reads no files and runs no programs.
 pub(super) struct VerilogListing {
     pub(super) text: String,
     /// The place of each line.
-    lines: Vec<VerilogPlace>,
+    pub(super) lines: Vec<VerilogPlace>,
+    /// The modules that are not in the text, because they have no outputs.
+    pub(super) left_out: Vec<VerilogName>,
+    /// The modules with outputs that no other of them names.
+    pub(super) tops: Vec<String>,
+    /// The parameters of the wanted module, or of the only one of these.
+    pub(super) parameters: Vec<String>,
 }
 
 impl VerilogListing {
-    /// The text of a file, with the files that it includes.
+    /// The text of a file, with the files that it includes. A wanted module is in it, whatever its outputs.
     ///
     /// # Errors
     /// When it could lead to other files or programs, or is not Verilog for circuits.
-    pub(super) fn of(path: &str, text: &str, read: Reader<'_>) -> Result<Self, VerilogError> {
+    pub(super) fn of(path: &str, text: &str, top: Option<&str>, read: Reader<'_>) -> Result<Self, VerilogError> {
         let mut source = Source::new(path, text, read);
         let mut checker = TokenChecker::default();
-        let mut listing = Self { text: String::new(), lines: Vec::new() };
+        let mut listing = Self {
+            text: String::new(),
+            lines: Vec::new(),
+            left_out: Vec::new(),
+            tops: Vec::new(),
+            parameters: Vec::new(),
+        };
+        let mut modules = ModuleList::default();
         let mut last = None;
         while let Some(token) = source.next()? {
-            checker.see(&token).map_err(|fault| refused(fault, source.place(token.place)))?;
-            listing.write(&token, &mut last, &source);
+            let start = listing.write(&token, &mut last, &source);
+            modules.see(&token, start..listing.text.len(), || source.place(token.place));
+            if let Err(fault) = checker.see(&token) {
+                modules.fault(refused(fault, source.place(token.place)))?;
+            }
         }
         listing.text.push('\n');
+        listing.tops = modules.tops();
+        let wanted = top.or(listing.tops.first().map(String::as_str));
+        listing.parameters = wanted.map_or_else(Vec::new, |top| modules.parameters(top));
+        listing.left_out = modules.leave_out(top, &mut listing.text)?;
         Ok(listing)
     }
 
-    fn write(&mut self, token: &VerilogToken, last: &mut Option<TokenPlace>, source: &Source<'_>) {
+    /// Writes a token, and returns where it begins.
+    fn write(&mut self, token: &VerilogToken, last: &mut Option<TokenPlace>, source: &Source<'_>) -> usize {
         if *last != Some(token.place) {
             if last.is_some() {
                 self.text.push('\n');
@@ -40,11 +62,13 @@ impl VerilogListing {
         } else if token.is_spaced {
             self.text.push(' ');
         }
+        let start = self.text.len();
         // Yosys counts the lines of what it reads, so a token has none.
         self.text.extend(token.text.chars().map(|c| if matches!(c, '\n' | '\r') { ' ' } else { c }));
         if token.kind == VerilogTokenKind::Escaped {
             self.text.push(' ');
         }
+        start
     }
 
     /// The place of a line, from 1.
@@ -107,7 +131,7 @@ mod tests {
     fn listed(text: &str, files: &[(&str, &str)]) -> Result<VerilogListing, VerilogError> {
         let files: BTreeMap<_, _> = files.iter().copied().collect();
         let read = |path: &str| files.get(path).map(|text| (*text).to_owned()).ok_or(FileError::NotFound);
-        VerilogListing::of("d/a.v", text, &read)
+        VerilogListing::of("d/a.v", text, None, &read)
     }
 
     fn written(text: &str) -> Result<String, VerilogFault> {
@@ -206,7 +230,7 @@ mod tests {
         ) {
             let text = words.join(spaces);
             let read = |_: &str| -> Result<String, FileError> { Ok("`include \"a\"\n`define A `A".to_owned()) };
-            if let Ok(listing) = VerilogListing::of("m.v", &text, &read) {
+            if let Ok(listing) = VerilogListing::of("m.v", &text, None, &read) {
                 prop_assert!(listing.place(listing.text.lines().count() + 1).is_none());
             }
         }

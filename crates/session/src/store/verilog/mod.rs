@@ -8,10 +8,12 @@ mod checker;
 mod conditions;
 mod listing;
 mod macros;
+mod modules;
 mod process;
+mod rtlil;
 mod source;
 mod token;
 mod yosys;
 
 pub(super) use yosys::Verilog;
-pub use yosys::VerilogFiles;
+pub use yosys::{TopModule, VerilogFiles};

@@ -16,6 +16,8 @@ pub(in crate::store) enum CheckpointError {
     Damaged,
     /// An impossible state of a search.
     Unreadable(StateError),
+    /// A checkpoint of another swarm or other inputs.
+    OtherSwarm,
     /// A checkpoint of another seed.
     OtherSeed { found: u64, expected: u64 },
     /// A checkpoint of a declaration that has changed since.
@@ -29,7 +31,12 @@ impl CheckpointError {
     pub(in crate::store) fn of(self, file: &str) -> Diagnostic {
         let afresh = "choose another name for the run, or start it again without `--resume`";
         let (code, what, help) = match self {
-            Self::NotACheckpoint => (Code::Checkpoint, "is not a checkpoint of an evolution run".to_owned(), None),
+            Self::NotACheckpoint => (Code::Checkpoint, "is not a checkpoint of such a run".to_owned(), None),
+            Self::OtherSwarm => (
+                Code::Checkpoint,
+                "belongs to another swarm or other rows".to_owned(),
+                Some("choose another folder, or remove the file"),
+            ),
             Self::Format { found, expected } => (
                 Code::ForeignFormat,
                 format!("is a checkpoint of format {found}, expected format {expected}"),

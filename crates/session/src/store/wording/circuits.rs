@@ -7,6 +7,10 @@ use nbc_base::diag::{Code, Diagnostic};
 pub(in crate::store) enum StoreError {
     /// A file name without the extension of a circuit format.
     CircuitFormat { file: String },
+    /// A module of a file that has none.
+    NoModules { file: String },
+    /// Parameters of a file that has none.
+    NoParameters { file: String },
     /// A circuit whose text would be too large to be read again.
     NbTooLarge { bytes: usize, most: u64 },
 }
@@ -18,6 +22,14 @@ impl From<StoreError> for Diagnostic {
                 let message =
                     format!("unrecognized circuit format of `{file}`; expected .blif, .aig, .aag, .bench, .v or .sv");
                 Self::without_place(Code::BadValue, message)
+            }
+            StoreError::NoModules { file } => {
+                Self::without_place(Code::BadValue, format!("`{file}` has one circuit, which has no name"))
+                    .with_help("leave out `--top`: Verilog has modules, and BLIF has models")
+            }
+            StoreError::NoParameters { file } => {
+                Self::without_place(Code::BadValue, format!("`{file}` has no parameters"))
+                    .with_help("leave out `--param`: only modules of Verilog have parameters")
             }
             StoreError::NbTooLarge { bytes, most } => {
                 Self::without_place(Code::TooLarge, format!("the circuit takes {bytes} bytes as a .nb file"))

@@ -6,10 +6,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
+use std::sync::Arc;
 
 use crate::backend::lanes::loads::Loads;
 use crate::backend::lanes::mass::Masses;
-use crate::backend::lanes::proximity::{Inside, LowPoint, Proximity, Tile};
+use crate::backend::lanes::proximity::{Inside, LowPoint, NearTerrain, Proximity, Tile};
 use crate::backend::lanes::real::{Mask, Real};
 use crate::backend::lanes::springs::{Driven, Frame, Springs, TileKey};
 use crate::backend::lanes::stiffness::Stiffness;
@@ -17,6 +18,7 @@ use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, LatticePoint, Voxel};
 use crate::meter::{Part, Stopwatch};
 use crate::state::State;
+use crate::terrain::Terrain;
 
 /// Height in meters of the points that a lane does not have, at rest.
 const AWAY: f64 = 1000.0;
@@ -39,8 +41,8 @@ pub struct Occupant {
     pub surface: Vec<SurfaceVoxel>,
     /// Indexed by mass: its surface voxels at that mass, as (place in `surface`, corner).
     pub at_mass: Vec<Vec<(usize, usize)>>,
-    /// Whether it can be unstable.
-    pub active: bool,
+    /// The number of surface voxels of each of its parts, or zero for a part that cannot be unstable.
+    pub countable: Vec<u32>,
     /// The springs that its active voxels drive.
     pub driven: Vec<Driven>,
 }
@@ -52,6 +54,8 @@ pub struct SurfaceVoxel {
     pub corners: [usize; CORNERS],
     /// Which sides are surface.
     pub sides: [bool; CORNERS],
+    /// The object that it belongs to.
+    pub part: usize,
 }
 
 /// Robots in lanes, one robot each.
@@ -59,8 +63,8 @@ pub struct SurfaceVoxel {
 pub struct Batch<R: Real, K: Stiffness<R>> {
     /// The numbers of the physics.
     pub constants: Constants,
-    /// The number of ground voxels in a row.
-    pub world_width: usize,
+    /// What the robots stand on.
+    pub floor: Floor,
     /// Measures the time of each part, if requested.
     pub stopwatch: Option<Stopwatch>,
     /// The union of the points of all lanes.
@@ -73,6 +77,8 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub rows: Vec<Row>,
     /// The rigid voxels of all lanes.
     pub rigid: Vec<Round<R>>,
+    /// The masses that never move, with their lanes.
+    pub fixed: Vec<(usize, R::Mask)>,
     /// The robot of each lane.
     pub occupants: Vec<Occupant>,
     /// The pairs that are close to each other.
@@ -83,11 +89,22 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     pub touching: Touching,
 }
 
+/// What robots stand on.
+#[derive(Clone, Debug)]
+pub enum Floor {
+    /// So many ground voxels in a row.
+    Flat(usize),
+    /// Fixed voxels anywhere.
+    Terrain(Arc<Terrain>),
+}
+
 /// What may touch in a substep. Kept between substeps for its memory only.
 #[derive(Debug, Default)]
 pub struct Touching {
-    /// Surface masses at or below the surface of the ground.
+    /// Surface masses at or below the surface of a flat floor.
     pub low: Vec<LowPoint>,
+    /// Surface voxels close to voxels of the terrain, by tile and then by voxel of the terrain.
+    pub near: Vec<NearTerrain>,
     /// Masses inside voxels that are not theirs.
     pub inside: Vec<Inside>,
     /// Voxels of one lane at a low mass.
@@ -115,7 +132,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     ///
     /// # Panics
     /// When there are more robots than lanes, or none.
-    pub fn new(robots: &[(&Lattice, &State)], world_width: usize, constants: &Constants) -> Self {
+    pub fn new(robots: &[(&Lattice, &State)], floor: &Floor, constants: &Constants) -> Self {
         assert!((1..=R::LANES).contains(&robots.len()), "a batch has a robot for each lane at most");
         let (bodies, states): (Vec<&Lattice>, Vec<&State>) = robots.iter().copied().unzip();
         let places: BTreeSet<Key> = bodies.iter().flat_map(|body| body.points().iter().map(|&p| key(p))).collect();
@@ -137,16 +154,19 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let robots = bodies.iter().zip(maps).zip(driven);
         let occupants: Vec<Occupant> =
             robots.map(|((body, masses), driven)| Occupant::new(body, masses, places.len(), driven)).collect();
+        let fixed = fixed(&bodies, &occupants);
+        let countable = occupants.iter().map(|occupant| occupant.countable.clone()).collect();
         Self {
             constants: *constants,
-            world_width,
+            floor: floor.clone(),
             stopwatch: None,
             masses,
             loads,
             rows: rows(&places, &springs.frames[..springs.frame_stiffness.len()]),
             springs,
             rigid: rigid(&bodies, &occupants),
-            proximity: Proximity::new(tiles(&bodies, &occupants), occupants.iter().map(Occupant::countable).collect()),
+            fixed,
+            proximity: Proximity::new(tiles(&bodies, &occupants), countable),
             occupants,
             unstable: 0,
             touching: Touching::default(),
@@ -171,7 +191,25 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         [mean(0), mean(1)]
     }
 
-    /// Sets the targets of a lane's materials: `targets[code]` is a fraction of the rest width (docs/physics.md 4).
+    /// Puts the robot of a lane into another state.
+    pub fn load(&mut self, lane: usize, state: &State) {
+        self.masses.load(lane, &self.occupants[lane].masses, state);
+        self.unstable &= !(1 << lane);
+    }
+
+    /// Puts the masses that never move back to where they were at the start of the substep.
+    #[inline(always)]
+    pub fn hold_fixed(&mut self) {
+        for &(mass, lanes) in &self.fixed {
+            let (before, mass) = (&self.masses.before[mass], &mut self.masses.now[mass]);
+            for axis in 0..2 {
+                mass.at[axis] = R::select(lanes, before[axis], mass.at[axis]);
+                mass.velocity[axis] = R::select(lanes, R::splat(0.0), mass.velocity[axis]);
+            }
+        }
+    }
+
+    /// Sets the targets of a lane's channels: fractions of the rest width or height (docs/physics.md 4).
     pub fn set_targets(&mut self, lane: usize, targets: &[f64]) {
         self.springs.set_targets(lane, &self.occupants[lane].driven, targets, &self.constants);
     }
@@ -198,13 +236,29 @@ fn tile_key(voxel: &Voxel, occupant: &Occupant) -> TileKey {
 
 /// The surface voxels of all lanes, in reading order.
 fn tiles(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Tile> {
-    let mut surface: BTreeMap<TileKey, u32> = BTreeMap::new();
+    let mut tiles: BTreeMap<TileKey, Tile> = BTreeMap::new();
     for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
-        for voxel in body.voxels().iter().filter(|voxel| voxel.is_surface()) {
-            *surface.entry(tile_key(voxel, occupant)).or_default() |= 1 << lane;
+        let surface = body.voxels().iter().filter(|voxel| voxel.is_surface());
+        for (n, voxel) in surface.enumerate() {
+            let (cell, corners) = tile_key(voxel, occupant);
+            let new = || Tile { cell, corners, part: voxel.part, surface: 0, in_lane: vec![0; bodies.len()] };
+            let tile = tiles.entry((cell, corners)).or_insert_with(new);
+            tile.surface |= 1 << lane;
+            tile.in_lane[lane] = n;
         }
     }
-    surface.into_iter().map(|((cell, corners), surface)| Tile { cell, corners, surface }).collect()
+    tiles.into_values().collect()
+}
+
+/// The masses that never move, of all lanes.
+fn fixed<M: Mask>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<(usize, M)> {
+    let mut fixed: BTreeMap<usize, u32> = BTreeMap::new();
+    for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
+        for &point in body.fixed() {
+            *fixed.entry(occupant.masses[point]).or_default() |= 1 << lane;
+        }
+    }
+    fixed.into_iter().map(|(mass, lanes)| (mass, M::from_bits(lanes))).collect()
 }
 
 /// The rigid voxels of all lanes.
@@ -238,13 +292,11 @@ impl Occupant {
             for (corner, &mass) in corners.iter().enumerate() {
                 at_mass[mass].push((surface.len(), corner));
             }
-            surface.push(SurfaceVoxel { corners, sides: voxel.surface });
+            surface.push(SurfaceVoxel { corners, sides: voxel.surface, part: voxel.part });
         }
-        Self { masses, surface, at_mass, active: body.is_active(), driven }
-    }
-
-    /// The number of its surface voxels, or zero if it cannot be unstable.
-    fn countable(&self) -> u32 {
-        if self.active { self.surface.len() as u32 } else { 0 }
+        let count = |part: usize| surface.iter().filter(|voxel| voxel.part == part).count() as u32;
+        let parts = body.parts().iter().enumerate();
+        let countable = parts.map(|(n, part)| if part.active { count(n) } else { 0 }).collect();
+        Self { masses, surface, at_mass, countable, driven }
     }
 }

@@ -113,7 +113,7 @@ impl LaneGroup {
         let Some(&first) = self.lanes.first() else { return };
         let is_first = |&run: &usize| self.runs[run].body == self.runs[first].body;
         let robots: Vec<_> = self.lanes.iter().map(|&run| (&*self.runs[run].lattice, &self.runs[run].state)).collect();
-        let ground = Ground { constants: &world.constants, width: world.width, meter: world.meter.as_ref() };
+        let ground = Ground { constants: &world.constants, floor: &world.floor, meter: world.meter.as_ref() };
         self.batch = Some(world.kernel.batch(&robots, self.lanes.iter().all(is_first), ground));
     }
 

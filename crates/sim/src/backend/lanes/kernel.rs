@@ -7,7 +7,7 @@
 
 use std::sync::Arc;
 
-use crate::backend::lanes::batch::Batch;
+use crate::backend::lanes::batch::{Batch, Floor};
 use crate::backend::lanes::lane_batch::{LaneBatch, Stepped};
 use crate::backend::lanes::real::Real;
 use crate::backend::lanes::step::env_step;
@@ -162,8 +162,8 @@ impl Kernel {
 pub(crate) struct Ground<'a> {
     /// The numbers of the physics.
     pub constants: &'a Constants,
-    /// Ground voxels in a row.
-    pub width: usize,
+    /// What the robots stand on.
+    pub floor: &'a Floor,
     /// Measures the time of each part, if requested.
     pub meter: Option<&'a Arc<Meter>>,
 }
@@ -175,7 +175,7 @@ fn layout<R: Real, K: Stiffness<R>>(
     step: fn(&mut Batch<R, K>),
 ) -> Box<dyn LaneBatch> {
     let stopwatch = ground.meter.map(Stopwatch::new);
-    let mut batch = Batch::<R, K>::new(robots, ground.width, ground.constants);
+    let mut batch = Batch::<R, K>::new(robots, ground.floor, ground.constants);
     batch.stopwatch = stopwatch;
     batch.lap(Part::Bookkeeping);
     Box::new(Stepped { batch, step })

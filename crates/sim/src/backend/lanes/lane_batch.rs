@@ -31,6 +31,9 @@ pub trait LaneBatch: Debug + Send {
     /// Reads a lane's points as they were at the last [`LaneBatch::save`].
     fn unload_saved(&self, lane: usize, state: &mut State);
 
+    /// Puts a lane's robot into another state.
+    fn load(&mut self, lane: usize, state: &State);
+
     /// Ignores the time since the last call, if time is measured.
     fn resume(&mut self);
 
@@ -74,6 +77,10 @@ impl<R: Real, K: Stiffness<R>> LaneBatch for Stepped<R, K> {
 
     fn unload_saved(&self, lane: usize, state: &mut State) {
         self.batch.masses.unload_saved(lane, &self.batch.occupants[lane].masses, state);
+    }
+
+    fn load(&mut self, lane: usize, state: &State) {
+        self.batch.load(lane, state);
     }
 
     fn resume(&mut self) {

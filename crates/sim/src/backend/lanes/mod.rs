@@ -14,9 +14,11 @@ mod mass;
 mod proximity;
 mod real;
 mod response;
+mod scenes;
 mod springs;
 mod step;
 mod stiffness;
+mod terrain;
 mod threads;
 mod trials;
 mod vector;
@@ -28,14 +30,17 @@ use crate::backend::{Backend, Flock};
 use crate::constants::Constants;
 use crate::meter::Meter;
 use crate::monitor::Monitor;
+use crate::terrain::Terrain;
 use nbc_base::model::{Body, Setting, Trajectory, Trial};
 
 pub use kernel::{InstructionSet, Kernel};
 #[cfg(feature = "gpu")]
 pub(super) use proximity::{MARGIN, SLACK};
+pub use scenes::{SceneState, Scenes};
 #[cfg(feature = "gpu")]
 pub(super) use springs::FRAME;
 
+use batch::Floor;
 use flock::LaneFlock;
 use world::World;
 
@@ -56,7 +61,12 @@ impl LaneBackend {
     fn world(&self, setting: &Setting) -> World {
         let Self { constants, kernel, meter, monitor } = self.clone();
         let constants = constants.in_world(&setting.factors);
-        World { constants, kernel, width: setting.world_width, meter, monitor }
+        let floor = if setting.ground.is_flat() {
+            Floor::Flat(setting.world_width)
+        } else {
+            Floor::Terrain(Arc::new(Terrain::ground(setting.world_width, &setting.ground, &constants)))
+        };
+        World { constants, kernel, floor, meter, monitor }
     }
 }
 

@@ -23,15 +23,19 @@ pub struct Tile {
     pub cell: [usize; 2],
     /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
+    /// The object that it belongs to.
+    pub part: usize,
     /// Lanes that have it on their surface, as bits.
     pub surface: u32,
+    /// Its place among the surface voxels of each of these lanes.
+    pub in_lane: Vec<usize>,
 }
 
 /// The lists of close pairs.
 #[derive(Clone, Debug)]
 pub struct Proximity<R: Real> {
     /// Surface voxels of all lanes, in reading order.
-    tiles: Vec<Tile>,
+    pub tiles: Vec<Tile>,
     /// Their masses.
     points: Vec<usize>,
     /// The positions when the lists were built; infinitely far before the first time.
@@ -40,8 +44,8 @@ pub struct Proximity<R: Real> {
     near_points: Vec<NearPoint>,
     /// Pairs of tiles near each other but not neighbors.
     near_tiles: Vec<NearTiles>,
-    /// The number of surface voxels of each lane, or zero if it cannot be unstable.
-    countable: Vec<u32>,
+    /// For each lane the number of surface voxels of each part, or zero for a part that cannot be unstable.
+    countable: Vec<Vec<u32>>,
     /// Lanes with so many close pairs that they might be unstable, as bits.
     suspects: u32,
 }
@@ -56,6 +60,7 @@ struct NearPoint {
 #[derive(Clone, Copy, Debug)]
 struct NearTiles {
     tiles: [usize; 2],
+    part: usize,
     lanes: u32,
 }
 
@@ -67,11 +72,22 @@ pub struct LowPoint {
     pub lanes: u32,
 }
 
+/// A surface voxel close to a voxel of the terrain.
+#[derive(Clone, Copy, Debug)]
+pub struct NearTerrain {
+    /// The surface voxel, by its tile.
+    pub tile: usize,
+    /// The voxel of the terrain, by its number.
+    pub voxel: usize,
+    /// In which lanes, as bits.
+    pub lanes: u32,
+}
+
 /// A point found inside a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct Inside {
-    /// The masses of the tile: top left, top right, bottom right, bottom left.
-    pub corners: [usize; CORNERS],
+    /// The tile, by its number.
+    pub tile: usize,
     /// The mass that is the point.
     pub point: usize,
     /// In which lanes, as bits.
@@ -79,9 +95,9 @@ pub struct Inside {
 }
 
 impl<R: Real> Proximity<R> {
-    /// The broad phase over these surface voxels. `countable` has the number of each lane's, or zero if it cannot be
-    /// unstable.
-    pub fn new(tiles: Vec<Tile>, countable: Vec<u32>) -> Self {
+    /// The broad phase over these surface voxels. `countable` has the number of each lane's in each part, or zero for a
+    /// part that cannot be unstable.
+    pub fn new(tiles: Vec<Tile>, countable: Vec<Vec<u32>>) -> Self {
         let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
         points.sort_unstable();
         points.dedup();
@@ -129,19 +145,29 @@ impl<R: Real> Proximity<R> {
             }
             for (m, other) in self.tiles.iter().enumerate().skip(n + 1) {
                 let both = tile.surface & other.surface;
-                if both != 0 && are_apart(tile, other) {
+                if both != 0 && self.can_count(tile, other) {
                     let lanes = gap(&boxes[n], &boxes[m]).at_most(margin).bits() & both;
                     if lanes != 0 {
-                        self.near_tiles.push(NearTiles { tiles: [n, m], lanes });
+                        self.near_tiles.push(NearTiles { tiles: [n, m], part: tile.part, lanes });
                     }
                 }
             }
         }
-        let mut pairs = Tally::default();
-        for near in &self.near_tiles {
-            pairs.add(near.lanes);
+        self.suspects = 0;
+        // Pairs are sorted by their tiles, so those of a part are together.
+        for of_part in self.near_tiles.chunk_by(|one, other| one.part == other.part) {
+            let mut pairs = Tally::default();
+            for near in of_part {
+                pairs.add(near.lanes);
+            }
+            self.suspects |= pairs.overfull(&self.countable, of_part[0].part);
         }
-        self.suspects = pairs.overfull(&self.countable);
+    }
+
+    /// Whether an overlap of two tiles counts for the instability of a robot.
+    fn can_count(&self, tile: &Tile, other: &Tile) -> bool {
+        let is_active = |countable: &Vec<u32>| countable.get(tile.part).is_some_and(|&count| count > 0);
+        tile.part == other.part && are_apart(tile, other) && self.countable.iter().any(is_active)
     }
 
     /// Points inside tiles that are not theirs, by tile and then by point.
@@ -162,7 +188,7 @@ impl<R: Real> Proximity<R> {
             }
             let lanes = is_inside(at, corners(masses, tile)).bits() & near.lanes;
             if lanes != 0 {
-                found.push(Inside { corners: tile.corners, point: near.point, lanes });
+                found.push(Inside { tile: near.tile, point: near.point, lanes });
             }
         }
     }
@@ -176,18 +202,25 @@ impl<R: Real> Proximity<R> {
 
     #[inline(always)]
     fn count_overlaps(&self, masses: &[Mass<R>]) -> u32 {
-        let mut pairs = Tally::default();
-        let mut last = None;
-        let mut first = [[R::splat(0.0); 2]; 2];
-        for near in self.near_tiles.iter().filter(|near| near.lanes & self.suspects != 0) {
-            let [a, b] = near.tiles;
-            if last != Some(a) {
-                first = bounds(masses, &self.tiles[a]);
-                last = Some(a);
+        let mut found = 0;
+        for of_part in self.near_tiles.chunk_by(|one, other| one.part == other.part) {
+            let mut pairs = Tally::default();
+            let mut last = None;
+            let mut first = [[R::splat(0.0); 2]; 2];
+            for near in of_part {
+                if near.lanes & self.suspects == 0 {
+                    continue;
+                }
+                let [a, b] = near.tiles;
+                if last != Some(a) {
+                    first = bounds(masses, &self.tiles[a]);
+                    last = Some(a);
+                }
+                pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
             }
-            pairs.add(overlap(&first, &bounds(masses, &self.tiles[b])).bits() & near.lanes & self.suspects);
+            found |= pairs.overfull(&self.countable, of_part[0].part);
         }
-        pairs.overfull(&self.countable)
+        found
     }
 }
 
@@ -205,11 +238,12 @@ impl Tally {
         }
     }
 
-    /// Lanes where twice the pairs are more than the surface voxels, as bits.
-    fn overfull(&self, surface: &[u32]) -> u32 {
+    /// Lanes where twice the pairs of a part are more than its surface voxels, as bits.
+    fn overfull(&self, surface: &[Vec<u32>], part: usize) -> u32 {
         let lanes = self.0.iter().zip(surface).enumerate();
+        let is_overfull = |pairs: u32, surface: u32| surface > 0 && 2 * pairs > surface;
         lanes
-            .filter(|(_, (pairs, surface))| **surface > 0 && 2 * **pairs > **surface)
+            .filter(|(_, (pairs, surface))| is_overfull(**pairs, surface.get(part).copied().unwrap_or(0)))
             .fold(0, |bits, (lane, _)| bits | 1 << lane)
     }
 }
@@ -231,7 +265,7 @@ fn corners<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; CORNERS] {
 
 /// Least and greatest coordinates of a tile.
 #[inline(always)]
-fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
+pub fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
     let [a, b, c, d] = corners(masses, tile);
     [
         [a[0].min(b[0]).min(c[0].min(d[0])), a[1].min(b[1]).min(c[1].min(d[1]))],

@@ -1,8 +1,10 @@
 //! Contact forces: which voxels touch in a substep, and the forces between them (docs/physics.md 7).
 
+use std::sync::Arc;
+
 use nalgebra::Vector2;
 
-use crate::backend::lanes::batch::Batch;
+use crate::backend::lanes::batch::{Batch, Floor};
 use crate::backend::lanes::contact::{Hit, Quad};
 use crate::backend::lanes::proximity::{Inside, LowPoint};
 use crate::backend::lanes::real::Real;
@@ -16,14 +18,21 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.loads.clear_contacts(&mut self.masses.now);
         let mut low = std::mem::take(&mut self.touching.low);
         let mut inside = std::mem::take(&mut self.touching.inside);
-        if self.proximity.survey(&self.masses.now, self.constants.cell, &mut low) {
+        // Only a flat floor is found by height.
+        let surface = if matches!(self.floor, Floor::Flat(_)) { self.constants.cell } else { f64::NEG_INFINITY };
+        if self.proximity.survey(&self.masses.now, surface, &mut low) {
             self.proximity.renew(&self.masses.now);
+            if let Floor::Terrain(terrain) = &self.floor {
+                let terrain = Arc::clone(terrain);
+                self.renew_terrain(&terrain);
+            }
         }
         self.proximity.insides(&self.masses.now, &mut inside);
         self.unstable |= self.proximity.unstable(&self.masses.now);
         if !low.is_empty() {
             self.collide_with_ground(&low);
         }
+        self.collide_with_terrain();
         if !inside.is_empty() {
             self.collide_with_itself(&inside);
         }
@@ -58,30 +67,22 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         if !(least.y <= cell && greatest.y >= 0.0) {
             return;
         }
-        let columns = self.world_width as f64;
+        let Floor::Flat(width) = self.floor else { return };
+        let columns = width as f64;
         let from = ((least.x / cell).floor() - 1.0).clamp(0.0, columns) as usize;
         let to = ((greatest.x / cell).floor() + 2.0).clamp(0.0, columns) as usize;
         for column in from..to {
-            let ground = self.ground(column);
+            let ground = self.ground(column, width);
             let [left, right] = [ground.corners[0].x, ground.corners[1].x];
             if !(left <= greatest.x && least.x <= right) {
                 continue;
             }
-            for corner in 0..CORNERS {
-                if let Some(hit) = ground.hit_by(&quad, corner, &self.constants) {
-                    self.push(lane, &hit, Some(masses[corner]), None, 1.0);
-                }
-            }
-            for corner in 0..CORNERS {
-                if let Some(hit) = quad.hit_by(&ground, corner, &self.constants) {
-                    let ends = quad.ends(hit.side).map(|corner| masses[corner]);
-                    self.push(lane, &hit, None, Some(ends), 1.0);
-                }
-            }
+            self.collide_with_fixed(lane, &quad, &masses, &ground);
         }
     }
 
-    /// Contact of robots with themselves. Each pair is evaluated twice in both orders, so the forces are doubled.
+    /// Contact of robots with themselves and with other objects. Two voxels of one object are evaluated twice in both
+    /// orders, so their forces are doubled.
     #[inline(never)]
     fn collide_with_itself(&mut self, insides: &[Inside]) {
         for inside in insides {
@@ -92,8 +93,9 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     fn collide_point_with_itself(&mut self, lane: usize, inside: &Inside) {
-        let reference = self.occupants[lane].surface.iter().position(|voxel| voxel.corners == inside.corners);
-        let (reference, masses) = self.quad(lane, reference.expect("a tile in a lane is a surface voxel of its robot"));
+        let own = self.proximity.tiles[inside.tile].in_lane[lane];
+        let part = self.occupants[lane].surface[own].part;
+        let (reference, masses) = self.quad(lane, own);
         let [least, greatest] = reference.bounds;
         for n in 0..self.occupants[lane].at_mass[inside.point].len() {
             let (voxel, corner) = self.occupants[lane].at_mass[inside.point][n];
@@ -102,14 +104,15 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             let overlap = from.x <= greatest.x && least.x <= to.x && from.y <= greatest.y && least.y <= to.y;
             if let Some(hit) = overlap.then(|| reference.hit_by(&main, corner, &self.constants)).flatten() {
                 let ends = reference.ends(hit.side).map(|corner| masses[corner]);
-                self.push(lane, &hit, Some(inside.point), Some(ends), 2.0);
+                let times = if self.occupants[lane].surface[voxel].part == part { 2.0 } else { 1.0 };
+                self.push(lane, &hit, Some(inside.point), Some(ends), times);
             }
         }
     }
 
     /// The forces of a contact, multiplied: on the point F - 140 (n·w) n and friction; on each end of the side half of
     /// F and of friction in the opposite direction, and its own damping. No force acts on the ground.
-    fn push(&mut self, lane: usize, hit: &Hit, point: Option<usize>, ends: Option<[usize; 2]>, times: f64) {
+    pub fn push(&mut self, lane: usize, hit: &Hit, point: Option<usize>, ends: Option<[usize; 2]>, times: f64) {
         let constants = self.constants;
         let normal = hit.normal;
         let strength = constants.contact_stiffness * (constants.contact_depth + hit.distance);
@@ -144,7 +147,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     /// A lane's surface voxel at its current position, and its masses.
-    fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
+    pub fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
         let voxel = self.occupants[lane].surface[voxel];
         let masses = &self.masses.now;
         let place = |mass: usize| Vector2::new(masses[mass].at[0].lane(lane), masses[mass].at[1].lane(lane));
@@ -152,11 +155,11 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 
     /// Ground voxel `column`, rounded as in docs/physics.md 2.
-    fn ground(&self, column: usize) -> Quad {
+    fn ground(&self, column: usize, width: usize) -> Quad {
         let cell = self.constants.cell;
         let (left, right) = (column as f64 * cell, (column + 1) as f64 * cell);
         let corners = [[left, cell], [right, cell], [right, 0.0], [left, 0.0]].map(|[x, y]| Vector2::new(x, y));
         let bounds = [corners[3], corners[1]];
-        Quad::within(bounds, corners, [true, column + 1 == self.world_width, true, column == 0])
+        Quad::within(bounds, corners, [true, column + 1 == width, true, column == 0])
     }
 }

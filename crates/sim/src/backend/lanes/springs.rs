@@ -1,10 +1,11 @@
 //! The springs of a batch: the union of its robots' springs, by voxel, and the lengths that they approach.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::backend::lanes::real::Real;
 use crate::backend::lanes::stiffness::Stiffness;
 use crate::constants::Constants;
+use crate::grid::DriveAxis;
 use crate::lattice::{CORNERS, DrivenEdge, Edge, Lattice};
 
 /// The goals of springs that are not driven: of main edges, of diagonals.
@@ -29,7 +30,8 @@ impl Frame {
     }
 }
 
-/// A bottom or right side without a voxel beyond it, which would have it as its top or left side.
+/// A bottom or right side without a voxel beyond it, which would have it as its top or left side; and a left side that
+/// is driven.
 #[derive(Clone, Copy, Debug)]
 pub struct Rim {
     /// The end with the lower number: a mass.
@@ -51,10 +53,10 @@ pub struct Driven {
     pub aim: usize,
     /// Built length in meters.
     pub rest: f64,
-    /// The material code of its first active owner.
-    pub first: u8,
-    /// The code of the second, if both are active.
-    pub second: Option<u8>,
+    /// The channel of its first active owner; the material code in a body.
+    pub first: u16,
+    /// The channel of the second, if both are active.
+    pub second: Option<u16>,
 }
 
 /// The springs of all lanes.
@@ -138,7 +140,8 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
         (all, driven)
     }
 
-    /// Sets the goals of a lane's driven springs: `targets[code]` is a fraction of the rest width (docs/physics.md 4).
+    /// Sets the goals of a lane's driven springs: the target of a channel is a fraction of the rest width or height
+    /// (docs/physics.md 4).
     pub fn set_targets(&mut self, lane: usize, driven: &[Driven], targets: &[f64], constants: &Constants) {
         for driven in driven {
             let first = targets[usize::from(driven.first)];
@@ -167,10 +170,14 @@ fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
             found.insert((corners[a], corners[b]), spring);
         }
     }
-    let spring = |edge: &Edge| {
+    // Of the sides of a frame only the top has a goal of its own.
+    let upright = |edge: &&DrivenEdge| edge.axis == DriveAxis::Vertical;
+    let upright: BTreeSet<usize> = body.driven().iter().filter(upright).map(|edge| edge.edge).collect();
+    let spring = |(n, edge): (usize, &Edge)| {
         let (a, b) = (masses[edge.a], masses[edge.b]);
         let ends = (a.min(b), a.max(b));
-        found.get(&ends).copied().unwrap_or(Spring::Rim(ends))
+        let in_frame = found.get(&ends).filter(|_| !upright.contains(&n));
+        in_frame.copied().unwrap_or(Spring::Rim(ends))
     };
-    body.edges().iter().map(spring).collect()
+    body.edges().iter().enumerate().map(spring).collect()
 }

@@ -26,8 +26,10 @@ pub fn env_step<R: Real, K: Stiffness<R>>(batch: &mut Batch<R, K>) {
         batch.sweep::<2>();
         batch.sweep::<3>();
         batch.sweep::<4>();
+        batch.hold_fixed();
         batch.lap(Part::Springs);
         batch.limit_lengths();
+        batch.hold_fixed();
         batch.limit_rigid();
         batch.lap(Part::Limits);
     }

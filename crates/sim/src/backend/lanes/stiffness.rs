@@ -42,7 +42,7 @@ impl<R: Real> Stiffness<R> for Common {
 
     #[inline(always)]
     fn mask(&self, mask: R::Mask) -> R::Mask {
-        mask
+        if self.0 > 0.0 { mask } else { R::Mask::from_bits(0) }
     }
 }
 

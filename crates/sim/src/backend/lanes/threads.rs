@@ -21,7 +21,11 @@ pub fn count() -> usize {
 /// Does the work for each item, in any order.
 #[cfg(feature = "parallel")]
 pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
-    items.par_iter_mut().with_max_len(1).for_each(work);
+    match items {
+        // The caller's thread would only wait for another.
+        [item] => work(item),
+        items => items.par_iter_mut().with_max_len(1).for_each(work),
+    }
 }
 
 /// Does the work for each item, in any order.

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::backend::lanes::batch::Floor;
 use crate::backend::lanes::kernel::Kernel;
 use crate::constants::Constants;
 use crate::meter::Meter;
@@ -14,8 +15,8 @@ pub struct World {
     pub constants: Constants,
     /// The kernel that simulates.
     pub kernel: Kernel,
-    /// Ground voxels in a row.
-    pub width: usize,
+    /// What the robots stand on.
+    pub floor: Floor,
     /// Measures the time of each part, if requested.
     pub meter: Option<Arc<Meter>>,
     /// Follows simulations, if requested.

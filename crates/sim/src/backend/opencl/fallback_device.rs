@@ -53,7 +53,7 @@ impl FallbackDevice {
         runs: &mut [Run],
         record: &mut dyn FnMut(usize, [f64; 2]),
     ) -> Option<Vec<usize>> {
-        if self.failure().is_some() || setting.factors != WorldFactors::default() {
+        if self.failure().is_some() || setting.factors != WorldFactors::default() || !setting.ground.is_flat() {
             return None;
         }
         let world = DeviceWorld {

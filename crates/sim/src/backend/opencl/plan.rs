@@ -62,10 +62,7 @@ impl BodyPlan {
             gather(body, &masses, &springs, frames),
             around(&surface, &masses),
             masses.iter().map(|&mass| mass as u16).collect(),
-            body.driven()
-                .iter()
-                .flat_map(|edge| [u16::from(edge.first), edge.second.map_or(NONE, u16::from)])
-                .collect(),
+            body.driven().iter().flat_map(|edge| [edge.first, edge.second.unwrap_or(NONE)]).collect(),
             surface.iter().flat_map(|voxel| tile(voxel, &masses)).collect(),
             skin.iter().map(|&mass| mass as u16).collect(),
             ends_of(&levels),
@@ -79,7 +76,7 @@ impl BodyPlan {
             tiles: surface.len(),
             points: skin.len(),
             levels: levels.len(),
-            countable: if body.is_active() { surface.len() } else { 0 },
+            countable: if body.parts().iter().any(|part| part.active) { surface.len() } else { 0 },
             masses,
         }
     }

@@ -1,5 +1,9 @@
 //! What can be wrong with widths, bits and drivers, as data, and how it is worded.
 
+mod tables;
+
+pub use tables::TableError;
+
 use std::fmt;
 
 use nbc_base::diag::{Code, Diagnostic, Fix, Label, Suggestion, counted, suggest};
@@ -56,6 +60,10 @@ pub(super) enum Wide {
     Condition,
     /// An operand of a circuit, by the name of its port.
     Operand { port: String, circuit: String },
+    /// The value whose parts drive the nets at this place.
+    Parts { targets: Span },
+    /// The value that selects one of the words or bits of a net.
+    Index { net: String, words: u32 },
 }
 
 impl fmt::Display for Wide {
@@ -64,6 +72,8 @@ impl fmt::Display for Wide {
             Self::Value { net, .. } => write!(f, "the value of `{net}`"),
             Self::Condition => f.write_str("the condition"),
             Self::Operand { port, circuit } => write!(f, "the operand `{port}` of `{circuit}`"),
+            Self::Parts { .. } => f.write_str("the value whose parts are named"),
+            Self::Index { net, words } => write!(f, "the value that selects one of {words} of `{net}`"),
         }
     }
 }
@@ -107,7 +117,7 @@ fn wrong(what: &Wide, expected: u32, found: &OperandText) -> Diagnostic {
     let error = Diagnostic::new(Code::Width, message, found.span, bits(found.width));
     let error = with_resized(error, found, resized).unwrap_or_else(|error| error.with_help(help));
     match what {
-        Wide::Value { target, .. } => error.with_label(*target, bits(expected)),
+        Wide::Value { target, .. } | Wide::Parts { targets: target } => error.with_label(*target, bits(expected)),
         _ => error,
     }
 }
@@ -149,6 +159,8 @@ pub(super) enum ElaborateError {
     PatternWidth { found: usize, expected: usize },
     /// A net of unknown width.
     UnknownWidth { net: String },
+    /// A number without a width, where nothing else tells it.
+    NumberWithoutWidth { value: u128 },
     /// A parameter of unknown value.
     UnknownParameter { circuit: String, parameter: String },
     /// A second driver; `first` is the first one's place, if it is another.
@@ -179,6 +191,13 @@ impl ElaborateError {
                 let message = format!("the width of `{net}` is unknown");
                 Diagnostic::new(Code::UnknownWidth, message, span, "this net")
                     .with_help(format!("declare it: `net {net}` for one bit, `net {net}[8]` for eight"))
+            }
+            Self::NumberWithoutWidth { value } => {
+                let constant = format!("{}'d{value}", (u128::BITS - value.leading_zeros()).max(1));
+                let message = format!("the width of `{value}` is unknown");
+                Diagnostic::new(Code::UnknownWidth, message, span, "nothing beside it has a width")
+                    .with_help(format!("write it with its width: `{constant}`"))
+                    .with_fix(Fix::replace(span, constant))
             }
             Self::UnknownParameter { circuit, parameter } => {
                 let message = format!("the parameter `{parameter}` of `{circuit}` is unknown");
@@ -245,6 +264,8 @@ pub(super) enum RangeError {
     AscendingSlice { net: String, ends: [i64; 2], is_literal: bool },
     /// A bit that the net does not have.
     NoSuchBit { net: String, bit: i64, width: u32 },
+    /// A word that the array does not have.
+    NoSuchWord { net: String, word: i64, words: u32 },
     /// A start value that does not fit into its net.
     StartValue { value: i64, width: u32 },
     /// A computed constant below zero.
@@ -279,6 +300,11 @@ impl RangeError {
                 };
                 outside(format!("`{net}` has no bit {bit}"), format!("`{net}` is {} wide", bits(width))).with_help(help)
             }
+            Self::NoSuchWord { net, word, words } => outside(
+                format!("`{net}` has no word {word}"),
+                format!("`{net}` has {}", counted(words as usize, "word")),
+            )
+            .with_help(format!("its words are 0 to {}", words - 1)),
             Self::StartValue { value, width } => {
                 let label = match width {
                     0..63 => format!("expected 0 to {}", (1i64 << width) - 1),

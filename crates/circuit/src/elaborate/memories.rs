@@ -1,0 +1,58 @@
+//! Memories of environments: what reads and writes them becomes ports of the module, after those that are declared. The
+//! words read are inputs; the addresses, and the words written, are outputs.
+
+use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::memory_ports::MemoryPorts;
+use nbc_base::model::NetSlot;
+
+impl ModuleBuilder<'_, '_> {
+    /// Makes the accesses to memories ports of the module.
+    pub(super) fn memory_ports(&mut self) {
+        let circuit = self.circuit;
+        for (at, memory) in circuit.memories.iter().enumerate() {
+            let (Some(words), Some(width)) = (self.width(memory.words, 0), self.width(memory.width, 0)) else {
+                self.failed = true;
+                return;
+            };
+            let (words, width) = (words as usize, width as usize);
+            let mut ports = MemoryPorts { memory: at, words, width, reads: Vec::new(), writes: Vec::new() };
+            for frame in 0..self.frames.len() as u32 {
+                let (first, _, nets) = self.frames[frame as usize].nets();
+                let is_here = |slot: NetSlot| (first..first + nets).contains(&slot.0);
+                for read in memory.reads.iter().filter(|read| is_here(read.address)) {
+                    let Some(address) = self.access(read.address, frame, false) else { return };
+                    let Some(data) = self.access(read.data, frame, true) else { return };
+                    ports.reads.push([address, data]);
+                }
+                for write in memory.writes.iter().filter(|write| is_here(write.address)) {
+                    let nets = [write.address, write.data, write.enable, write.clk];
+                    let [Some(address), Some(data), Some(enable), Some(clk)] =
+                        nets.map(|net| self.access(net, frame, false))
+                    else {
+                        return;
+                    };
+                    ports.writes.push([address, data, enable, clk]);
+                }
+            }
+            self.module.memories.push(ports);
+        }
+    }
+
+    /// Makes a net a port; returns its bits among those of all inputs or outputs.
+    fn access(&mut self, slot: NetSlot, frame: u32, is_input: bool) -> Option<std::ops::Range<usize>> {
+        let net = self.net(slot, frame);
+        let Some(width) = self.declared_width(slot, frame) else {
+            self.failed = true;
+            return None;
+        };
+        self.give_width(net, width);
+        let ports = if is_input { &self.module.inputs } else { &self.module.outputs };
+        let first = ports.iter().map(|port| port.width as usize).sum();
+        if is_input {
+            self.input(net);
+        } else {
+            self.output(net);
+        }
+        Some(first..first + width as usize)
+    }
+}

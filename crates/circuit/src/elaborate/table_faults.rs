@@ -1,0 +1,118 @@
+//! What is wrong with a truth table: it needs exactly one row for every pattern.
+
+use crate::elaborate::wording::TableError;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{OutputValue, Table, TableOutput, TablePattern, TableRow};
+use nbc_base::source::Span;
+
+/// The most rows. All pairs of rows are compared.
+const MOST_ROWS: usize = 4096;
+
+/// The most input bits.
+const MOST_BITS: usize = 64;
+
+/// The same table over inputs of `width` bits, with the bits of every pattern.
+///
+/// # Errors
+/// When a number has more bits.
+pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
+    let mut table = table.clone();
+    for row in &mut table.rows {
+        // A single digit is a number of any width.
+        let number = match row.pattern {
+            TablePattern::Number(value) => Some(value),
+            TablePattern::Bits(_) => row.pattern.digit().filter(|_| width != 1),
+        };
+        if let Some(value) = number {
+            if width < 128 && value >> width != 0 {
+                return Err(TableError::WideNumber { value, width }.at(row.span));
+            }
+            let bit = |bit: usize| Some(bit < 128 && value >> bit & 1 == 1);
+            row.pattern = TablePattern::Bits((0..width).rev().map(bit).collect());
+        }
+    }
+    Ok(table)
+}
+
+/// What is wrong with a table whose patterns all have their bits: their widths, patterns with two rows or none.
+pub fn table_fault(table: &Table) -> Option<Diagnostic> {
+    if table.rows.len() > MOST_ROWS {
+        return Some(TableError::TooManyRows { rows: table.rows.len(), most: MOST_ROWS }.at(table.span));
+    }
+    if let Some(row) = table.rows.iter().find(|row| row.bits().len() > MOST_BITS) {
+        return Some(TableError::TooManyBits { bits: row.bits().len(), most: MOST_BITS }.at(row.span));
+    }
+    uneven(table.rows.iter().map(|row| (row.bits().len(), row.span)), "patterns")
+        .or_else(|| uneven(table.outputs().filter_map(written), "outputs"))
+        .or_else(|| overlap(table))
+        .or_else(|| missing(table))
+}
+
+/// The width of an output that is not an expression, with its place.
+fn written(output: &TableOutput) -> Option<(usize, Span)> {
+    match &output.value {
+        OutputValue::Bits(bits) => Some((bits.len(), output.span)),
+        OutputValue::Number(_) | OutputValue::Expression(_) => None,
+    }
+}
+
+/// The first width that differs from the previous one.
+fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &'static str) -> Option<Diagnostic> {
+    let widths: Vec<_> = widths.collect();
+    let pair = widths.windows(2).find(|pair| pair[0].0 != pair[1].0)?;
+    let [(before, first), (here, span)] = [pair[0], pair[1]];
+    Some(TableError::Uneven { what, bits: [before, here], first }.at(span))
+}
+
+fn overlap(table: &Table) -> Option<Diagnostic> {
+    let both =
+        |a: &TableRow, b: &TableRow| a.bits().iter().zip(b.bits()).all(|(a, b)| a.is_none() || b.is_none() || a == b);
+    table.rows.iter().enumerate().find_map(|(at, row)| {
+        let first = table.rows[..at].iter().find(|first| both(first, row))?;
+        Some(TableError::Overlap { first: first.span }.at(row.span))
+    })
+}
+
+/// A pattern that no row matches, if there is no `else`. The rows do not overlap, so counting tells whether such a
+/// pattern exists.
+fn missing(table: &Table) -> Option<Diagnostic> {
+    if table.otherwise.is_some() {
+        return None;
+    }
+    let width = table.rows.first().map_or(0, |row| row.bits().len());
+    let mut left: Vec<&TableRow> = table.rows.iter().collect();
+    let mut example = String::new();
+    for bit in 0..width {
+        let side = [false, true].into_iter().find(|side| !covers(&left, bit, *side, width))?;
+        left.retain(|row| row.bits()[bit].is_none_or(|value| value == side));
+        example.push(if side { '1' } else { '0' });
+    }
+    if !left.is_empty() {
+        return None;
+    }
+    let error = match example.is_empty() {
+        true => TableError::Empty,
+        false => TableError::MissingRow { pattern: example, rest: rest(table) },
+    };
+    Some(error.at(table.span))
+}
+
+/// A row of zeros for the remaining patterns, and the end of the last row; `None` if the width of the outputs is not
+/// written in a row.
+fn rest(table: &Table) -> Option<(u32, String)> {
+    let last = table.rows.last()?.output.span.end;
+    let bits = table.outputs().find_map(|output| match &output.value {
+        OutputValue::Bits(bits) => Some(bits.len()),
+        // A single digit is as wide as its context.
+        OutputValue::Number(_) => Some(1),
+        OutputValue::Expression(_) => None,
+    })?;
+    Some((last, format!("else: {}", "0".repeat(bits))))
+}
+
+/// Whether non-overlapping rows match every pattern with this value at `bit`, where the bits before it are fixed.
+fn covers(rows: &[&TableRow], bit: usize, side: bool, width: usize) -> bool {
+    let here = rows.iter().filter(|row| row.bits()[bit].is_none_or(|value| value == side));
+    let free = |row: &&&TableRow| row.bits()[bit + 1..width].iter().filter(|value| value.is_none()).count();
+    here.map(|row| 1u128 << free(&row)).sum::<u128>() >= 1 << (width - bit - 1)
+}

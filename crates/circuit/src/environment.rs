@@ -1,0 +1,133 @@
+//! An environment: a circuit at the level of logic on the other side of a circuit's ports, with memories.
+
+use crate::elaborate::MemoryPorts;
+use crate::waves::{ClockRun, ClockStep, WaveError};
+use crate::{NetId, Netlist};
+
+/// An environment with its state.
+#[derive(Clone, Debug)]
+pub struct Environment {
+    run: ClockRun,
+    ports: Vec<MemoryPorts>,
+    /// The words of each memory, each in its lowest bits.
+    memories: Vec<Vec<u128>>,
+    /// The inputs, those of the memories included.
+    inputs: Vec<u64>,
+    /// The number of inputs that are declared.
+    declared: [usize; 2],
+}
+
+/// Why an environment cannot be simulated.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum EnvironmentFault {
+    /// It is no circuit with one clock.
+    Clock(WaveError),
+    /// A memory is written with another clock.
+    OtherClock,
+    /// Words read and addresses depend on each other in a circle.
+    Circle,
+}
+
+impl Environment {
+    /// An environment before its first step, with the first words of its memories; missing words are 0.
+    ///
+    /// # Errors
+    /// When it is no circuit with one clock.
+    pub fn new(netlist: &Netlist, ports: Vec<MemoryPorts>, contents: Vec<Vec<u128>>) -> Result<Self, EnvironmentFault> {
+        let clocks = ports.iter().flat_map(|memory| memory.writes.iter().map(|[.., clk]| clk.start));
+        let drivers: Vec<NetId> = clocks.map(|at| netlist.pins(netlist.outputs()[at])[0]).collect();
+        // The clocks of memories are no data of the step.
+        let mut cut = netlist.clone();
+        for &at in ports.iter().flat_map(|memory| memory.writes.iter().map(|[.., clk]| &clk.start)) {
+            let zero = cut.add_constant(false);
+            let output = cut.outputs()[at];
+            cut.drive(output, 0, zero);
+        }
+        let step = ClockStep::of(&cut).map_err(EnvironmentFault::Clock)?;
+        let clock = step.clock.map(|at| netlist.inputs()[at]);
+        if drivers.windows(2).any(|pair| pair[0] != pair[1]) || clock.zip(drivers.first()).is_some_and(|(a, b)| a != *b)
+        {
+            return Err(EnvironmentFault::OtherClock);
+        }
+        if step.clock.is_some() && !step.rises {
+            return Err(EnvironmentFault::OtherClock);
+        }
+        let memories = ports.iter().zip(contents).map(|(memory, mut words)| {
+            words.resize(memory.words, 0);
+            words
+        });
+        let memories = memories.collect();
+        let read: usize = ports.iter().flat_map(|memory| memory.reads.iter().map(|[_, data]| data.len())).sum();
+        let written: usize = ports
+            .iter()
+            .map(|memory| {
+                let reads = memory.reads.iter().map(|[address, _]| address.len());
+                let writes = memory.writes.iter().flat_map(|ports| ports.iter().map(std::ops::Range::len));
+                reads.chain(writes).sum::<usize>()
+            })
+            .sum();
+        let declared = [step.inputs.len() - read, step.outputs.len() - written];
+        let inputs = vec![0; step.inputs.len()];
+        Ok(Self { run: ClockRun::new(step), ports, memories, inputs, declared })
+    }
+
+    /// Applies the declared inputs; the outputs follow, with the words that are read.
+    ///
+    /// # Errors
+    /// When words read and addresses depend on each other in a circle.
+    ///
+    /// # Panics
+    /// When there are not as many values as declared inputs.
+    pub fn apply(&mut self, inputs: &[bool]) -> Result<(), EnvironmentFault> {
+        assert_eq!(inputs.len(), self.declared[0], "a value for each declared input");
+        for (own, &value) in self.inputs.iter_mut().zip(inputs) {
+            *own = if value { !0 } else { 0 };
+        }
+        let reads: usize = self.ports.iter().map(|memory| memory.reads.len()).sum();
+        for _ in 0..reads + 2 {
+            self.run.apply(&self.inputs);
+            if !self.read() {
+                return Ok(());
+            }
+        }
+        Err(EnvironmentFault::Circle)
+    }
+
+    /// Lets the memories show the words at their addresses; whether any of them changed.
+    fn read(&mut self) -> bool {
+        let mut changed = false;
+        for (memory, words) in self.ports.iter().zip(&self.memories) {
+            for [address, data] in &memory.reads {
+                let word = words.get(number(&self.run, address) as usize).copied().unwrap_or(0);
+                for (at, bit) in data.clone().zip((0..memory.width).rev()) {
+                    let value = if word >> bit & 1 == 1 { !0 } else { 0 };
+                    changed |= std::mem::replace(&mut self.inputs[at], value) != value;
+                }
+            }
+        }
+        changed
+    }
+
+    /// The edge of the clock: memories and registers take what they see.
+    pub fn advance(&mut self) {
+        for (memory, words) in self.ports.iter().zip(&mut self.memories) {
+            for [address, data, enable, _] in &memory.writes {
+                let place = number(&self.run, address) as usize;
+                if let (1, Some(word)) = (number(&self.run, enable), words.get_mut(place)) {
+                    *word = number(&self.run, data);
+                }
+            }
+        }
+        self.run.advance();
+    }
+
+    /// The declared outputs as they are, in order of the ports, the most significant bit of a port first.
+    pub fn outputs(&self) -> impl Iterator<Item = bool> + '_ {
+        (0..self.declared[1]).map(|at| self.run.output(at) & 1 == 1)
+    }
+}
+
+/// The value of some output bits, the most significant first.
+fn number(run: &ClockRun, bits: &std::ops::Range<usize>) -> u128 {
+    bits.clone().fold(0, |number, at| number << 1 | u128::from(run.output(at) & 1))
+}

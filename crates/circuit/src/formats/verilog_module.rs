@@ -1,0 +1,25 @@
+//! Modules of Verilog, in the BLIF that their translator wrote.
+
+use crate::formats::blif;
+use crate::formats::design::Design;
+use nbc_base::diag::Diagnostic;
+use nbc_base::source::{SourceFile, VerilogModules};
+
+/// Reads a translated module of a Verilog file.
+///
+/// # Errors
+/// The errors of the translation, at the lines of the Verilog file.
+pub fn verilog_module(
+    modules: &VerilogModules,
+    module: &str,
+    source: &SourceFile,
+    clock: Option<&str>,
+) -> Result<Design, Vec<Diagnostic>> {
+    let moved = |fault: Diagnostic| {
+        let at = fault.labels.first().map(|label| label.span.start as usize);
+        let place = at.and_then(|at| modules.place(module, at));
+        fault.of_verilog(source, place)
+    };
+    let design = blif::read_model(&modules.blif, source.id, clock, Some(module));
+    design.map_err(|faults| faults.into_iter().map(moved).collect())
+}

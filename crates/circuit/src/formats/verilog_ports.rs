@@ -1,0 +1,113 @@
+//! The ports of a Verilog module: bits with all their numbers are one port.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::NetId;
+use crate::formats::buses::{Bus, buses};
+use crate::formats::design::Design;
+use crate::formats::verilog_names::escaped;
+use nbc_base::model::bit_parts;
+
+/// The ports of several bits.
+pub(super) struct VerilogPorts {
+    /// The port and the number of each bit.
+    bits: BTreeMap<NetId, (String, usize)>,
+}
+
+impl VerilogPorts {
+    /// The ports of a design. A name that inputs and outputs or other ports have too stays that of single bits, and so
+    /// does an output that a loop of cells drives: Yosys would give its cells other names.
+    pub(super) fn new(design: &Design, is_loop: impl Fn(NetId) -> bool) -> Self {
+        let logic = &design.logic;
+        let (inputs, outputs) = (&logic.inputs()[..design.inputs()], &logic.outputs()[..design.outputs()]);
+        let names = |ids: &[NetId]| ids.iter().map(|&id| logic.net_name(id)).collect::<Vec<_>>();
+        let found = [inputs, outputs].map(|ids| (ids, buses(&names(ids))));
+        let of = |at: usize| found[at].1.iter().map(|bus| bus.name.as_str()).collect::<BTreeSet<_>>();
+        let (first, second) = (of(0), of(1));
+        let mut bits = BTreeMap::new();
+        for (ids, buses) in &found {
+            let whole = names(ids);
+            let is_port = |Bus { name, bits }: &Bus| {
+                let is_alone = !(first.contains(name.as_str()) && second.contains(name.as_str()))
+                    && buses.iter().filter(|other| other.name == *name).count() == 1;
+                is_alone && bit_parts(&whole[bits[0]]).is_some_and(|(base, _)| base == name) && is_visible(name)
+            };
+            let is_looped = |&id: &NetId| outputs.contains(&id) && is_loop(logic.pins(id)[0]);
+            let is_apart = |bus: &Bus| bus.bits.iter().any(|&place| is_looped(&ids[place]));
+            for bus in buses.iter().filter(|bus| is_port(bus) && !is_apart(bus)) {
+                for &place in &bus.bits {
+                    let (_, number) = bit_parts(&whole[place]).expect("a bit of a bus has a number");
+                    bits.insert(ids[place], (bus.name.clone(), number));
+                }
+            }
+        }
+        Self { bits }
+    }
+
+    /// The names of the ports of several bits.
+    pub(super) fn names(&self) -> BTreeSet<&str> {
+        self.bits.values().map(|(name, _)| name.as_str()).collect()
+    }
+
+    /// A bit of a port, such as `count[0]`.
+    pub(super) fn bit(&self, id: NetId) -> Option<String> {
+        self.bits.get(&id).map(|(port, bit)| format!("{}[{bit}]", escaped(port)))
+    }
+
+    /// The declarations of ports, each once; `name` names one that is a single bit.
+    pub(super) fn declared(&self, word: &str, ids: &[NetId], name: impl Fn(NetId) -> String) -> Vec<String> {
+        let mut done = BTreeSet::new();
+        let mut declared = Vec::new();
+        for &id in ids {
+            match self.bits.get(&id) {
+                None => declared.push(format!("{word} {}", name(id))),
+                Some((port, _)) if done.insert(port) => {
+                    let numbers = || self.bits.values().filter(|(known, _)| known == port).map(|(_, bit)| *bit);
+                    let (low, high) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
+                    declared.push(format!("{word} [{high}:{low}] {}", escaped(port)));
+                }
+                Some(_) => {}
+            }
+        }
+        declared
+    }
+}
+
+/// Whether a name can be written as it is.
+fn is_visible(name: &str) -> bool {
+    !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Netlist;
+
+    fn check(inputs: &[&str], outputs: &[&str], expected: &[&str]) {
+        let mut logic = Netlist::new("m");
+        let nets: Vec<NetId> = inputs.iter().map(|&name| logic.add_input(name)).collect();
+        outputs.iter().for_each(|&name| _ = logic.add_output(name, nets[0]));
+        let design = Design { logic, registers: Vec::new() };
+        let (ports, logic) = (VerilogPorts::new(&design, |_| false), &design.logic);
+        let name = |id| escaped(&logic.net_name(id));
+        let mut declared = ports.declared("input", logic.inputs(), name);
+        declared.extend(ports.declared("output", logic.outputs(), name));
+        assert_eq!(declared, expected);
+    }
+
+    #[test]
+    fn bits_are_ports() {
+        check(
+            &["a[0]", "a[1]", "b", "c[0]"],
+            &["q[3]", "q[2]"],
+            &["input [1:0] a", "input b", "input [0:0] c", "output [3:2] q"],
+        );
+    }
+
+    #[test]
+    fn names_that_are_not_clear_stay_those_of_bits() {
+        check(&["a[0]", "a[2]"], &["q[0]"], &["input \\a[0] ", "input \\a[2] ", "output [0:0] q"]);
+        check(&["q[0]"], &["q[0]"], &["input \\q[0] ", "output \\q[0] "]);
+        check(&["q[0]", "q"], &["r"], &["input \\q[0] ", "input q", "output r"]);
+    }
+}

@@ -1,0 +1,101 @@
+//! Enumerations and integers with names.
+
+use crate::check::constant;
+use crate::check::names::{Home, NameTable};
+use crate::check::size;
+use crate::check::wording::{EnumerationError, NameError};
+use crate::syntax::tree::{EnumerationSyntax, LetSyntax, MemberSyntax, NameSyntax};
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Enumeration, EnumerationMember, MemberEncoding};
+use nbc_base::source::Span;
+
+/// Checks an enumeration. Its width is that of its values, or that of its encoding.
+pub(crate) fn enumeration(source: &EnumerationSyntax, faults: &mut Vec<Diagnostic>) -> Option<Enumeration> {
+    let before = faults.len();
+    let encoding = source.encoding.as_ref().map(|word| encoding(word).map_err(|fault| faults.push(fault)));
+    if source.members.is_empty() {
+        faults.push(EnumerationError::Empty.at(source.name.span));
+    }
+    if source.members.len() > MemberEncoding::MOST {
+        let error = EnumerationError::TooMany { members: source.members.len(), most: MemberEncoding::MOST };
+        faults.push(error.at(source.name.span));
+    }
+    let given = source.members.iter().filter(|member| member.value.is_some()).count();
+    if given > 0
+        && let Some(first) = source.members.iter().find(|member| member.value.is_none())
+    {
+        faults.push(EnumerationError::WithoutValue { member: first.name.text.clone() }.at(first.name.span));
+    }
+    if let (Some(word), true) = (&source.encoding, given > 0) {
+        faults.push(EnumerationError::TwoEncodings.at(word.span));
+    }
+    if faults.len() > before {
+        return None;
+    }
+    let encoding = encoding.and_then(Result::ok).unwrap_or_default();
+    let (width, values) = match given {
+        0 => (encoding.width(source.members.len()), (0..source.members.len()).map(|at| encoding.value(at)).collect()),
+        _ => values(&source.members, faults)?,
+    };
+    let member = |(source, value): (&MemberSyntax, u128)| EnumerationMember {
+        name: source.name.text.clone(),
+        span: source.name.span,
+        value,
+    };
+    let members: Vec<EnumerationMember> = source.members.iter().zip(values).map(member).collect();
+    for (at, member) in members.iter().enumerate() {
+        if let Some(first) = members[..at].iter().find(|first| first.value == member.value) {
+            let names = [&first.name, &member.name].map(String::clone);
+            faults.push(EnumerationError::SameValue { names, first: first.span }.at(member.span));
+        }
+    }
+    Some(Enumeration { name: source.name.text.clone(), span: source.name.span, width, members })
+}
+
+fn encoding(word: &NameSyntax) -> Result<MemberEncoding, Diagnostic> {
+    let found = MemberEncoding::WORDS.iter().find(|(_, known)| *known == word.text);
+    found.map(|(encoding, _)| *encoding).ok_or_else(|| {
+        let meant = Suggestion::of(&word.text, MemberEncoding::WORDS.map(|(_, word)| word));
+        NameError::Unknown { kind: "encoding", name: word.text.clone(), meant }.at(word.span)
+    })
+}
+
+/// The width and the values of members that all have constants; one with a width gives it to the others.
+fn values(members: &[MemberSyntax], faults: &mut Vec<Diagnostic>) -> Option<(u32, Vec<u128>)> {
+    let before = faults.len();
+    let mut width: Option<(u32, Span)> = None;
+    let mut values = Vec::new();
+    for word in members.iter().filter_map(|member| member.value.as_ref()) {
+        let Some((bits, value)) = constant::sized(&word.text) else {
+            faults.push(EnumerationError::NotAConstant { word: word.text.clone() }.at(word.span));
+            continue;
+        };
+        match (bits, width) {
+            (Some(bits), Some((before, first))) if bits != before => {
+                faults.push(EnumerationError::Widths { widths: [before, bits], first }.at(word.span));
+            }
+            (Some(bits), None) => width = Some((bits, word.span)),
+            _ => {}
+        }
+        values.push((value, word));
+    }
+    let largest = values.iter().map(|(value, _)| *value).max().unwrap_or(0);
+    let width = width.map_or((u128::BITS - largest.leading_zeros()).max(1), |(width, _)| width);
+    for (value, word) in &values {
+        if width < u128::BITS && value >> width != 0 {
+            faults.push(EnumerationError::TooWide { word: word.text.clone(), width }.at(word.span));
+        }
+    }
+    (faults.len() == before).then(|| (width, values.into_iter().map(|(value, _)| value).collect()))
+}
+
+/// The integer of a `let` outside circuits, which may name those before it.
+pub(crate) fn integer(
+    source: &LetSyntax,
+    home: Home,
+    integers: &NameTable<i64>,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<i64> {
+    let known = |name: &str| integers.find(name, home);
+    size::value(&source.sizes, known).map_err(|fault| faults.push(fault)).ok()
+}

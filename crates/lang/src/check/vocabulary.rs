@@ -1,0 +1,39 @@
+//! What the bodies of circuits can name beside nets and parameters.
+
+use crate::check::names::{Home, NameTable, Names};
+use nbc_base::model::{Enumeration, EnumerationMember, Program};
+
+/// What the bodies of circuits can name beside nets and parameters.
+#[derive(Clone, Copy)]
+pub(crate) struct Vocabulary<'a> {
+    pub(crate) circuits: &'a NameTable,
+    /// Enumerations by their position in the program.
+    pub(crate) enumerations: &'a NameTable,
+    /// Members by the positions of their enumeration and of themselves.
+    pub(crate) members: &'a NameTable<(usize, usize)>,
+    pub(crate) integers: &'a NameTable<i64>,
+    /// Files by their position in the program.
+    pub(crate) files: &'a NameTable,
+    /// The enumerations of the program.
+    pub(crate) all: &'a [Enumeration],
+}
+
+impl<'a> Vocabulary<'a> {
+    /// The names so far, with the enumerations of the program.
+    pub(crate) fn of(names: &'a Names, program: &'a Program) -> Self {
+        Self {
+            circuits: &names.circuits,
+            enumerations: &names.enumerations,
+            members: &names.members,
+            integers: &names.integers,
+            files: &names.files,
+            all: &program.enumerations,
+        }
+    }
+
+    /// The enumeration and the value of a member.
+    pub(crate) fn member(&self, name: &str, home: Home) -> Option<(usize, &EnumerationMember)> {
+        let (enumeration, member) = self.members.find(name, home)?;
+        Some((enumeration, &self.all[enumeration].members[member]))
+    }
+}

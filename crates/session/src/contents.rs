@@ -1,0 +1,93 @@
+//! The first contents of memories: words from the files that a program declares.
+
+use crate::wording::{ScriptError, of_declared_file};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{MemoryArray, Program};
+use nbc_base::source::SourceWorld;
+use nbc_circuit::elaborate::MemoryPorts;
+
+/// The first words of a memory; `files` are the paths of files that replace declared ones, by name. A memory without a
+/// file begins with zeros.
+///
+/// # Errors
+/// When the file cannot be read, or does not fit.
+pub(super) fn first_words(
+    world: &dyn SourceWorld,
+    program: &Program,
+    memory: &MemoryArray,
+    ports: &MemoryPorts,
+    files: &[(String, String)],
+) -> Result<Vec<u128>, Diagnostic> {
+    let Some(declared) = memory.contents.and_then(|place| program.files.get(place)) else { return Ok(Vec::new()) };
+    let chosen = files.iter().find(|(name, _)| *name == declared.name).map(|(_, path)| path.as_str());
+    let path = chosen.unwrap_or(&declared.path);
+    let fault = |error: ScriptError| match chosen {
+        None => error.at(declared.span),
+        Some(_) => error.without_place(),
+    };
+    let bytes = world.read_bytes(path);
+    let bytes = bytes.map_err(|error| {
+        let fault = Diagnostic::unreadable_in(world, path, &error);
+        if chosen.is_some() { fault } else { of_declared_file(fault, declared.span) }
+    })?;
+    let words =
+        words(path, &bytes, ports.width).map_err(|line| fault(ScriptError::Line { path: path.to_owned(), line }))?;
+    if words.len() > ports.words {
+        let (found, room) = (words.len(), ports.words);
+        return Err(fault(ScriptError::TooManyWords { path: path.to_owned(), found, room }));
+    }
+    Ok(words)
+}
+
+/// The words of a file by its ending: `.bin` has bytes, the lowest of a word first; `.csv` numbers between commas and
+/// ends of lines; any other, such as `.hex`, hexadecimal digits between blanks, with `@` before the place of the next
+/// word.
+///
+/// # Errors
+/// The line, from 1, that is no number or does not fit into a word.
+fn words(path: &str, bytes: &[u8], width: usize) -> Result<Vec<u128>, usize> {
+    if path.ends_with(".bin") {
+        let word = |bytes: &[u8]| bytes.iter().rev().fold(0u128, |word, &byte| word << 8 | u128::from(byte));
+        return Ok(bytes.chunks(width.div_ceil(8).min(16)).map(word).collect());
+    }
+    let text = String::from_utf8_lossy(bytes);
+    let is_table = path.ends_with(".csv");
+    let mut words: Vec<u128> = Vec::new();
+    let mut place = 0;
+    for (line, text) in text.lines().enumerate() {
+        let text = text.split("//").next().unwrap_or_default().split('#').next().unwrap_or_default();
+        let parts = text.split(|c: char| c.is_whitespace() || (is_table && c == ',')).filter(|part| !part.is_empty());
+        for part in parts {
+            if let Some(at) = part.strip_prefix('@') {
+                place = usize::from_str_radix(at, 16).ok().filter(|at| *at < 1 << 30).ok_or(line + 1)?;
+                continue;
+            }
+            let digits = part.replace('_', "");
+            let value = match digits.strip_prefix("0x") {
+                Some(digits) => u128::from_str_radix(digits, 16),
+                None => u128::from_str_radix(&digits, if is_table { 10 } else { 16 }),
+            };
+            let value = value.ok().filter(|value| width >= 128 || value >> width == 0).ok_or(line + 1)?;
+            if words.len() <= place {
+                words.resize(place + 1, 0);
+            }
+            words[place] = value;
+            place += 1;
+        }
+    }
+    Ok(words)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::words;
+
+    #[test]
+    fn files_have_words_by_their_endings() {
+        assert_eq!(words("a.hex", b"0000_00ff 12 // x\n@4 7\n", 32), Ok(vec![255, 18, 0, 0, 7]));
+        assert_eq!(words("a.csv", b"1, 2\n0x10,4\n", 8), Ok(vec![1, 2, 16, 4]));
+        assert_eq!(words("a.bin", &[1, 2, 3, 4, 5], 16), Ok(vec![0x201, 0x403, 5]));
+        assert_eq!(words("a.hex", b"12\n100\n", 8), Err(2));
+        assert_eq!(words("a.hex", b"zz\n", 8), Err(1));
+    }
+}

@@ -1,0 +1,323 @@
+//! The parts of a circuit, each small enough to be seen at once: the calls of the source, opened where they are small
+//! and divided where they are large.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use nbc_circuit::{BlockId, NetId, Netlist, Node};
+
+/// A part with at most so many cells has no parts in it.
+const FLAT: usize = 25;
+/// A call with at most so many cells is no part of its own; one with `SMALL` only if there is no room for its cells.
+const FEW: usize = 2;
+const SMALL: usize = 8;
+/// The cells and parts up to which there is room for those of small calls.
+const ROOM: usize = 30;
+/// The most cells and parts that are shown at once.
+const MOST: usize = 40;
+/// How many of them there are in a division of a larger part.
+const DIVISION: usize = 24;
+
+/// A part of a circuit.
+#[derive(Clone, Debug, Default)]
+pub struct CircuitPart {
+    /// The name of the call, or a description of the division.
+    pub name: String,
+    /// The circuit that is called, if it is a call.
+    pub circuit: Option<String>,
+    /// The part around it; none for the whole circuit.
+    pub outer: Option<usize>,
+    /// The cells and wires that are in no part inside.
+    pub cells: Vec<NetId>,
+    /// The parts inside.
+    pub inner: Vec<usize>,
+    /// The number of cells, including those of the parts inside.
+    pub size: usize,
+}
+
+/// A circuit as a tree of parts. The first is the whole circuit.
+#[derive(Clone, Debug)]
+pub struct Hierarchy {
+    /// The parts, each after the one around it.
+    pub parts: Vec<CircuitPart>,
+    /// The part in which each cell or wire is shown.
+    pub home: BTreeMap<NetId, usize>,
+}
+
+/// What is shown of a part: a cell or a part inside.
+#[derive(Clone, Copy, Debug)]
+enum Item {
+    Cell(NetId),
+    Part(usize),
+}
+
+impl Hierarchy {
+    /// The parts of a netlist.
+    pub fn of(netlist: &Netlist) -> Self {
+        let mut tree = Tree::of(netlist);
+        tree.dissolve_small();
+        tree.divide_large(&ranks(netlist));
+        tree.finish()
+    }
+
+    /// The names of the parts from the whole circuit, which is left out, to this part.
+    pub fn path(&self, part: usize) -> Vec<&str> {
+        let mut path = Vec::new();
+        let mut at = part;
+        while let Some(outer) = self.parts[at].outer {
+            path.push(self.parts[at].name.as_str());
+            at = outer;
+        }
+        path.reverse();
+        path
+    }
+
+    /// The cells and wires of a part, each with the part directly inside in which it is.
+    pub fn inside(&self, part: usize) -> BTreeMap<NetId, Option<usize>> {
+        let mut inside: BTreeMap<NetId, Option<usize>> =
+            self.parts[part].cells.iter().map(|&cell| (cell, None)).collect();
+        for &inner in &self.parts[part].inner {
+            let mut open = vec![inner];
+            while let Some(at) = open.pop() {
+                inside.extend(self.parts[at].cells.iter().map(|&cell| (cell, Some(inner))));
+                open.extend(&self.parts[at].inner);
+            }
+        }
+        inside
+    }
+}
+
+/// The parts while they change; those that were dissolved are empty.
+struct Tree {
+    parts: Vec<CircuitPart>,
+}
+
+impl Tree {
+    /// A part for each call that has cells.
+    fn of(netlist: &Netlist) -> Self {
+        let mut tree = Self { parts: vec![CircuitPart { name: netlist.name.clone(), ..CircuitPart::default() }] };
+        let mut known = BTreeMap::from([(BlockId::TOP, 0)]);
+        for id in netlist.ids().filter(|&id| is_shown(netlist, id)) {
+            let mut at = 0;
+            for block in netlist.blocks().around(netlist.block(id)) {
+                at = *known.entry(block).or_insert_with(|| {
+                    let name = netlist.blocks().name(block).to_owned();
+                    let circuit = Some(netlist.blocks().circuit(block).to_owned());
+                    tree.add(CircuitPart { name, circuit, outer: Some(at), ..CircuitPart::default() })
+                });
+            }
+            tree.parts[at].cells.push(id);
+        }
+        for at in (0..tree.parts.len()).rev() {
+            tree.parts[at].size += tree.parts[at].cells.len();
+            if let Some(outer) = tree.parts[at].outer {
+                tree.parts[outer].size += tree.parts[at].size;
+            }
+        }
+        tree
+    }
+
+    fn add(&mut self, part: CircuitPart) -> usize {
+        let (at, outer) = (self.parts.len(), part.outer);
+        self.parts.push(part);
+        if let Some(outer) = outer {
+            self.parts[outer].inner.push(at);
+        }
+        at
+    }
+
+    /// What is shown of a part.
+    fn items(&self, part: usize) -> usize {
+        self.parts[part].cells.len() + self.parts[part].inner.len()
+    }
+
+    /// Moves the cells of parts that are too small to be opened, or alone, into those around them, innermost first.
+    fn dissolve_small(&mut self) {
+        for at in (1..self.parts.len()).rev() {
+            let outer = self.parts[at].outer.expect("only the first part has none around it");
+            let together = self.items(outer) + self.items(at) - 1;
+            let is_small = self.parts[at].size <= SMALL && together <= ROOM;
+            let is_alone = self.items(outer) == 1;
+            if self.parts[at].size > FEW && self.parts[outer].size > FLAT && !is_small && !is_alone {
+                continue;
+            }
+            let part = std::mem::take(&mut self.parts[at]);
+            part.inner.iter().for_each(|&inner| self.parts[inner].outer = Some(outer));
+            let around = &mut self.parts[outer];
+            around.inner.retain(|&inner| inner != at);
+            around.inner.extend(part.inner);
+            around.cells.extend(part.cells);
+        }
+    }
+
+    /// Divides parts with too many cells and parts inside. What is connected stays together.
+    fn divide_large(&mut self, ranks: &BTreeMap<NetId, usize>) {
+        let first: Vec<usize> = self.first_ranks(ranks);
+        for at in 0..first.len() {
+            while self.items(at) > MOST {
+                self.divide(at, ranks, &first);
+            }
+        }
+    }
+
+    /// The first rank of the cells of each part.
+    fn first_ranks(&self, ranks: &BTreeMap<NetId, usize>) -> Vec<usize> {
+        let own = |part: &CircuitPart| part.cells.iter().map(|cell| ranks[cell]).min().unwrap_or(usize::MAX);
+        let mut first: Vec<usize> = self.parts.iter().map(own).collect();
+        for at in (1..first.len()).rev() {
+            if let Some(outer) = self.parts[at].outer {
+                first[outer] = first[outer].min(first[at]);
+            }
+        }
+        first
+    }
+
+    fn divide(&mut self, at: usize, ranks: &BTreeMap<NetId, usize>, first: &[usize]) {
+        let part = &mut self.parts[at];
+        let cells = std::mem::take(&mut part.cells).into_iter().map(|cell| (ranks[&cell], Item::Cell(cell)));
+        let inner = std::mem::take(&mut part.inner).into_iter();
+        // Divisions of a division are in order already.
+        let rank = |inner: usize| first.get(inner).copied().unwrap_or(inner);
+        let mut items: Vec<(usize, Item)> = cells.chain(inner.map(|inner| (rank(inner), Item::Part(inner)))).collect();
+        items.sort_by_key(|(rank, _)| *rank);
+        let count = items.len().div_ceil(DIVISION);
+        let each = items.len().div_ceil(count);
+        for (number, items) in items.chunks(each).enumerate() {
+            let name = self.division_name(items, number);
+            let division = self.add(CircuitPart { name, outer: Some(at), ..CircuitPart::default() });
+            for &(_, item) in items {
+                match item {
+                    Item::Cell(cell) => self.parts[division].cells.push(cell),
+                    Item::Part(inner) => {
+                        self.parts[inner].outer = Some(division);
+                        self.parts[division].inner.push(inner);
+                    }
+                }
+            }
+            let inside: usize = self.parts[division].inner.iter().map(|&inner| self.parts[inner].size).sum();
+            self.parts[division].size = inside + self.parts[division].cells.len();
+        }
+    }
+
+    /// `part 2`, or the names of the first and the last part if it has parts only.
+    fn division_name(&self, items: &[(usize, Item)], number: usize) -> String {
+        let name = |item: Option<&(usize, Item)>| match item {
+            Some((_, Item::Part(inner))) => Some(self.parts[*inner].name.as_str()),
+            _ => None,
+        };
+        let has_parts_only = items.iter().all(|(_, item)| matches!(item, Item::Part(_)));
+        match (name(items.first()), name(items.last())) {
+            (Some(first), Some(last)) if has_parts_only && first != last => format!("{first} to {last}"),
+            _ => format!("part {}", number + 1),
+        }
+    }
+
+    /// The parts that are left, each after the one around it.
+    fn finish(mut self) -> Hierarchy {
+        let mut order = vec![0];
+        let mut at = 0;
+        while at < order.len() {
+            self.parts[order[at]].inner.sort_unstable();
+            order.extend(&self.parts[order[at]].inner);
+            at += 1;
+        }
+        let number: BTreeMap<usize, usize> = order.iter().enumerate().map(|(new, &old)| (old, new)).collect();
+        let mut home = BTreeMap::new();
+        let mut parts = Vec::new();
+        for &old in &order {
+            let mut part = std::mem::take(&mut self.parts[old]);
+            part.outer = part.outer.map(|outer| number[&outer]);
+            part.inner.iter_mut().for_each(|inner| *inner = number[inner]);
+            part.cells.sort_unstable();
+            home.extend(part.cells.iter().map(|&cell| (cell, parts.len())));
+            parts.push(part);
+        }
+        Hierarchy { parts, home }
+    }
+}
+
+/// Whether a node is in a part: it is no port and no constant.
+fn is_shown(netlist: &Netlist, id: NetId) -> bool {
+    matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. })
+}
+
+/// The place of each cell and wire in an order in which each comes soon after those it reads: that of a search from the
+/// outputs against the direction of the wires.
+fn ranks(netlist: &Netlist) -> BTreeMap<NetId, usize> {
+    let mut ranks = BTreeMap::new();
+    let mut seen = BTreeSet::new();
+    for root in netlist.outputs().iter().copied().chain(netlist.ids()) {
+        let mut stack = vec![(root, false)];
+        while let Some((id, is_left)) = stack.pop() {
+            if is_left {
+                ranks.insert(id, ranks.len());
+            } else if seen.insert(id) {
+                stack.push((id, true));
+                stack.extend(netlist.pins(id).into_iter().rev().map(|pin| (pin, false)));
+            }
+        }
+    }
+    ranks
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Function;
+
+    /// `count` calls of a chain of inverters of that length, each after the other.
+    fn chains(count: usize, length: usize) -> Netlist {
+        let mut netlist = Netlist::new("chains");
+        let mut net = netlist.add_input("a");
+        for call in 0..count {
+            let block = netlist.blocks_mut().add(format!("c[{call}]"), "chain", BlockId::TOP);
+            for _ in 0..length {
+                net = netlist.add_gate(Function::NOT, &[net]);
+                netlist.put_into(net, block);
+            }
+        }
+        netlist.add_output("q", net);
+        netlist
+    }
+
+    fn check(count: usize, length: usize) -> Hierarchy {
+        let netlist = chains(count, length);
+        let hierarchy = Hierarchy::of(&netlist);
+        assert_eq!(hierarchy.parts[0].size, count * length);
+        assert_eq!(hierarchy.home.len(), count * length);
+        for (at, part) in hierarchy.parts.iter().enumerate() {
+            assert!(part.cells.len() + part.inner.len() <= MOST, "{part:?}");
+            assert!(part.inner.iter().all(|&inner| inner > at && hierarchy.parts[inner].outer == Some(at)));
+            let inside: usize = part.inner.iter().map(|&inner| hierarchy.parts[inner].size).sum();
+            assert_eq!(part.size, inside + part.cells.len());
+        }
+        hierarchy
+    }
+
+    #[test]
+    fn calls_are_parts_where_there_are_many_cells() {
+        assert_eq!(check(2, 10).parts.len(), 1, "20 cells are seen at once");
+        let few = check(4, 10);
+        assert_eq!(few.parts[0].inner.len(), 4);
+        assert_eq!(few.path(2), ["c[1]"]);
+        assert_eq!(few.parts[2].circuit.as_deref(), Some("chain"));
+    }
+
+    #[test]
+    fn a_call_alone_is_no_part() {
+        assert_eq!(check(1, 30).parts.len(), 1);
+    }
+
+    #[test]
+    fn small_calls_are_no_parts() {
+        assert_eq!(check(15, 2).parts.len(), 1);
+    }
+
+    #[test]
+    fn large_parts_are_divided_in_order() {
+        let many = check(60, 30);
+        assert_eq!(many.parts[0].inner.len(), 3);
+        assert_eq!(many.path(1), ["c[0] to c[19]"]);
+        let flat = check(1, 2_000);
+        assert!(flat.parts.len() > 80 && flat.parts[0].inner.len() <= MOST);
+    }
+}

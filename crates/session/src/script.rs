@@ -1,0 +1,258 @@
+//! Tests whose rows depend on what the circuit does, performed at the level of logic: the environment answers the
+//! circuit, and rows are repeated until an output has a value. In physics the rows are those that were found here.
+
+use crate::contents::first_words;
+use crate::wording::ScriptError;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{CircuitTest, Program, Script, ScriptStep, TestRow};
+use nbc_base::source::SourceWorld;
+use nbc_circuit::elaborate::elaborate_environment;
+use nbc_circuit::waves::{ClockRun, ClockStep};
+use nbc_circuit::{Environment, Logic, Netlist};
+
+/// How often a circuit and its environment may answer each other within a row.
+const MOST_ANSWERS: usize = 100;
+
+/// A script that is being performed.
+#[derive(Clone, Debug)]
+pub(super) struct Performance {
+    script: Script,
+    circuit: Performer,
+    beside: Option<Beside>,
+    /// The step that is next, and how often it was repeated.
+    next: (usize, usize),
+    /// What the environment wrote as text.
+    pub(super) printed: String,
+}
+
+/// The circuit of a test at the level of logic.
+#[derive(Clone, Debug)]
+enum Performer {
+    /// A circuit with one clock, whose steps are all pulses.
+    Clocked(Box<ClockRun>),
+    /// Any other circuit.
+    Free(Box<Logic>),
+}
+
+/// The environment of a test, and how its ports are connected.
+#[derive(Clone, Debug)]
+struct Beside {
+    environment: Environment,
+    /// For each of its input bits, the bit of the circuit's outputs, or of the row's inputs.
+    sees: Vec<Seen>,
+    /// For each of its output bits that is one, the input bit of the circuit.
+    gives: Vec<(usize, usize)>,
+    /// The first output bit of the text that it writes.
+    text: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Seen {
+    Output(usize),
+    Input(usize),
+}
+
+/// A row that was performed, with what the circuit showed.
+pub(super) struct PerformedRow {
+    pub(super) row: TestRow,
+    pub(super) outputs: Vec<bool>,
+    /// Whether it is the last of its step, of which the source says what is expected.
+    pub(super) is_last: bool,
+}
+
+impl Performance {
+    /// The performance of a test's script; `files` are the paths of files that replace declared ones.
+    ///
+    /// # Errors
+    /// When the environment cannot be built, or a file cannot be read.
+    pub(super) fn new(
+        world: &dyn SourceWorld,
+        program: &Program,
+        test: &CircuitTest,
+        script: &Script,
+        netlist: &Netlist,
+        files: &[(String, String)],
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let is_pulse = |step: &ScriptStep| step.rows.len() == 2;
+        let clocked = script.steps.iter().all(is_pulse).then(|| ClockStep::of(netlist).ok()).flatten();
+        let pulsed = |step: &ClockStep| {
+            step.clock.is_none_or(|clock| step.rises && script.steps.iter().all(|one| one.rows[1].inputs[clock]))
+        };
+        let circuit = match clocked.filter(pulsed) {
+            Some(step) => Performer::Clocked(Box::new(ClockRun::new(step))),
+            None => Performer::Free(Box::new(Logic::new(netlist))),
+        };
+        let beside = match script.environment {
+            Some(_) => Some(Beside::new(world, program, test, script, files)?),
+            None => None,
+        };
+        Ok(Self { script: script.clone(), circuit, beside, next: (0, 0), printed: String::new() })
+    }
+
+    /// The steps that are done, and all steps; a step that is repeated is one.
+    pub(super) fn progress(&self) -> (usize, usize) {
+        (self.next.0, self.script.steps.len())
+    }
+
+    /// The rows of the next step, or of the next repetition of one; none after the last.
+    ///
+    /// # Errors
+    /// When the circuit and its environment never agree.
+    pub(super) fn step(&mut self) -> Result<Option<Vec<PerformedRow>>, Diagnostic> {
+        let (at, times) = self.next;
+        let Some(step) = self.script.steps.get(at) else { return Ok(None) };
+        let (rows, until) = (step.rows.clone(), step.until.clone());
+        let mut performed = Vec::with_capacity(rows.len());
+        let last = rows.len() - 1;
+        for (half, row) in rows.into_iter().enumerate() {
+            let done = if half == 0 { self.settle(row)? } else { self.edge(row, &performed[0]) };
+            performed.push(PerformedRow { is_last: half == last, ..done });
+        }
+        let end = performed.last_mut().expect("a step has a row");
+        self.next = match until {
+            None => (at + 1, 0),
+            Some(until) => {
+                let shown = &end.outputs[until.first..until.first + until.bits.len()];
+                let is_met = until.bits.iter().zip(shown).all(|(bit, shown)| bit.is_none_or(|bit| bit == *shown));
+                let ends = is_met || times + 1 == until.most;
+                end.is_last = ends;
+                if ends && !is_met {
+                    // The row fails: the output never had its value.
+                    end.row.expected[until.first..until.first + until.bits.len()].clone_from_slice(&until.bits);
+                }
+                if ends { (at + 1, 0) } else { (at, times + 1) }
+            }
+        };
+        Ok(Some(performed))
+    }
+
+    /// A row before the edge of the clock: the circuit and its environment answer each other until nothing changes.
+    fn settle(&mut self, mut row: TestRow) -> Result<PerformedRow, Diagnostic> {
+        for _ in 0..MOST_ANSWERS {
+            if let Some(beside) = &self.beside {
+                beside.give(&mut row.inputs);
+            }
+            let outputs = self.circuit.apply(&row.inputs);
+            let Some(beside) = &mut self.beside else { return Ok(PerformedRow { row, outputs, is_last: true }) };
+            beside.see(&row.inputs, &outputs).map_err(|fault| ScriptError::Environment(fault).at(row.span))?;
+            if beside.agrees(&row.inputs) {
+                return Ok(PerformedRow { row, outputs, is_last: true });
+            }
+        }
+        Err(ScriptError::NeverAgree.at(row.span))
+    }
+
+    /// The second half of a pulse: what the environment gives stays as it was before the edge.
+    fn edge(&mut self, mut row: TestRow, before: &PerformedRow) -> PerformedRow {
+        if let Some(beside) = &mut self.beside {
+            for &(_, input) in &beside.gives {
+                row.inputs[input] = before.row.inputs[input];
+            }
+            self.printed.extend(beside.printed());
+            beside.environment.advance();
+        }
+        let outputs = self.circuit.edge(&row.inputs);
+        if let Some(beside) = &mut self.beside {
+            // A circle is reported before the next edge, where the same words are read again.
+            _ = beside.see(&row.inputs, &outputs);
+        }
+        PerformedRow { row, outputs, is_last: true }
+    }
+}
+
+impl Performer {
+    /// The outputs for these inputs, without an edge of the clock.
+    fn apply(&mut self, inputs: &[bool]) -> Vec<bool> {
+        match self {
+            Self::Clocked(run) => {
+                let words: Vec<u64> = inputs.iter().map(|&bit| if bit { !0 } else { 0 }).collect();
+                run.apply(&words);
+                Self::shown(run)
+            }
+            // Outputs that never rest are what they are.
+            Self::Free(logic) => logic.settle(inputs).unwrap_or_else(|_| logic.outputs()),
+        }
+    }
+
+    /// The outputs after the edge of the clock.
+    fn edge(&mut self, inputs: &[bool]) -> Vec<bool> {
+        match self {
+            Self::Clocked(run) => {
+                run.advance();
+                Self::shown(run)
+            }
+            Self::Free(_) => self.apply(inputs),
+        }
+    }
+
+    fn shown(run: &ClockRun) -> Vec<bool> {
+        (0..run.step().outputs.len()).map(|port| run.output(port) & 1 == 1).collect()
+    }
+}
+
+impl Beside {
+    fn new(
+        world: &dyn SourceWorld,
+        program: &Program,
+        test: &CircuitTest,
+        script: &Script,
+        files: &[(String, String)],
+    ) -> Result<Self, Vec<Diagnostic>> {
+        let place = script.environment.expect("a script with an environment");
+        let (netlist, ports) = elaborate_environment(program, place)?;
+        let circuit = &program.circuits[place.0 as usize];
+        let contents: Result<Vec<Vec<u128>>, Diagnostic> = circuit
+            .memories
+            .iter()
+            .zip(&ports)
+            .map(|(memory, ports)| first_words(world, program, memory, ports, files))
+            .collect();
+        let contents = contents.map_err(|fault| vec![fault])?;
+        let fault = |fault| vec![ScriptError::Environment(fault).at(circuit.span)];
+        let environment = Environment::new(&netlist, ports, contents).map_err(fault)?;
+        let [own_inputs, own_outputs] = [netlist.inputs(), netlist.outputs()]
+            .map(|ids| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<String>>());
+        let (inputs, outputs) = (test.input_bits(), test.output_bits());
+        let find = |names: &[String], name: &str| names.iter().position(|known| known == name);
+        let sees = own_inputs
+            .iter()
+            .filter_map(|name| find(&outputs, name).map(Seen::Output).or_else(|| find(&inputs, name).map(Seen::Input)));
+        let gives = own_outputs.iter().enumerate().filter_map(|(at, name)| Some((at, find(&inputs, name)?)));
+        let ports = circuit.inputs..circuit.inputs + circuit.outputs;
+        let text = ports.map(|slot| &circuit.nets[slot]).find(|net| net.is_text);
+        let text = text.and_then(|net| find(&own_outputs, &format!("{}[8]", net.name)));
+        Ok(Self { sees: sees.collect(), gives: gives.collect(), text, environment })
+    }
+
+    /// Writes what the environment gives into the inputs of a row.
+    fn give(&self, inputs: &mut [bool]) {
+        let outputs: Vec<bool> = self.environment.outputs().collect();
+        for &(own, input) in &self.gives {
+            inputs[input] = outputs[own];
+        }
+    }
+
+    /// Whether the environment gives what the circuit has.
+    fn agrees(&self, inputs: &[bool]) -> bool {
+        let outputs: Vec<bool> = self.environment.outputs().collect();
+        self.gives.iter().all(|&(own, input)| inputs[input] == outputs[own])
+    }
+
+    fn see(&mut self, inputs: &[bool], outputs: &[bool]) -> Result<(), nbc_circuit::EnvironmentFault> {
+        let bit = |seen: &Seen| match *seen {
+            Seen::Output(at) => outputs[at],
+            Seen::Input(at) => inputs[at],
+        };
+        let seen: Vec<bool> = self.sees.iter().map(bit).collect();
+        self.environment.apply(&seen)
+    }
+
+    /// The character that is written at the edge of the clock, if one is.
+    fn printed(&self) -> Option<char> {
+        let first = self.text?;
+        let outputs: Vec<bool> = self.environment.outputs().skip(first).take(9).collect();
+        let (&writes, bits) = outputs.split_first()?;
+        let code = bits.iter().fold(0u8, |code, &bit| code << 1 | u8::from(bit));
+        writes.then_some(char::from(code))
+    }
+}

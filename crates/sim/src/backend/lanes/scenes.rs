@@ -1,0 +1,363 @@
+//! Scenes that are advanced env step by env step, with targets from outside. They keep their lanes.
+
+use crate::backend::lanes::batch::Floor;
+use crate::backend::lanes::grouping::{LaneGrouping, LaneRequest};
+use crate::backend::lanes::kernel::{Ground, Kernel};
+use crate::backend::lanes::lane_batch::LaneBatch;
+use crate::backend::lanes::threads;
+use crate::constants::Constants;
+use crate::scene::Scene;
+use crate::state::State;
+use nbc_base::model::{Fault, FaultKind};
+
+/// Scenes in the lanes of this processor.
+#[derive(Debug)]
+pub struct Scenes {
+    constants: Constants,
+    scenes: Vec<Scene>,
+    groups: Vec<SceneGroup>,
+    /// The group of each scene, and its lane there.
+    places: Vec<(usize, usize)>,
+}
+
+/// A scene at the end of an env step; [`Scenes::restore`] takes it back.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SceneState {
+    /// The positions and velocities of the points of all objects that move.
+    pub state: State,
+    /// Env steps done since the start.
+    pub clock: u32,
+    /// The fault that ended it, if any.
+    pub fault: Option<Fault>,
+}
+
+/// Scenes in the lanes of one batch.
+#[derive(Debug)]
+struct SceneGroup {
+    batch: Box<dyn LaneBatch>,
+    lanes: Vec<Lane>,
+}
+
+/// The scene of a lane.
+#[derive(Debug)]
+struct Lane {
+    start: State,
+    clock: u32,
+    /// The fault that ended it, and its state before.
+    ended: Option<(Fault, State)>,
+}
+
+impl Scenes {
+    /// Scenes at their start, in the fastest kernel of this processor. Actuators keep their rest length until they are
+    /// given targets.
+    pub fn new(scenes: Vec<Scene>) -> Self {
+        Self::with_kernel(scenes, Kernel::default())
+    }
+
+    /// The same in a kernel, which does not affect results.
+    pub fn with_kernel(scenes: Vec<Scene>, kernel: Kernel) -> Self {
+        let constants = Constants::default();
+        let mut alike: Vec<Vec<usize>> = Vec::new();
+        for n in 0..scenes.len() {
+            let shares = |other: &Vec<usize>| {
+                let (one, other) = (&scenes[n], &scenes[other[0]]);
+                one.terrain == other.terrain && one.tops() == other.tops()
+            };
+            match alike.iter_mut().find(|others| shares(others)) {
+                Some(others) => others.push(n),
+                None => alike.push(vec![n]),
+            }
+        }
+        let mut all = Self { constants, places: vec![(0, 0); scenes.len()], scenes, groups: Vec::new() };
+        for members in alike {
+            let request = |&n: &usize| {
+                let is_same = |other: &&usize| all.scenes[**other].lattice == all.scenes[n].lattice;
+                let body = *members.iter().find(is_same).expect("a scene is like itself");
+                LaneRequest { size: all.scenes[n].lattice.size(), body }
+            };
+            let requests: Vec<LaneRequest> = members.iter().map(request).collect();
+            let most = threads::lanes_for(requests.len(), kernel.lanes());
+            for group in LaneGrouping::of(&requests, kernel, most).groups {
+                let is_alike = group.iter().all(|&at| requests[at].body == requests[group[0]].body);
+                let members: Vec<usize> = group.iter().map(|&at| members[at]).collect();
+                all.open(&members, is_alike, kernel);
+            }
+        }
+        all
+    }
+
+    /// Opens a group of these scenes.
+    fn open(&mut self, members: &[usize], is_alike: bool, kernel: Kernel) {
+        let robots: Vec<_> = members.iter().map(|&n| (&*self.scenes[n].lattice, &self.scenes[n].start)).collect();
+        let floor = Floor::Terrain(self.scenes[members[0]].terrain.clone());
+        let ground = Ground { constants: &self.constants, floor: &floor, meter: None };
+        let batch = kernel.batch(&robots, is_alike, ground);
+        let lane = |&n: &usize| Lane { start: self.scenes[n].start.clone(), clock: 0, ended: None };
+        for (lane, &n) in members.iter().enumerate() {
+            self.places[n] = (self.groups.len(), lane);
+        }
+        self.groups.push(SceneGroup { batch, lanes: members.iter().map(lane).collect() });
+    }
+
+    /// The number of scenes.
+    pub fn len(&self) -> usize {
+        self.scenes.len()
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.scenes.is_empty()
+    }
+
+    /// A scene.
+    pub fn scene(&self, n: usize) -> &Scene {
+        &self.scenes[n]
+    }
+
+    /// Sets the targets of a scene's actuators, as fractions of their rest length, until the next call.
+    ///
+    /// # Panics
+    /// When there is not one target for each channel.
+    pub fn set_targets(&mut self, n: usize, targets: &[f64]) {
+        assert_eq!(targets.len(), self.scenes[n].targets(), "each actuator has a target");
+        let (group, lane) = self.places[n];
+        self.groups[group].batch.set_targets(lane, targets);
+    }
+
+    /// Simulates more env steps. A scene with a fault stays as it was after its last complete env step.
+    pub fn advance(&mut self, env_steps: u32) {
+        threads::for_each(&mut self.groups, |group| (0..env_steps).for_each(|_| group.env_step()));
+    }
+
+    /// Puts a scene back to its start. Its targets stay.
+    pub fn reset(&mut self, n: usize) {
+        let (group, lane) = self.places[n];
+        self.groups[group].reset(lane);
+    }
+
+    /// The state of a scene.
+    pub fn state(&self, n: usize) -> SceneState {
+        let (group, lane) = self.places[n];
+        self.groups[group].state(lane)
+    }
+
+    /// Sets a scene to an earlier state.
+    ///
+    /// # Panics
+    /// When the state is of other objects.
+    pub fn restore(&mut self, n: usize, state: &SceneState) {
+        let (group, lane) = self.places[n];
+        self.groups[group].restore(lane, state);
+    }
+
+    /// The fault that ended a scene, if any.
+    pub fn fault(&self, n: usize) -> Option<Fault> {
+        let (group, lane) = self.places[n];
+        self.groups[group].lanes[lane].ended.as_ref().map(|(fault, _)| *fault)
+    }
+
+    /// Env steps that a scene has done since its start.
+    pub fn clock(&self, n: usize) -> u32 {
+        let (group, lane) = self.places[n];
+        self.groups[group].lanes[lane].clock
+    }
+
+    /// The positions of the points of a scene's object, in voxels; see [`Scene::positions`].
+    pub fn positions(&self, n: usize, object: usize) -> Vec<[f64; 2]> {
+        self.scenes[n].positions(object, &self.state(n).state, &self.constants)
+    }
+
+    /// How far a scene's object has turned; see [`Scene::turn`].
+    pub fn turn(&self, n: usize, object: usize) -> f64 {
+        self.scenes[n].turn(object, &self.state(n).state)
+    }
+
+    /// The velocities of the points of a scene's object, in voxels per second; see [`Scene::velocities`].
+    pub fn velocities(&self, n: usize, object: usize) -> Vec<[f64; 2]> {
+        self.scenes[n].velocities(object, &self.state(n).state, &self.constants)
+    }
+}
+
+impl SceneGroup {
+    fn env_step(&mut self) {
+        self.batch.save();
+        self.batch.env_step();
+        for lane in 0..self.lanes.len() {
+            if self.lanes[lane].ended.is_some() {
+                continue;
+            }
+            let is_unstable = self.batch.unstable() >> lane & 1 == 1;
+            if is_unstable || !self.batch.center(lane).iter().all(|axis| axis.is_finite()) {
+                let kind = if is_unstable { FaultKind::Unstable } else { FaultKind::NonFinite };
+                let fault = Fault { env_step: self.lanes[lane].clock + 1, kind };
+                let mut state = self.lanes[lane].start.clone();
+                self.batch.unload_saved(lane, &mut state);
+                self.batch.load(lane, &self.lanes[lane].start);
+                self.lanes[lane].ended = Some((fault, state));
+            } else {
+                self.lanes[lane].clock += 1;
+            }
+        }
+    }
+
+    fn reset(&mut self, lane: usize) {
+        self.batch.load(lane, &self.lanes[lane].start);
+        (self.lanes[lane].clock, self.lanes[lane].ended) = (0, None);
+    }
+
+    fn state(&self, lane: usize) -> SceneState {
+        let Lane { start, clock, ended } = &self.lanes[lane];
+        let state = match ended {
+            Some((_, state)) => state.clone(),
+            None => {
+                let mut state = start.clone();
+                self.batch.unload(lane, &mut state);
+                state
+            }
+        };
+        SceneState { state, clock: *clock, fault: ended.as_ref().map(|(fault, _)| *fault) }
+    }
+
+    fn restore(&mut self, lane: usize, state: &SceneState) {
+        let own = &mut self.lanes[lane];
+        assert_eq!(state.state.position.len(), own.start.position.len(), "a state is of the same objects");
+        own.clock = state.clock;
+        own.ended = state.fault.map(|fault| (fault, state.state.clone()));
+        let now = if own.ended.is_some() { &own.start } else { &state.state };
+        self.batch.load(lane, now);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::backend::lanes::LaneBackend;
+    use crate::backend::lanes::kernel::InstructionSet;
+    use crate::backend::{Backend, Snapshot};
+    use crate::grid::Grid;
+    use crate::scene::SceneObject;
+    use crate::signal::Signals;
+    use nbc_base::model::{Body, GroundProfile, Palette, Pattern, Setting};
+
+    const WIDTH: usize = 60;
+
+    fn object(rows: &[&str], at: [usize; 2]) -> SceneObject {
+        let codes: Vec<u8> = rows.concat().bytes().map(|digit| digit - b'0').collect();
+        SceneObject { grid: Grid::structure(rows[0].len(), rows.len(), &codes), at }
+    }
+
+    /// Stairs, a package on the robot, a ball, and a bridge that hangs between two pillars.
+    fn scene(robot: &[&str]) -> Scene {
+        let objects = [
+            object(robot, [5, 1]),
+            object(&["222", "222"], [5, 1 + robot.len()]),
+            object(&["11", "11"], [20, 3]),
+            object(&["5222225", "5000005"], [12, 1]),
+            object(&["0005", "0055", "5555"], [0, 0]),
+            object(&["55555555555555555555"], [4, 0]),
+        ];
+        Scene::new(&objects, &Constants::default())
+    }
+
+    const ROBOTS: [&[&str]; 5] =
+        [&["333", "434", "303"], &["4444", "3123"], &["33", "33"], &["13331", "40004"], &["343", "434", "303"]];
+
+    /// Targets that differ from scene to scene and from env step to env step.
+    fn targets(scene: &Scene, n: usize, env_step: usize) -> Vec<f64> {
+        (0..scene.targets()).map(|at| 0.6 + ((at * 37 + n * 11 + env_step * 29) % 101) as f64 / 100.0).collect()
+    }
+
+    fn simulated(kernel: Kernel, count: usize) -> Vec<SceneState> {
+        let mut scenes = Scenes::with_kernel((0..count).map(|n| scene(ROBOTS[n % ROBOTS.len()])).collect(), kernel);
+        for env_step in 0..40 {
+            for n in 0..scenes.len() {
+                scenes.set_targets(n, &targets(&scenes.scenes[n], n, env_step));
+            }
+            scenes.advance(1);
+        }
+        (0..count).map(|n| scenes.state(n)).collect()
+    }
+
+    #[test]
+    fn kernels_and_company_do_not_affect_scenes() {
+        let alone = simulated(Kernel::SCALAR, 5);
+        assert!(alone.iter().all(|state| state.clock == 40 && state.fault.is_none()));
+        for set in InstructionSet::available() {
+            for lanes in Kernel::WIDTHS {
+                let kernel = Kernel::new(set, lanes).expect("an available set");
+                for count in [5, 9] {
+                    let states = simulated(kernel, count);
+                    assert_eq!(states[..5], alone[..], "{} with {lanes} lanes, {count} scenes", set.name());
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_robot_on_terrain_walks_as_on_the_ground() {
+        let stairs: Vec<usize> = (0..WIDTH).map(|column| [0, 0, 1, 2, 1][column % 5]).collect();
+        walks_alike(&[0], &[5; WIDTH], 1);
+        let codes: Vec<u8> =
+            (0..3).flat_map(|row| stairs.iter().map(move |&high| if 2 - row <= high { 5 } else { 0 })).collect();
+        walks_alike(&[0, 0, 1, 2, 1], &codes, 3);
+    }
+
+    /// A robot on ground of these heights is one in a scene with terrain of these codes.
+    fn walks_alike(heights: &[u8], codes: &[u8], rows: usize) {
+        let body = Body::parse(&["343", "434", "313"], &Palette::paper()).unwrap();
+        let ground = GroundProfile::new(heights).unwrap();
+        let setting = Setting { world_width: WIDTH, ground, ..Setting::default() };
+        let (constants, pattern) = (Constants::default(), Pattern::PAIRS[0]);
+        let mut flock = LaneBackend::default().flock(&setting, std::slice::from_ref(&body));
+        let still = SceneObject { grid: Grid::structure(WIDTH, rows, codes), at: [0, 0] };
+        let at = setting.start(3).map(|axis| axis as usize);
+        let robot = SceneObject { grid: Grid::structure(3, 3, &[3, 3, 3, 3, 3, 3, 3, 1, 3]), at };
+        let mut scenes = Scenes::new(vec![Scene::new(&[still, robot], &constants)]);
+        let signals = Signals::new(body.palette(), &constants);
+        let driven: Vec<u8> = body.codes().iter().copied().filter(|&code| code > 2).collect();
+        for env_step in 0..100 {
+            flock.advance(&[pattern], 1);
+            let targets: Vec<f64> = driven.iter().map(|&code| signals.target(code, env_step, pattern)).collect();
+            scenes.set_targets(0, &targets);
+            scenes.advance(1);
+            let Snapshot { state, .. } = flock.snapshot(0);
+            assert_eq!(scenes.state(0).state, state, "env step {env_step}");
+        }
+    }
+
+    #[test]
+    fn scenes_go_back_in_time() {
+        let mut scenes = Scenes::new(vec![scene(ROBOTS[0]), scene(ROBOTS[1])]);
+        let start = scenes.state(0);
+        scenes.set_targets(0, &[1.6; 8]);
+        scenes.advance(5);
+        let middle = scenes.state(0);
+        scenes.advance(5);
+        let end = scenes.state(0);
+        scenes.restore(0, &middle);
+        scenes.advance(5);
+        assert_eq!(scenes.state(0), end);
+        assert_eq!(scenes.clock(1), 15);
+        scenes.reset(0);
+        assert_eq!(scenes.state(0), start);
+        assert!(scenes.turn(0, 0) < 0.01 && scenes.positions(0, 4)[0].map(f64::round) == [3.0; 2]);
+    }
+
+    #[test]
+    fn a_scene_with_a_fault_stays_as_it_was_and_the_others_go_on() {
+        let mut scenes = Scenes::new(vec![scene(ROBOTS[0]), scene(ROBOTS[0])]);
+        let mut broken = scenes.state(1);
+        for point in &mut broken.state.velocity {
+            point[0] = f64::NAN;
+        }
+        scenes.restore(1, &broken);
+        let before = scenes.state(1);
+        scenes.advance(3);
+        assert_eq!(scenes.fault(1).map(|fault| (fault.env_step, fault.kind)), Some((1, FaultKind::NonFinite)));
+        assert_eq!(format!("{:?}", scenes.state(1).state), format!("{:?}", before.state));
+        assert_eq!((scenes.clock(0), scenes.fault(0)), (3, None));
+        scenes.reset(1);
+        scenes.advance(1);
+        assert_eq!((scenes.clock(1), scenes.fault(1)), (1, None));
+    }
+}

@@ -1,0 +1,172 @@
+//! Voxels as the physics sees them: what robots, packages and terrain are made of (docs/physics.md 1 and 16).
+
+use nbc_base::model::{Body, MaterialKind};
+
+/// A voxel of a grid.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum GridCell {
+    /// Keeps its shape.
+    Rigid,
+    /// Gives way.
+    Soft,
+    /// Has a target width or height: number `channel` of the targets.
+    Active {
+        /// The place in the targets.
+        channel: u16,
+        /// Which of its sides get longer and shorter.
+        axis: DriveAxis,
+    },
+    /// Its points never move.
+    Fixed,
+}
+
+/// A direction of actuation.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum DriveAxis {
+    /// The top and the bottom side are driven.
+    Horizontal,
+    /// The left and the right side are driven.
+    Vertical,
+}
+
+/// A rectangle of voxels, row 0 on top.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Grid {
+    width: usize,
+    height: usize,
+    cells: Vec<Option<GridCell>>,
+    codes: Vec<u8>,
+    channels: usize,
+}
+
+impl Grid {
+    /// Evolution Gym's codes, row by row from the top: 0 empty, 1 rigid, 2 soft, 3 horizontal actuator, 4 vertical
+    /// actuator, 5 fixed. The actuators' channels are their places in reading order.
+    ///
+    /// # Panics
+    /// When the number of codes is not `width * height`, or a code is above 5.
+    pub fn structure(width: usize, height: usize, codes: &[u8]) -> Self {
+        assert_eq!(codes.len(), width * height, "a grid has a code for each place");
+        let mut channels = 0;
+        let mut active = |axis| {
+            channels += 1;
+            GridCell::Active { channel: channels as u16 - 1, axis }
+        };
+        let cell = |code: &u8| match code {
+            0 => None,
+            1 => Some(GridCell::Rigid),
+            2 => Some(GridCell::Soft),
+            3 => Some(active(DriveAxis::Horizontal)),
+            4 => Some(active(DriveAxis::Vertical)),
+            5 => Some(GridCell::Fixed),
+            _ => panic!("codes are 0 to 5"),
+        };
+        let cells = codes.iter().map(cell).collect();
+        Self { width, height, cells, codes: codes.to_vec(), channels }
+    }
+
+    /// The number of columns.
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// The number of rows.
+    pub fn height(&self) -> usize {
+        self.height
+    }
+
+    /// The number of targets that its actuators have.
+    pub fn channels(&self) -> usize {
+        self.channels
+    }
+
+    /// The voxel at a place, if there is one; there is none outside the grid.
+    pub fn cell(&self, row: isize, column: isize) -> Option<GridCell> {
+        let is_inside = (0..self.height as isize).contains(&row) && (0..self.width as isize).contains(&column);
+        if is_inside { self.cells[row as usize * self.width + column as usize] } else { None }
+    }
+
+    /// The code of a place inside the grid.
+    pub fn code(&self, row: usize, column: usize) -> u8 {
+        self.codes[row * self.width + column]
+    }
+
+    /// Whether any voxel is active.
+    pub fn is_active(&self) -> bool {
+        self.cells.iter().any(|cell| matches!(cell, Some(GridCell::Active { .. })))
+    }
+
+    /// Whether all voxels are fixed.
+    pub fn is_fixed(&self) -> bool {
+        self.cells.iter().flatten().all(|cell| *cell == GridCell::Fixed)
+    }
+
+    /// Grids one below the other, with an empty row between, and the first row of each. The channels of a grid follow
+    /// those of the grid above it.
+    pub fn stack(grids: &[&Grid]) -> (Self, Vec<usize>) {
+        let width = grids.iter().map(|grid| grid.width).max().unwrap_or(0);
+        let mut stack = Self { width, height: 0, cells: Vec::new(), codes: Vec::new(), channels: 0 };
+        let mut tops = Vec::with_capacity(grids.len());
+        for grid in grids {
+            if stack.height > 0 {
+                stack.height += 1;
+            }
+            tops.push(stack.height);
+            stack.height += grid.height;
+            stack.cells.resize(tops[tops.len() - 1] * width, None);
+            stack.codes.resize(stack.cells.len(), 0);
+            let later = |cell| match cell {
+                GridCell::Active { channel, axis } => {
+                    GridCell::Active { channel: channel + stack.channels as u16, axis }
+                }
+                other => other,
+            };
+            for (cells, codes) in grid.cells.chunks(grid.width).zip(grid.codes.chunks(grid.width)) {
+                stack.cells.extend(cells.iter().map(|cell| cell.map(later)));
+                stack.codes.extend(codes);
+                let end = stack.cells.len().next_multiple_of(width.max(1));
+                stack.cells.resize(end, None);
+                stack.codes.resize(end, 0);
+            }
+            stack.channels += grid.channels;
+        }
+        (stack, tops)
+    }
+}
+
+impl From<&Body> for Grid {
+    /// The channel of an active voxel is its material's code.
+    fn from(body: &Body) -> Self {
+        let cell = |&code: &u8| match body.palette().kind(code) {
+            None => None,
+            Some(MaterialKind::Rigid) => Some(GridCell::Rigid),
+            Some(MaterialKind::Soft) => Some(GridCell::Soft),
+            Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)) => {
+                Some(GridCell::Active { channel: u16::from(code), axis: DriveAxis::Horizontal })
+            }
+        };
+        Self {
+            width: body.width(),
+            height: body.height(),
+            cells: body.codes().iter().map(cell).collect(),
+            codes: body.codes().to_vec(),
+            channels: body.palette().materials().len() + 1,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grids_are_stacked_with_an_empty_row_between() {
+        let (one, two) = (Grid::structure(1, 2, &[3, 1]), Grid::structure(2, 1, &[4, 5]));
+        let (stack, tops) = Grid::stack(&[&one, &two]);
+        assert_eq!((stack.width(), stack.height(), stack.channels(), tops), (2, 4, 2, vec![0, 3]));
+        let codes: Vec<u8> = (0..8).map(|at| stack.code(at / 2, at % 2)).collect();
+        assert_eq!(codes, [3, 0, 1, 0, 0, 0, 4, 5]);
+        assert_eq!(stack.cell(3, 0), Some(GridCell::Active { channel: 1, axis: DriveAxis::Vertical }));
+        assert_eq!((stack.cell(2, 0), stack.cell(-1, 0), stack.cell(0, 2)), (None, None, None));
+    }
+}
