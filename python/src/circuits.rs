@@ -46,7 +46,7 @@ impl Compiled {
 
     /// The schematic as SVG.
     fn schematic(&self, py: Python<'_>, safe_colors: bool) -> PyResult<String> {
-        at_once(py, || Ok(self.compiled.schematic(scheme(safe_colors)).finish()))
+        at_once(py, || Ok(self.compiled.schematic(scheme(safe_colors)).top().finish()))
     }
 
     /// The swarm at its start.

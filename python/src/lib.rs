@@ -10,6 +10,7 @@ mod flock;
 mod memory;
 mod physics;
 mod program;
+mod scenes;
 mod search;
 mod slot;
 mod swarm;
@@ -28,6 +29,7 @@ fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<flock::Flock>()?;
     module.add_class::<flock::FlockState>()?;
     module.add_class::<program::Program>()?;
+    module.add_class::<scenes::Scenes>()?;
     module.add_class::<search::Candidates>()?;
     module.add_class::<search::Search>()?;
     module.add_class::<swarm::Swarm>()?;

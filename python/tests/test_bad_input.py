@@ -274,8 +274,8 @@ def test_bodies_that_do_not_fit_into_memory_are_refused(call):
     ("text", "word"),
     [
         ('import "DPI-C" function integer kill(integer a, integer b);', "import"),
-        ('module r; reg a[0:1]; initial $readmemh("/etc/passwd", a); endmodule', r"\$readmemh"),
-        ('module r; reg a[0:1]; initial \\$readmemh ("/etc/passwd", a); endmodule', r"\\\$readmemh"),
+        ('module r(output q); reg a[0:1]; initial $readmemh("/etc/passwd", a); endmodule', r"\$readmemh"),
+        ('module r(output q); reg a[0:1]; initial \\$readmemh ("/etc/passwd", a); endmodule', r"\\\$readmemh"),
     ],
 )
 def test_verilog_that_reaches_the_machine(tmp_path, text, word):

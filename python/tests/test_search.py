@@ -232,3 +232,29 @@ def test_damaged_and_missing_checkpoints(run, tmp_path):
     assert caught.value.diagnostics[0].code == "unwritable"
     with pytest.raises(ValueError, match="seed is -1"):
         nbc.Search(run, seed=-1)
+
+
+def test_archives_go_to_pyribs_and_back(done):
+    pytest.importorskip("ribs")
+    archive = done.archive
+    assert len(archive) > 5
+    there = archive.to_ribs()
+    assert len(there) == len(archive) and there.dims.tolist() == [bins for _, bins in archive.axes]
+    best = there.best_elite
+    row = archive.elites[archive.elites["fitness"][:, 0].argmax()]
+    np.testing.assert_array_equal(best["solution"], row["body"])
+    np.testing.assert_array_equal(best["measures"], row["niche"])
+    names = [name for name, _ in archive.axes]
+    assert nbc.Archive.from_ribs(there, names, archive.materials) == archive
+    with pytest.raises(ValueError, match="2 axes are named, expected 4"):
+        nbc.Archive.from_ribs(there, ["voxels", "behavior"])
+
+
+def test_archives_that_do_not_fit_pyribs_are_refused():
+    archives = pytest.importorskip("ribs.archives")
+    plain = archives.GridArchive(solution_dim=(3, 3), dims=[2], ranges=[(0, 1)])
+    with pytest.raises(ValueError, match="the archive has no field `fitness`"):
+        nbc.Archive.from_ribs(plain, ["voxels"])
+    classes = nbc.Evolution(**{**RUN, "descriptors": ["voxels in 2 bins", "class"]})
+    with pytest.raises(ValueError, match="pyribs has no archive with the axis `class`"):
+        nbc.Search(classes).archive.to_ribs()

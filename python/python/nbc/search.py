@@ -42,6 +42,14 @@ class Candidates:
     def __len__(self) -> int:
         return len(self._native)
 
+# The columns of elites that are extra fields in pyribs.
+_EXTRA = ("fitness", "behavior", "displacement", "generation", "evaluations")
+
+
+def _ribs_type(column: np.dtype[Any]) -> Any:
+    """The type of a column in pyribs: objects instead of texts of a fixed length."""
+    return object if column.base.kind == "U" else column.base
+
 
 class Archive:
     """Elites in their niches.
@@ -104,6 +112,56 @@ class Archive:
         columns["materials"] = [materials] * len(self)
         columns["generation"], columns["evaluations"] = self.elites["generation"], self.elites["evaluations"]
         return pandas.DataFrame(columns)
+
+    def to_ribs(self) -> Any:
+        """The elites as a ``GridArchive`` of pyribs: solutions are bodies, shape (H, W), the objective is the first
+        fitness, and the measures are the bins of `axes`. Its extra fields have the rest. Of several elites in a niche
+        it has the one with the greatest first fitness.
+
+        Raises:
+            ValueError: for an archive with the axis ``class``, of which not all behaviors have a bin.
+        """
+        from ribs.archives import GridArchive
+
+        if any(name.startswith("class") for name, _ in self.axes):
+            raise ValueError("pyribs has no archive with the axis `class`")
+        types = {name: (self.elites.dtype[name].shape, _ribs_type(self.elites.dtype[name])) for name in _EXTRA}
+        archive = GridArchive(
+            solution_dim=self.elites["body"].shape[1:],
+            dims=[bins for _, bins in self.axes],
+            ranges=[(-0.5, bins - 0.5) for _, bins in self.axes],
+            extra_fields={**types, "function": ((), object)},
+        )
+        if len(self):
+            extra = {name: self.elites[name].astype(of) for name, (_, of) in types.items()}
+            archive.add(self.elites["body"], self.elites["fitness"][:, 0], self.elites["niche"],
+                        function=np.array(self._functions, dtype=object), **extra)
+        return archive
+
+    @classmethod
+    def from_ribs(cls, archive: Any, axes: Sequence[str], materials: Sequence[Material] = PAPER_MATERIALS) -> Archive:
+        """The archive of a ``GridArchive`` that `to_ribs` made, and that may have got more elites since.
+
+        Args:
+            archive: the archive of pyribs.
+            axes: the name of each of its measures.
+            materials: the materials of the codes.
+
+        Raises:
+            ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures.
+        """
+        missing = [name for name in (*_EXTRA, "function") if name not in archive.field_list]
+        if missing:
+            raise ValueError(f"the archive has no field `{missing[0]}`; `to_ribs` makes archives with it")
+        if len(axes) != len(archive.dims):
+            raise ValueError(f"{len(axes)} axes are named, expected {len(archive.dims)}, one for each measure")
+        found = archive.data()
+        # In order of their niches, as archives are.
+        order = np.argsort(found["index"])
+        arrays = {name: found[name][order] for name in (*_EXTRA, "function")}
+        arrays["niche"] = np.rint(found["measures"][order]).astype(np.uint16)
+        arrays["body"] = found["solution"][order].astype(np.uint8)
+        return cls(arrays, tuple(zip(axes, (int(bins) for bins in archive.dims))), materials)
 
     def _patterns(self) -> int:
         """The patterns of its stimuli, 4 or 8."""

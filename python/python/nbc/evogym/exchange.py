@@ -19,10 +19,10 @@ from typing import Any, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from . import _nbc
-from .bodies import OneBody, read
-from .numbers import array_of
-from .physics import CYCLE_STEPS, Schedule, pack_schedule
+from .. import _nbc
+from ..bodies import OneBody, read
+from ..numbers import array_of
+from ..physics import CYCLE_STEPS, Schedule, pack_schedule
 
 __all__ = ["actions", "connections", "from_structure", "to_structure"]
 
@@ -153,9 +153,9 @@ def connections(structure: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
 
 def _reason(code: int) -> str:
     if code == 4:
-        return "4 is a vertical actuator, which nbc does not have; its 4 is a horizontal actuator in antiphase"
+        return "4 is a vertical actuator, which these bodies do not have; their 4 is a horizontal actuator in antiphase"
     if code == 5:
-        return "5 is a fixed voxel, such as terrain; nbc has one flat ground and no objects"
+        return "5 is a fixed voxel, such as terrain; `nbc.evogym.EvoWorld` has them"
     return f"{code} is not a voxel of Evolution Gym"
 
 

@@ -1,0 +1,54 @@
+"""Evolution Gym: its worlds, simulator and tasks under its names, with its numbers, and the interchange of bodies.
+
+A script of Evolution Gym runs here when its imports are changed: ``evogym`` becomes ``nbc.evogym``, ``evogym.envs``
+becomes ``nbc.evogym.envs``, and ``gymnasium.make("Walker-v0", …)`` becomes ``gymnasium.make("nbc/Walker-v0", …)``.
+Evolution Gym itself is not needed; the environments need gymnasium. docs/evolution-gym.md is the guide.
+
+Bodies of ``nbc`` in other modules have codes of their own: there 4 is a horizontal actuator in antiphase.
+`to_structure` and `from_structure` translate.
+"""
+
+from __future__ import annotations
+
+from .comparison import Comparison, compare
+from .exchange import actions, connections, from_structure, to_structure
+from .picture import draw as draw_world
+from .sim import EvoSim, Scenes
+from .tasks import TASKS, Task
+from .utils import (
+    BASELINE_ENV_NAMES,
+    VOXEL_TYPES,
+    draw,
+    get_full_connectivity,
+    get_uniform,
+    has_actuator,
+    hashable,
+    is_connected,
+    sample_robot,
+)
+from .world import EvoWorld, WorldObject
+
+__all__ = [
+    "BASELINE_ENV_NAMES",
+    "TASKS",
+    "VOXEL_TYPES",
+    "Comparison",
+    "EvoSim",
+    "EvoWorld",
+    "Scenes",
+    "Task",
+    "WorldObject",
+    "actions",
+    "compare",
+    "connections",
+    "draw",
+    "draw_world",
+    "from_structure",
+    "get_full_connectivity",
+    "get_uniform",
+    "has_actuator",
+    "hashable",
+    "is_connected",
+    "sample_robot",
+    "to_structure",
+]

@@ -1,0 +1,126 @@
+"""Comparison with Evolution Gym, where that is installed: the same episode there and here."""
+
+from __future__ import annotations
+
+import contextlib
+import io
+import random
+import time
+from dataclasses import dataclass
+from typing import Any, List, Optional, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from .tasks import TaskWorlds, task_of
+from .utils import sample_robot
+
+__all__ = ["Comparison", "Episode", "compare", "record"]
+
+_Floats = npt.NDArray[np.float64]
+
+
+@dataclass
+class Episode:
+    """What Evolution Gym rewarded."""
+
+    body: npt.NDArray[np.int64]
+    """The structure of the robot."""
+    rewards: _Floats
+    """The reward of each env step."""
+    first: _Floats
+    """The observation at the start."""
+    goals: List[int]
+    """The goals of BidirectionalWalker-v0; no other task has any."""
+    seconds: float
+    """The CPU time of its env steps."""
+
+
+@dataclass
+class Comparison:
+    """An episode there and here, with the same actions."""
+
+    task: str
+    """The name of the task."""
+    there: Episode
+    """The episode of Evolution Gym."""
+    rewards: _Floats
+    """The rewards here."""
+    seconds: float
+    """The CPU time of the env steps here."""
+
+    def agreed(self, tolerance: float = 1e-9) -> int:
+        """The env steps before the first whose rewards differ by more."""
+        differs = np.flatnonzero(~(np.abs(self.rewards - self.there.rewards) <= tolerance))
+        return int(differs[0]) if len(differs) else len(self.rewards)
+
+    def __str__(self) -> str:
+        steps, shared = len(self.rewards), self.agreed()
+        speed = self.there.seconds / self.seconds
+        return f"{self.task}: {shared} of {steps} rewards are equal to 1e-9; {speed:.1f} times as fast"
+
+
+def record(
+    task: str,
+    body: npt.ArrayLike,
+    actions: np.random.Generator,
+    steps: int,
+    connections: Optional[npt.ArrayLike] = None,
+) -> Episode:
+    """An episode of Evolution Gym under random targets.
+
+    Raises:
+        ImportError: where Evolution Gym is not installed.
+    """
+    import evogym.envs
+    import gymnasium
+
+    with contextlib.redirect_stdout(io.StringIO()):
+        env: Any = gymnasium.make(task, body=np.asarray(body), connections=connections).unwrapped
+        first, _ = env.reset()
+    goals = [goal.x_goal for goal in getattr(env, "goals", [])]
+    rewards: List[float] = []
+    done, count, start = False, env.action_space.shape[0], time.process_time()
+    while len(rewards) < steps and not done:
+        _, reward, done, _, _ = env.step(actions.uniform(0.6, 1.6, count))
+        rewards.append(float(reward))
+    spent = time.process_time() - start
+    return Episode(np.asarray(body, dtype=np.int64), np.array(rewards), first, goals, spent)
+
+
+def compare(
+    task: str = "Walker-v0", bodies: Optional[Sequence[npt.ArrayLike]] = None, *, steps: int = 100, seed: int = 1
+) -> List[Comparison]:
+    """Runs a task in Evolution Gym and here with the same random targets.
+
+    Args:
+        task: its name.
+        bodies: structures; by default three random ones of 5 x 5.
+        steps: env steps of each episode, at most.
+        seed: of the bodies, targets and goals.
+
+    Returns:
+        A comparison for each body. In some walks rounding grows, and then their rewards differ; docs/evolution-gym.md
+        tells from when on.
+
+    Raises:
+        ImportError: where Evolution Gym is not installed.
+        ValueError: for a task that is not here.
+    """
+    task_of(task)
+    found = []
+    for number in range(3 if bodies is None else len(bodies)):
+        random.seed(seed + number)
+        body = sample_robot((5, 5))[0] if bodies is None else bodies[number]
+        there = record(task, body, np.random.default_rng(seed + number), steps)
+        found.append(_follow(task, there, np.random.default_rng(seed + number)))
+    return found
+
+
+def _follow(name: str, there: Episode, actions: np.random.Generator) -> Comparison:
+    task = task_of(name)
+    worlds = TaskWorlds(task, [task.make_world(there.body)])
+    worlds.reset([0], None, there.goals)
+    count, start = int(worlds.actuators[0]), time.process_time()
+    rewards = [float(worlds.step(actions.uniform(0.6, 1.6, count))[0][0]) for _ in there.rewards]
+    return Comparison(name, there, np.array(rewards), time.process_time() - start)

@@ -1,0 +1,98 @@
+"""Pictures of worlds as arrays, without a display."""
+
+from __future__ import annotations
+
+from typing import Any, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from .sim import Scenes
+from .world import EvoWorld
+
+__all__ = ["draw"]
+
+# Rigid, soft, horizontal and vertical actuator, fixed.
+_COLORS = np.array(
+    [[38, 38, 38], [180, 190, 200], [230, 125, 60], [80, 150, 210], [120, 110, 100]], dtype=np.float64
+)
+_SKY, _GRID, _EDGE = np.array([255, 251, 240.0]), np.array([238, 233, 220.0]), np.array([25, 25, 25.0])
+
+
+def draw(
+    scenes: Scenes,
+    scene: int,
+    world: EvoWorld,
+    *,
+    width: int = 640,
+    height: int = 360,
+    view: float = 32.0,
+    follow: str = "robot",
+    hide_background: bool = False,
+    hide_grid: bool = False,
+    hide_edges: bool = False,
+    hide_voxels: bool = False,
+    verbose: bool = False,
+) -> npt.NDArray[np.uint8]:
+    """A world as a picture, shape (height, width, 3).
+
+    Args:
+        scenes: the simulation.
+        scene: the number of the world in it.
+        world: its objects.
+        width, height: pixels.
+        view: the voxels across.
+        follow: the object that is in the middle.
+        hide_background, hide_grid, hide_edges, hide_voxels, verbose: Evolution Gym's; ``verbose`` does nothing.
+    """
+    image = np.tile(np.array([255.0] * 3) if hide_background else _SKY, (height, width, 1))
+    scale = width / view
+    if any(each.name == follow for each in world.objects.values()):
+        middle = scenes.points([scene], follow)[0].mean(axis=0)
+    else:
+        middle = np.array([view / 2, view / 4])
+    corner = (middle[0] - view / 2, middle[1] - height / scale / 2.5)
+    x = corner[0] + (np.arange(width) + 0.5) / scale
+    y = corner[1] + (height - np.arange(height) - 0.5) / scale
+    if not hide_grid:
+        image[:, np.mod(x, 1) < 1.2 / scale] = _GRID
+        image[np.mod(y, 1) < 1.2 / scale] = _GRID
+    for each in world.ordered():
+        codes = each.structure[each.structure > 0]
+        points = scenes.points([scene], each.name)[0]
+        for corners, code in zip(points[scenes.voxels(scene, each.name)], codes):
+            color = None if hide_voxels else _COLORS[code - 1]
+            _fill(image, corners, color, not hide_edges, corner, scale)
+    return image.round().astype(np.uint8)
+
+
+def _fill(
+    image: npt.NDArray[np.float64],
+    corners: npt.NDArray[np.float64],
+    color: Optional[npt.NDArray[np.float64]],
+    has_edges: bool,
+    origin: Tuple[float, float],
+    scale: float,
+) -> None:
+    """Paints a voxel with these corners, given clockwise in voxels. Each pixel is blended by how far inside it is."""
+    height, width = image.shape[:2]
+    across = (corners[:, 0] - origin[0]) * scale
+    down = height - (corners[:, 1] - origin[1]) * scale
+    left, right = int(max(np.floor(across.min()) - 1, 0)), int(min(np.ceil(across.max()) + 1, width))
+    top, bottom = int(max(np.floor(down.min()) - 1, 0)), int(min(np.ceil(down.max()) + 1, height))
+    if left >= right or top >= bottom:
+        return
+    px, py = np.meshgrid(np.arange(left, right) + 0.5, np.arange(top, bottom) + 0.5)
+    inside: Any = np.full(px.shape, np.inf)
+    for a in range(4):
+        b = (a + 1) % 4
+        ex, ey = across[b] - across[a], down[b] - down[a]
+        length = max(float(np.hypot(ex, ey)), 1e-9)
+        inside = np.minimum(inside, (ex * (py - down[a]) - ey * (px - across[a])) / length)
+    part = image[top:bottom, left:right]
+    if color is not None:
+        share = np.clip(inside + 0.5, 0, 1)[..., None]
+        part[:] = part * (1 - share) + color * share
+    if has_edges:
+        share = 0.6 * np.clip(1 - np.abs(inside - 0.5), 0, 1)[..., None]
+        part[:] = part * (1 - share) + _EDGE * share

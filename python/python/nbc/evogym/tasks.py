@@ -1,0 +1,512 @@
+"""Evolution Gym's tasks: worlds, observations and rewards, for any number of robots at once.
+
+Lengths are in meters here, as in Evolution Gym's benchmark environments: a voxel is 0.1 m. Arrays have a row for each
+world.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import partial
+from math import pi
+from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from .sim import VOXEL_SIZE, Scenes
+from .world import EvoWorld
+
+__all__ = ["TASKS", "Task", "TaskWorlds", "task_of"]
+
+_Floats = npt.NDArray[np.float64]
+_Bools = npt.NDArray[np.bool_]
+
+
+class Thing:
+    """The points of an object in some worlds at one time."""
+
+    def __init__(self, positions: _Floats, velocities: _Floats, turn: Optional[_Floats], layout: _Layout) -> None:
+        self.positions, self.velocities, self._layout = positions * VOXEL_SIZE, velocities * VOXEL_SIZE, layout
+        self.com, self.middle, self._turn = layout.mean(self.positions), layout.mean(positions), turn
+
+    @property
+    def velocity(self) -> _Floats:
+        """Velocities of the centers of mass, shape (N, 2)."""
+        return self._layout.mean(self.velocities)
+
+    @property
+    def turn(self) -> _Floats:
+        """How far they have turned since the start, shape (N,)."""
+        assert self._turn is not None, "a task that needs turns says so"
+        return self._turn
+
+    @property
+    def relative(self) -> _Floats:
+        """Positions of the points from the center of mass, shape (N, 2 P): first x, then y, zeros where a world has
+        fewer points than the most."""
+        return self._layout.padded(self.positions - self.com[self._layout.owner])
+
+    def each(self) -> List[_Floats]:
+        """The positions in each world."""
+        return np.split(self.positions, self._layout.first[1:])
+
+
+class _Layout:
+    """Where the points of an object of each world are in the arrays of all."""
+
+    def __init__(self, counts: Sequence[int]) -> None:
+        self.counts = np.asarray(counts)
+        self.first = np.concatenate(([0], np.cumsum(self.counts)[:-1])).astype(np.intp)
+        self.owner = np.repeat(np.arange(len(self.counts)), self.counts)
+        self._slot = np.arange(len(self.owner)) - self.first[self.owner]
+
+    def mean(self, values: _Floats) -> _Floats:
+        mean: _Floats = np.add.reduceat(values, self.first, axis=0) / self.counts[:, None]
+        return mean
+
+    def padded(self, values: _Floats) -> _Floats:
+        padded = np.zeros((len(self.counts), 2, int(self.counts.max())))
+        padded[self.owner, :, self._slot] = values
+        return padded.reshape(len(self.counts), -1)
+
+
+@dataclass
+class Moment:
+    """All worlds at one time."""
+
+    robot: Thing
+    others: Dict[str, Thing]
+    worlds: TaskWorlds
+
+    def object(self, name: str) -> Thing:
+        """An object beside the robot."""
+        return self.others[name]
+
+
+_Part = Callable[[Moment], _Floats]
+_Judge = Callable[[Moment, Moment], Tuple[_Floats, _Bools]]
+
+
+# ---- what is observed ----
+
+
+def velocity(now: Moment) -> _Floats:
+    """The velocity of the robot."""
+    return now.robot.velocity
+
+
+def turn(now: Moment) -> _Floats:
+    """How far the robot has turned."""
+    return now.robot.turn[:, None]
+
+
+def shape(now: Moment) -> _Floats:
+    """The points of the robot from its center of mass."""
+    return now.robot.relative
+
+
+def surface(now: Moment, names: Sequence[str], sight: int, above: bool = False, reach: float = 5.0) -> _Floats:
+    """How far below (or above) the robot's center of mass the terrain is in each column, up to ``reach`` voxels."""
+    # In voxels: a column may end exactly at a point, so the last bit matters.
+    found = np.empty((len(now.robot.middle), 2 * sight + 1))
+    for world, (x, y) in enumerate(now.robot.middle):
+        points = now.worlds.terrain(world, names)
+        points = points[points[:, 1] > y] if above else points[points[:, 1] < y]
+        for column in range(2 * sight + 1):
+            middle = x + (column - sight)
+            own = points[(points[:, 0] > middle - 0.5) & (points[:, 0] < middle + 0.5), 1]
+            if not len(own):
+                found[world, column] = reach
+            else:
+                found[world, column] = own.min() - y if above else y - own.max()
+    return np.clip(found, 0, reach) * VOXEL_SIZE
+
+
+def pair(now: Moment, name: str) -> _Floats:
+    """Velocities of the robot and of an object, and the way from one to the other."""
+    other = now.object(name)
+    return np.concatenate((now.robot.velocity, other.com - now.robot.com, other.velocity), axis=1)
+
+
+def way_to(now: Moment, name: str) -> _Floats:
+    """The way from the robot to an object."""
+    return now.object(name).com - now.robot.com
+
+
+def velocity_of(now: Moment, name: str) -> _Floats:
+    """The velocity of an object."""
+    return now.object(name).velocity
+
+
+def turn_of(now: Moment, name: str) -> _Floats:
+    """How far an object has turned."""
+    return now.object(name).turn[:, None]
+
+
+def goal(now: Moment) -> _Floats:
+    """The number of the goal, its place, and how far it is."""
+    places = np.array([goals[min(int(at), len(goals) - 1)] for goals, at in zip(now.worlds.goals, now.worlds.goal)])
+    return np.stack((now.worlds.goal, places * 0.1, places * 0.1 - now.robot.com[:, 0]), axis=1)
+
+
+# ---- what is rewarded ----
+
+
+def _way(before: Moment, after: Moment, x: float = 0.0, y: float = 0.0) -> _Floats:
+    way: _Floats = (after.robot.com - before.robot.com) @ np.array([x, y])
+    return way
+
+
+def _no(after: Moment) -> _Bools:
+    return np.zeros(len(after.robot.com), dtype=bool)
+
+
+def walks(
+    before: Moment,
+    after: Moment,
+    x: float = 1.0,
+    y: float = 0.0,
+    goal: Optional[Tuple[int, float, float]] = None,
+    tilt: Optional[Tuple[float, float]] = None,
+    lowest: Optional[float] = None,
+) -> Tuple[_Floats, _Bools]:
+    """The way of the robot. ``goal`` is an axis, a place in voxels beyond which the task is done, and its reward; a
+    robot that turns into ``tilt``, or falls below ``lowest``, loses 3 and ends."""
+    reward, done = _way(before, after, x, y), _no(after)
+    if goal is not None:
+        axis, place, bonus = goal
+        arrived = after.robot.com[:, axis] > place * VOXEL_SIZE
+        reward, done = reward + bonus * arrived, done | arrived
+    if lowest is not None:
+        fallen = after.robot.com[:, 1] < lowest
+        reward, done = reward - 3.0 * fallen, done | fallen
+    if tilt is not None:
+        turned = after.robot.turn
+        over = (turned > tilt[0]) & (turned < tilt[1])
+        reward, done = reward - 3.0 * over, done | over
+    return reward, done
+
+
+def jumps(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """Up, and not aside."""
+    way = after.robot.com - before.robot.com
+    return way[:, 1] * 10 - np.abs(way[:, 0]) * 5, _no(after)
+
+
+def flips(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """Turns counterclockwise, over many turns."""
+    one, two = before.robot.turn, after.robot.turn
+    turns = (one > 5 * pi / 3) & (two < pi / 3)
+    back = (one < pi / 3) & (two > 5 * pi / 3)
+    reward = two - one + 2 * pi * (turns.astype(float) - back.astype(float))
+    return reward, after.robot.com[:, 0] < VOXEL_SIZE
+
+
+def balances(before: Moment, after: Moment, x: float, y: float) -> Tuple[_Floats, _Bools]:
+    """Comes nearer to a place, in voxels, along each axis."""
+    place = np.array([x, y]) * VOXEL_SIZE
+    return (np.abs(place - before.robot.com) - np.abs(place - after.robot.com)).sum(axis=1), _no(after)
+
+
+def changes_area(before: Moment, after: Moment, sign: int) -> Tuple[_Floats, _Bools]:
+    """The area of the convex hull grows or shrinks."""
+    areas = [np.array([_hull_area(points) for points in moment.robot.each()]) for moment in (before, after)]
+    return (areas[1] - areas[0]) * 10 * sign, _no(after)
+
+
+def changes_span(before: Moment, after: Moment, axis: int) -> Tuple[_Floats, _Bools]:
+    """The width or the height grows."""
+    spans = [np.array([np.ptp(points[:, axis]) for points in moment.robot.each()]) for moment in (before, after)]
+    return spans[1] - spans[0], _no(after)
+
+
+def carries(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """Robot and package go to the right, and the package does not fall."""
+    one, two = before.object("package").com, after.object("package").com
+    reward = (two - one)[:, 0] * 0.5 + _way(before, after, 0.5)
+    reward += np.where(two[:, 1] < 3.0 * VOXEL_SIZE, 10 * (two - one)[:, 1], 0)
+    arrived = after.robot.com[:, 0] > 99 * VOXEL_SIZE
+    return reward + arrived, arrived
+
+
+def carries_to_table(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """The robot goes to a table, and the package does not fall."""
+    one, two = before.object("package").com, after.object("package").com
+    table = 40 * VOXEL_SIZE
+    reward = np.abs(table - before.robot.com[:, 0]) - np.abs(table - after.robot.com[:, 0])
+    lowest = np.where(two[:, 0] > 20 * VOXEL_SIZE, 4.0 * VOXEL_SIZE, 6.0 * VOXEL_SIZE)
+    return reward + np.where(two[:, 1] < lowest, 10 * (two - one)[:, 1], 0), _no(after)
+
+
+def pushes(before: Moment, after: Moment, place: float) -> Tuple[_Floats, _Bools]:
+    """Robot and package go to the right, and stay together."""
+    one, two = before.object("package").com, after.object("package").com
+    reward = (two - one)[:, 0] * 0.75 + _way(before, after, 0.5)
+    reward += np.abs(before.robot.com[:, 0] - one[:, 0]) - np.abs(after.robot.com[:, 0] - two[:, 0])
+    reward += np.where(two[:, 1] < 0, 10 * (two - one)[:, 1], 0)
+    arrived = after.robot.com[:, 0] > place * VOXEL_SIZE
+    return reward + arrived, arrived
+
+
+def throws(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """The package goes to the right, and the robot does not."""
+    way = (after.object("package").com - before.object("package").com)[:, 0]
+    penalty = -_way(before, after, 0.25)
+    return way + np.where(after.robot.com[:, 0] < 0, -penalty, penalty), _no(after)
+
+
+def moves_beam(before: Moment, after: Moment, topples: bool) -> Tuple[_Floats, _Bools]:
+    """The robot comes to the beam, and slides it to the right or topples it."""
+    one, two = before.object("beam").com, after.object("beam").com
+    reward = np.abs(one[:, 0] - before.robot.com[:, 0]) - np.abs(two[:, 0] - after.robot.com[:, 0])
+    way = two - one
+    if topples:
+        reward += np.abs(way[:, 0]) + np.abs(way[:, 1]) * 3.0 - way[:, 1] * 10
+    else:
+        reward += way[:, 0]
+    done = two[:, 0] < 2 * VOXEL_SIZE
+    return reward + done, done
+
+
+def lifts(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """The package goes up in the middle of the hole, and the robot stays above it."""
+    one, two = before.object("package").com, after.object("package").com
+    place = 5.5 * VOXEL_SIZE
+    reward = (two - one)[:, 1] * 10 + (np.abs(place - one[:, 0]) - np.abs(place - two[:, 0])) * 10
+    return reward + np.where(after.robot.com[:, 1] < 3 * VOXEL_SIZE, 20 * _way(before, after, 0, 1), 0), _no(after)
+
+
+def visits(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """Comes nearer to the next of some goals; those within two voxels are passed."""
+    worlds, reward = after.worlds, np.zeros(len(after.robot.com))
+    for n, (one, two) in enumerate(zip(before.robot.com[:, 0], after.robot.com[:, 0])):
+        passes = True
+        while passes and worlds.goal[n] < len(worlds.goals[n]):
+            place = worlds.goals[n][int(worlds.goal[n])] * 0.1
+            reward[n] = abs(place - one) - abs(place - two)
+            passes = abs(place - two) < 2 * 0.1
+            worlds.goal[n] += passes
+    done = np.array([at >= len(goals) for goals, at in zip(worlds.goals, worlds.goal)])
+    return reward + done, done
+
+
+def _hull_area(points: _Floats) -> float:
+    """The area of the convex hull of points."""
+    ordered = sorted(map(tuple, points.tolist()))
+    hull: List[Tuple[float, float]] = []
+    for side in (ordered, ordered[::-1]):
+        half: List[Tuple[float, float]] = []
+        for x, y in side:
+            while len(half) > 1:
+                (a, b), (c, d) = half[-2:]
+                if (c - a) * (y - b) - (d - b) * (x - a) > 0:
+                    break
+                half.pop()
+            half.append((x, y))
+        hull += half[:-1]
+    following = hull[1:] + hull[:1]
+    return sum(a * d - c * b for (a, b), (c, d) in zip(hull, following)) / 2
+
+
+# ---- the tasks ----
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task: a world, where the robot starts, what it observes, and what is rewarded."""
+
+    world: str
+    at: Tuple[int, int]
+    steps: int
+    observes: Tuple[_Part, ...]
+    judge: _Judge
+    others: Tuple[str, ...] = ()
+    blocks: Tuple[Tuple[int, int, int], ...] = ()
+    has_goals: bool = False
+
+    @property
+    def turns(self) -> Optional[str]:
+        """The object whose turn is observed."""
+        if turn in self.observes:
+            return "robot"
+        return self.others[0] if any(getattr(part, "func", None) is turn_of for part in self.observes) else None
+
+    def make_world(self, body: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None) -> EvoWorld:
+        """The world with a robot in it, which is called ``robot``."""
+        world = EvoWorld.of_task(self.world)
+        world.add_from_array("robot", body, *self.at, connections=connections)
+        for number, (x, y, size) in enumerate(self.blocks):
+            world.add_from_array(f"block_{number}", np.ones((size, size), dtype=int), x, y)
+        return world
+
+
+_OVER, _STEEP = (pi / 2, 3 * pi / 2), (pi / 2 - pi / 12, 3 * pi / 2 + pi / 12)
+_SOUP = tuple(
+    [(20, 1, 3), (24, 1, 3), (27, 1, 2), (31, 1, 3), (34, 1, 3), (38, 1, 2), (41, 1, 3), (45, 1, 3)]
+    + [(21, 4, 3), (24, 4, 2), (26, 4, 1), (29, 4, 2), (31, 4, 3), (34, 4, 2), (36, 4, 2), (40, 4, 3), (43, 4, 2)]
+    + [(46, 4, 3)]
+    + [(x, 7, 2) for x in range(20, 45, 3)]
+)
+_SHAPE = (7, 1)
+
+
+def _stairs(names: Sequence[str] = ("ground",)) -> Tuple[_Part, ...]:
+    return (velocity, turn, shape, partial(surface, names=tuple(names), sight=5))
+
+
+def _package(name: str = "package") -> Tuple[_Part, ...]:
+    return (partial(pair, name=name), shape)
+
+
+_BEAM: Tuple[_Part, ...] = (
+    partial(way_to, name="beam"), velocity, partial(velocity_of, name="beam"), partial(turn_of, name="beam"), shape
+)
+_CAVE = partial(surface, names=("terrain",), sight=5)
+
+TASKS: Dict[str, Task] = {
+    "Walker-v0": Task("Walker-v0", (1, 1), 500, (velocity, shape), partial(walks, goal=(0, 99, 1.0))),
+    "BidirectionalWalker-v0": Task(
+        "BidirectionalWalker-v0", (33, 1), 1000, (velocity, shape, goal), visits, has_goals=True
+    ),
+    "BridgeWalker-v0": Task("BridgeWalker-v0", (2, 5), 500, (velocity, turn, shape), partial(walks, goal=(0, 60, 1.0))),
+    "CaveCrawler-v0": Task(
+        "CaveCrawler-v0", (1, 2), 1000, (velocity, shape, _CAVE, partial(_CAVE, above=True)),
+        partial(walks, goal=(0, 69, 1.0)),
+    ),
+    "Jumper-v0": Task(
+        "Jumper-v0", (32, 1), 500, (velocity, shape, partial(surface, names=("ground",), sight=2)), jumps
+    ),
+    "Flipper-v0": Task("Flipper-v0", (60, 1), 600, (turn, shape), flips),
+    "Balancer-v0": Task("Balancer-v0", (15, 3), 600, (turn, shape), partial(balances, x=17, y=5.0)),
+    "Balancer-v1": Task("Balancer-v1", (10, 1), 600, (turn, shape), partial(balances, x=17.5, y=6)),
+    "UpStepper-v0": Task("UpStepper-v0", (1, 1), 600, _stairs(), partial(walks, goal=(0, 69, 2.0), tilt=_STEEP)),
+    "DownStepper-v0": Task("DownStepper-v0", (1, 11), 500, _stairs(), partial(walks, goal=(0, 74, 2.0), tilt=_OVER)),
+    "ObstacleTraverser-v0": Task(
+        "ObstacleTraverser-v0", (2, 1), 1000, _stairs(), partial(walks, goal=(0, 79, 2.0), tilt=_OVER)
+    ),
+    "ObstacleTraverser-v1": Task("ObstacleTraverser-v1", (2, 4), 1000, _stairs(), partial(walks, goal=(0, 59, 2.0))),
+    "Hurdler-v0": Task("Hurdler-v0", (2, 4), 1000, _stairs(), partial(walks, tilt=_OVER)),
+    "GapJumper-v0": Task(
+        "GapJumper-v0", (1, 6), 1000, _stairs([f"platform_{n}" for n in range(1, 6)]), partial(walks, lowest=0.4)
+    ),
+    "PlatformJumper-v0": Task(
+        "PlatformJumper-v0", (1, 6), 1000, _stairs([f"platform_{n}" for n in range(1, 8)]),
+        partial(walks, lowest=0.4, tilt=_OVER),
+    ),
+    "Traverser-v0": Task(
+        "Traverser-v0", (1, 9), 600, _stairs(["ground", *(f"block_{n}" for n in range(len(_SOUP)))]),
+        partial(walks, goal=(0, 59, 2.0)), blocks=_SOUP,
+    ),
+    "Lifter-v0": Task(
+        "Lifter-v0", (2, 3), 300, (partial(pair, name="package"), partial(turn_of, name="package"), shape), lifts,
+        others=("package",),
+    ),
+    "Carrier-v0": Task("Carrier-v0", (1, 1), 500, _package(), carries, others=("package",)),
+    "Carrier-v1": Task("Carrier-v1", (1, 4), 1000, _package(), carries_to_table, others=("package",)),
+    "Pusher-v0": Task("Pusher-v0", (1, 1), 500, _package(), partial(pushes, place=99), others=("package",)),
+    "Pusher-v1": Task("Pusher-v1", (13, 1), 600, _package(), partial(pushes, place=69), others=("package",)),
+    "BeamToppler-v0": Task(
+        "BeamToppler-v0", (1, 1), 1000, _BEAM, partial(moves_beam, topples=True), others=("beam",)
+    ),
+    "BeamSlider-v0": Task("BeamSlider-v0", (1, 1), 1000, _BEAM, partial(moves_beam, topples=False), others=("beam",)),
+    "Thrower-v0": Task("Thrower-v0", (1, 1), 300, _package(), throws, others=("package",)),
+    "AreaMaximizer-v0": Task("ShapeChange", _SHAPE, 600, (shape,), partial(changes_area, sign=1)),
+    "AreaMinimizer-v0": Task("ShapeChange", _SHAPE, 600, (shape,), partial(changes_area, sign=-1)),
+    "WingspanMazimizer-v0": Task("ShapeChange", _SHAPE, 600, (shape,), partial(changes_span, axis=0)),
+    "HeightMaximizer-v0": Task("ShapeChange", _SHAPE, 500, (shape,), partial(changes_span, axis=1)),
+    "Climber-v0": Task("Climber-v0", (1, 1), 400, (velocity, shape), partial(walks, x=0, y=1, goal=(1, 86, 1.0))),
+    "Climber-v1": Task("Climber-v1", (1, 1), 600, (velocity, shape), partial(walks, x=0, y=1, goal=(1, 65, 1.0))),
+    "Climber-v2": Task(
+        "Climber-v2", (1, 1), 1000,
+        (velocity, turn, shape, partial(surface, names=("pipe",), sight=3, above=True)), partial(walks, x=0.2, y=1),
+    ),
+}
+"""The tasks by their names in Evolution Gym."""
+
+
+def task_of(name: str) -> Task:
+    """The task of a name.
+
+    Raises:
+        ValueError: when there is none.
+    """
+    if name not in TASKS:
+        raise ValueError(f"there is no task {name!r}; `nbc.evogym.TASKS` has those that there are")
+    return TASKS[name]
+
+
+class TaskWorlds:
+    """Worlds of one task with different robots."""
+
+    def __init__(self, task: Task, worlds: Sequence[EvoWorld]) -> None:
+        self.task, self.scenes = task, Scenes(worlds)
+        self._all = list(range(len(worlds)))
+        places = [self.scenes.actuators(n, "robot") for n in self._all]
+        self.actuators = np.array([end - first for first, end in places])
+        self._layouts: Dict[str, _Layout] = {}
+        for name in ("robot", *task.others):
+            self._layouts[name] = _Layout([len(self.scenes.points([n], name)[0]) for n in self._all])
+        self._is_fixed = [
+            {each.name: bool((each.structure[each.structure > 0] == 5).all()) for each in world.objects.values()}
+            for world in worlds
+        ]
+        self._terrain: Dict[Tuple[int, str], _Floats] = {}
+        self.goals: List[List[int]] = [[0] for _ in worlds]
+        self.goal = np.zeros(len(worlds))
+        self.now = self._look()
+
+    def __len__(self) -> int:
+        return len(self._all)
+
+    def step(self, actions: npt.ArrayLike) -> Tuple[_Floats, _Bools]:
+        """Simulates an env step; see `Scenes.step`. Actions are clipped to 0.6 to 1.6. Returns rewards, and whether
+        each world is done."""
+        before = self.now
+        self.scenes.step(np.clip(np.asarray(actions, dtype=np.float64), 0.6, 1.6))
+        self.now = self._look()
+        broken = self.scenes.faults > 0
+        reward, done = self.task.judge(before, self.now)
+        return reward - 3.0 * broken, done | broken
+
+    def reset(self, worlds: Sequence[int], random: Any, goals: Optional[Sequence[int]] = None) -> None:
+        """Puts some worlds back to their start, with goals drawn anew if the task has some."""
+        for n in worlds:
+            self.scenes.reset(n)
+            if self.task.has_goals:
+                self.goals[n] = list(goals) if goals is not None else _draw_goals(random)
+                self.goal[n] = 0
+        self.now = self._look()
+
+    def observe(self) -> _Floats:
+        """What each robot observes, shape (N, most values)."""
+        return np.concatenate([part(self.now) for part in self.task.observes], axis=1)
+
+    def terrain(self, world: int, names: Sequence[str]) -> _Floats:
+        """The points of some objects in voxels."""
+        return np.concatenate([self._points(world, name) for name in names])
+
+    def _points(self, world: int, name: str) -> _Floats:
+        if not self._is_fixed[world][name]:
+            return self.scenes.points([world], name)[0]
+        if (world, name) not in self._terrain:
+            self._terrain[world, name] = self.scenes.points([world], name)[0]
+        return self._terrain[world, name]
+
+    def _look(self) -> Moment:
+        things = {}
+        for name, layout in self._layouts.items():
+            turns = self.scenes.turns(self._all, name) if name == self.task.turns else None
+            things[name] = Thing(*self.scenes.points(self._all, name), turns, layout)
+        return Moment(things.pop("robot"), things, self)
+
+
+def _draw_goals(random: Any) -> List[int]:
+    """Places from 20 to 49 voxels, until their way has 100."""
+    at, way, goals = 35, 0, []
+    while way < 100:
+        place = int(random.integers(20, 50))
+        way += abs(at - place)
+        at = place
+        goals.append(place)
+    return goals
