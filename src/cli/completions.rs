@@ -22,7 +22,7 @@ impl CompletionsArguments {
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
-            return Err(UsageError::CompletionsJson.into());
+            return Err(UsageError::NoJson { what: "a completion script" }.into());
         }
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut (context.command)(), "nbc", &mut script);

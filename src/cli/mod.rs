@@ -5,6 +5,7 @@
 //! A new command is a file, a `mod` line and a line of [`commands!`], both in alphabetical order.
 
 mod bench;
+mod bug_report;
 mod build;
 mod check;
 #[cfg(feature = "cluster")]
@@ -25,6 +26,7 @@ mod in_order;
 mod interrupt;
 mod library;
 mod lsp;
+mod manual;
 mod new;
 #[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
 mod not_built;
@@ -88,6 +90,7 @@ macro_rules! commands {
 
 commands! {
     Bench(bench::BenchArguments),
+    BugReport(bug_report::BugReportArguments),
     Build(build::BuildArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
@@ -99,6 +102,7 @@ commands! {
     Fmt(fmt::FmtArguments),
     Library(library::LibraryArguments),
     Lsp(lsp::LspArguments),
+    Manual(manual::ManualArguments),
     New(new::NewArguments),
     Play(play::PlayArguments),
     Run(run::RunArguments),

@@ -13,8 +13,8 @@ pub(in crate::cli) enum UsageError {
     Unreadable { path: String, reason: String },
     /// Two options that ask for different formats.
     TwoFormats { option: &'static str },
-    /// A completion script as JSON.
-    CompletionsJson,
+    /// What has no JSON.
+    NoJson { what: &'static str },
     /// A file name without the extension of a circuit format.
     CircuitFormat { path: String },
     /// An unknown code.
@@ -52,9 +52,7 @@ impl From<UsageError> for Diagnostic {
             UsageError::TwoFormats { option } => {
                 bad(format!("`--format json` and `{option}` ask for two formats")).with_help("leave out one")
             }
-            UsageError::CompletionsJson => {
-                bad("a completion script cannot be JSON".to_owned()).with_help("leave out `--format json`")
-            }
+            UsageError::NoJson { what } => bad(format!("{what} cannot be JSON")).with_help("leave out `--format json`"),
             UsageError::CircuitFormat { path } => {
                 bad(format!("unrecognized circuit format of `{path}`; expected .blif, .aig, .aag, .v, .dot or .nb"))
             }

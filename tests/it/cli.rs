@@ -275,6 +275,31 @@ fn completions_name_the_commands() {
 }
 
 #[test]
+fn a_report_of_a_defect_names_the_program_and_the_machine_but_no_person() {
+    let told = Bench::new().run(&["bug-report"]).out;
+    for word in ["version", "features", "system", "processor", "kernel", "threads", "yosys"] {
+        assert!(word == "version" || told.contains(&format!("\n{word} ")), "{told}");
+    }
+    assert!(told.starts_with(&format!("nbc        {}\n", env!("CARGO_PKG_VERSION"))), "{told}");
+    if let Ok(home) = std::env::var("HOME") {
+        assert!(home == "/" || !told.contains(&home), "{told}");
+    }
+}
+
+#[test]
+fn each_command_has_a_page_for_man() {
+    let bench = Bench::new();
+    let told = bench.run(&["manual", "pages"]);
+    assert_eq!(told.status, 0, "{}", told.err);
+    for (page, words) in
+        [("nbc", "Circuits made of soft robots"), ("nbc-run", "SYNOPSIS"), ("nbc-library-add", "robot")]
+    {
+        let text = std::fs::read_to_string(bench.path().join(format!("pages/{page}.1"))).unwrap();
+        assert!(text.contains(&page.replace('-', "\\-")) && text.contains(words), "{text}");
+    }
+}
+
+#[test]
 fn robot_files_are_read_from_a_pipe() {
     let bench = Bench::new();
     let arguments = ["simulate", "/dev/stdin", "--schedule", "00*1"];

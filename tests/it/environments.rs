@@ -45,6 +45,13 @@ fn an_environment_answers_at_both_levels() {
 }
 
 #[test]
+fn the_circuit_of_a_file_is_the_last_that_is_no_environment() {
+    let built = teller().run(&["build", "a.nb"]);
+    assert_eq!(built.status, 0, "{}{}", built.out, built.err);
+    assert!(built.out.contains("teller"), "{}", built.out);
+}
+
+#[test]
 fn a_declared_file_is_replaced_on_the_command_line() {
     let bench = teller();
     for arguments in [&["--program", "other.hex"][..], &["--program=other.hex"], &["--file", "program=other.hex"]] {

@@ -119,9 +119,12 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "test", 0, &["test", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "--physics"]);
-    let rejected = bench.run(&["completions", "bash", "--format", "json"]);
-    assert_eq!(rejected.status, 2);
-    validate("diagnostics", &rejected.out);
+    check(&bench, "bug-report", 0, &["bug-report"]);
+    for arguments in [["completions", "bash"], ["manual", "pages"]] {
+        let rejected = bench.run(&[&arguments[..], &["--format", "json"]].concat());
+        assert_eq!(rejected.status, 2);
+        validate("diagnostics", &rejected.out);
+    }
 }
 
 #[test]

@@ -90,6 +90,8 @@ const ICONS = {
   theme: "M12 3a9 9 0 100 18zm0 0v18a9 9 0 000-18zM12 5a7 7 0 010 14z",
   projector: "M3 5h18v11H3zM5 7v7h14V7zM8 19h8v2H8z",
   take: "M11 4h2v8h4l-5 5-5-5h4zM5 18h14v2H5z",
+  crowd:
+    "M4 4h4v4H4zM10 4h4v4h-4zM16 4h4v4h-4zM4 10h4v4H4zM10 10h4v4h-4zM16 10h4v4h-4zM4 16h4v4H4zM10 16h4v4h-4zM16 16h4v4h-4z",
 } as const;
 
 export type IconName = keyof typeof ICONS;

@@ -11,6 +11,9 @@ export class Selection {
   /** The robots of the part of the circuit that is open; null are all. */
   readonly opened = new Observable<number[] | null>(null);
 
+  /** Whether the stage shows all robots at once, however small. */
+  readonly together = new Observable(false);
+
   point(source: BitSource | null): void {
     if (!sameSource(source, this.pointed.value)) {
       this.pointed.set(source);

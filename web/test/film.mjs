@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 import gifenc from "gifenc";
 import { PNG } from "pngjs";
 
-import { closeBrowser, setInput, visit, walking } from "./browser.mjs";
+import { closeBrowser, cyclesLater, setInput, visit, walking } from "./browser.mjs";
 import { LATCH, folderWith, play } from "./program.mjs";
 
 const { GIFEncoder, applyPalette, quantize } = gifenc;
@@ -90,6 +90,18 @@ async function pictures(url) {
   await page.leave();
 }
 
+/** The processor: all its robots at once. */
+async function processor(url) {
+  const page = await visit(url, { viewport: { width: 1800, height: 1400 } });
+  await page.locator(".circuit option").first().waitFor({ state: "attached" });
+  await page.waitForFunction(() => /^\d{3} robots/.test(document.querySelector(".swarm .status").textContent));
+  await walking(page);
+  await page.locator('[data-do="crowd"]').click();
+  await cyclesLater(page, 3);
+  await page.locator(".swarm .scene").screenshot({ path: place("crowd.png") });
+  await page.leave();
+}
+
 // The page shows the name of the folder.
 const { folder, remove } = folderWith({});
 const circuits = join(folder, "circuits");
@@ -98,6 +110,9 @@ writeFileSync(join(circuits, "latch.nb"), LATCH);
 const server = await play(circuits, "latch.nb");
 await film(server.url);
 await pictures(server.url);
+const large = await play(fileURLToPath(new URL("../../circuits", import.meta.url)), "riscv.nb");
+await processor(large.url);
+await large.stop();
 await closeBrowser();
 await server.stop();
 remove();

@@ -101,6 +101,29 @@ test("a box of the schematic opens, and its robots are shown alone", async () =>
   await page.waitForFunction(before => document.querySelector(".stage").scrollHeight >= before, before);
 });
 
+test("all robots are seen at once, and one of them can be followed", async () => {
+  await page.locator('[data-do="crowd"]').click();
+  assert.equal(await page.locator('[data-do="crowd"]').getAttribute("aria-pressed"), "true");
+  await page.waitForFunction(() => {
+    const stage = document.querySelector(".stage");
+    return stage.scrollHeight <= stage.clientHeight;
+  });
+  await cyclesLater(page, 2);
+  const colors = await page.locator(".stage canvas").evaluate(canvas => {
+    const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+    return new Set(Array.from({ length: data.length / 4 }, (_, i) => data.slice(4 * i, 4 * i + 3).join())).size;
+  });
+  assert.ok(colors > 4, `${colors} colors`);
+  await page.locator(".stage").click({ position: { x: 10, y: 10 } });
+  await page.locator(".facts").waitFor();
+  await page.locator(".stage").press("Escape");
+  await page.locator('[data-do="crowd"]').click();
+  await page.waitForFunction(() => {
+    const stage = document.querySelector(".stage");
+    return stage.scrollHeight > stage.clientHeight;
+  });
+});
+
 test("a number is added", async () => {
   await page.locator('input[data-input="a"]').fill("1234567");
   await page.locator('input[data-input="a"]').press("Enter");

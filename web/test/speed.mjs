@@ -5,6 +5,15 @@ import { LATCH, folderWith, play } from "./program.mjs";
 
 const SECONDS = 5;
 const ADDER = "circuit adder(a[40], b[40]) -> (s[40]) {\n    s = a + b\n}\n";
+// Two thousand robots.
+const WIDE = `circuit wide(a[40], b[50]) -> (y[2000]) {
+    for i in 0..50 {
+        for j in 0..40 {
+            y[40 * i + j] = a[j] xor b[i]
+        }
+    }
+}
+`;
 
 /** Frames that the browser draws in a second. */
 function frames(page) {
@@ -27,19 +36,22 @@ function frames(page) {
   );
 }
 
-async function measure(name, text) {
+async function measure(name, text, together = false) {
   const { folder, remove } = folderWith({ [name]: text });
   const program = await play(folder, name);
   const page = await visit(program.url);
   await page.waitForFunction(() => performance.getEntriesByName("first-contentful-paint").length > 0);
   const painted = await page.evaluate(() => performance.getEntriesByName("first-contentful-paint")[0].startTime);
   await walking(page);
+  if (together) {
+    await page.locator('[data-do="crowd"]').click();
+  }
   const walks = await page.evaluate(() => performance.now());
   const rate = await frames(page);
   const robots = /\d+ robots/.exec(await page.locator("body").innerText())?.[0];
   const pace = /[\d.]+ cycles\/s/.exec(await page.locator("body").innerText())?.[0];
   console.log(
-    `${name}: ${robots}, first contents after ${Math.round(painted)} ms, walking after ${Math.round(walks)} ms, ` +
+    `${name}: ${robots}${together ? " at once" : ""}, first contents after ${Math.round(painted)} ms, walking after ${Math.round(walks)} ms, ` +
       `${rate.toFixed(0)} frames a second at ${pace}`,
   );
   await page.leave();
@@ -49,4 +61,6 @@ async function measure(name, text) {
 
 await measure("latch.nb", LATCH);
 await measure("adder.nb", ADDER);
+await measure("wide.nb", WIDE);
+await measure("wide.nb", WIDE, true);
 await closeBrowser();

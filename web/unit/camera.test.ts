@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 
 import { LaneGrid, followWithSlack, middleOf } from "../src/live/camera";
+import { crowdGrid, detailOf } from "../src/live/crowd";
 import { spread } from "../src/live/spread";
 
 test("the camera moves only when the robot leaves the middle", () => {
@@ -40,4 +41,22 @@ test("names are moved apart and stay inside", () => {
   const places = ends.map(end => end.y);
   places.slice(1).forEach((y, i) => assert.ok(y - (places[i] as number) >= 10));
   assert.ok((places.at(-1) as number) <= 100);
+});
+
+test("all robots are in view at once, as large as they can be", () => {
+  for (const [count, detail] of [
+    [30, "voxels"],
+    [300, "silhouettes"],
+    [2000, "dots"],
+  ] as const) {
+    const grid = crowdGrid(count, 1000, 500);
+    assert.equal(detailOf(grid), detail);
+    assert.ok(grid.height <= 500 + 1e-9);
+    assert.equal(grid.between(0, 500).length >= count, true);
+    assert.equal(grid.at(999, 1), grid.columns - 1);
+  }
+});
+
+test("cells stay large enough to be seen, even if some are below", () => {
+  assert.equal(crowdGrid(2000, 60, 100).laneHeight >= 6, true);
 });

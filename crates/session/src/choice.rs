@@ -17,7 +17,8 @@ pub struct Choice {
 
 impl Checked {
     /// The chosen circuit: the one named, else that of the chosen swarm, else the last circuit declared in the source
-    /// itself. If it needs numbers for its parameters, those of its swarm or its test are used.
+    /// itself that is not an environment. If it needs numbers for its parameters, those of its swarm or its test are
+    /// used.
     ///
     /// # Errors
     /// When there is no such circuit or swarm.
@@ -75,7 +76,9 @@ impl Checked {
     /// The last circuit of the source itself.
     fn last_circuit(&self) -> Result<Instance, Diagnostic> {
         let program = &self.program;
-        let Some(last) = program.circuits.iter().rfind(|circuit| Some(circuit.span.file) == self.file) else {
+        let is_environment = |at: usize| program.environments.iter().any(|environment| environment.0 as usize == at);
+        let own = program.circuits.iter().enumerate().filter(|(_, circuit)| Some(circuit.span.file) == self.file);
+        let Some((_, last)) = own.rev().find(|&(at, _)| !is_environment(at)) else {
             return Err(ChoiceError::NoCircuit.into());
         };
         self.declared(last).map_or_else(|| self.with_parameters(last.name.as_str().into()), Ok)

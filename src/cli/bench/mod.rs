@@ -114,12 +114,16 @@ fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     Part::OF_LANES.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
 }
 
-/// The name of the processor, if the system tells it, and its instruction set.
+/// The name of the processor and its instruction set.
 fn machine(kernel: Kernel) -> String {
+    format!("{}, {}", processor(), kernel.set().name())
+}
+
+/// The name of the processor, if the system tells it, or else its architecture.
+pub(super) fn processor() -> String {
     let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = information.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
-    let name = model.map_or(std::env::consts::ARCH, |(_, name)| name.trim());
-    format!("{name}, {}", kernel.set().name())
+    model.map_or(std::env::consts::ARCH, |(_, name)| name.trim()).to_owned()
 }
 
 fn describe(figures: &Figures) -> String {

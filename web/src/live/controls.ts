@@ -14,6 +14,9 @@ export const SPEEDS: [string, number | null][] = [
   ["max", null],
 ];
 
+/** Fewer robots have room in lanes. */
+const CROWD = 24;
+
 /** The most cycles that are done at once. */
 const MOST_CYCLES = 1000;
 
@@ -21,6 +24,7 @@ export class Controls implements View {
   readonly host = element("div", { class: "controls", role: "group", "aria-label": "Run" });
   readonly #play = iconButton("play", "Play", () => this.toggle(), { class: "icon primary", "data-do": "play" });
   readonly #waveStep = button("One step", () => this.swarm.step(this.#cycles), { "data-do": "wave-step" });
+  readonly #crowd = iconButton("crowd", "All robots at once", () => this.#gather(), { "data-do": "crowd" });
   /** Cycles of a step of a wave machine. */
   #cycles = 1;
   readonly #slider = element("input", {
@@ -43,6 +47,7 @@ export class Controls implements View {
       this.#play,
       iconButton("step", "One cycle (.)", () => swarm.step(), { "data-do": "step" }),
       this.#waveStep,
+      this.#crowd,
       this.#speeds(),
       this.#slider,
       this.#cycle,
@@ -52,7 +57,12 @@ export class Controls implements View {
       changeIcon(this.#play, running ? "pause" : "play", running ? "Pause (Space)" : "Play (Space)");
       this.#play.dataset["running"] = String(running);
     });
+    swarm.selection.together.follow(together => this.#crowd.setAttribute("aria-pressed", String(together)));
     swarm.definition.follow(definition => {
+      this.#crowd.hidden = (definition?.robots.length ?? 0) <= CROWD;
+      if (this.#crowd.hidden) {
+        swarm.selection.together.set(false);
+      }
       const step = definition?.waves?.step ?? 0;
       this.#cycles = step;
       this.#waveStep.hidden = step === 0 || step > MOST_CYCLES;
@@ -88,6 +98,12 @@ export class Controls implements View {
     this.#rate.textContent = frame.running
       ? `${frame.rate < 10 ? frame.rate.toFixed(1) : Math.round(frame.rate)} cycles/s`
       : "";
+  }
+
+  #gather(): void {
+    const { selection } = this.swarm;
+    selection.followed.set(null);
+    selection.together.set(!selection.together.value);
   }
 
   #rewind(): void {

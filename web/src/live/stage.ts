@@ -2,6 +2,7 @@
 
 import { colors, enlargement } from "../theme";
 import { LaneGrid, followWithSlack, middleOf } from "./camera";
+import { crowdGrid, detailOf, drawDot, drawSilhouette, type Cell } from "./crowd";
 import { drawGround, drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
@@ -31,6 +32,7 @@ export class Stage implements View {
     swarm.definition.on(() => this.#cameras.clear());
     swarm.selection.followed.on(() => this.#cameras.clear());
     swarm.selection.opened.on(changed);
+    swarm.selection.together.on(changed);
     // Lanes below the visible part cost nothing: their poses are not even sent.
     this.pane.host.addEventListener("scroll", () => this.#ask(), { passive: true });
   }
@@ -56,7 +58,11 @@ export class Stage implements View {
     const pen = this.pane.begin(this.#grid.height);
     const robots = this.#robots();
     for (const lane of this.#visibleLanes(0)) {
-      this.#drawLane(pen, robots[lane] as number, lane);
+      if (this.#together) {
+        this.#drawCell(pen, robots[lane] as number, lane);
+      } else {
+        this.#drawLane(pen, robots[lane] as number, lane);
+      }
     }
     this.#ask();
   }
@@ -68,8 +74,17 @@ export class Stage implements View {
     return followed === null ? all() : [followed];
   }
 
+  /** Whether all robots are shown at once. */
+  get #together(): boolean {
+    return this.swarm.selection.together.value && this.swarm.selection.followed.value === null;
+  }
+
   #arrange(): void {
     const count = this.#robots().length;
+    if (this.#together) {
+      this.#grid = crowdGrid(count, this.pane.width, this.pane.height);
+      return;
+    }
     const columns = count <= FEW ? 1 : Math.max(1, Math.floor(this.pane.width / (COLUMN * enlargement.value)));
     const share = this.pane.height / Math.ceil(count / columns);
     const least = (count <= FEW ? 44 : 66) * enlargement.value;
@@ -84,9 +99,46 @@ export class Stage implements View {
 
   #ask(): void {
     const robots = this.#robots();
-    const wanted = this.#visibleLanes(this.#grid.laneHeight).map(lane => robots[lane] as number);
-    if (this.swarm.definition.value !== null && wanted.length > 0) {
-      this.swarm.view(wanted);
+    const lanes = this.#visibleLanes(this.#grid.laneHeight);
+    if (this.swarm.definition.value !== null && lanes.length > 0) {
+      // Dots need no poses.
+      const posed = !this.#together || detailOf(this.#grid) !== "dots";
+      this.swarm.view(posed ? lanes.map(lane => robots[lane] as number) : []);
+    }
+  }
+
+  #drawCell(pen: Pen, robot: number, lane: number): void {
+    const grid = this.#grid;
+    const cell: Cell = {
+      left: grid.left(lane),
+      top: grid.top(lane) - this.pane.scrolled,
+      width: grid.laneWidth,
+      height: grid.laneHeight,
+    };
+    if (sameSource(this.swarm.selection.pointed.value, { robot })) {
+      pen.fillStyle = colors.value.highlight;
+      pen.fillRect(cell.left, cell.top, cell.width, cell.height);
+    }
+    const { playback } = this.swarm;
+    const value = this.swarm.value({ robot });
+    pen.fillStyle = value === null ? colors.value.line : value === 1 ? colors.value.one : colors.value.zero;
+    const detail = detailOf(grid);
+    const outline = detail === "dots" ? null : playback.outline(robot);
+    const voxels = this.swarm.definition.value?.robots[robot]?.voxels ?? [];
+    if (outline === null) {
+      const before = this.swarm.value({ robot }, playback.cycle - 1) ?? value;
+      drawDot(pen, cell, before ?? 0.5, value ?? 0.5, Math.max(0, 1 - (playback.cycle - playback.time)));
+    } else if (detail === "silhouettes") {
+      drawSilhouette(pen, cell, outline, voxels, middleOf(outline), this.#tallness(robot));
+    } else {
+      pen.fillRect(cell.left + 2, cell.top + cell.height - 4, cell.width - 4, 3);
+      const scale = Math.min(
+        (cell.width - 4) / (this.#tallness(robot) * 1.35),
+        (cell.height - 6) / this.#tallness(robot),
+      );
+      const ground = cell.top + cell.height - 5;
+      const lane: Lane = { ...cell, ground, scale, camera: middleOf(outline), heights: [] };
+      drawRobot(pen, outline, voxels, this.swarm.definition.value?.looks ?? [], lane, colors.value);
     }
   }
 

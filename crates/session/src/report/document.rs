@@ -34,6 +34,7 @@ macro_rules! schemas {
 schemas! {
     Added = "added", 1: "Robots that were added to a library, and those that were not.";
     Bench = "bench", 1: "How fast a machine simulates.";
+    BugReport = "bug-report", 1: "The program and the machine, for a report of a defect.";
     Build = "build", 1: "A circuit as a netlist of cells.";
     Devices = "devices", 1: "The OpenCL devices of a machine.";
     Diagnostics = "diagnostics", 2: "Errors and warnings, of any command.";

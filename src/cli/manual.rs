@@ -1,0 +1,55 @@
+//! `nbc manual`: the pages for `man`.
+
+use std::path::PathBuf;
+
+use clap::{Args, Command};
+use clap_mangen::Man;
+
+use crate::cli::wording::UsageError;
+use crate::cli::{Context, Failure, OutputFormat, Status};
+use nbc_session::store;
+
+/// Write the manual pages of all commands
+#[derive(Args)]
+#[command(after_help = "Example:\n  nbc manual ~/.local/share/man/man1 && man nbc-run")]
+pub struct ManualArguments {
+    /// The folder of the pages; it is made if it does not exist
+    folder: PathBuf,
+}
+
+impl ManualArguments {
+    /// Writes a page for the program and one for each command.
+    ///
+    /// # Errors
+    /// When a page cannot be written.
+    pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        if context.format == OutputFormat::Json {
+            return Err(UsageError::NoJson { what: "a manual page" }.into());
+        }
+        let mut program = (context.command)();
+        program.build();
+        store::create_folder(&self.folder).map_err(|error| Failure::unwritable(&self.folder, &error))?;
+        let mut pages = Vec::new();
+        collect(&program, &mut pages);
+        for page in &pages {
+            let name = page.get_display_name().unwrap_or(page.get_name());
+            let path = self.folder.join(format!("{name}.1"));
+            let text = page_of(page).map_err(|error| Failure::unwritable(&path, &error))?;
+            store::write(&path, &text).map_err(|error| Failure::unwritable(&path, &error))?;
+        }
+        context.print(format_args!("wrote {} pages to {}\n", pages.len(), self.folder.display()))?;
+        Ok(Status::Done)
+    }
+}
+
+fn page_of(command: &Command) -> std::io::Result<Vec<u8>> {
+    let mut text = Vec::new();
+    Man::new(command.clone()).render(&mut text)?;
+    Ok(text)
+}
+
+/// Adds a command and those below it.
+fn collect(command: &Command, pages: &mut Vec<Command>) {
+    pages.push(command.clone());
+    command.get_subcommands().filter(|inner| inner.get_name() != "help").for_each(|inner| collect(inner, pages));
+}
