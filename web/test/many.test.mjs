@@ -115,7 +115,7 @@ test("all robots are seen at once, and one of them can be followed", async () =>
   });
   assert.ok(colors > 4, `${colors} colors`);
   await page.locator(".stage").click({ position: { x: 10, y: 10 } });
-  await page.locator(".facts").waitFor();
+  await page.locator(".scene .facts").waitFor();
   await page.locator(".stage").press("Escape");
   await page.locator('[data-do="crowd"]').click();
   await page.waitForFunction(() => {
