@@ -4,6 +4,7 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::draw::wording::DrawError;
+use crate::cli::evidence::wording::EvidenceError;
 use crate::cli::evolve::wording::EvolveError;
 #[cfg(feature = "gpu")]
 use crate::cli::gpu::wording::DeviceFailure;
@@ -74,6 +75,7 @@ failures! {
     #[cfg(feature = "gpu")]
     DeviceFailure,
     DrawError,
+    EvidenceError,
     EvolveError,
     #[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
     MissingFeature,

@@ -13,6 +13,7 @@ mod cluster;
 mod completions;
 mod context;
 mod draw;
+mod evidence;
 mod evolution_folder;
 mod evolve;
 mod explain;
@@ -96,6 +97,7 @@ commands! {
     Completions(completions::CompletionsArguments),
     Devices(gpu::DevicesArguments),
     Draw(draw::DrawArguments),
+    Evidence(evidence::EvidenceArguments),
     Evolve(evolve::EvolveArguments),
     Explain(explain::ExplainArguments),
     Export(export::ExportArguments),

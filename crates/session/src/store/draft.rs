@@ -6,6 +6,10 @@ use std::path::Path;
 
 use tempfile::{Builder, NamedTempFile};
 
+/// Where Linux has a name for each file that this process has opened.
+#[cfg(target_os = "linux")]
+const NAMES_OF_OPEN_FILES: &str = "/proc/self/fd";
+
 /// A new file in a folder. If the system supports unnamed files it has no name, so nothing is left behind however the
 /// program ends. Elsewhere it is removed when dropped.
 pub(super) enum DraftFile {
@@ -59,9 +63,13 @@ fn names() -> Builder<'static, 'static> {
     builder
 }
 
+/// A file without a name, if one can be made and be given a name later. That needs `/proc`, which some containers lack.
 #[cfg(target_os = "linux")]
 fn unnamed(folder: &Path) -> Option<File> {
     use rustix::fs::{Mode, OFlags};
+    if !Path::new(NAMES_OF_OPEN_FILES).exists() {
+        return None;
+    }
     let flags = OFlags::TMPFILE | OFlags::RDWR | OFlags::CLOEXEC;
     rustix::fs::open(folder, flags, Mode::from_raw_mode(0o666)).ok().map(File::from)
 }
@@ -71,7 +79,7 @@ fn link(file: &File, path: &Path) -> io::Result<()> {
     use std::os::fd::AsRawFd;
 
     use rustix::fs::{AtFlags, CWD};
-    let own = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let own = format!("{NAMES_OF_OPEN_FILES}/{}", file.as_raw_fd());
     Ok(rustix::fs::linkat(CWD, own.as_str(), CWD, path, AtFlags::SYMLINK_FOLLOW)?)
 }
 
