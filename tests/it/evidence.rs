@@ -44,6 +44,9 @@ fn a_list_that_cannot_be_read_is_an_error() {
     let bench = bench("");
     bench.run(&["evidence", "none.json"]).expect_fault(&["none.json", "no such file"]);
     bench.file("docs/wrong.json", r#"[{ "claim": "nothing else" }]"#);
+    let other = r#"[{ "claim": "c", "page": "docs/page.md", "command": "rm x", "seconds": 1 }]"#;
+    bench.file("docs/other.json", other);
+    bench.run(&["evidence", "docs/other.json"]).expect_fault(&["`nbc` or `cargo`, not `rm`"]);
     bench.run(&["evidence", "docs/wrong.json"]).expect_fault(&["not a list of claims", "page"]);
 }
 

@@ -108,15 +108,16 @@ impl EvidenceArguments {
         let not_started =
             |error: io::Error| EvidenceError::NotStarted { program: command.clone(), reason: io_words(&error) };
         let out = tempfile::tempdir().map_err(not_started)?;
-        let mut words = claim.words(out.path());
-        let program = words.remove(0);
+        let mut words = claim.words(out.path()).into_iter();
+        let program = words.next().unwrap_or_default();
         let mut child = match program.as_str() {
             "nbc" => Command::new(std::env::current_exe().map_err(not_started)?),
-            other => Command::new(other),
+            "cargo" => Command::new("cargo"),
+            _ => return Err(EvidenceError::OtherProgram { program }.into()),
         };
         let start = Instant::now();
         let at = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-        let ran = child.args(&words).current_dir(at).stdin(Stdio::null()).output().map_err(not_started)?;
+        let ran = child.args(words).current_dir(at).stdin(Stdio::null()).output().map_err(not_started)?;
         let printed = String::from_utf8_lossy(&ran.stdout);
         finding.seconds = Some(start.elapsed().as_secs_f64());
         finding.missing = claim.missing(&page, &printed);

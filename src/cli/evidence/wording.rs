@@ -7,6 +7,8 @@ use nbc_base::diag::{Code, Diagnostic};
 pub(in crate::cli) enum EvidenceError {
     /// A file that is not a list of claims.
     List { path: String, reason: String },
+    /// A program that lists of claims may not start.
+    OtherProgram { program: String },
     /// A program that cannot be started, or a folder for its files that cannot be made.
     NotStarted { program: String, reason: String },
 }
@@ -16,6 +18,9 @@ impl From<EvidenceError> for Diagnostic {
         match error {
             EvidenceError::List { path, reason } => {
                 Self::without_place(Code::BadValue, format!("`{path}` is not a list of claims: {reason}"))
+            }
+            EvidenceError::OtherProgram { program } => {
+                Self::without_place(Code::BadValue, format!("claims start `nbc` or `cargo`, not `{program}`"))
             }
             EvidenceError::NotStarted { program, reason } => {
                 Self::without_place(Code::Unreadable, format!("cannot start `{program}`: {reason}"))
