@@ -277,8 +277,8 @@ fn completions_name_the_commands() {
 #[test]
 fn a_report_of_a_defect_names_the_program_and_the_machine_but_no_person() {
     let told = Bench::new().run(&["bug-report"]).out;
-    for word in ["version", "features", "system", "processor", "kernel", "threads", "yosys"] {
-        assert!(word == "version" || told.contains(&format!("\n{word} ")), "{told}");
+    for word in ["features", "system", "processor", "kernel", "threads", "yosys"] {
+        assert!(told.contains(&format!("\n{word} ")), "{told}");
     }
     assert!(told.starts_with(&format!("nbc        {}\n", env!("CARGO_PKG_VERSION"))), "{told}");
     if let Ok(home) = std::env::var("HOME") {

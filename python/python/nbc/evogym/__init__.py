@@ -15,23 +15,12 @@ from .exchange import actions, connections, from_structure, to_structure
 from .picture import draw as draw_world
 from .sim import EvoSim, Scenes
 from .tasks import TASKS, Task
-from .utils import (
-    BASELINE_ENV_NAMES,
-    VOXEL_TYPES,
-    draw,
-    get_full_connectivity,
-    get_uniform,
-    has_actuator,
-    hashable,
-    is_connected,
-    sample_robot,
-)
+from .utils import __all__ as _helpers
+from .utils import *
 from .world import EvoWorld, WorldObject
 
 __all__ = [
-    "BASELINE_ENV_NAMES",
     "TASKS",
-    "VOXEL_TYPES",
     "Comparison",
     "EvoSim",
     "EvoWorld",
@@ -41,14 +30,9 @@ __all__ = [
     "actions",
     "compare",
     "connections",
-    "draw",
     "draw_world",
     "from_structure",
-    "get_full_connectivity",
-    "get_uniform",
-    "has_actuator",
-    "hashable",
-    "is_connected",
-    "sample_robot",
     "to_structure",
 ]
+
+__all__ += _helpers
