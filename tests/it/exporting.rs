@@ -90,3 +90,46 @@ fn impossible_exports_are_reported() {
     let both = bench.run(&["export", "shipped", "--to", "csv", "--format", "json"]);
     assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
 }
+
+#[test]
+fn runs_are_described_as_a_research_object() {
+    let bench = Bench::new();
+    bench.file("own.nb", RUN);
+    assert_eq!(bench.run(&["evolve", "own.nb"]).status, 0);
+    let file = "out/ro-crate-metadata.json";
+    let ran = bench.run(&["export", "out", "--to", "ro-crate", "--license", "MIT", "-o", file]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let text = fs::read(bench.path().join(file)).unwrap();
+    let metadata: Value = serde_json::from_slice(&text).unwrap();
+    let graph = metadata["@graph"].as_array().unwrap();
+    let named = |id: &str| graph.iter().find(|entity| entity["@id"] == id).unwrap_or_else(|| panic!("{id}"));
+    assert_eq!(named("./")["license"]["@id"], "https://spdx.org/licenses/MIT");
+    let actions = graph.iter().filter(|entity| entity["@type"] == "CreateAction").count();
+    assert_eq!(actions, 2, "one for each seed");
+    assert_eq!(named("#run/own/seed-2/generations")["value"], 4);
+    // What it says of a file is true.
+    let checkpoint = named("own/seed-2/checkpoint.nbc");
+    let bytes = fs::read(bench.path().join("out/own/seed-2/checkpoint.nbc")).unwrap();
+    assert_eq!(checkpoint["contentSize"], bytes.len().to_string());
+    assert_eq!(checkpoint["sha256"].as_str().map(str::len), Some(64));
+    // Everything that is named is there.
+    fn names(value: &Value, found: &mut Vec<String>) {
+        match value {
+            Value::Array(all) => all.iter().for_each(|one| names(one, found)),
+            Value::Object(fields) => match (fields.len(), &fields.get("@id")) {
+                (1, Some(Value::String(id))) => found.push(id.clone()),
+                _ => fields.values().for_each(|one| names(one, found)),
+            },
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    names(&metadata["@graph"], &mut found);
+    let missing =
+        |id: &&String| !id.starts_with("https://w3id.org/ro/crate/") && !graph.iter().any(|e| e["@id"] == **id);
+    assert_eq!(found.iter().find(missing), None);
+
+    fs::create_dir(bench.path().join("bare")).unwrap();
+    bench.run(&["export", "bare", "--to", "ro-crate"]).expect_fault(&["no runs in `bare`"]);
+    bench.run(&["export", "out/own", "--license", "MIT"]).expect_fault(&["only RO-Crates name a license"]);
+}

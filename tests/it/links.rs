@@ -87,3 +87,22 @@ fn the_book_has_every_page() {
         assert!(page == "introduction.md" || root().join("docs").join(page).exists(), "{page} is listed");
     }
 }
+
+#[test]
+fn the_paper_on_nbc_cites_what_its_bibliography_has() {
+    let [paper, bibliography] =
+        ["paper.md", "paper.bib"].map(|file| fs::read_to_string(root().join("docs/joss").join(file)).unwrap());
+    let found = |pattern: &str, text: &str| -> BTreeSet<String> {
+        Regex::new(pattern).unwrap().captures_iter(text).map(|found| found[1].to_owned()).collect()
+    };
+    let cited = found(r"@(\w+)", &paper);
+    assert_eq!(cited, found(r"(?m)^@\w+\{(\w+),", &bibliography));
+    // The journal's limits, in words.
+    let words = paper.split_whitespace().count();
+    assert!((250..=1750).contains(&words), "{words}");
+    for section in
+        ["Summary", "Statement of need", "State of the field", "Software design", "Research impact statement"]
+    {
+        assert!(paper.contains(&format!("\n# {section}\n")), "{section}");
+    }
+}
