@@ -2,6 +2,9 @@
 //!
 //!     cargo run --release --example paper
 
+mod complexity;
+mod transfer;
+
 use std::collections::BTreeMap;
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -40,11 +43,16 @@ struct PublishedRobot {
     body: Vec<String>,
 }
 
+/// The generations of the paper's runs.
+const LONG: u32 = 3000;
+
 fn main() -> Fallible<()> {
     let boxes = [5, 7, 10];
     let runs: Vec<BTreeMap<u64, Run>> =
         boxes.iter().map(|side| read(&format!("paper/paper{side}"))).collect::<Fallible<_>>()?;
-    let (long, code) = (read("long/paper5")?, read("paper/code5")?);
+    let (mut long, code) = (read("long/paper5")?, read("paper/code5")?);
+    // Others are still going on.
+    long.retain(|_, run| run.results.progress.last().is_some_and(|line| line.generation >= LONG));
     let [small, medium, large] = [&runs[0], &runs[1], &runs[2]];
     let long_name = "5x5, 3,000 generations";
     print_runs(&[("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long), ("5x5, as: code", &code)]);
@@ -54,6 +62,8 @@ fn main() -> Fallible<()> {
     print_difficulties(&runs);
     print_growth(small, &long);
     print_rules(small, &code);
+    complexity::print(&runs);
+    transfer::print(&[("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long)])?;
     Ok(())
 }
 
