@@ -49,6 +49,7 @@ export class TakeAway {
         links.host,
         button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
         button("Schematic (SVG)", () => this.#schematic(), { "data-take": "schematic" }),
+        button("Playable page (HTML, no server)", () => void this.#export(), { "data-take": "player" }),
         ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
         element("label", {}, "of the last ", this.#cycles, " cycles"),
         this.#status,
@@ -72,6 +73,16 @@ export class TakeAway {
     const now = this.swarm.frame.value?.now ?? 0;
     const cycles = Math.max(1, Math.min(now, Number(this.#cycles.value) || 40));
     return this.#make(label, signal => this.connection.request("take", { what, cycles }, { signal }));
+  }
+
+  /** The circuit as a page that plays by itself. */
+  async #export(): Promise<void> {
+    const choice = this.program.choice.value;
+    if (choice !== null) {
+      await this.program.settled();
+      const path = this.program.path.value;
+      await this.#make("the page", signal => this.connection.request("export", { path, ...choice }, { signal }));
+    }
   }
 
   async #make(label: string, ask: (signal: AbortSignal) => Promise<TakenFile>): Promise<void> {

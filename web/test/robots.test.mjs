@@ -169,7 +169,7 @@ test("robots are found by name or gate", async () => {
   await field.fill("a NAND b");
   assert.ok((await shown()) > 0 && (await shown()) < all);
   await field.fill("no such robot");
-  await here.page.getByText("no robot is called so").waitFor();
+  await here.page.getByText("no robot matches").waitFor();
   assert.equal(await shown(), 0);
   await field.fill("");
   assert.equal(await shown(), all);

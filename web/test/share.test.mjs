@@ -97,7 +97,7 @@ test("a link can be pasted where programs are opened, and a wrong one says what 
   await page.locator("[data-do=open]").click();
   const field = page.getByLabel("Link to a shared program");
   for (const [wrong, expected] of [
-    ["latch", /no link/],
+    ["latch", /not a link/],
     [here.code.slice(0, -9), /damaged/],
     [`#share=${"A".repeat(100_001)}`, /too long/],
   ]) {

@@ -83,7 +83,7 @@ export class EditPanel {
       await this.#openShared(await decodeShare(link));
       return null;
     } catch (error) {
-      if (error instanceof LinkError) {
+      if (error instanceof LinkError || error instanceof RequestError) {
         return `Cannot open the link: ${error.message}.`;
       }
       throw error;

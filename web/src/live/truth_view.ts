@@ -14,11 +14,16 @@ export class TruthView {
     "data-do": "truth",
     title: "What the outputs are for all inputs",
   });
-  #open = recall<boolean>("truth") ?? false;
+  #open: boolean;
   #rows = new Map<string, HTMLElement>();
   #marked: HTMLElement | undefined;
 
-  constructor(private readonly swarm: LiveSwarm) {
+  /** Shown from the start if it is `open`, unless the reader has chosen. */
+  constructor(
+    private readonly swarm: LiveSwarm,
+    open: boolean,
+  ) {
+    this.#open = recall<boolean>("truth") ?? open;
     swarm.definition.follow(definition => this.#build(definition));
     swarm.inputs.on(() => this.#mark());
   }

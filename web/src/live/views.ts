@@ -26,16 +26,17 @@ export class SwarmViews {
   readonly #animation: Animation;
   readonly #legend = element("div", { class: "legends" });
 
-  /** The views below a `head`. */
+  /** The views below a `head`; whether the truth table is shown from the start. */
   constructor(
     private readonly swarm: LiveSwarm,
     head: HTMLElement,
+    showsTruth = false,
   ) {
     this.#animation = new Animation(swarm);
     const wake = (): void => this.#animation.wake();
     const timeline = new Timeline();
     const [inputs, outputs] = [new InputPanel(swarm), new OutputPanel(swarm)];
-    const truth = new TruthView(swarm);
+    const truth = new TruthView(swarm, showsTruth);
     this.controls = new Controls(swarm, truth.toggle, this.host);
     this.stage = new Stage(swarm, wake);
     const inspector = new Inspector(swarm);

@@ -68,11 +68,7 @@ export class Cards {
       (this.#list.children[i] as HTMLElement).hidden = !found;
     });
     this.#count.textContent =
-      this.#field.value.trim() === ""
-        ? ""
-        : count === 0
-          ? "no robot is called so"
-          : `${count} of ${this.#robots.length}`;
+      this.#field.value.trim() === "" ? "" : count === 0 ? "no robot matches" : `${count} of ${this.#robots.length}`;
   }
 
   #see(entry: IntersectionObserverEntry): void {

@@ -53,7 +53,7 @@ export async function decodeShare(link: string): Promise<SharedProgram> {
   const text = link.trim();
   const at = text.lastIndexOf(MARK);
   if (at < 0) {
-    throw new LinkError("this is no link to a shared program: it has no part that begins with `#share=`");
+    throw new LinkError("this is not a link to a shared program: no part of it begins with `#share=`");
   }
   const code = text.slice(at + MARK.length);
   if (code.length > MOST_LINK) {
