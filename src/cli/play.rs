@@ -1,24 +1,32 @@
 //! `nbc play`: serves a page that shows robots live in a browser.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use nbc_play::{PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
+use nbc_session::store::{self, DiskWorld};
+use nbc_session::{Choice, CompileOptions, Session};
+use nbc_swarm::Room;
 use serde_json::json;
 
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use nbc_base::diag::counted;
 
 /// Show robots live in a browser
 ///
 /// Serves a page in which programs are edited, their robots walk, and new robots are designed. It prints the page's
 /// address and opens it. The page can read and write only below the current folder, or the file's folder if that is
 /// elsewhere. Everyone who knows the address can use the page. Ctrl-C stops the server.
+///
+/// With `--export`, it starts no server. It writes one HTML file in which the circuit can be played without nbc and
+/// without a network.
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc play
   nbc play circuits/latch.nb
-  nbc play adder.nb --port 8000 --no-open")]
+  nbc play adder.nb --port 8000 --no-open
+  nbc play circuits/latch.nb --export latch.html")]
 pub struct PlayArguments {
     /// The program to open first
     file: Option<PathBuf>,
@@ -37,16 +45,29 @@ pub struct PlayArguments {
     /// The secret part of the address, at least 16 letters and digits, instead of a random one
     #[arg(long, value_name = "TEXT", value_parser = token)]
     token: Option<String>,
+    /// Write the circuit to this HTML file, which plays without a server, and start none
+    #[arg(long, value_name = "OUT", requires = "file")]
+    #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token"])]
+    export: Option<PathBuf>,
+    /// The circuit to export, with parameters such as `adder[8]` [default: the last one in the file]
+    #[arg(long, value_name = "NAME", requires = "export")]
+    circuit: Option<String>,
+    /// The swarm to export, if several are declared for the circuit
+    #[arg(long, value_name = "NAME", requires = "export")]
+    swarm: Option<String>,
 }
 
 impl PlayArguments {
-    /// Serves until a signal arrives.
+    /// Serves until a signal arrives, or exports a circuit.
     ///
     /// # Errors
-    /// When the file cannot be found, or the address cannot be listened at.
+    /// When the file cannot be found, the address cannot be listened at, or the circuit cannot be exported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
+        let Self { file, port, host, no_open, page, token, export, circuit, swarm } = self;
+        if let (Some(output), Some(file)) = (export, &file) {
+            return write_page(file, &output, &Choice { circuit, swarm }, context);
+        }
         let interrupt = Interrupt::watch()?;
-        let Self { file, port, host, no_open, page, token } = self;
         let server = PlayServer::bind(&PlayOptions { file, host, port, page, token })?;
         tell(&server, context)?;
         let redirect = if no_open { None } else { server.open_browser() };
@@ -57,6 +78,25 @@ impl PlayArguments {
         drop(redirect);
         Ok(Status::Done)
     }
+}
+
+/// Writes a circuit as a page of its own.
+fn write_page(file: &Path, output: &Path, choice: &Choice, context: &mut Context) -> Result<Status, Failure> {
+    let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
+    let checked = session.open(&file.to_string_lossy())?;
+    let circuit = checked.circuit(choice)?;
+    let options = CompileOptions { swarm: choice.swarm.clone(), ..CompileOptions::default() };
+    let compiled = session.compile(&checked, &circuit, &options)?;
+    context.tell(&compiled.warnings, &checked.sources);
+    let page = nbc_play::export(&session, &checked, &compiled)?;
+    store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
+    let (bytes, name) = (page.html.len(), output.display());
+    let written = json!({ "file": output, "circuit": page.circuit, "robots": page.robots, "bytes": bytes });
+    context.print_result(Schema::Player, &written, || {
+        let robots = counted(page.robots, "robot");
+        format!("wrote {name}: {} with {robots}, {} kB; a browser opens it\n", page.circuit, bytes.div_ceil(1000))
+    })?;
+    Ok(Status::Done)
 }
 
 /// Prints the address, and the one for other computers.

@@ -89,6 +89,8 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     let both = bench.run(&["build", "flip.nb", "--emit", "blif", "--format", "json"]);
     assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
     check(&bench, "drawn", 0, &["draw", "walker.yaml", "--as", "sprite", "-o", "a.svg"]);
+    #[cfg(feature = "play")]
+    check(&bench, "player", 0, &["play", "flip.nb", "--export", "flip.html"]);
     check(&bench, "explain", 0, &["explain"]);
     check(&bench, "explain", 0, &["explain", "width"]);
     check(&bench, "explain", 0, &["explain", "prelude"]);

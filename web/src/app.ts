@@ -12,6 +12,8 @@ import { Program, type Origin } from "./program";
 import type { Greeting } from "./protocol";
 import { RobotsPanel } from "./robots/panel";
 import { TakeAway } from "./take";
+import { isShare, type SharedProgram } from "./share/link";
+import { sharedBits } from "./share/share";
 import { TestsPanel } from "./tests/panel";
 import { prefersStillness } from "./theme";
 
@@ -22,13 +24,13 @@ export class App {
   readonly #language = new LanguageServer(socketAddress("language"));
   readonly #swarm = new LiveSwarm(this.#connection);
   readonly #program = new Program(this.#connection, this.#swarm);
-  readonly #edit = new EditPanel(this.#connection, this.#program, this.#language);
+  readonly #edit = new EditPanel(this.#connection, this.#program, this.#language, shared => this.#share(shared));
   readonly #header = new Header();
   readonly #layout: Layout;
   #begun = false;
 
   constructor() {
-    const take = new TakeAway(this.#connection, this.#program, this.#swarm);
+    const take = new TakeAway(this.#connection, this.#program, this.#swarm, () => this.#layout.tab.value);
     const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
     const reveal = (line: number): void => this.#edit.editor.reveal(line);
     const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () =>
@@ -58,6 +60,7 @@ export class App {
       this.#watch();
     });
     document.addEventListener("visibilitychange", () => this.#watch());
+    addEventListener("hashchange", () => void this.#openFragment());
     this.#program.plays = !prefersStillness();
     this.#bindKeys(swarm);
   }
@@ -89,9 +92,42 @@ export class App {
     this.#swarm.watch(this.#layout.tab.value === "swarm" && !document.hidden);
   }
 
+  /** Opens the program of the address if that has one; whether it has. */
+  async #openFragment(): Promise<boolean> {
+    const fragment = location.hash.slice(1);
+    if (!isShare(fragment)) {
+      return false;
+    }
+    const reason = await this.#edit.openLink(fragment);
+    if (reason === null) {
+      return true;
+    }
+    // A reload would only fail again.
+    window.history.replaceState(null, "", `#${encodeURI(this.#program.path.value)}`);
+    if (this.#program.path.value === "" && this.#program.hello !== null) {
+      await this.#openNamed(this.#program.hello, "");
+    }
+    this.#edit.notices.show("shared", reason);
+    return true;
+  }
+
+  /** Shows the circuit, the inputs and the tab of a shared program. */
+  #share(shared: SharedProgram): void {
+    this.#swarm.propose(swarm => sharedBits(shared, swarm));
+    const tab = this.#layout.tabs.find(({ name }) => name === shared.tab);
+    if (tab !== undefined) {
+      this.#layout.show(tab.name);
+    }
+  }
+
   /** The program of the address, else that of the command line, else the latch. */
   async #openFirst(hello: Greeting): Promise<void> {
-    const named = decodeURI(location.hash.slice(1));
+    if (!(await this.#openFragment())) {
+      await this.#openNamed(hello, decoded(location.hash.slice(1)));
+    }
+  }
+
+  async #openNamed(hello: Greeting, named: string): Promise<void> {
     const drafted = named !== "" ? this.#program.draftAlone(named) : null;
     const origins: Origin[] = [
       ...(named === "" ? [] : [{ path: named }, { example: named }]),
@@ -133,4 +169,13 @@ export class App {
 function exampleNamed(hello: Greeting, word: string): string {
   const found = hello.examples.find(example => example.name.replace(/\.nb$/, "").endsWith(word)) ?? hello.examples[0];
   return found?.name ?? word;
+}
+
+/** A path in an address; none if it is no such text. */
+function decoded(fragment: string): string {
+  try {
+    return decodeURI(fragment);
+  } catch {
+    return "";
+  }
 }

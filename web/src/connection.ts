@@ -1,5 +1,6 @@
 // The socket for everything but the language server: requests with their answers, events and frames.
 
+import type { SwarmServer } from "./live/server";
 import { Observable } from "./observable";
 import type { PlayEvent, Refusal, ServerMessage } from "./protocol";
 import { RequestError, type Fields, type Result, type Verb } from "./request";
@@ -25,7 +26,7 @@ export const CANCELLED = "cancelled";
 const FIRST_WAIT = 250;
 const LONGEST_WAIT = 4000;
 
-export class Connection {
+export class Connection implements SwarmServer {
   readonly state = new Observable<ConnectionState>("connecting");
   readonly events = new Observable<PlayEvent | null>(null);
   /** Receives each frame. */

@@ -87,6 +87,20 @@ export class Program {
     return restored;
   }
 
+  /** Takes a text that has no file, such as that of a link, as a draft, and the circuit to show if there is such a one. */
+  beginDraft(path: string, text: string, choice: Choice | null): void {
+    keepDraft(this.folder, path, { text, stamp: null });
+    this.begin({ path, text, stamp: null });
+    this.#saved = null;
+    this.unsaved.set(true);
+    this.choice.set(choice);
+  }
+
+  /** Whether the unsaved text of the present program can be had back after another one was opened. */
+  get isKept(): boolean {
+    return !this.unsaved.value || this.draftAlone(this.path.value) === this.#text;
+  }
+
   /** Notes the file's present text, which the editor is about to show. */
   adopt(file: FileText): void {
     this.path.set(file.path);

@@ -69,6 +69,61 @@ export type ExampleEntry = {
   about: string,
 };
 
+/** A robot at the level of logic. */
+export type ExportedRobot = {
+  /** The index of its walk. */
+  walk: number,
+  /** Its output before the first cycle. */
+  start: boolean,
+  /** Cycles of the same stimuli after which it answers. */
+  delay: number,
+  /** For each stimulus, what it senses in the first cycles instead of its source. */
+  held: Array<string>,
+};
+
+/** A row: the digits `0` and `1` of the inputs, and for the outputs also `-`. */
+export type ExportedRow = {
+  inputs: string,
+  expected: string,
+};
+
+/** A recorded cycle under one pattern, as a loop. */
+export type ExportedStride = {
+  /** Voxels that the robot moves in it. */
+  shift: number,
+  /** Base64 of numbers as in a frame, without the motion of the whole. */
+  poses: string,
+};
+
+/** A circuit that a page plays without a server: the swarm, how its robots walk, and the rows of the tests. */
+export type ExportedSwarm = {
+  /** The version of the program that made it. */
+  version: string,
+  /** The name of the source file. */
+  file: string,
+  swarm: ShownSwarm,
+  /** Cycles for which robots sense the same; more than one only in wave machines. */
+  beat: number,
+  /** Each robot of the swarm. */
+  robots: Array<ExportedRobot>,
+  /** How each of the different robots walks. */
+  walks: Array<ExportedWalk>,
+  tests: Array<ExportedTest>,
+};
+
+/** The rows of a test. */
+export type ExportedTest = {
+  title: string,
+  rows: Array<ExportedRow>,
+};
+
+/** How a robot walks under each pattern of its stimuli. */
+export type ExportedWalk = {
+  /** The directions, such as `RRRL`. */
+  letters: string,
+  strides: Array<ExportedStride>,
+};
+
 /** A file that was read or saved and has another stamp, or none because it is gone. */
 export type FileChange = {
   path: string,
@@ -245,6 +300,7 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "keep" } & KeepRequest
   | { "do": "evolve" } & EvolveRequest
   | { "do": "take", what: TakeKind, cycles: number, }
+  | { "do": "export", path: string, circuit: string, swarm: string | null, }
   | { "do": "cancel", of: number, });
 
 /** A robot of a library. */
@@ -312,7 +368,8 @@ export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { "to": "probe", "ok": ProbeReport }
   | { "to": "keep", "ok": KeptRobot }
   | { "to": "evolve", "ok": EvolutionEnd }
-  | { "to": "take", "ok": TakenFile })
+  | { "to": "take", "ok": TakenFile }
+  | { "to": "export", "ok": TakenFile })
   | { id: number, ok: Nothing, }
   | { id: number, error: Refusal, }
   | { id: number, progress: [number, number], } | PlayEvent;

@@ -6,8 +6,10 @@ import { button, element, fill } from "./element";
 import type { LiveSwarm } from "./live/swarm";
 import { closeOutside } from "./menu";
 import type { Program } from "./program";
-import type { TakeKind } from "./protocol";
+import type { TakeKind, TakenFile } from "./protocol";
 import { RequestError } from "./request";
+import { LinkMenu } from "./share/menu";
+import { shareOf } from "./share/share";
 
 const PICTURES: [TakeKind, string][] = [
   ["page", "Report page (HTML)"],
@@ -34,7 +36,9 @@ export class TakeAway {
     private readonly connection: Connection,
     private readonly program: Program,
     private readonly swarm: LiveSwarm,
+    tab: () => string,
   ) {
+    const links = new LinkMenu(() => shareOf(program, swarm, tab()));
     this.host = element(
       "details",
       { class: "menu take" },
@@ -42,8 +46,10 @@ export class TakeAway {
       element(
         "div",
         { class: "sheet" },
+        links.host,
         button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
         button("Schematic (SVG)", () => this.#schematic(), { "data-take": "schematic" }),
+        button("Playable page (HTML, no server)", () => void this.#export(), { "data-take": "player" }),
         ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
         element("label", {}, "of the last ", this.#cycles, " cycles"),
         this.#status,
@@ -63,19 +69,33 @@ export class TakeAway {
     }
   }
 
-  async #take(what: TakeKind, label: string): Promise<void> {
+  #take(what: TakeKind, label: string): Promise<void> {
+    const now = this.swarm.frame.value?.now ?? 0;
+    const cycles = Math.max(1, Math.min(now, Number(this.#cycles.value) || 40));
+    return this.#make(label, signal => this.connection.request("take", { what, cycles }, { signal }));
+  }
+
+  /** The circuit as a page that plays by itself. */
+  async #export(): Promise<void> {
+    const choice = this.program.choice.value;
+    if (choice !== null) {
+      await this.program.settled();
+      const path = this.program.path.value;
+      await this.#make("the page", signal => this.connection.request("export", { path, ...choice }, { signal }));
+    }
+  }
+
+  async #make(label: string, ask: (signal: AbortSignal) => Promise<TakenFile>): Promise<void> {
     this.#work?.abort();
     const work = new AbortController();
     this.#work = work;
-    const now = this.swarm.frame.value?.now ?? 0;
-    const cycles = Math.max(1, Math.min(now, Number(this.#cycles.value) || 40));
     fill(
       this.#status,
       `making ${label} … `,
       button("Stop", () => work.abort()),
     );
     try {
-      const { url, name } = await this.connection.request("take", { what, cycles }, { signal: work.signal });
+      const { url, name } = await ask(work.signal);
       download(new URL(url, document.baseURI).href, name);
       fill(this.#status, `${name} is ready`);
     } catch (error) {

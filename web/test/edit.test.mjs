@@ -136,7 +136,7 @@ test("other files, examples and new files can be opened", async () => {
   await here.page.waitForFunction(() => document.querySelector(".file").textContent === "latch.nb");
   await walking(here.page);
   await here.page.locator("[data-do=open]").click();
-  await here.page.locator(".files input").fill("mine");
+  await here.page.getByLabel("Name of the new file").fill("mine");
   await here.page.locator("[data-do=new]").click();
   await here.page.waitForFunction(() => document.querySelector(".file").textContent === "mine.nb");
   await here.page.locator("[data-do=save]").click();

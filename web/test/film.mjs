@@ -1,14 +1,17 @@
 // Films the page for the manual, and takes pictures of its parts. Writes docs/play/.
 
+import { execFileSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { fileURLToPath } from "node:url";
+import { fileURLToPath, pathToFileURL } from "node:url";
 
 import gifenc from "gifenc";
 import { PNG } from "pngjs";
 
 import { closeBrowser, cyclesLater, setInput, visit, walking } from "./browser.mjs";
 import { LATCH, folderWith, play } from "./program.mjs";
+
+const CIRCUITS = fileURLToPath(new URL("../../circuits/", import.meta.url));
 
 const { GIFEncoder, applyPalette, quantize } = gifenc;
 
@@ -102,6 +105,18 @@ async function processor(url) {
   await page.leave();
 }
 
+/** An adder as a page of its own, with its truth table. */
+async function exported(folder) {
+  const file = join(folder, "full_adder.html");
+  execFileSync(process.env.NBC, ["play", CIRCUITS + "full_adder.nb", "--export", file]);
+  const page = await visit(pathToFileURL(file).href, { viewport: { width: 1280, height: 860 }, offline: true });
+  await walking(page);
+  await page.locator('.table [data-row="110"] button').click();
+  await cyclesLater(page, 10);
+  await page.screenshot({ path: place("player.png") });
+  await page.leave();
+}
+
 // The page shows the name of the folder.
 const { folder, remove } = folderWith({});
 const circuits = join(folder, "circuits");
@@ -110,8 +125,9 @@ writeFileSync(join(circuits, "latch.nb"), LATCH);
 const server = await play(circuits, "latch.nb");
 await film(server.url);
 await pictures(server.url);
-const large = await play(fileURLToPath(new URL("../../circuits", import.meta.url)), "riscv.nb");
+const large = await play(CIRCUITS, "riscv.nb");
 await processor(large.url);
+await exported(folder);
 await large.stop();
 await closeBrowser();
 await server.stop();

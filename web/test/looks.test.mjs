@@ -93,3 +93,23 @@ test("the keyboard reaches what the mouse does", async () => {
   assert.equal(await focused(), "");
   await page.leave();
 });
+
+test("a circuit without a state has its truth table beside the robots, and they can fill the screen", async () => {
+  const page = await visit(program.url);
+  await walking(page);
+  assert.ok(await page.locator("[data-do=truth]").isHidden(), "a latch has a state");
+  await page.locator("[data-do=open]").click();
+  await page.locator('[data-open="half_adder.nb"]').click();
+  await page.locator("[data-do=truth]").click();
+  const rows = await page.locator(".table tbody tr").evaluateAll(all => all.map(row => row.textContent.slice(1)));
+  assert.deepEqual(rows, ["0000", "0110", "1010", "1101"]);
+  await page.locator('.table [data-row="11"] button').click();
+  await page.locator('.table [data-row="11"][aria-current]').waitFor();
+  await page.locator('[data-input="a"][aria-checked="true"]').waitFor();
+  await page.locator("[data-do=full]").click();
+  await page.waitForFunction(() => document.fullscreenElement?.classList.contains("swarm"));
+  assert.ok((await page.locator(".stage").isVisible()) && (await page.locator("[data-input=a]").isVisible()));
+  await page.locator("[data-do=full]").click();
+  await page.waitForFunction(() => document.fullscreenElement === null);
+  await page.leave();
+});

@@ -161,3 +161,16 @@ test("a search from there opens niches, and their robots can be taken", async ()
   await here.page.locator("[data-do=evolve]").click();
   await here.page.getByRole("button", { name: "Evolve from here" }).waitFor();
 });
+
+test("robots are found by name or gate", async () => {
+  const shown = () => here.page.locator(".robot.card:visible").count();
+  const all = await shown();
+  const field = here.page.getByLabel("Find robots by name or gate");
+  await field.fill("a NAND b");
+  assert.ok((await shown()) > 0 && (await shown()) < all);
+  await field.fill("no such robot");
+  await here.page.getByText("no robot matches").waitFor();
+  assert.equal(await shown(), 0);
+  await field.fill("");
+  assert.equal(await shown(), all);
+});

@@ -3,6 +3,7 @@
 mod bodies;
 mod connections;
 mod evolving;
+mod export;
 mod files;
 mod frame;
 mod history;
@@ -37,6 +38,7 @@ use nbc_session::store::{FolderWorld, PrivateFile};
 use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
 
+pub use export::{ExportedPage, export};
 pub use wording::PlayError;
 
 use page::Page;

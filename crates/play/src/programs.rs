@@ -99,7 +99,8 @@ pub(super) fn loaded(
     Ok(LoadedSwarm { number, compiled, swarm, inputs, request: job.id, answer, stop: job.stop.clone() })
 }
 
-fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
+/// What a page is told about a swarm.
+pub(super) fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
     let (assembly, trace) = (&compiled.assembly, swarm.trace());
     let all = Looks::of(assembly.members.iter().map(|member| &member.robot.body), SCHEME);
     ShownSwarm {

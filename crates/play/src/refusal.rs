@@ -5,6 +5,7 @@ use serde::Serialize;
 use ts_rs::TS;
 
 use crate::message::finding::{Finding, findings};
+use crate::wording::PlayError;
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_base::model::{Fault, FaultKind};
 use nbc_base::source::FileError;
@@ -50,6 +51,8 @@ pub(super) enum Refused {
     Body(String),
     /// A fault of the program.
     Internal,
+    /// A circuit that cannot be exported.
+    Export(PlayError),
     /// Errors in the source.
     Source(Diagnostics),
 }
@@ -103,6 +106,7 @@ impl Refused {
             Self::NoExample(name) => format!("there is no example `{name}`"),
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
+            Self::Export(error) => Diagnostic::from(error.clone()).message,
             Self::Internal => "the program failed; its log says where".to_owned(),
             Self::Source(found) => match found.list.iter().find(|one| one.is_error()) {
                 Some(first) => first.message.clone(),
@@ -119,6 +123,7 @@ impl Refused {
             Self::RobotExists { free, .. } => Some(format!("the name `{free}` is free")),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
+            Self::Export(error) => Diagnostic::from(error.clone()).help,
             Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
             _ => None,
         }
@@ -144,6 +149,12 @@ impl From<Refused> for Refusal {
             _ => Vec::new(),
         };
         Self { message: refused.message(), help: refused.help(), code: refused.code(), diagnostics }
+    }
+}
+
+impl From<PlayError> for Refused {
+    fn from(error: PlayError) -> Self {
+        Self::Export(error)
     }
 }
 

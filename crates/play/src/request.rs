@@ -90,6 +90,11 @@ pub(super) enum Verb {
         what: TakeKind,
         cycles: u32,
     },
+    Export {
+        path: String,
+        circuit: String,
+        swarm: Option<String>,
+    },
     Cancel {
         of: u64,
     },

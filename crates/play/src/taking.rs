@@ -2,14 +2,18 @@
 
 use std::io;
 
+use crate::export::export;
 use crate::jobs::Job;
+use crate::programs;
 use crate::refusal::Refused;
 use crate::request::TakeKind;
 use crate::served::SCHEME;
 use nbc_base::model::CYCLE_STEPS;
 use nbc_session::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
-use nbc_session::{Excerpt, RunEnd, Session, SimulationRun, run_page};
+use nbc_session::{Checked, Choice, Excerpt, RunEnd, Session, SimulationRun, run_page};
 
+/// The media type of pages.
+pub(super) const HTML: &str = "text/html; charset=utf-8";
 /// The most cycles that a file covers.
 const MOST_CYCLES: u32 = 200;
 /// The most cycles of a film.
@@ -24,7 +28,7 @@ impl TakeKind {
     /// How its name ends, and its media type.
     pub(super) fn ending(self) -> (&'static str, &'static str) {
         match self {
-            Self::Page => ("html", "text/html; charset=utf-8"),
+            Self::Page => ("html", HTML),
             Self::Gif => ("gif", "image/gif"),
             Self::Png => ("png", "image/png"),
             Self::Svg => ("svg", "image/svg+xml"),
@@ -55,6 +59,23 @@ pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &m
         TakeKind::Vcd => report::vcd(trace).into_bytes(),
         TakeKind::Csv => report::cycle_table(trace).into_bytes(),
     })
+}
+
+/// A circuit as one HTML file, with the name of the file.
+///
+/// # Errors
+/// When it cannot be compiled, or has too many robots.
+pub(super) fn exported(
+    session: &Session,
+    checked: &Checked,
+    choice: &Choice,
+    job: &Job,
+) -> Result<(String, Vec<u8>), Refused> {
+    let (circuit, options) = programs::chosen(checked, choice, job)?;
+    let compiled = session.compile(checked, &circuit, &options)?;
+    job.check()?;
+    let page = export(session, checked, &compiled)?;
+    Ok((format!("{}.html", compiled.plan.circuit.circuit), page.html.into_bytes()))
 }
 
 fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {

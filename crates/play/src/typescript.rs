@@ -1,5 +1,5 @@
-//! The types of the messages for the page: `web/src/protocol.ts` is made from those of the requests and of the server's
-//! messages. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
+//! The types of the messages for the page: `web/src/protocol.ts` is made from those of the requests, of the server's
+//! messages, and of exported pages. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
 
 use std::any::TypeId;
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ts_rs::{Config, TS, TypeVisitor};
 
-use crate::message::ServerMessage;
+use crate::message::{ExportedSwarm, ServerMessage};
 use crate::request::Request;
 
 const HEAD: &str = "\
@@ -75,6 +75,7 @@ fn the_protocol_of_the_page_is_that_of_the_server() {
     let mut declared = Declared { config, seen: BTreeSet::new(), texts: BTreeMap::new() };
     declared.visit::<Request>();
     declared.visit::<ServerMessage>();
+    declared.visit::<ExportedSwarm>();
     let texts: Vec<String> = declared.texts.into_values().collect();
     let expected = format!("{HEAD}\n{}\n", texts.join("\n\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/src/protocol.ts");

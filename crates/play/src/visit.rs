@@ -163,6 +163,14 @@ impl Visit {
                 let files = PageFiles::new(served.world.clone());
                 Ok(boxed(move |job| served.background.install(|| bodies::keep(&request, &files, job))))
             }
+            Verb::Export { path, circuit, swarm } => {
+                let (choice, served) = (Choice { circuit: Some(circuit), swarm }, self.served.clone());
+                self.with_program(&path, move |session, checked, job| {
+                    let (name, bytes) = taking::exported(session, checked, &choice, job)?;
+                    let url = served.takes.keep(&name, taking::HTML, bytes);
+                    Ok(Some(RequestResult::Export(TakenFile { url, name })))
+                })
+            }
             Verb::Take { what, cycles } => Ok(self.take(what, cycles)),
             other => unreachable!("{other:?} is answered at once"),
         };

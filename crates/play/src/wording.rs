@@ -21,6 +21,20 @@ pub enum PlayError {
         /// What the system says.
         reason: String,
     },
+    /// A circuit with more robots than an exported page may have.
+    TooManyRobots {
+        /// Its robots.
+        robots: usize,
+        /// The most.
+        most: usize,
+    },
+    /// A swarm with more different bodies than an exported page may have, as in a world with worn robots.
+    TooManyBodies {
+        /// Its different bodies.
+        bodies: usize,
+        /// The most.
+        most: usize,
+    },
     /// A resource that the system does not provide, such as threads.
     System {
         /// What the system says.
@@ -37,6 +51,14 @@ impl From<PlayError> for Diagnostic {
             }
             PlayError::File { path, reason } => {
                 Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {reason}"))
+            }
+            PlayError::TooManyRobots { robots, most } => {
+                let message = format!("the circuit needs {robots} robots; an exported page has at most {most}");
+                Self::without_place(Code::BadValue, message).with_help("choose a smaller circuit with `--circuit`")
+            }
+            PlayError::TooManyBodies { bodies, most } => {
+                let message = format!("the swarm has {bodies} different bodies; an exported page has at most {most}");
+                Self::without_place(Code::BadValue, message).with_help("export it in a world without `noise`")
             }
             PlayError::System { reason } => {
                 Self::without_place(Code::Unreadable, format!("cannot start the server: {reason}"))

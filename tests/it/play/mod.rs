@@ -1,6 +1,7 @@
 //! `nbc play`: the server, by a page of the tests' own. The tests of `web/` do the same in a browser.
 
 mod attacks;
+mod export;
 mod page;
 mod robots;
 mod safety;

@@ -17,12 +17,16 @@ test mine "both" {
 }
 `;
 
+/** A folder with more files is closed at first. */
+const FEW = 12;
+
 export class FilePicker {
   readonly host = element("dialog", { class: "files", "aria-label": "Open a program" });
 
   constructor(
     private readonly open: (origin: Origin) => void,
     private readonly begin: (path: string) => void,
+    private readonly share: (link: string) => Promise<string | null>,
   ) {
     this.host.addEventListener("click", event => {
       if (event.target === this.host) {
@@ -41,10 +45,8 @@ export class FilePicker {
         iconButton("close", "Close", () => this.host.close()),
       ),
       this.#new(files),
-      this.#list(
-        "In this folder",
-        files.map(({ path }) => ({ label: path, about: "", origin: { path } })),
-      ),
+      this.#shared(),
+      ...byFolder(files.map(({ path }) => path)).map(([folder, paths]) => this.#folder(folder, paths)),
       this.#list(
         "Examples",
         examples.map(({ name, about }) => ({ label: name, about, origin: { example: name } })),
@@ -58,21 +60,73 @@ export class FilePicker {
       element(
         "li",
         {},
-        button(label, () => this.#choose(origin), { "data-open": label }),
+        button(label.split("/").at(-1) ?? label, () => this.#choose(origin), { "data-open": label }),
         about !== "" && element("span", {}, about),
       ),
     );
     return element(
       "section",
-      {},
+      { class: entries.every(({ about }) => about === "") ? "names" : null },
       element("h3", {}, title),
       items.length === 0 ? element("p", {}, "none") : element("ul", {}, ...items),
+    );
+  }
+
+  /** The files of a folder; those of folders below are closed at first if there are many. */
+  #folder(folder: string, paths: string[]): HTMLElement {
+    const entries = paths.map(path => ({ label: path, about: "", origin: { path } }));
+    if (folder === "") {
+      return this.#list("In this folder", entries);
+    }
+    const list = this.#list("", entries);
+    list.querySelector("h3")?.remove();
+    return element(
+      "details",
+      { class: "folder", open: paths.length <= FEW, "data-folder": folder },
+      element("summary", {}, `${folder} (${paths.length})`),
+      list,
     );
   }
 
   #choose(origin: Origin): void {
     this.host.close();
     this.open(origin);
+  }
+
+  /** A link that someone has sent; what is wrong with it is shown. */
+  #shared(): HTMLElement {
+    const field = element("input", {
+      type: "text",
+      placeholder: "paste a link with #share=",
+      "aria-label": "Link to a shared program",
+      autocomplete: "off",
+      spellcheck: "false",
+    });
+    const fault = element("p", { class: "fail", role: "alert" });
+    const open = async (): Promise<void> => {
+      const reason = await this.share(field.value);
+      fault.textContent = reason ?? "";
+      if (reason === null) {
+        this.host.close();
+      }
+    };
+    field.onkeydown = event => {
+      if (event.key === "Enter") {
+        void open();
+      }
+    };
+    return element(
+      "section",
+      {},
+      element("h3", {}, "Open a shared program"),
+      element(
+        "p",
+        { class: "row" },
+        field,
+        button("Open", () => void open(), { "data-do": "open-shared" }),
+      ),
+      fault,
+    );
   }
 
   #new(files: FileEntry[]): HTMLElement {
@@ -101,6 +155,16 @@ export class FilePicker {
       element("p", { class: "row" }, field, button("Begin", make, { "data-do": "new" })),
     );
   }
+}
+
+/** The paths of each folder, the folder itself first, then those below it in order. */
+export function byFolder(paths: string[]): [string, string[]][] {
+  const folders = new Map<string, string[]>([["", []]]);
+  for (const path of paths) {
+    const folder = path.includes("/") ? path.slice(0, path.lastIndexOf("/")) : "";
+    folders.set(folder, [...(folders.get(folder) ?? []), path]);
+  }
+  return [...folders].sort(([a], [b]) => (a < b ? -1 : 1));
 }
 
 function freeName(files: FileEntry[]): string {
@@ -152,5 +216,47 @@ export function askPath(suggested: string): Promise<string | null> {
     document.body.append(dialog);
     dialog.showModal();
     field.select();
+  });
+}
+
+/** A path like the wished one that is not taken: itself, or with a number. */
+export function freePath(wished: string, isTaken: (path: string) => boolean): string {
+  const [, stem = wished, ending = ""] = /^(.*?)(\.\w+)?$/.exec(wished) ?? [];
+  let path = wished;
+  for (let number = 2; isTaken(path); number++) {
+    path = `${stem}_${number}${ending}`;
+  }
+  return path;
+}
+
+/** Asks whether the unsaved text of a program may go, where the browser keeps no drafts. */
+export function askLeave(path: string): Promise<boolean> {
+  return new Promise(resolve => {
+    let answer = false;
+    const dialog = element(
+      "dialog",
+      { class: "ask", "aria-label": "Leave the program" },
+      element("h2", {}, `${path} is not saved`),
+      element("p", {}, "This browser does not keep drafts: opening the shared program loses your changes."),
+      element(
+        "p",
+        { class: "row" },
+        button("Stay here", () => dialog.close(), { class: "primary", "data-do": "stay" }),
+        button(
+          "Open it anyway",
+          () => {
+            answer = true;
+            dialog.close();
+          },
+          { "data-do": "leave" },
+        ),
+      ),
+    );
+    dialog.onclose = () => {
+      dialog.remove();
+      resolve(answer);
+    };
+    document.body.append(dialog);
+    dialog.showModal();
   });
 }

@@ -6,8 +6,9 @@ import { Notices } from "../notices";
 import type { Origin, Program } from "../program";
 import type { FileChange, FileText } from "../protocol";
 import { RequestError } from "../request";
+import { LinkError, decodeShare, type SharedProgram } from "../share/link";
 import { Editor } from "./editor";
-import { FilePicker, NEW_PROGRAM, askPath } from "./files";
+import { FilePicker, NEW_PROGRAM, askLeave, askPath, freePath } from "./files";
 import type { LanguageServer } from "./server";
 
 export class EditPanel {
@@ -26,11 +27,13 @@ export class EditPanel {
     private readonly connection: Connection,
     private readonly program: Program,
     server: LanguageServer,
+    private readonly shared: (shared: SharedProgram) => void,
   ) {
     this.editor = new Editor({ changed: text => program.edit(text), save: () => void this.save() });
     this.#picker = new FilePicker(
       origin => void this.open(origin),
       path => this.begin(path, NEW_PROGRAM),
+      link => this.openLink(link),
     );
     this.host = element(
       "section",
@@ -74,6 +77,63 @@ export class EditPanel {
     this.#show({ path, text, stamp: null });
   }
 
+  /** Opens the program of a link. The result is what is wrong with the link, if it is. */
+  async openLink(link: string): Promise<string | null> {
+    try {
+      await this.#openShared(await decodeShare(link));
+      return null;
+    } catch (error) {
+      if (error instanceof LinkError || error instanceof RequestError) {
+        return `Cannot open the link: ${error.message}.`;
+      }
+      throw error;
+    }
+  }
+
+  /** Opens a shared program under a name that no other program has. The program that is there stays as a draft. */
+  async #openShared(shared: SharedProgram): Promise<void> {
+    const { program } = this;
+    if (!program.isKept && !(await askLeave(program.path.value))) {
+      return;
+    }
+    const before = program.path.value;
+    const files = new Set((await this.connection.request("files", {})).map(({ path }) => path));
+    const path = freePath(shared.file, name => {
+      const draft = program.draftAlone(name);
+      return files.has(name) || (draft === null ? name === before : draft !== shared.text);
+    });
+    this.notices.clear();
+    program.beginDraft(
+      path,
+      shared.text,
+      shared.circuit === null ? null : { circuit: shared.circuit, swarm: shared.swarm },
+    );
+    this.#showText();
+    this.shared(shared);
+    const back =
+      before === "" || before === path ? [] : [{ label: `Back to ${before}`, run: () => void this.#return(before) }];
+    this.notices.show("shared", `A shared program, not saved yet: ${path}. Read it before you trust it.`, back);
+  }
+
+  /** Opens a program again that was shown before: a file, an example, or a draft. */
+  async #return(path: string): Promise<void> {
+    const draft = this.program.draftAlone(path);
+    for (const origin of [{ path }, { example: path }]) {
+      try {
+        this.#show(await this.connection.request("read", origin));
+        return;
+      } catch (error) {
+        if (!(error instanceof RequestError)) {
+          throw error;
+        }
+      }
+    }
+    if (draft !== null) {
+      this.program.beginDraft(path, draft, null);
+      this.#showText();
+    }
+  }
+
   async pick(): Promise<void> {
     const files = await this.connection.request("files", {});
     this.#picker.show(files, this.program.hello?.examples ?? []);
@@ -111,15 +171,19 @@ export class EditPanel {
   #show(file: FileText): void {
     this.notices.clear();
     const draft = this.program.begin(file);
-    this.editor.open(this.program.uri, this.program.text);
-    this.#showName();
-    this.#remember();
+    this.#showText();
     if (draft !== null) {
       const changed = draft.stamp === file.stamp ? "" : " The file was changed since then.";
       this.notices.show("draft", `Your unsaved changes of ${file.path} are shown again.${changed}`, [
         { label: "Discard them", run: () => this.editor.replace(file.text) },
       ]);
     }
+  }
+
+  #showText(): void {
+    this.editor.open(this.program.uri, this.program.text);
+    this.#showName();
+    this.#remember();
   }
 
   /** The address names the program, so that a reload shows it again. */

@@ -1,6 +1,5 @@
 // The swarm of this session: what it consists of, where its run is, and the requests that drive it.
 
-import type { Connection } from "../connection";
 import { decodeFrame, isFrameOf, type Frame } from "../frame";
 import { RunLog } from "../log";
 import { Observable } from "../observable";
@@ -9,6 +8,7 @@ import type { BitSource, ShownSwarm } from "../protocol";
 import type { Fields } from "../request";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
+import type { SwarmServer } from "./server";
 import { threadAt } from "./waves";
 
 export interface AutomaticClock {
@@ -43,11 +43,12 @@ export class LiveSwarm {
   /** The cycle whose inputs become those of the next one, as soon as a frame says what they are; or any cycle. */
   #adopted: number | "any" | null = null;
   #watched = true;
+  #proposed: ((swarm: ShownSwarm) => string | null) | null = null;
   #rests = false;
 
-  constructor(private readonly connection: Connection) {
-    connection.onframe = buffer => this.#receive(buffer);
-    connection.events.on(event => {
+  constructor(private readonly server: SwarmServer) {
+    server.onframe = buffer => this.#receive(buffer);
+    server.events.on(event => {
       if (event?.event === "stopped") {
         this.stopped.set(event.reason);
         this.running.set(false);
@@ -58,7 +59,8 @@ export class LiveSwarm {
   /** Takes a swarm that was just compiled. Inputs of the same name keep their values, unless a replay set them. */
   begin(swarm: ShownSwarm, replayed = false): void {
     const before = this.definition.value;
-    const kept = keepBits(this.inputs.value, before?.inputs ?? [], swarm.inputs);
+    const kept = this.#proposed?.(swarm) ?? keepBits(this.inputs.value, before?.inputs ?? [], swarm.inputs);
+    this.#proposed = null;
     const clock = this.#keptClock(before, swarm);
     this.#forget();
     this.nets = netsOf(swarm);
@@ -67,13 +69,18 @@ export class LiveSwarm {
     this.#adopted = replayed ? "any" : null;
     this.setClock(replayed ? null : clock);
     if (!replayed) {
-      this.connection.tell("inputs", { bits: kept });
+      this.server.tell("inputs", { bits: kept });
     }
     const early = this.#early;
     this.#early = null;
     if (early !== null) {
       this.#receive(early);
     }
+  }
+
+  /** The input bits of the swarm that is compiled next, in the place of those of the swarm before. */
+  propose(inputs: (swarm: ShownSwarm) => string | null): void {
+    this.#proposed = inputs;
   }
 
   setBit(index: number, bit: number): void {
@@ -84,17 +91,17 @@ export class LiveSwarm {
     this.#adopted = null;
     if (bits !== this.inputs.value) {
       this.inputs.set(bits);
-      this.connection.tell("inputs", { bits });
+      this.server.tell("inputs", { bits });
     }
   }
 
   setClock(clock: AutomaticClock | null): void {
     const before = this.clock.value;
     if (before !== null && before.bit !== clock?.bit) {
-      this.connection.tell("clock", { bit: before.bit, half: null });
+      this.server.tell("clock", { bit: before.bit, half: null });
     }
     if (clock !== null) {
-      this.connection.tell("clock", { ...clock });
+      this.server.tell("clock", { ...clock });
     }
     this.clock.set(clock);
   }
@@ -161,7 +168,7 @@ export class LiveSwarm {
   view(robots: number[]): void {
     if (this.#shown?.join() !== robots.join()) {
       this.#shown = robots;
-      this.connection.tell("view", { robots });
+      this.server.tell("view", { robots });
     }
   }
 
@@ -228,7 +235,7 @@ export class LiveSwarm {
       this.#orders--;
       return done;
     };
-    return this.connection.request(verb, fields).then(
+    return this.server.request(verb, fields).then(
       () => ended(true),
       () => ended(false),
     );

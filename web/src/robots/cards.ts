@@ -6,6 +6,7 @@ import { truthTableElement } from "../live/inspector";
 import type { RobotCard, VoxelLook } from "../protocol";
 import { prefersStillness } from "../theme";
 import { decodeGait, type Gait } from "./gait";
+import { matches } from "./match";
 import { drawBody } from "./portrait";
 import type { Probing } from "./probing";
 import type { Ticker } from "./ticker";
@@ -19,7 +20,17 @@ export interface CardDoors {
 }
 
 export class Cards {
-  readonly host = element("div", { class: "cards" });
+  readonly host: HTMLElement;
+  readonly #list = element("div", { class: "cards" });
+  readonly #field = element("input", {
+    type: "search",
+    placeholder: "name or gate, such as nand",
+    "aria-label": "Find robots by name or gate",
+    spellcheck: "false",
+    oninput: () => this.#filter(),
+  });
+  readonly #count = element("span", { class: "dim", role: "status", "aria-live": "polite" });
+  #robots: RobotCard[] = [];
   readonly #observer: IntersectionObserver;
   readonly #begin = new Map<Element, () => () => void>();
   readonly #ends = new Map<Element, () => void>();
@@ -30,6 +41,12 @@ export class Cards {
     private readonly doors: CardDoors,
   ) {
     this.#observer = new IntersectionObserver(entries => entries.forEach(entry => this.#see(entry)));
+    this.host = element(
+      "div",
+      { class: "found" },
+      element("p", { class: "row" }, this.#field, this.#count),
+      this.#list,
+    );
   }
 
   show(robots: RobotCard[], looks: VoxelLook[]): void {
@@ -37,7 +54,21 @@ export class Cards {
     this.#ends.clear();
     this.#begin.clear();
     this.#observer.disconnect();
-    fill(this.host, ...robots.map(robot => this.#card(robot, looks)));
+    this.#robots = robots;
+    fill(this.#list, ...robots.map(robot => this.#card(robot, looks)));
+    this.#filter();
+  }
+
+  /** Hides the cards that do not match; a hidden robot does not walk. */
+  #filter(): void {
+    let count = 0;
+    this.#robots.forEach((robot, i) => {
+      const found = matches(robot, this.#field.value);
+      count += Number(found);
+      (this.#list.children[i] as HTMLElement).hidden = !found;
+    });
+    this.#count.textContent =
+      this.#field.value.trim() === "" ? "" : count === 0 ? "no robot matches" : `${count} of ${this.#robots.length}`;
   }
 
   #see(entry: IntersectionObserverEntry): void {

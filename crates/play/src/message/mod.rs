@@ -3,6 +3,7 @@
 
 mod bodies;
 mod evolution;
+mod export;
 mod files;
 pub(super) mod finding;
 mod program;
@@ -17,6 +18,7 @@ pub(super) use bodies::{
     CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
 };
 pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
+pub(super) use export::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
 pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};
 pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
 pub(super) use swarm::{ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot};
@@ -68,6 +70,7 @@ pub(super) enum RequestResult {
     Keep(KeptRobot),
     Evolve(EvolutionEnd),
     Take(TakenFile),
+    Export(TakenFile),
 }
 
 /// What a page is told without a request.

@@ -46,6 +46,7 @@ schemas! {
     Formatted = "formatted", 1: "Which files are in their canonical form.";
     Library = "library", 1: "A summary of the robots of a library.";
     Play = "play", 1: "The address of a live page.";
+    Player = "player", 1: "A circuit that was written as a page of its own.";
     Radii = "radii", 1: "How far worlds may differ before robots make errors.";
     Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";

@@ -1,0 +1,91 @@
+// The truth table beside the robots: the row of the present inputs is marked, and a click on another one sets them.
+
+import { button, element, fill } from "../element";
+import { recall, remember } from "../memory";
+import { bitsOf } from "../ports";
+import type { ShownSwarm } from "../protocol";
+import type { LiveSwarm } from "./swarm";
+import { truthRows, type TruthRow } from "./truth";
+
+export class TruthView {
+  readonly host = element("div", { class: "table", tabindex: 0, role: "group", "aria-label": "Truth table" });
+  /** Shows and hides it; hidden where there is no table. */
+  readonly toggle = button("Truth table", () => this.#switch(), {
+    "data-do": "truth",
+    title: "What the outputs are for all inputs",
+  });
+  #open: boolean;
+  #rows = new Map<string, HTMLElement>();
+  #marked: HTMLElement | undefined;
+
+  /** Shown from the start if it is `open`, unless the reader has chosen. */
+  constructor(
+    private readonly swarm: LiveSwarm,
+    open: boolean,
+  ) {
+    this.#open = recall<boolean>("truth") ?? open;
+    swarm.definition.follow(definition => this.#build(definition));
+    swarm.inputs.on(() => this.#mark());
+  }
+
+  #switch(): void {
+    this.#open = !this.#open;
+    remember("truth", this.#open);
+    this.#showOpen();
+  }
+
+  #showOpen(): void {
+    const none = this.#rows.size === 0;
+    this.toggle.hidden = none;
+    this.toggle.setAttribute("aria-pressed", String(this.#open));
+    this.host.hidden = none || !this.#open;
+  }
+
+  #build(definition: ShownSwarm | null): void {
+    const rows = definition === null ? null : truthRows(definition);
+    this.#rows.clear();
+    this.host.replaceChildren();
+    if (definition !== null && rows !== null) {
+      fill(this.host, this.#table(definition, rows));
+    }
+    this.#showOpen();
+    this.#mark();
+  }
+
+  #table({ inputs, outputs }: ShownSwarm, rows: TruthRow[]): HTMLElement {
+    const names = (ports: ShownSwarm["inputs"]): HTMLElement[] =>
+      bitsOf(ports).map(({ name }, i) => element("th", { scope: "col", class: i === 0 ? "first" : null }, name));
+    const head = element("tr", {}, element("th"), ...names(inputs), ...names(outputs));
+    return element(
+      "table",
+      { class: "rows" },
+      element("thead", {}, head),
+      element("tbody", {}, ...rows.map(row => this.#row(row))),
+    );
+  }
+
+  #row({ inputs, outputs }: TruthRow): HTMLElement {
+    const cells = (bits: string): HTMLElement[] =>
+      [...bits].map((bit, i) => element("td", { "data-value": bit, class: i === 0 ? "first" : null }, bit));
+    const set = button("▸", () => this.swarm.setInputs(inputs), {
+      class: "link",
+      "aria-label": `set the inputs to ${inputs}`,
+      title: "Set the inputs to this row",
+    });
+    const made = element("tr", { "data-row": inputs }, element("td", {}, set), ...cells(inputs), ...cells(outputs));
+    this.#rows.set(inputs, made);
+    return made;
+  }
+
+  #mark(): void {
+    this.#marked?.removeAttribute("aria-current");
+    this.#marked = this.#rows.get(this.swarm.inputs.value);
+    this.#marked?.setAttribute("aria-current", "true");
+    if (this.#marked !== undefined && !this.host.hidden) {
+      // Only the table scrolls, not the page around it.
+      const [top, height] = [this.#marked.offsetTop, this.#marked.offsetHeight];
+      const { scrollTop, clientHeight } = this.host;
+      this.host.scrollTop = Math.min(top, Math.max(scrollTop, top + height - clientHeight));
+    }
+  }
+}

@@ -1,0 +1,115 @@
+// The views of a swarm: its inputs and outputs, the controls, the stage and the diagrams. The page of `nbc play` and
+// exported pages both show them.
+
+import { element, fill, iconButton } from "../element";
+import type { ShownSwarm } from "../protocol";
+import { colors } from "../theme";
+import { Animation } from "./animation";
+import { ClockPanel } from "./clock";
+import { Controls } from "./controls";
+import { InputPanel } from "./inputs";
+import { Inspector } from "./inspector";
+import { legend } from "./legend";
+import { OutputPanel } from "./outputs";
+import { Schematic } from "./schematic";
+import { Spacetime } from "./spacetime";
+import { Stage } from "./stage";
+import type { LiveSwarm } from "./swarm";
+import { Timeline } from "./timeline";
+import { TruthView } from "./truth_view";
+import { Waveform } from "./waveform";
+
+export class SwarmViews {
+  readonly host = element("div", { class: "swarm" });
+  readonly controls: Controls;
+  readonly stage: Stage;
+  readonly #animation: Animation;
+  readonly #legend = element("div", { class: "legends" });
+
+  /** The views below a `head`; whether the truth table is shown from the start. */
+  constructor(
+    private readonly swarm: LiveSwarm,
+    head: HTMLElement,
+    showsTruth = false,
+  ) {
+    this.#animation = new Animation(swarm);
+    const wake = (): void => this.#animation.wake();
+    const timeline = new Timeline();
+    const [inputs, outputs] = [new InputPanel(swarm), new OutputPanel(swarm)];
+    const truth = new TruthView(swarm, showsTruth);
+    this.controls = new Controls(swarm, truth.toggle, this.host);
+    this.stage = new Stage(swarm, wake);
+    const inspector = new Inspector(swarm);
+    const schematic = new Schematic(swarm);
+    const [waveform, spacetime] = [new Waveform(swarm, timeline, wake), new Spacetime(swarm, timeline, wake)];
+    const clock = new ClockPanel(swarm);
+    this.host.append(
+      head,
+      element("div", { class: "ports" }, inputs.host, clock.host, outputs.host),
+      this.controls.host,
+      element("div", { class: "scene" }, this.stage.pane.host, inspector.host, truth.host),
+      element("div", { class: "diagrams" }, schematic.host, diagrams(waveform, spacetime, timeline)),
+      this.#legend,
+    );
+    for (const view of [inputs, outputs, this.stage, inspector, schematic, waveform, spacetime]) {
+      this.#animation.add(view);
+    }
+    this.#follow(wake);
+  }
+
+  wake(): void {
+    this.#animation.wake();
+  }
+
+  #follow(wake: () => void): void {
+    const { swarm } = this;
+    swarm.definition.on(definition => {
+      const looks = (definition?.looks ?? []).map(look => ({ look, name: MATERIALS[look.name] ?? look.name }));
+      fill(this.#legend, legend(looks, definition?.waves?.threads ?? 1));
+    });
+    swarm.selection.pointed.on(wake);
+    swarm.selection.followed.on(wake);
+    swarm.definition.on(wake);
+    colors.on(wake);
+  }
+}
+
+/** How large a swarm is, and how long its changes take. */
+export function summaryOf({ robots, hold, waves }: ShownSwarm): string {
+  const count = `${robots.length} ${robots.length === 1 ? "robot" : "robots"}`;
+  if (waves !== null) {
+    const machines = waves.threads === 1 ? "one thread" : `${waves.threads} threads at once`;
+    const step = `${waves.step} ${waves.step === 1 ? "cycle" : "cycles"}`;
+    return `${count}, a step of ${step}, ${machines}`;
+  }
+  return `${count}, settles within ${hold} ${hold === 1 ? "cycle" : "cycles"}`;
+}
+
+/** What the materials of the paper do, and those of a third stimulus. */
+const MATERIALS: Record<string, string> = {
+  bone: "bone: rigid",
+  flesh: "flesh: soft",
+  muscle: "muscle: swells and shrinks by itself",
+  antimuscle: "antimuscle: the same, in antiphase",
+  s1_shrink: "shrinks while stimulus 1 is present",
+  s2_shrink: "shrinks while stimulus 2 is present",
+  s1_grow: "grows while stimulus 1 is present",
+  s2_grow: "grows while stimulus 2 is present",
+  s3_shrink: "shrinks while stimulus 3 is present",
+  s3_grow: "grows while stimulus 3 is present",
+};
+
+function diagrams(waveform: Waveform, spacetime: Spacetime, timeline: Timeline): HTMLElement {
+  return element(
+    "div",
+    { class: "times" },
+    element(
+      "div",
+      { class: "zoom" },
+      iconButton("more", "Show fewer cycles", () => timeline.zoomBy(1)),
+      iconButton("less", "Show more cycles", () => timeline.zoomBy(-1)),
+    ),
+    waveform.pane.host,
+    spacetime.pane.host,
+  );
+}
