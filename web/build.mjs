@@ -25,8 +25,21 @@ async function page() {
     legalComments: "none",
     metafile: true,
   });
-  await build({ ...common, entryPoints: ["src/style/app.css"], outfile: "dist/app.css", minify: true });
+  await build({
+    ...common,
+    entryPoints: ["src/class/main.ts"],
+    outfile: "dist/class.js",
+    format: "iife",
+    platform: "browser",
+    target: "es2022",
+    minify: true,
+    legalComments: "none",
+  });
+  for (const sheet of ["app", "class"]) {
+    await build({ ...common, entryPoints: [`src/style/${sheet}.css`], outfile: `dist/${sheet}.css`, minify: true });
+  }
   writeFileSync("dist/index.html", readFileSync("src/index.html"));
+  writeFileSync("dist/class.html", readFileSync("src/class.html"));
   writeFileSync("dist/NOTICES.txt", notices(Object.keys(script.metafile.inputs)));
 }
 

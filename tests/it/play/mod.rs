@@ -1,6 +1,8 @@
 //! `nbc play`: the server, by a page of the tests' own. The tests of `web/` do the same in a browser.
 
 mod attacks;
+mod class;
+mod lessons;
 mod page;
 mod robots;
 mod safety;
