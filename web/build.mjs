@@ -27,8 +27,12 @@ async function page() {
   rmSync("dist", { recursive: true, force: true });
   mkdirSync("dist");
   const bundled = await build({ ...script, entryPoints: ["src/main.ts"], outfile: "dist/app.js" });
-  await build({ ...common, entryPoints: ["src/style/app.css"], outfile: "dist/app.css", minify: true });
+  await build({ ...script, metafile: false, entryPoints: ["src/class/main.ts"], outfile: "dist/class.js" });
+  for (const sheet of ["app", "class"]) {
+    await build({ ...common, entryPoints: [`src/style/${sheet}.css`], outfile: `dist/${sheet}.css`, minify: true });
+  }
   writeFileSync("dist/index.html", readFileSync("src/index.html"));
+  writeFileSync("dist/class.html", readFileSync("src/class.html"));
   writeFileSync("dist/NOTICES.txt", notices(Object.keys(bundled.metafile.inputs)));
   writeFileSync("dist/player.html", await player());
 }

@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use nbc_play::{PlayOptions, PlayServer, is_token};
+use clap::builder::RangedU64ValueParser;
+use nbc_play::{LessonSource, PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
 use nbc_session::{Choice, CompileOptions, Session};
@@ -12,6 +13,11 @@ use serde_json::json;
 
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
+
+/// The name of the lessons that come with the program.
+const SHIPPED: &str = "shipped";
+/// The most pages.
+const MOST_PAGES: u64 = PlayOptions::MOST_PAGES as u64;
 
 /// Show robots live in a browser
 ///
@@ -26,7 +32,8 @@ use nbc_base::diag::counted;
   nbc play
   nbc play circuits/latch.nb
   nbc play adder.nb --port 8000 --no-open
-  nbc play circuits/latch.nb --export latch.html")]
+  nbc play circuits/latch.nb --export latch.html
+  nbc play --class --host 0.0.0.0 --pages 30")]
 pub struct PlayArguments {
     /// The program to open first
     file: Option<PathBuf>,
@@ -47,7 +54,7 @@ pub struct PlayArguments {
     token: Option<String>,
     /// Write the circuit to this HTML file, which plays without a server, and start none
     #[arg(long, value_name = "OUT", requires = "file")]
-    #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token"])]
+    #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages"])]
     export: Option<PathBuf>,
     /// The circuit to export, with parameters such as `adder[8]` [default: the last one in the file]
     #[arg(long, value_name = "NAME", requires = "export")]
@@ -55,6 +62,16 @@ pub struct PlayArguments {
     /// The swarm to export, if several are declared for the circuit
     #[arg(long, value_name = "NAME", requires = "export")]
     swarm: Option<String>,
+    /// Show the lessons of this folder instead of those that come with the program, which are `shipped`. May be
+    /// repeated: `--lessons shipped --lessons DIR` shows both
+    #[arg(long, value_name = "DIR")]
+    lessons: Vec<PathBuf>,
+    /// Let learners join a class with a name, and print the address of a page that shows who is at which lesson
+    #[arg(long)]
+    class: bool,
+    /// The pages that may be open at once, at most 64
+    #[arg(long, default_value_t = 16, value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_PAGES))]
+    pages: usize,
 }
 
 impl PlayArguments {
@@ -63,12 +80,16 @@ impl PlayArguments {
     /// # Errors
     /// When the file cannot be found, the address cannot be listened at, or the circuit cannot be exported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let Self { file, port, host, no_open, page, token, export, circuit, swarm } = self;
+        let Self { file, port, host, no_open, page, token, export, circuit, swarm, lessons, class, pages } = self;
         if let (Some(output), Some(file)) = (export, &file) {
             return write_page(file, &output, &Choice { circuit, swarm }, context);
         }
         let interrupt = Interrupt::watch()?;
-        let server = PlayServer::bind(&PlayOptions { file, host, port, page, token })?;
+        let lessons = lessons.into_iter().map(source).collect();
+        let pages = Some(pages);
+        let server = PlayServer::bind(&PlayOptions { file, host, port, page, token, lessons, class, pages })?;
+        let faults = server.faults_of_lessons();
+        context.tell(&faults.list, &faults.sources);
         tell(&server, context)?;
         let redirect = if no_open { None } else { server.open_browser() };
         if redirect.is_none() && !no_open {
@@ -101,19 +122,28 @@ fn write_page(file: &Path, output: &Path, choice: &Choice, context: &mut Context
 
 /// Prints the address, and the one for other computers.
 fn tell(server: &PlayServer, context: &mut Context) -> Result<(), Failure> {
-    let (address, elsewhere) = (server.address(), server.address_elsewhere());
+    let (address, elsewhere, teacher) = (server.address(), server.address_elsewhere(), server.address_of_teacher());
     match context.format {
         OutputFormat::Text => {
             context.print(format_args!("{address}\n"))?;
             if let Some(elsewhere) = elsewhere {
                 context.print(format_args!("{elsewhere} (for other computers)\n"))?;
             }
+            if let Some(teacher) = teacher {
+                context.print(format_args!("{teacher} (for the teacher)\n"))?;
+            }
         }
         OutputFormat::Json => {
-            context.print_json(Schema::Play, &json!({ "address": address, "elsewhere": elsewhere }))?;
+            context
+                .print_json(Schema::Play, &json!({ "address": address, "elsewhere": elsewhere, "teacher": teacher }))?;
         }
     }
     context.flush()
+}
+
+/// The lessons that come with the program, or those of a folder.
+fn source(folder: PathBuf) -> LessonSource {
+    if folder == Path::new(SHIPPED) { LessonSource::Shipped } else { LessonSource::Folder(folder) }
 }
 
 fn token(text: &str) -> Result<String, String> {

@@ -5,6 +5,8 @@ import { EditPanel } from "./editor/panel";
 import { LanguageServer } from "./editor/server";
 import { Header } from "./header";
 import { Layout } from "./layout";
+import { ClassPanel } from "./learn/class";
+import { Lessons } from "./learn/lessons";
 import { LearnPanel } from "./learn/panel";
 import { SwarmPanel } from "./live/panel";
 import { LiveSwarm } from "./live/swarm";
@@ -26,6 +28,8 @@ export class App {
   readonly #program = new Program(this.#connection, this.#swarm);
   readonly #edit = new EditPanel(this.#connection, this.#program, this.#language, shared => this.#share(shared));
   readonly #header = new Header();
+  readonly #lessons = new Lessons(this.#connection);
+  readonly #class = new ClassPanel(this.#connection);
   readonly #layout: Layout;
   #begun = false;
 
@@ -42,13 +46,15 @@ export class App {
     });
     const learn = new LearnPanel(
       { program: this.#program, swarm: this.#swarm, tests, robots },
+      this.#lessons,
       {
         open: (path, text) => this.#edit.begin(path, text),
         replace: text => this.#edit.editor.replace(text),
         show: tab => this.#layout.show(tab),
       },
+      this.#class,
     );
-    this.#layout = new Layout(this.#header.host, this.#edit.host, learn.strip, [
+    this.#layout = new Layout(this.#header.host, this.#edit.host, learn.strip.host, [
       { name: "swarm", label: "Swarm", panel: swarm.host },
       { name: "tests", label: "Tests", panel: tests.host },
       { name: "robots", label: "Robots", panel: robots.host },
@@ -80,6 +86,8 @@ export class App {
     this.#program.hello = hello;
     this.#header.showFolder(hello);
     this.#language.connect(hello.root);
+    void this.#lessons.load();
+    void this.#class.open(hello.class);
     if (this.#begun) {
       this.#program.restore();
     } else {

@@ -38,6 +38,49 @@ export type CircuitEntry = {
   line: number,
 };
 
+/** The answer to `lessons` of the teacher's page. */
+export type ClassCourse = {
+  lessons: Array<ClassLesson>,
+};
+
+/** A lesson of the course. */
+export type ClassLesson = {
+  name: string,
+  title: string,
+  /** The tasks of its steps. */
+  steps: Array<string>,
+};
+
+/** A member of the class. */
+export type ClassMember = {
+  /** The name that the learner has chosen. */
+  name: string,
+  /** Where the learner is; none outside of lessons. */
+  place: ClassPlace | null,
+  /** The lessons that are finished. */
+  finished: number,
+  /** Seconds since the place has changed. */
+  seconds: number,
+};
+
+/** Where a learner is. */
+export type ClassPlace = {
+  /** The name of the lesson. */
+  lesson: string,
+  /** The steps of it that are done. */
+  done: number,
+  /** The size of their smallest circuit in it. */
+  size: number | null,
+};
+
+/** The answer to `members` of the teacher's page. */
+export type ClassRoll = {
+  /** The members, in the order of their names. */
+  members: Array<ClassMember>,
+  /** The most members. */
+  most: number,
+};
+
 /** Poses as text. */
 export type EncodedGait = {
   /** Poses in a cycle. */
@@ -182,6 +225,8 @@ export type Greeting = {
   files: Array<FileEntry>,
   examples: Array<ExampleEntry>,
   limits: PlayLimits,
+  /** Whether there is a class to join. */
+  class: boolean,
   cycle_seconds: number,
 };
 
@@ -201,6 +246,77 @@ export type KeptRobot = {
   /** A declaration of a library with it. */
   use: string,
 };
+
+/** A condition of a step. */
+export type LessonCheck = { "is": "shows", values: { [key in string]: number }, }
+  | { "is": "keeps", values: { [key in string]: number }, }
+  | { "is": "hides", patterns: Array<{ [key in string]: number }>, }
+  | { "is": "has-shown", patterns: Array<{ [key in string]: number }>, }
+  | { "is": "designs", gate: string, except: boolean, }
+  | { "is": "counts", what: LessonCount, than: LessonComparison, number: number, }
+  | { "is": "robots-only", gates: Array<string>, }
+  | { "is": "without", words: Array<string>, }
+  | { "is": "circuit", name: string, }
+  | { "is": "tests-pass" }
+  | { "is": "tests-fail" }
+  | { "is": "tests-kept" }
+  | { "is": "program-changed" }
+  | { "is": "outputs-lit" }
+  | { "is": "evolving" }
+  | { "is": "niche-chosen" };
+
+/** How a check compares. */
+export type LessonComparison = "<=" | ">=" | "=";
+
+/** What a check counts. */
+export type LessonCount = "robots" | "cycles" | "niches" | "threads";
+
+/** A lesson. */
+export type LessonEntry = {
+  /** The name of its file without the number and the ending. */
+  name: string,
+  title: string,
+  /** Its paragraphs; code is between backticks. */
+  text: Array<string>,
+  /** The program that it begins with. */
+  program: string | null,
+  /** The tab in which it begins. */
+  tab: LessonTab,
+  /** Hints for all of its steps. */
+  hints: Array<string>,
+  /** The size of the best known circuit, where the learner makes one. */
+  best: LessonGoal | null,
+  steps: Array<LessonStep>,
+};
+
+/** The size of a circuit. */
+export type LessonGoal = {
+  number: number,
+  of: LessonMeasure,
+};
+
+/** The answer to `lessons`. */
+export type LessonList = {
+  /** The lessons in their order. */
+  lessons: Array<LessonEntry>,
+  /** What is wrong with the files of an author; such a file gives no lesson. */
+  findings: Array<Finding>,
+};
+
+/** How a circuit is measured: by its robots, or by the gates as they are written. */
+export type LessonMeasure = "robots" | "gates";
+
+/** A step of a lesson. */
+export type LessonStep = {
+  task: string,
+  /** It is done when all of these hold at once. */
+  checks: Array<LessonCheck>,
+  /** Hints for this step alone. */
+  hints: Array<string>,
+};
+
+/** A tab of the page in which a lesson can begin. */
+export type LessonTab = "swarm" | "tests" | "robots";
 
 /** The best body of a niche. */
 export type NicheEntry = {
@@ -280,6 +396,7 @@ export type Refusal = {
 
 /** A request with its number. */
 export type Request = { id: number, } & ({ "do": "hello" }
+  | { "do": "lessons" }
   | { "do": "files" }
   | { "do": "read", path?: string, example?: string, }
   | { "do": "save", path: string, text: string, stamp: string | null, }
@@ -301,6 +418,9 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "evolve" } & EvolveRequest
   | { "do": "take", what: TakeKind, cycles: number, }
   | { "do": "export", path: string, circuit: string, swarm: string | null, }
+  | { "do": "join", name: string, }
+  | { "do": "progress", place: ClassPlace | null, finished: number, }
+  | { "do": "leave" }
   | { "do": "cancel", of: number, });
 
 /** A robot of a library. */
@@ -357,6 +477,7 @@ export type RowValue = {
 
 /** A message of the server. */
 export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
+  | { "to": "lessons", "ok": LessonList }
   | { "to": "files", "ok": Array<FileEntry> }
   | { "to": "read", "ok": FileText }
   | { "to": "save", "ok": FileStamp }

@@ -22,7 +22,7 @@ export async function closeBrowser() {
 export async function visit(url, options = {}) {
   const context = await (await launched()).newContext({ viewport: { width: 1440, height: 900 }, ...options });
   const page = await context.newPage();
-  page.setDefaultTimeout(120_000);
+  page.setDefaultTimeout(Number(process.env.PATIENCE ?? 120_000));
   const errors = [];
   page.on("pageerror", error => errors.push(error.stack));
   page.on("console", message => {

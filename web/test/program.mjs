@@ -22,19 +22,29 @@ export function folderWith(files) {
   return { folder, remove: () => rmSync(folder, { recursive: true, force: true }) };
 }
 
-/** Serves a folder, and opens its `file` first. */
-export async function play(folder, file, { port = 0, token } = {}) {
-  const options = ["--no-open", "--port", String(port), ...option("--token", token), ...option("--page", PAGE)];
-  const child = spawn(path.resolve(PROGRAM), ["play", file, ...options], {
+/** Serves a folder, and opens its `file` first. `more` are further options. */
+export async function play(folder, file, { port = 0, token, more = [] } = {}) {
+  const options = [
+    "--no-open",
+    "--port",
+    String(port),
+    ...option("--token", token),
+    ...option("--page", PAGE),
+    ...more,
+  ];
+  const child = spawn(path.resolve(PROGRAM), ["play", ...(file === undefined ? [] : [file]), ...options], {
     cwd: folder,
     stdio: ["ignore", "pipe", "inherit"],
   });
   const ended = new Promise(resolve => child.once("exit", resolve));
-  const url = await addressOf(child);
+  const output = { text: "" };
+  const url = await addressOf(child, output);
   return {
     url,
     port: Number(new URL(url).port),
     token: new URL(url).pathname.split("/")[1],
+    /** The address of the teacher's page, if there is a class. */
+    teacher: () => /(\S+) \(for the teacher\)/.exec(output.text)?.[1],
     stop: async () => {
       child.kill("SIGTERM");
       await ended;
@@ -46,12 +56,11 @@ function option(name, value) {
   return value ? [name, value] : [];
 }
 
-function addressOf(child) {
+function addressOf(child, output) {
   return new Promise((resolve, reject) => {
-    let text = "";
     child.stdout.on("data", part => {
-      text += part;
-      const found = /http:\/\/\S+/.exec(text);
+      output.text += part;
+      const found = /http:\/\/\S+/.exec(output.text);
       if (found !== null) {
         resolve(found[0]);
       }

@@ -1,21 +1,29 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { NicheEntry } from "../src/protocol";
-import { hasShown, keeps, shows, type Values } from "../src/learn/checks";
-import { LESSONS, outputNames } from "../src/learn/lessons";
+import type { LessonCheck, LessonEntry, NicheEntry } from "../src/protocol";
+import { holds } from "../src/learn/checks";
 import { Progress } from "../src/learn/progress";
+import { sizeOf, starsOf } from "../src/learn/score";
 import type { Situation } from "../src/learn/situation";
+import { circuitsHave, gatesWritten, outputNames, testLines } from "../src/learn/source";
+
+type Values = Record<string, number>;
 
 /** A page that has run these cycles, each with the numbers at its ports. */
 function situation(cycles: Values[], given: Partial<Situation> = {}): Situation {
   return {
     path: "",
     text: "",
+    isChecked: true,
     errors: 0,
     circuits: 1,
     tests: 0,
     passed: 0,
+    failed: 0,
+    circuit: null,
+    robots: [],
+    threads: 0,
     now: cycles.length,
     hold: 2,
     port: (name, cycle) => cycles[cycle - 1]?.[name] ?? null,
@@ -25,59 +33,120 @@ function situation(cycles: Values[], given: Partial<Situation> = {}): Situation 
   };
 }
 
+function lesson(checks: LessonCheck[], given: Partial<LessonEntry> = {}): LessonEntry {
+  const steps = checks.map(check => ({ task: "", checks: [check], hints: [] }));
+  return { name: "one", title: "", text: [], program: null, tab: "swarm", hints: [], best: null, steps, ...given };
+}
+
+function is(check: LessonCheck, given: Situation, program = ""): boolean {
+  return holds(check, given, lesson([check], { program }));
+}
+
 test("a value must stay for as long as a change needs to settle", () => {
   const q = (...values: number[]): Situation => situation(values.map(value => ({ q: value })));
-  assert.equal(shows({ q: 1 })(q(0, 1)), true);
-  assert.equal(keeps({ q: 1 })(q(0, 1)), false);
-  assert.equal(keeps({ q: 1 })(q(0, 1, 1, 1)), true);
-  assert.equal(keeps({ q: 1 })(q(1, 1, 0, 1)), false);
-  assert.equal(keeps({ r: 1 })(q(1, 1, 1, 1)), false);
+  const keeps: LessonCheck = { is: "keeps", values: { q: 1 } };
+  assert.equal(is({ is: "shows", values: { q: 1 } }, q(0, 1)), true);
+  assert.equal(is(keeps, q(0, 1)), false);
+  assert.equal(is(keeps, q(0, 1, 1, 1)), true);
+  assert.equal(is(keeps, q(1, 1, 0, 1)), false);
+  assert.equal(is({ is: "keeps", values: { r: 1 } }, q(1, 1, 1, 1)), false);
 });
 
-test("patterns may have been shown at any time", () => {
-  const check = hasShown([{ a: 0 }, { a: 1 }]);
-  assert.equal(check(situation([{ a: 0 }, { a: 0 }])), false);
-  assert.equal(check(situation([{ a: 1 }, { a: 0 }])), true);
+test("patterns may have been shown at any time, and what is hidden is not there now", () => {
+  const patterns = [{ a: 0 }, { a: 1 }];
+  assert.equal(is({ is: "has-shown", patterns }, situation([{ a: 0 }, { a: 0 }])), false);
+  assert.equal(is({ is: "has-shown", patterns }, situation([{ a: 1 }, { a: 0 }])), true);
+  assert.equal(is({ is: "hides", patterns }, situation([{ a: 1 }])), false);
+  assert.equal(is({ is: "hides", patterns }, situation([{ a: 1 }, { a: 2 }])), true);
+  assert.equal(is({ is: "hides", patterns }, situation([])), false);
 });
 
-test("the lesson on the latch is done by using it as a memory", () => {
-  const lesson = LESSONS.find(({ name }) => name === "latch");
-  assert.ok(lesson !== undefined);
-  const progress = new Progress({});
+test("a lesson on the latch is done by using it as a memory", () => {
+  const keeps = (d: number, e: number, q: number): LessonCheck => ({ is: "keeps", values: { d, e, q } });
+  const latch = lesson([keeps(1, 1, 1), keeps(1, 0, 1), keeps(0, 0, 1)]);
+  const progress = new Progress({}, {});
   const held = (d: number, e: number, q: number): Situation =>
     situation(Array.from({ length: 3 }, () => ({ d, e, q })));
-  assert.equal(progress.advance(lesson, held(1, 0, 1)), false);
-  assert.equal(progress.advance(lesson, held(1, 1, 1)), true);
-  assert.equal(progress.advance(lesson, held(0, 0, 1)), false);
-  assert.equal(progress.advance(lesson, held(1, 0, 1)), true);
-  assert.equal(progress.advance(lesson, held(0, 0, 0)), false);
-  assert.equal(progress.advance(lesson, held(0, 0, 1)), true);
-  assert.equal(progress.isFinished(lesson), true);
-  progress.restart(lesson);
-  assert.equal(progress.done(lesson), 0);
+  assert.equal(progress.advance(latch, held(1, 0, 1)), false);
+  assert.equal(progress.advance(latch, held(1, 1, 1)), true);
+  assert.equal(progress.advance(latch, held(0, 0, 1)), false);
+  assert.equal(progress.advance(latch, held(1, 0, 1)), true);
+  assert.equal(progress.advance(latch, held(0, 0, 0)), false);
+  assert.equal(progress.advance(latch, held(0, 0, 1)), true);
+  assert.equal(progress.isFinished(latch), true);
+  progress.restart(latch);
+  assert.equal(progress.done(latch), 0);
 });
 
-test("there are eight lessons, each with something to do", () => {
-  assert.equal(LESSONS.length, 8);
-  assert.equal(new Set(LESSONS.map(lesson => lesson.name)).size, 8);
-  LESSONS.forEach(lesson => assert.ok(lesson.steps.length > 0));
-});
-
-test("the lesson on evolution follows the search at once, and not one of before", () => {
-  const lesson = LESSONS.find(({ name }) => name === "evolution");
-  assert.ok(lesson !== undefined);
+test("a search counts at once, and only the body of a niche that was clicked", () => {
   const body = ["343"];
   const niche: NicheEntry = { place: [0], fitness: [1, 1], body, letters: "RRRL", function: "nand" };
-  const [begin, wait, click] = lesson.steps.map(step => step.check);
-  const old = { running: false, niches: [niche, niche, niche, niche, niche], chosen: null };
-  assert.equal(begin?.(situation([], { search: old })), false);
-  assert.equal(begin?.(situation([], { search: { running: true, niches: [], chosen: null } })), true);
-  assert.equal(wait?.(situation([], { search: old })), true);
-  const chosen = { ...old, chosen: niche };
-  assert.equal(click?.(situation([], { search: old, design: { body, probe: null } })), false);
-  assert.equal(click?.(situation([], { search: chosen, design: { body, probe: null } })), true);
+  const niches = Array.from({ length: 5 }, () => niche);
+  const old = { running: false, niches, chosen: null };
+  assert.equal(is({ is: "evolving" }, situation([], { search: old })), false);
+  assert.equal(is({ is: "evolving" }, situation([], { search: { ...old, running: true, niches: [] } })), true);
+  assert.equal(is({ is: "counts", what: "niches", than: ">=", number: 5 }, situation([], { search: old })), true);
+  assert.equal(is({ is: "counts", what: "niches", than: "=", number: 4 }, situation([], { search: old })), false);
+  const design = { body, probe: null };
+  assert.equal(is({ is: "niche-chosen" }, situation([], { search: old, design })), false);
+  assert.equal(is({ is: "niche-chosen" }, situation([], { search: { ...old, chosen: niche }, design })), true);
+});
+
+const PROGRAM = `// and not a gate
+library nands { from: shipped, behaviors: [nand] }
+
+circuit different(a, b) -> (q) {
+    t = a nand b  // or so
+    q = nand(nand(a, t), nand(b, t))
+}
+
+test different "not or and" for all inputs {
+    q = a   xor b
+}
+`;
+
+test("gates are counted in circuits, not in tests, comments and libraries", () => {
+  assert.equal(gatesWritten(PROGRAM), 4);
+  assert.equal(gatesWritten("circuit x(a) -> (q) { q = not a }\ncircuit y(a) -> (q) { q = a and a }"), 2);
+  assert.equal(circuitsHave(PROGRAM, "xor"), false);
+  assert.equal(circuitsHave(PROGRAM, "nand"), true);
+  assert.equal(circuitsHave(PROGRAM, "-"), false);
+  assert.equal(circuitsHave(PROGRAM.replace("t = a nand b", "t = a - b"), "-"), true);
+  assert.deepEqual([...testLines(PROGRAM)], ['test different "not or and" for all inputs {', "q = a xor b", "}"]);
+});
+
+test("tests may get more rows, but keep those they have", () => {
+  const kept = (text: string): boolean => is({ is: "tests-kept" }, situation([], { text }), PROGRAM);
+  assert.equal(kept(PROGRAM), true);
+  assert.equal(kept(PROGRAM.replace("q = a   xor b", "q = a xor b\n    r = a")), true);
+  assert.equal(kept(PROGRAM.replace("q = a   xor b", "q = a or b")), false);
+});
+
+test("a size counts where the circuit is right, and the best has three stars", () => {
+  const checks: LessonCheck[] = [{ is: "tests-pass" }, { is: "without", words: ["xor"] }];
+  const gates = lesson(checks, { best: { number: 4, of: "gates" } });
+  const right = situation([], { text: PROGRAM, tests: 1, passed: 1, robots: ["nand", "nand"] });
+  assert.equal(sizeOf(gates, right), 4);
+  assert.equal(sizeOf({ ...gates, best: { number: 4, of: "robots" } }, right), 2);
+  assert.equal(sizeOf({ ...gates, best: null }, right), null);
+  assert.equal(sizeOf(gates, { ...right, passed: 0 }), null);
+  assert.deepEqual(
+    [3, 4, 5, 6, 7].map(size => starsOf(size, 4)),
+    [3, 3, 2, 2, 1],
+  );
+  const progress = new Progress({}, {});
+  assert.deepEqual(
+    [progress.noteSize(gates, 5), progress.noteSize(gates, 6), progress.noteSize(gates, 4)],
+    [true, false, true],
+  );
+  assert.equal(progress.size(gates), 4);
 });
 
 test("outputs are found in a text", () => {
-  assert.deepEqual(outputNames("circuit x(a, b) -> (q, sum[3]) {}\ncircuit y() -> (z) {}"), ["q", "sum", "z"]);
+  assert.deepEqual(outputNames("circuit x(a, b) -> (q, sum[3]) {}\ncircuit y() -> (z, s: light) {}"), [
+    "q",
+    "sum",
+    "z",
+    "s",
+  ]);
 });

@@ -118,9 +118,16 @@ test("a lesson learns nothing from the swarm of another program", () => {
   const { swarm } = Server.withRun();
   const design = { body: [], probe: null };
   const search = { running: false, niches: [], chosen: null };
-  const parts = (shown: string): Parameters<typeof situationOf>[0] =>
+  const parts = (shown: string, state = "ready"): Parameters<typeof situationOf>[0] =>
     ({
-      program: { path: { value: "lesson.nb" }, shown, text: "", checked: { value: null }, isChecked: true },
+      program: {
+        path: { value: "lesson.nb" },
+        shown,
+        text: "",
+        checked: { value: null },
+        isChecked: true,
+        stage: { value: { state } },
+      },
       swarm,
       tests: { states: { value: new Map() } },
       robots: { designer: { design: { value: design } }, evolution: { search: { value: search } } },
@@ -128,4 +135,8 @@ test("a lesson learns nothing from the swarm of another program", () => {
   assert.equal(situationOf(parts("lesson.nb")).port("a", 4), 1);
   assert.equal(situationOf(parts("other.nb")).port("a", 4), null);
   assert.equal(situationOf(parts("other.nb")).now, 0);
+  // Robots count only where they are those of the present text.
+  assert.equal(situationOf(parts("lesson.nb")).circuit, "c");
+  assert.equal(situationOf(parts("lesson.nb", "compiling")).circuit, null);
+  assert.equal(situationOf(parts("other.nb")).circuit, null);
 });

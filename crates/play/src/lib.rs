@@ -1,6 +1,7 @@
 //! The live page: a server that runs swarms, and a page in a browser that draws them (docs/play-protocol.md).
 
 mod bodies;
+mod class;
 mod connections;
 mod evolving;
 mod export;
@@ -9,6 +10,7 @@ mod frame;
 mod history;
 mod jobs;
 mod language;
+mod lessons;
 mod live;
 mod message;
 mod outbox;
@@ -22,6 +24,7 @@ mod server;
 mod socket;
 mod takes;
 mod taking;
+mod teacher;
 #[cfg(test)]
 mod typescript;
 mod visit;
@@ -32,15 +35,18 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Duration;
 
-use nbc_base::diag::io_words;
+use nbc_base::diag::{Diagnostics, io_words};
 use nbc_circuit::CancelFlag;
 use nbc_session::store::{FolderWorld, PrivateFile};
 use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
+use tokio::sync::Semaphore;
 
 pub use export::{ExportedPage, export};
+pub use lessons::LessonSource;
 pub use wording::PlayError;
 
+use class::Class;
 use page::Page;
 use served::Served;
 
@@ -66,6 +72,17 @@ pub struct PlayOptions {
     pub page: Option<PathBuf>,
     /// The secret part of the address ([`is_token`]), instead of a random one.
     pub token: Option<String>,
+    /// The lessons of the page, one source after the other; those that come with the program if there is none.
+    pub lessons: Vec<LessonSource>,
+    /// Whether pages can join a class, which a page of its own shows.
+    pub class: bool,
+    /// The pages for which there is room, at most [`PlayOptions::MOST_PAGES`]; 16 if it is not said.
+    pub pages: Option<usize>,
+}
+
+impl PlayOptions {
+    /// The most pages for which there can be room.
+    pub const MOST_PAGES: usize = served::MOST_PAGES;
 }
 
 /// A server that has its address, and serves nothing until [`PlayServer::serve`].
@@ -97,7 +114,17 @@ impl PlayServer {
         let bound = runtime.block_on(TcpListener::bind((options.host.as_str(), options.port)));
         let listener = bound.map_err(refused)?;
         let port = listener.local_addr().map_err(system)?.port();
-        let served = Served { page, host: options.host.clone(), port, ..Served::new(folder, root, file, token) };
+        let mut served = Served { page, host: options.host.clone(), port, ..Served::new(folder, root, file, token) };
+        if !options.lessons.is_empty() {
+            served.lessons.clone_from(&options.lessons);
+        }
+        if let Some(pages) = options.pages {
+            let pages = pages.clamp(1, PlayOptions::MOST_PAGES);
+            served.sockets = Arc::new(Semaphore::new(pages * served::SOCKETS_OF_PAGE));
+        }
+        if options.class {
+            served.class = Some(Arc::new(Class::new(random_token()?)));
+        }
         Ok(Self { runtime, listener, served: Arc::new(served) })
     }
 
@@ -109,6 +136,16 @@ impl PlayServer {
     /// The address for other computers, if they can reach the server.
     pub fn address_elsewhere(&self) -> Option<String> {
         self.served.address_elsewhere()
+    }
+
+    /// The address of the teacher's page, if there is a class.
+    pub fn address_of_teacher(&self) -> Option<String> {
+        self.served.address_of_teacher()
+    }
+
+    /// What is wrong with the lessons of an author. A page shows it, too.
+    pub fn faults_of_lessons(&self) -> Diagnostics {
+        lessons::load(&self.served.lessons, Some(&self.served.world)).found
     }
 
     /// Opens the page in a browser, through a file that must stay until the browser has read it; `None` if no browser
@@ -147,6 +184,11 @@ pub fn serve_texts(folder: &Path, texts: &[&str]) {
     // Nobody reads the answers.
     drop(outgoing);
     texts.iter().for_each(|text| visit.receive_and_wait(text, PATIENCE));
+}
+
+/// What is wrong with the text of a lesson. The fuzzer calls this, because it needs no folder.
+pub fn faults_of_lesson(text: &str) -> Diagnostics {
+    lessons::faults_of(text)
 }
 
 /// Whether a text can be the secret part of an address.

@@ -17,6 +17,12 @@ const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=315360
 
 /// The texts of the page.
 pub(super) struct Page {
+    own: Parts,
+    teacher: Parts,
+}
+
+/// A document, its script and its style.
+struct Parts {
     html: Part,
     script: Part,
     style: Part,
@@ -34,11 +40,17 @@ struct Part {
 impl Default for Page {
     /// The one in the program.
     fn default() -> Self {
-        Self::new(
-            include_str!("../page/index.html"),
+        let own = Parts::new(
+            ("app", include_str!("../page/index.html")),
             include_str!("../page/app.js").into(),
             include_str!("../page/app.css").into(),
-        )
+        );
+        let teacher = Parts::new(
+            ("class", include_str!("../page/class.html")),
+            include_str!("../page/class.js").into(),
+            include_str!("../page/class.css").into(),
+        );
+        Self { own, teacher }
     }
 }
 
@@ -50,24 +62,43 @@ impl Page {
     pub(super) fn of(folder: Option<&Path>) -> io::Result<Self> {
         let Some(folder) = folder else { return Ok(Self::default()) };
         let read = |name: &str| fs::read_to_string(folder.join(name));
-        Ok(Self::new(&read("index.html")?, read("app.js")?.into(), read("app.css")?.into()))
-    }
-
-    fn new(html: &str, script: Cow<'static, str>, style: Cow<'static, str>) -> Self {
-        let script = Part::new(hashed("app", "js", &script), "text/javascript; charset=utf-8", script);
-        let style = Part::new(hashed("app", "css", &style), "text/css; charset=utf-8", style);
-        let html = html.replace("\"app.js\"", &format!("\"{}\"", script.name));
-        let html = html.replace("\"app.css\"", &format!("\"{}\"", style.name));
-        Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
+        let own = Parts::new(("app", &read("index.html")?), read("app.js")?.into(), read("app.css")?.into());
+        let teacher = ("class", &*read("class.html")?);
+        Ok(Self { own, teacher: Parts::new(teacher, read("class.js")?.into(), read("class.css")?.into()) })
     }
 
     /// The document, which a browser asks for each time.
     pub(super) fn document(&self, request: &HeaderMap) -> Response {
-        self.html.answer(request)
+        self.own.html.answer(request)
     }
 
     /// A script or a style by its name.
     pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
+        self.own.part(name, request)
+    }
+
+    /// The document of the teacher's page.
+    pub(super) fn teacher(&self, request: &HeaderMap) -> Response {
+        self.teacher.html.answer(request)
+    }
+
+    /// A script or a style of the teacher's page by its name.
+    pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<Response> {
+        self.teacher.part(name, request)
+    }
+}
+
+impl Parts {
+    /// The parts whose document names `STEM.js` and `STEM.css`.
+    fn new((stem, html): (&str, &str), script: Cow<'static, str>, style: Cow<'static, str>) -> Self {
+        let script = Part::new(hashed(stem, "js", &script), "text/javascript; charset=utf-8", script);
+        let style = Part::new(hashed(stem, "css", &style), "text/css; charset=utf-8", style);
+        let html = html.replace(&format!("\"{stem}.js\""), &format!("\"{}\"", script.name));
+        let html = html.replace(&format!("\"{stem}.css\""), &format!("\"{}\"", style.name));
+        Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
+    }
+
+    fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
         let part = [&self.script, &self.style].into_iter().find(|part| part.name == name)?;
         let mut response = part.answer(request);
         response.headers_mut().insert(header::CACHE_CONTROL, IMMUTABLE);
@@ -117,7 +148,7 @@ mod tests {
 
     #[test]
     fn another_text_has_another_name_and_the_document_names_it() {
-        let page = |script: &'static str| Page::new("<script src=\"app.js\">", script.into(), "".into());
+        let page = |script: &'static str| Parts::new(("app", "<script src=\"app.js\">"), script.into(), "".into());
         let (one, two) = (page("a"), page("b"));
         assert_ne!(one.script.name, two.script.name);
         assert_eq!(one.html.text, format!("<script src=\"{}\">", one.script.name));

@@ -4,6 +4,7 @@ use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
+use crate::class;
 use crate::message::finding::{Finding, findings};
 use crate::wording::PlayError;
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
@@ -49,6 +50,14 @@ pub(super) enum Refused {
     Name(String),
     /// A body that cannot be simulated.
     Body(String),
+    /// There is no class, or the page has not joined it.
+    NoClass,
+    /// The class is full.
+    ClassFull { most: usize },
+    /// A name that cannot be that of a learner.
+    ClassName,
+    /// A name that another learner has.
+    ClassNameTaken { name: String },
     /// A fault of the program.
     Internal,
     /// A circuit that cannot be exported.
@@ -107,6 +116,10 @@ impl Refused {
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
             Self::Export(error) => Diagnostic::from(error.clone()).message,
+            Self::NoClass => "this page is in no class".to_owned(),
+            Self::ClassFull { most } => format!("the class has {most} members, and no room for another one"),
+            Self::ClassName => format!("a name has 1 to {} letters, in one line", class::LONGEST),
+            Self::ClassNameTaken { name } => format!("somebody else is called {name}"),
             Self::Internal => "the program failed; its log says where".to_owned(),
             Self::Source(found) => match found.list.iter().find(|one| one.is_error()) {
                 Some(first) => first.message.clone(),
@@ -121,6 +134,7 @@ impl Refused {
             Self::Name(_) => Some("use letters, digits, `_` and `-`".to_owned()),
             Self::NumberInUse { .. } => Some("give each request a number of its own".to_owned()),
             Self::RobotExists { free, .. } => Some(format!("the name `{free}` is free")),
+            Self::ClassNameTaken { .. } => Some("choose another name".to_owned()),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
             Self::Export(error) => Diagnostic::from(error.clone()).help,

@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 #[cfg(test)]
 use ts_rs::TS;
 
+use crate::message::ClassPlace;
 use crate::runner::Change;
 use nbc_swarm::Level;
 
@@ -22,6 +23,7 @@ pub(super) struct Request {
 #[serde(tag = "do", rename_all = "lowercase")]
 pub(super) enum Verb {
     Hello,
+    Lessons,
     Files,
     Read {
         #[cfg_attr(test, ts(optional))]
@@ -95,6 +97,14 @@ pub(super) enum Verb {
         circuit: String,
         swarm: Option<String>,
     },
+    Join {
+        name: String,
+    },
+    Progress {
+        place: Option<ClassPlace>,
+        finished: u32,
+    },
+    Leave,
     Cancel {
         of: u64,
     },

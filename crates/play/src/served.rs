@@ -8,6 +8,8 @@ use axum::http::{HeaderMap, header};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use tokio::sync::Semaphore;
 
+use crate::class::Class;
+use crate::lessons::LessonSource;
 use crate::page::Page;
 use crate::takes::Takes;
 use nbc_session::report::Scheme;
@@ -17,9 +19,11 @@ use nbc_session::store::FolderWorld;
 pub(super) const SCHEME: Scheme = Scheme::Safe;
 /// The largest message that a page may send, in bytes.
 pub(super) const MOST_BYTES: usize = 1 << 20;
-/// The most sockets at once, and those of a page.
-const MOST_SOCKETS: usize = 32;
-const SOCKETS_OF_PAGE: usize = 2;
+/// The pages for which there is room, unless the user says how many, and the most that may be said.
+pub(super) const PAGES: usize = 16;
+pub(super) const MOST_PAGES: usize = 64;
+/// The sockets of a page.
+pub(super) const SOCKETS_OF_PAGE: usize = 2;
 
 /// The state that all pages of a server share.
 pub(super) struct Served {
@@ -34,19 +38,24 @@ pub(super) struct Served {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) page: Page,
+    pub(super) lessons: Vec<LessonSource>,
+    /// The class that pages can join.
+    pub(super) class: Option<Arc<Class>>,
     pub(super) takes: Takes,
     pub(super) sockets: Arc<Semaphore>,
     /// The bytes of all messages that wait to be handled.
     pub(super) waiting: AtomicUsize,
     /// Threads for searches and measurements, so that swarms never wait for these.
     pub(super) background: ThreadPool,
+    /// A thread for bodies in the designer, which do not wait for the search of another page.
+    pub(super) probing: ThreadPool,
 }
 
 impl Served {
     pub(super) fn new(world: FolderWorld, root: String, file: Option<String>, token: String) -> Self {
-        let sockets = Arc::new(Semaphore::new(MOST_SOCKETS));
+        let sockets = Arc::new(Semaphore::new(PAGES * SOCKETS_OF_PAGE));
         let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        let background = ThreadPoolBuilder::new().num_threads((cores - 1).max(1)).build();
+        let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("the system has threads");
         Self {
             world,
             root,
@@ -55,19 +64,31 @@ impl Served {
             host: String::new(),
             port: 0,
             page: Page::default(),
+            lessons: vec![LessonSource::Shipped],
+            class: None,
             takes: Takes::default(),
             sockets,
             waiting: AtomicUsize::new(0),
-            background: background.expect("the system has threads"),
+            background: pool((cores - 1).max(1)),
+            probing: pool(1),
         }
     }
 
     /// The address of the page, for a browser on this computer.
     pub(super) fn address(&self) -> String {
+        self.local_address(&self.token)
+    }
+
+    /// The address of the teacher's page, for a browser on this computer.
+    pub(super) fn address_of_teacher(&self) -> Option<String> {
+        self.class.as_ref().map(|class| self.local_address(&class.token))
+    }
+
+    fn local_address(&self, token: &str) -> String {
         match self.everywhere() {
-            Some(IpAddr::V4(_)) => self.address_at(&Ipv4Addr::LOCALHOST.to_string()),
-            Some(IpAddr::V6(_)) => self.address_at(&Ipv6Addr::LOCALHOST.to_string()),
-            None => self.address_at(&self.host),
+            Some(IpAddr::V4(_)) => self.address_at(&Ipv4Addr::LOCALHOST.to_string(), token),
+            Some(IpAddr::V6(_)) => self.address_at(&Ipv6Addr::LOCALHOST.to_string(), token),
+            None => self.address_at(&self.host, token),
         }
     }
 
@@ -83,12 +104,12 @@ impl Served {
         let socket = UdpSocket::bind(any).ok()?;
         socket.connect(target).ok()?;
         let own = socket.local_addr().ok()?.ip();
-        (!own.is_loopback()).then(|| self.address_at(&own.to_string()))
+        (!own.is_loopback()).then(|| self.address_at(&own.to_string(), &self.token))
     }
 
-    fn address_at(&self, host: &str) -> String {
+    fn address_at(&self, host: &str, token: &str) -> String {
         let host = if host.contains(':') { format!("[{host}]") } else { host.to_owned() };
-        format!("http://{host}:{}/{}/", self.port, self.token)
+        format!("http://{host}:{}/{token}/", self.port)
     }
 
     /// The address that stands for all of this computer, if the server listens there.
@@ -101,10 +122,14 @@ impl Served {
         self.sockets.available_permits() < SOCKETS_OF_PAGE
     }
 
-    /// Whether a path begins with the token. Takes the same time for any wrong one.
+    /// Whether a path begins with the token.
     pub(super) fn knows(&self, token: &str) -> bool {
-        let differ = token.bytes().zip(self.token.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
-        token.len() == self.token.len() && differ == 0
+        is_same(token, &self.token)
+    }
+
+    /// The class, if a path begins with the token of the teacher's page.
+    pub(super) fn taught(&self, token: &str) -> Option<&Class> {
+        self.class.as_deref().filter(|class| is_same(token, &class.token))
     }
 
     /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
@@ -124,6 +149,12 @@ impl Served {
             || name == self.host
             || address.is_ok_and(|address| everywhere || address.is_loopback() || address.to_string() == self.host)
     }
+}
+
+/// Whether two tokens are the same. Takes the same time for any wrong one.
+fn is_same(token: &str, secret: &str) -> bool {
+    let differ = token.bytes().zip(secret.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
+    token.len() == secret.len() && differ == 0
 }
 
 #[cfg(test)]

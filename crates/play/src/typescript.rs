@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ts_rs::{Config, TS, TypeVisitor};
 
-use crate::message::{ExportedSwarm, ServerMessage};
+use crate::message::{ClassCourse, ClassRoll, ExportedSwarm, ServerMessage};
 use crate::request::Request;
 
 const HEAD: &str = "\
@@ -76,6 +76,8 @@ fn the_protocol_of_the_page_is_that_of_the_server() {
     declared.visit::<Request>();
     declared.visit::<ServerMessage>();
     declared.visit::<ExportedSwarm>();
+    declared.visit::<ClassCourse>();
+    declared.visit::<ClassRoll>();
     let texts: Vec<String> = declared.texts.into_values().collect();
     let expected = format!("{HEAD}\n{}\n", texts.join("\n\n"));
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../web/src/protocol.ts");

@@ -9,16 +9,18 @@ use axum::extract::ws::Utf8Bytes;
 use serde_json::Value;
 use tokio::sync::mpsc;
 
+use crate::class::Membership;
 use crate::files::{PageFiles, example, examples};
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, Jobs};
-use crate::message::{Greeting, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
+use crate::message::finding::findings;
+use crate::message::{Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
 use crate::runner::{self, SwarmOrder};
 use crate::served::{MOST_BYTES, Served};
-use crate::{bodies, evolving, programs, taking};
+use crate::{bodies, evolving, lessons, programs, taking};
 use nbc_circuit::CancelFlag;
 use nbc_session::store::GuardedWorld;
 use nbc_session::{Checked, Choice, Compiled, Session};
@@ -39,6 +41,7 @@ pub(super) struct Visit {
     outbox: Outbox,
     swarms: u32,
     looked: Instant,
+    membership: Option<Membership>,
 }
 
 impl Visit {
@@ -55,6 +58,7 @@ impl Visit {
             served,
             swarms: 0,
             looked: Instant::now(),
+            membership: None,
         }
     }
 
@@ -115,6 +119,18 @@ impl Visit {
                 self.session.update(&path, self.revision, text);
                 Ok(RequestResult::Program(programs::program(&self.session.checked(&path))))
             }
+            Verb::Join { name } => {
+                let done = self.join(&name);
+                return self.outbox.done(id, done);
+            }
+            Verb::Progress { place, finished } => {
+                let done = self.membership.as_ref().ok_or(Refused::NoClass);
+                return self.outbox.done(id, done.map(|membership| membership.progress(place, finished)));
+            }
+            Verb::Leave => {
+                self.membership = None;
+                return self.outbox.done(id, Ok(()));
+            }
             Verb::Cancel { of } => {
                 self.jobs.cancel(of);
                 return self.outbox.done(id, Ok(()));
@@ -122,6 +138,14 @@ impl Visit {
             long => return self.start(id, long),
         };
         self.outbox.answer(id, answer);
+    }
+
+    /// Joins the class. A page that has joined it takes another name.
+    fn join(&mut self, name: &str) -> Result<(), Refused> {
+        let class = self.served.class.as_ref().ok_or(Refused::NoClass)?;
+        self.membership = None;
+        self.membership = Some(class.join(name)?);
+        Ok(())
     }
 
     /// Starts a long request.
@@ -149,10 +173,18 @@ impl Visit {
                     bodies::robots(&session, checked.as_deref()).map(|cards| Some(RequestResult::Robots(cards)))
                 }))
             }
+            Verb::Lessons => {
+                let served = self.served.clone();
+                Ok(boxed(move |_| {
+                    let lessons::ReadLessons { lessons, found } = lessons::load(&served.lessons, Some(&served.world));
+                    let findings = findings(&found.list, &found.sources);
+                    Ok(Some(RequestResult::Lessons(LessonList { lessons, findings })))
+                }))
+            }
             Verb::Probe { body, cycles, character } => {
                 let served = self.served.clone();
                 let is_whole = character.unwrap_or(true);
-                Ok(boxed(move |job| served.background.install(|| bodies::probe(&body, cycles, is_whole, job))))
+                Ok(boxed(move |job| served.probing.install(|| bodies::probe(&body, cycles, is_whole, job))))
             }
             Verb::Evolve(request) => {
                 let served = self.served.clone();
@@ -190,6 +222,7 @@ impl Visit {
             files: self.files.list(),
             examples: examples(),
             limits: PlayLimits { robots: programs::MOST_ROBOTS, cycles: MEMORY, message: MOST_BYTES },
+            class: self.served.class.is_some(),
             cycle_seconds: 0.25,
         }
     }
@@ -269,9 +302,9 @@ mod tests {
     use crate::outbox::outbox;
     use nbc_session::store::FolderWorld;
 
-    const VERBS: [&str; 16] = [
+    const VERBS: [&str; 20] = [
         "hello", "files", "read", "save", "program", "inputs", "clock", "run", "pause", "step", "reset", "seek",
-        "view", "cancel", "robots", "nonsense",
+        "view", "cancel", "robots", "lessons", "join", "progress", "leave", "nonsense",
     ];
     const TEXTS: [&str; 6] = ["a.nb", "../a", "", "circuit f(a) -> (q) { q = a }", "é\u{0}", "01"];
 
@@ -298,6 +331,7 @@ mod tests {
                 let request = json!({
                     "id": one, "do": verb, "path": text, "text": text, "example": text, "stamp": null, "bits": text,
                     "bit": two, "half": one, "speed": two, "cycles": one, "cycle": two, "robots": [one], "of": two,
+                    "name": text, "place": null, "finished": one,
                 });
                 visit.receive(&request.to_string());
             }

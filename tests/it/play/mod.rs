@@ -2,6 +2,8 @@
 
 mod attacks;
 mod export;
+mod class;
+mod lessons;
 mod page;
 mod robots;
 mod safety;

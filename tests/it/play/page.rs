@@ -19,6 +19,8 @@ pub(super) struct Server {
     _limit: Limit,
     /// `http://127.0.0.1:PORT/TOKEN/`
     pub(super) address: String,
+    /// The token of the teacher's page, if there is a class.
+    pub(super) teacher: Option<String>,
 }
 
 impl Server {
@@ -31,8 +33,16 @@ impl Server {
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let limit = Limit::of(&child);
         let mut address = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut address).unwrap();
-        Self { child, _limit: limit, address: address.trim().to_owned() }
+        let mut printed = BufReader::new(child.stdout.take().unwrap());
+        printed.read_line(&mut address).unwrap();
+        let mut teacher = None;
+        if command.get_args().any(|argument| argument == "--class") {
+            let mut line = String::new();
+            printed.read_line(&mut line).unwrap();
+            assert!(line.ends_with(" (for the teacher)\n"), "{line}");
+            teacher = line.split('/').nth(3).map(str::to_owned);
+        }
+        Self { child, _limit: limit, address: address.trim().to_owned(), teacher }
     }
 
     /// The number of the process.

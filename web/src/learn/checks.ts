@@ -1,41 +1,80 @@
 // The conditions of lessons.
 
+import type { LessonCheck, LessonCount, LessonEntry } from "../protocol";
 import type { Situation } from "./situation";
+import { circuitsHave, outputNames, testLines } from "./source";
 
-export type Check = (situation: Situation) => boolean;
+type Values = { [port: string]: number | undefined };
 
-export type Values = Record<string, number>;
+/** The last cycles in which `has-shown` looks. */
+const LATELY = 400;
 
-/** The ports have these values now. */
-export function shows(values: Values): Check {
-  return situation => holds(situation, values, situation.now);
+/** Whether a condition of a lesson holds. */
+export function holds(check: LessonCheck, situation: Situation, lesson: LessonEntry): boolean {
+  const { now, text, tests, passed, failed, search, design } = situation;
+  switch (check.is) {
+    case "shows":
+      return has(situation, check.values, now);
+    case "hides":
+      return now > 0 && check.patterns.every(values => !has(situation, values, now));
+    case "keeps":
+      return (
+        now - situation.hold >= 1 &&
+        cycles(now - situation.hold, now).every(cycle => has(situation, check.values, cycle))
+      );
+    case "has-shown": {
+      const lately = cycles(Math.max(1, now - LATELY), now);
+      return check.patterns.every(values => lately.some(cycle => has(situation, values, cycle)));
+    }
+    case "designs":
+      return (
+        design.probe !== null && !("fault" in design.probe) && (design.probe.function === check.gate) !== check.except
+      );
+    case "counts":
+      return compares(counted(check.what, situation), check.than, check.number);
+    case "robots-only":
+      return situation.robots.length > 0 && situation.robots.every(gate => check.gates.includes(gate));
+    case "without":
+      return !check.words.some(word => circuitsHave(text, word));
+    case "circuit":
+      return situation.circuit === check.name;
+    case "tests-pass":
+      return tests > 0 && passed === tests;
+    case "tests-fail":
+      return failed > 0;
+    case "tests-kept": {
+      const kept = testLines(text);
+      return [...testLines(lesson.program ?? "")].every(line => kept.has(line));
+    }
+    case "program-changed":
+      return (
+        situation.isChecked &&
+        situation.errors === 0 &&
+        situation.circuits > 0 &&
+        tests > 0 &&
+        text.trim() !== (lesson.program ?? "").trim()
+      );
+    case "outputs-lit":
+      return outputNames(text).some(name => (situation.port(name, now) ?? 0) > 0);
+    case "evolving":
+      return search.running;
+    case "niche-chosen":
+      return search.chosen !== null && search.chosen.body.join() === design.body.join();
+  }
 }
 
-/** The ports have had these values for as long as a change needs to settle. */
-export function keeps(values: Values): Check {
-  return situation => {
-    const start = situation.now - situation.hold;
-    return (
-      start >= 1 &&
-      Array.from({ length: situation.hold + 1 }, (_, i) => start + i).every(cycle => holds(situation, values, cycle))
-    );
-  };
-}
-
-/** Each of these patterns of values has been there in the last `cycles` cycles. */
-export function hasShown(patterns: Values[], cycles = 400): Check {
-  return situation => {
-    const start = Math.max(1, situation.now - cycles);
-    const range = Array.from({ length: situation.now - start + 1 }, (_, i) => start + i);
-    return patterns.every(values => range.some(cycle => holds(situation, values, cycle)));
-  };
-}
-
-/** The body in the designer is this gate. */
-export function designs(gate: (name: string) => boolean): Check {
-  return ({ design }) => design.probe !== null && !("fault" in design.probe) && gate(design.probe.function);
-}
-
-function holds(situation: Situation, values: Values, cycle: number): boolean {
+function has(situation: Situation, values: Values, cycle: number): boolean {
   return Object.entries(values).every(([name, value]) => situation.port(name, cycle) === value);
+}
+
+function cycles(first: number, last: number): number[] {
+  return Array.from({ length: last - first + 1 }, (_, i) => first + i);
+}
+
+function counted(what: LessonCount, { robots, now, search, threads }: Situation): number {
+  return { robots: robots.length, cycles: now, niches: search.niches.length, threads }[what];
+}
+
+function compares(found: number, than: "<=" | ">=" | "=", number: number): boolean {
+  return than === "<=" ? found <= number : than === ">=" ? found >= number : found === number;
 }

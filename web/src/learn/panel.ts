@@ -1,25 +1,31 @@
-// The tab with the lessons, and the strip that shows the present step in the other tabs.
+// The tab with the lessons: their cards, where the course stands, and what begins a lesson.
 
-import { button, element, fill, iconButton } from "../element";
+import { button, element, fill } from "../element";
 import type { TabName } from "../layout";
 import type { LiveSwarm } from "../live/swarm";
 import { recall, remember } from "../memory";
 import type { Program } from "../program";
+import type { Finding, LessonEntry } from "../protocol";
 import type { RobotsPanel } from "../robots/panel";
 import type { TestsPanel } from "../tests/panel";
 import { prefersStillness } from "../theme";
-import { LESSONS, lessonPath, type Lesson } from "./lessons";
+import type { ClassPanel } from "./class";
+import { keepProgram } from "./kept";
+import { lessonPath, type Lessons } from "./lessons";
 import { Progress } from "./progress";
+import { prose } from "./prose";
+import { sizeOf } from "./score";
 import { situationOf } from "./situation";
+import { Strip, scoreElement, stepElement } from "./strip";
 
-interface Parts {
+export interface LearnParts {
   program: Program;
   swarm: LiveSwarm;
   tests: TestsPanel;
   robots: RobotsPanel;
 }
 
-interface Doors {
+export interface LearnDoors {
   /** Opens a program without a file. */
   open: (path: string, text: string) => void;
   /** Replaces the text of the program. */
@@ -29,109 +35,168 @@ interface Doors {
 
 export class LearnPanel {
   readonly host = element("div", { class: "learn" });
-  readonly strip = element("aside", { class: "strip", "aria-label": "Lesson", "aria-live": "polite", hidden: true });
+  readonly strip: Strip;
   readonly #progress = new Progress();
-  readonly #restoring = button("Restore the program", () => this.#onRestore(), {
-    "data-do": "restore",
-    title: "Begin again with the program of this lesson",
-  });
-  #onRestore = (): void => {};
-  #lesson: Lesson | null = LESSONS.find(lesson => lesson.name === recall("lesson")) ?? null;
+  readonly #cards = element("div", { class: "course" });
+  #lesson: LessonEntry | null = null;
+  /** The size of the present circuit, where the lesson asks for one. */
+  #size: number | null = null;
 
   constructor(
-    private readonly parts: Parts,
-    private readonly doors: Doors,
+    private readonly parts: LearnParts,
+    private readonly lessons: Lessons,
+    private readonly doors: LearnDoors,
+    private readonly course: ClassPanel,
   ) {
+    this.strip = new Strip(this.#progress, {
+      again: lesson => this.#again(lesson),
+      bringBack: (lesson, text) => this.#bringBack(lesson, text),
+      begin: lesson => this.#begin(lesson),
+      leave: () => this.#leave(),
+    });
+    this.host.append(course.host, this.#cards);
     const check = (): void => this.#check();
     parts.swarm.frame.on(check);
+    parts.swarm.definition.on(check);
     parts.tests.states.on(check);
     parts.program.checked.on(check);
-    parts.program.checked.on(() => this.#offerRestoring());
-    parts.program.path.on(() => this.#offerRestoring());
+    parts.program.stage.on(check);
     parts.robots.designer.design.on(check);
     parts.robots.evolution.search.on(check);
+    lessons.list.on(() => {
+      this.#lesson = lessons.named(this.#lesson?.name ?? recall("lesson"));
+      this.#show();
+    });
     this.#show();
   }
 
   #check(): void {
     const lesson = this.#lesson;
     // A lesson's program must be there, so that a chance agreement elsewhere does not count.
-    if (lesson === null || (lesson.program !== null && this.parts.program.path.value !== lessonPath(lesson))) {
+    if (lesson === null || (lesson.program !== null && !this.#isOpen(lesson))) {
       return;
     }
-    if (this.#progress.advance(lesson, situationOf(this.parts))) {
+    const situation = situationOf(this.parts);
+    const advanced = this.#progress.advance(lesson, situation);
+    const size = this.#progress.isFinished(lesson) ? sizeOf(lesson, situation) : null;
+    const better = size !== null && this.#progress.noteSize(lesson, size);
+    if (advanced || better || size !== this.#size) {
+      this.#size = size;
       this.#show();
     }
   }
 
-  #begin(lesson: Lesson): void {
+  #isOpen(lesson: LessonEntry): boolean {
+    return this.parts.program.path.value === lessonPath(lesson);
+  }
+
+  #begin(lesson: LessonEntry): void {
     this.#lesson = lesson;
+    this.#size = null;
     remember("lesson", lesson.name);
-    const again = this.#progress.isFinished(lesson);
-    if (again) {
-      this.#progress.restart(lesson);
+    if (this.#progress.isFinished(lesson)) {
+      this.#again(lesson);
+      return;
     }
     if (lesson.program !== null) {
-      this.#open(lesson, lesson.program, again);
+      this.#open(lesson, lesson.program);
+    }
+    this.doors.show(lesson.tab);
+    this.#show();
+  }
+
+  /** Starts a lesson again: its program, its swarm and its steps. What was written is kept. */
+  #again(lesson: LessonEntry): void {
+    const { swarm } = this.parts;
+    this.#progress.restart(lesson);
+    this.#size = null;
+    if (lesson.program !== null) {
+      const wasOpen = this.#isOpen(lesson);
+      this.#open(lesson, lesson.program);
+      this.#replace(lesson, lesson.program);
+      if (wasOpen) {
+        swarm.setClock(null);
+        swarm.setInputs(swarm.inputs.value.replaceAll("1", "0"));
+        swarm.reset();
+        if (!prefersStillness()) {
+          swarm.play();
+        }
+      }
     }
     this.doors.show(lesson.tab);
     this.#show();
   }
 
   /** Opens the program of a lesson. Its swarm runs, with all inputs off, so that no step is done before it is begun. */
-  #open(lesson: Lesson, text: string, again: boolean): void {
+  #open(lesson: LessonEntry, text: string): void {
     const { program, swarm } = this.parts;
-    const isOpen = program.path.value === lessonPath(lesson);
-    if (!isOpen || again) {
+    if (!this.#isOpen(lesson)) {
       swarm.setClock(null);
       swarm.setInputs(swarm.inputs.value.replaceAll("1", "0"));
-    }
-    if (isOpen && again) {
-      swarm.reset();
-    }
-    if (isOpen && !prefersStillness()) {
-      swarm.play();
-    }
-    if (!isOpen) {
       program.plays = !prefersStillness();
       this.doors.open(lessonPath(lesson), text);
+    } else if (!prefersStillness()) {
+      swarm.play();
     }
   }
 
-  /** Brings back the program of the lesson, in a way that can be undone. */
-  #restore(lesson: Lesson, text: string): void {
-    if (this.parts.program.path.value === lessonPath(lesson)) {
-      this.doors.replace(text);
-    } else {
-      this.#open(lesson, text, false);
+  /** Replaces the program of a lesson that is open, in a way that can be undone, and keeps what was there. */
+  #replace(lesson: LessonEntry, text: string): void {
+    const { program } = this.parts;
+    const before = program.text;
+    if (before === text) {
+      return;
     }
+    if (before !== lesson.program && before.trim() !== "") {
+      keepProgram(program.folder, lesson.name, { text: before, at: Date.now() });
+    }
+    this.doors.replace(text);
+  }
+
+  /** Brings back a program that was replaced. */
+  #bringBack(lesson: LessonEntry, text: string): void {
+    this.#open(lesson, lesson.program ?? "");
+    this.#replace(lesson, text);
+    this.#show();
   }
 
   #leave(): void {
     this.#lesson = null;
     remember("lesson", null);
     this.#show();
+    this.doors.show("learn");
   }
 
   #show(): void {
-    const finished = LESSONS.filter(lesson => this.#progress.isFinished(lesson)).length;
+    const all = this.lessons.list.value;
+    const finished = all.filter(lesson => this.#progress.isFinished(lesson)).length;
     fill(
-      this.host,
-      element(
-        "p",
-        { class: "dim" },
-        `Eight short lessons, each with something to do. ${finished} of ${LESSONS.length} are done.`,
-      ),
-      element("ol", { class: "lessons" }, ...LESSONS.map((lesson, i) => this.#card(lesson, i))),
+      this.#cards,
+      ...this.lessons.findings.map(findingElement),
+      element("p", { class: "dim" }, `${finished} of ${all.length} lessons are done.`),
+      element("ol", { class: "lessons" }, ...all.map((lesson, i) => this.#card(lesson, i))),
     );
-    this.#showStrip();
+    const lesson = this.#lesson;
+    this.strip.show(lesson, {
+      folder: this.parts.program.folder,
+      size: this.#size,
+      place: lesson === null ? "" : `${all.indexOf(lesson) + 1} of ${all.length}`,
+      next: lesson === null ? null : this.lessons.after(lesson),
+    });
+    this.course.tell(
+      lesson === null
+        ? null
+        : { lesson: lesson.name, done: this.#progress.done(lesson), size: this.#progress.size(lesson) },
+      finished,
+    );
   }
 
-  #card(lesson: Lesson, index: number): HTMLElement {
+  #card(lesson: LessonEntry, index: number): HTMLElement {
     const done = this.#progress.done(lesson);
     const finished = this.#progress.isFinished(lesson);
     const label = finished ? "Do it again" : done > 0 || lesson === this.#lesson ? "Go on" : "Begin";
-    const suggested = lesson === (this.#lesson ?? this.#progress.next());
+    const next = this.lessons.list.value.find(other => !this.#progress.isFinished(other));
+    const suggested = lesson === (this.#lesson ?? next);
     return element(
       "li",
       { class: "card lesson", "data-lesson": lesson.name, "data-finished": finished },
@@ -141,62 +206,25 @@ export class LearnPanel {
         element("span", { class: "number", "aria-hidden": "true" }, finished ? "✓" : String(index + 1)),
         element("h3", {}, lesson.title),
       ),
-      ...lesson.text.map(text => element("p", {}, text)),
+      ...lesson.text.map(text => element("p", {}, ...prose(text))),
       element("ul", { class: "steps" }, ...lesson.steps.map((step, i) => stepElement(step.task, i < done))),
-      button(label, () => this.#begin(lesson), { class: suggested && !finished ? "primary" : "", "data-do": "begin" }),
-    );
-  }
-
-  /** A program that was changed, or that is not open any more, can be had back. */
-  #offerRestoring(): void {
-    const lesson = this.#lesson;
-    const text = lesson?.program ?? null;
-    const { program } = this.parts;
-    this.#restoring.hidden =
-      lesson === null || text === null || (program.path.value === lessonPath(lesson) && program.text === text);
-    this.#onRestore = () => lesson !== null && text !== null && this.#restore(lesson, text);
-  }
-
-  #showStrip(): void {
-    const lesson = this.#lesson;
-    this.strip.hidden = lesson === null;
-    if (lesson === null) {
-      return;
-    }
-    const done = this.#progress.done(lesson);
-    const finished = this.#progress.isFinished(lesson);
-    const next = LESSONS[LESSONS.indexOf(lesson) + 1];
-    this.#offerRestoring();
-    this.strip.dataset["finished"] = String(finished);
-    fill(
-      this.strip,
-      element(
-        "div",
-        { class: "said" },
-        element("h3", {}, lesson.title),
-        element("p", { class: "about" }, lesson.text.join(" ")),
-        element(
-          "ul",
-          { class: "steps" },
-          ...lesson.steps.slice(0, done + 1).map((step, i) => stepElement(step.task, i < done)),
-        ),
-        finished &&
-          element("p", { class: "pass" }, next === undefined ? "Well done. That was the last lesson." : "Well done."),
-      ),
-      this.#restoring,
-      finished &&
-        next !== undefined &&
-        button(`Next: ${next.title}`, () => this.#begin(next), { class: "primary", "data-do": "next" }),
-      iconButton("close", "Leave the lesson", () => this.#leave()),
+      scoreElement(lesson, this.#progress.size(lesson), "Your smallest so far:"),
+      button(label, () => this.#begin(lesson), {
+        class: suggested && !finished ? "primary" : "",
+        "aria-label": `${label}: ${lesson.title}`,
+        "data-do": "begin",
+      }),
     );
   }
 }
 
-function stepElement(task: string, done: boolean): HTMLElement {
+/** What is wrong with a lesson of an author. */
+function findingElement({ message, help, labels }: Finding): HTMLElement {
+  const place = labels[0] === undefined ? "" : `${labels[0].file}:${labels[0].start.line}: `;
   return element(
-    "li",
-    { "data-done": done },
-    element("span", { class: "box", role: "img", "aria-label": done ? "done" : "to do" }, done ? "✓" : ""),
-    element("span", {}, task),
+    "p",
+    { class: "finding", role: "alert" },
+    `${place}${message}`,
+    help !== null && element("span", { class: "dim" }, ` ${help}`),
   );
 }

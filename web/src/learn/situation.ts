@@ -11,10 +11,18 @@ import type { TestState } from "../tests/panel";
 export interface Situation {
   path: string;
   text: string;
+  /** Whether the rest is about this text. */
+  isChecked: boolean;
   errors: number;
   circuits: number;
   tests: number;
   passed: number;
+  failed: number;
+  /** The circuit whose swarm is shown, and the gates that its robots are; none while they are not those of the text. */
+  circuit: string | null;
+  robots: string[];
+  /** The threads of a wave machine; 0 if it is none. */
+  threads: number;
   /** The cycles done. */
   now: number;
   /** Cycles after which every change has settled. */
@@ -37,14 +45,22 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
   const checked = program.isChecked ? program.checked.value : null;
   // The log of another program's swarm says nothing about this one.
   const isShown = program.shown === program.path.value;
-  const states = [...tests.states.value.values()];
+  const isCurrent = isShown && program.isChecked && program.stage.value.state === "ready";
+  const definition = isCurrent ? swarm.definition.value : null;
+  const done = [...tests.states.value.values()].filter(state => state.state === "done");
+  const passed = done.filter(state => state.results.every(verdict => verdict.passed)).length;
   return {
     path: program.path.value,
     text: program.text,
+    isChecked: checked !== null,
     errors: checked?.errors ?? 0,
     circuits: checked?.circuits.length ?? 0,
     tests: checked?.tests.length ?? 0,
-    passed: states.filter(state => state.state === "done" && state.results.every(verdict => verdict.passed)).length,
+    passed,
+    failed: checked === null ? 0 : done.length - passed,
+    circuit: definition?.circuit ?? null,
+    robots: definition?.robots.map(robot => robot.function) ?? [],
+    threads: definition?.waves?.threads ?? 0,
     now: isShown ? swarm.playback.cycle : 0,
     hold: swarm.definition.value?.hold ?? 4,
     port: (name, cycle) => (isShown ? portValue(swarm, name, cycle) : null),

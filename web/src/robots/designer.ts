@@ -180,7 +180,12 @@ export class Designer {
   }
 
   #tools(): HTMLElement {
-    const random = (): void => this.#change(randomBody(...sizeOf(this.body), drawnFrom(this.body, this.#materials)));
+    const random = (): void => {
+      // Without its materials there is no body.
+      if (this.#materials.length > 0) {
+        this.#change(randomBody(...sizeOf(this.body), drawnFrom(this.body, this.#materials)));
+      }
+    };
     return element(
       "div",
       { class: "tools row" },

@@ -18,6 +18,8 @@ pub(crate) struct Greeting {
     pub(crate) files: Vec<FileEntry>,
     pub(crate) examples: Vec<ExampleEntry>,
     pub(crate) limits: PlayLimits,
+    /// Whether there is a class to join.
+    pub(crate) class: bool,
     pub(crate) cycle_seconds: f64,
 }
 

@@ -2,10 +2,12 @@
 //! and from those of the requests (`typescript.rs`); docs/play-protocol.md describes them.
 
 mod bodies;
+mod class;
 mod evolution;
 mod export;
 mod files;
 pub(super) mod finding;
+mod lesson;
 mod program;
 mod swarm;
 mod test_result;
@@ -17,9 +19,14 @@ use ts_rs::TS;
 pub(super) use bodies::{
     CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
 };
+pub(super) use class::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
 pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
 pub(super) use export::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
 pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};
+pub(super) use lesson::{
+    LessonCheck, LessonComparison, LessonCount, LessonEntry, LessonGoal, LessonList, LessonMeasure, LessonStep,
+    LessonTab, PortValues,
+};
 pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
 pub(super) use swarm::{ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot};
 pub(super) use test_result::{TestAnswer, TestResult};
@@ -58,6 +65,7 @@ pub(super) struct Nothing {}
 #[serde(tag = "to", content = "ok", rename_all = "lowercase")]
 pub(super) enum RequestResult {
     Hello(Greeting),
+    Lessons(LessonList),
     Files(Vec<FileEntry>),
     Read(FileText),
     Save(FileStamp),

@@ -1,0 +1,151 @@
+//! The class of a server: learners who have joined it with a name, and where they are. It is in memory only. A learner
+//! leaves it with the page's connection.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::time::Instant;
+
+use crate::message::{ClassMember, ClassPlace, ClassRoll};
+use crate::refusal::Refused;
+use nbc_base::diag::is_hidden;
+
+/// The most members.
+pub(super) const MOST: usize = 60;
+/// The most letters of a name, and bytes of the name of a lesson.
+pub(super) const LONGEST: usize = 24;
+const LESSON: usize = 64;
+
+/// The members of a class.
+#[derive(Debug)]
+pub(super) struct Class {
+    /// The secret in the address of the teacher's page.
+    pub(super) token: String,
+    members: Mutex<Members>,
+}
+
+#[derive(Debug, Default)]
+struct Members {
+    /// The number of the last member.
+    last: u64,
+    joined: BTreeMap<u64, Member>,
+}
+
+#[derive(Debug)]
+struct Member {
+    name: String,
+    place: Option<ClassPlace>,
+    finished: u32,
+    since: Instant,
+}
+
+/// The place of a learner in the class, who leaves when it is dropped.
+#[derive(Debug)]
+pub(super) struct Membership {
+    class: Arc<Class>,
+    number: u64,
+}
+
+impl Class {
+    pub(super) fn new(token: String) -> Self {
+        Self { token, members: Mutex::default() }
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Members> {
+        self.members.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Takes a learner into the class.
+    ///
+    /// # Errors
+    /// When the name is none or taken, or the class is full.
+    pub(super) fn join(self: &Arc<Self>, name: &str) -> Result<Membership, Refused> {
+        let name = name.trim();
+        if name.is_empty() || name.chars().count() > LONGEST || name.contains(|c| c == '\n' || is_hidden(c)) {
+            return Err(Refused::ClassName);
+        }
+        let mut members = self.lock();
+        if members.joined.len() >= MOST {
+            return Err(Refused::ClassFull { most: MOST });
+        }
+        let lower = name.to_lowercase();
+        if members.joined.values().any(|member| member.name.to_lowercase() == lower) {
+            return Err(Refused::ClassNameTaken { name: name.to_owned() });
+        }
+        members.last += 1;
+        let number = members.last;
+        let member = Member { name: name.to_owned(), place: None, finished: 0, since: Instant::now() };
+        members.joined.insert(number, member);
+        Ok(Membership { class: self.clone(), number })
+    }
+
+    /// The members, for the teacher.
+    pub(super) fn roll(&self) -> ClassRoll {
+        let seen = |member: &Member| ClassMember {
+            name: member.name.clone(),
+            place: member.place.clone(),
+            finished: member.finished,
+            seconds: member.since.elapsed().as_secs(),
+        };
+        let mut members: Vec<_> = self.lock().joined.values().map(seen).collect();
+        members.sort_by_cached_key(|member| member.name.to_lowercase());
+        ClassRoll { members, most: MOST }
+    }
+}
+
+impl Membership {
+    /// Notes where the learner is. A lesson with a name that no lesson can have is none.
+    pub(super) fn progress(&self, place: Option<ClassPlace>, finished: u32) {
+        let is_name = |name: &str| name.len() <= LESSON && !name.contains(is_hidden);
+        let place = place.filter(|place| is_name(&place.lesson));
+        if let Some(member) = self.class.lock().joined.get_mut(&self.number) {
+            if member.place != place {
+                member.since = Instant::now();
+            }
+            (member.place, member.finished) = (place, finished);
+        }
+    }
+}
+
+impl Drop for Membership {
+    fn drop(&mut self) {
+        self.class.lock().joined.remove(&self.number);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(class: &Class) -> Vec<String> {
+        class.roll().members.into_iter().map(|member| member.name).collect()
+    }
+
+    #[test]
+    fn learners_join_with_a_name_of_their_own_and_leave() {
+        let class = Arc::new(Class::new(String::new()));
+        let ada = class.join(" Ada ").unwrap();
+        let _ben = class.join("ben").unwrap();
+        assert_eq!(names(&class), ["Ada", "ben"]);
+        assert!(matches!(class.join("ada"), Err(Refused::ClassNameTaken { .. })));
+        for name in ["", " ", "a\nb", "a\u{202e}b", "\u{1b}[2J", &"x".repeat(LONGEST + 1)] {
+            assert!(matches!(class.join(name), Err(Refused::ClassName)), "{name:?}");
+        }
+        assert!(class.join(&"é".repeat(LONGEST)).is_ok());
+        let place = ClassPlace { lesson: "gate".to_owned(), done: 1, size: None };
+        ada.progress(Some(place.clone()), 3);
+        assert_eq!(class.roll().members[0].place, Some(place));
+        ada.progress(Some(ClassPlace { lesson: "x".repeat(65), done: 1, size: None }), 3);
+        assert_eq!(class.roll().members[0].place, None);
+        drop(ada);
+        assert_eq!(names(&class), ["ben"]);
+    }
+
+    #[test]
+    fn a_class_has_an_end() {
+        let class = Arc::new(Class::new(String::new()));
+        let all: Vec<_> = (0..MOST).map(|number| class.join(&number.to_string()).unwrap()).collect();
+        assert!(matches!(class.join("one more"), Err(Refused::ClassFull { most: MOST })));
+        drop(all);
+        assert!(class.join("one more").is_ok());
+    }
+}

@@ -1,0 +1,280 @@
+//! Reads a lesson: a title, fields, paragraphs and a program, and then steps (docs/lessons.md).
+
+use super::checking::{check, one_of};
+use super::mistake::{LessonMistake, Mistaken};
+use super::piece::{Piece, lines};
+use super::solving::deed;
+use crate::message::{LessonCheck, LessonEntry, LessonGoal, LessonMeasure, LessonStep, LessonTab};
+
+/// The most hints in one place.
+pub(super) const HINTS: usize = 3;
+/// The line around a program, and that at its start.
+const FENCE: &str = "```";
+const PROGRAM: &str = "```nb";
+/// The fields of a lesson and of a step.
+const OF_LESSON: [&str; 3] = ["tab", "best", "hint"];
+const OF_STEP: [&str; 3] = ["check", "hint", "do"];
+
+/// A lesson that was read.
+#[derive(Debug)]
+pub(super) struct ReadLesson<'a> {
+    pub(super) entry: LessonEntry,
+    /// The program, in its place.
+    pub(super) program: Option<Piece<'a>>,
+    /// The programs that solutions type.
+    pub(super) typed: Vec<Piece<'a>>,
+    /// The ports that checks and solutions name.
+    pub(super) ports: Vec<Piece<'a>>,
+    pub(super) mistakes: Vec<Mistaken>,
+}
+
+/// What a lesson consists of.
+enum Block<'a> {
+    /// A line with `#` before it, without it.
+    Title(Piece<'a>),
+    /// Any other heading.
+    Heading(Piece<'a>),
+    /// The lines of an entry of a list.
+    Entry(Vec<Piece<'a>>),
+    /// The lines of a paragraph.
+    Paragraph(Vec<Piece<'a>>),
+    /// The line at the start of a code block, the text in it, and whether it ends.
+    Code(Piece<'a>, Piece<'a>, bool),
+}
+
+/// Reads the text of a lesson.
+pub(super) fn read<'a>(name: &str, text: &'a str) -> ReadLesson<'a> {
+    let entry = LessonEntry {
+        name: name.to_owned(),
+        title: String::new(),
+        text: Vec::new(),
+        program: None,
+        tab: LessonTab::Swarm,
+        hints: Vec::new(),
+        best: None,
+        steps: Vec::new(),
+    };
+    let lesson = ReadLesson { entry, program: None, typed: Vec::new(), ports: Vec::new(), mistakes: Vec::new() };
+    let start = lines(text).into_iter().find(|line| !line.text.trim().is_empty()).unwrap_or(Piece { text, at: 0 });
+    let mut reader = Reader { lesson, heading: None, types: None, typed: None, fields: Vec::new(), start };
+    blocks(text).into_iter().for_each(|block| reader.block(block));
+    reader.finished()
+}
+
+/// The blocks of a text.
+fn blocks(text: &str) -> Vec<Block<'_>> {
+    let mut blocks: Vec<Block<'_>> = Vec::new();
+    // Whether the next line can belong to the block before it.
+    let mut is_open = false;
+    let mut rest = lines(text).into_iter();
+    while let Some(line) = rest.next() {
+        let trimmed = line.trim();
+        if trimmed.text.is_empty() {
+            is_open = false;
+        } else if line.text.starts_with(FENCE) {
+            let first = rest.as_slice().first().map_or(line.at + line.text.len(), |next| next.at);
+            let end = rest.find(|line| line.text.trim_end() == FENCE);
+            let last = end.map_or(text.len(), |end| end.at);
+            blocks.push(Block::Code(trimmed, Piece { text: &text[first.min(last)..last], at: first }, end.is_some()));
+            is_open = false;
+        } else if line.text.starts_with('#') {
+            let title = line.after("# ").map(Piece::trim);
+            blocks.push(title.map_or(Block::Heading(trimmed), Block::Title));
+            is_open = false;
+        } else if let Some(entry) = line.after("- ") {
+            blocks.push(Block::Entry(vec![entry.trim()]));
+            is_open = true;
+        } else {
+            match blocks.last_mut() {
+                Some(Block::Entry(lines)) if is_open && line.text.starts_with(' ') => lines.push(trimmed),
+                Some(Block::Paragraph(lines)) if is_open => lines.push(trimmed),
+                _ => blocks.push(Block::Paragraph(vec![trimmed])),
+            }
+            is_open = true;
+        }
+    }
+    blocks
+}
+
+struct Reader<'a> {
+    lesson: ReadLesson<'a>,
+    /// The heading of the present step.
+    heading: Option<Piece<'a>>,
+    /// `type` in the solution of the present step, and its program, which belong together.
+    types: Option<Piece<'a>>,
+    typed: Option<Piece<'a>>,
+    /// The fields of the lesson that may be there once, as far as they were.
+    fields: Vec<&'a str>,
+    /// The first line, for what is missing.
+    start: Piece<'a>,
+}
+
+impl<'a> Reader<'a> {
+    fn mistake(&mut self, piece: Piece<'_>, mistake: LessonMistake) {
+        self.lesson.mistakes.push(Mistaken::new(piece, mistake));
+    }
+
+    /// Keeps what was read, or notes the mistake.
+    fn kept<T>(&mut self, read: Result<T, Mistaken>) -> Option<T> {
+        read.map_err(|mistaken| self.lesson.mistakes.push(mistaken)).ok()
+    }
+
+    fn block(&mut self, block: Block<'a>) {
+        match block {
+            Block::Title(title) => {
+                if self.lesson.entry.title.is_empty() && self.heading.is_none() {
+                    self.lesson.entry.title = title.text.to_owned();
+                } else {
+                    self.mistake(title, LessonMistake::SecondTitle);
+                }
+            }
+            Block::Heading(heading) if heading.text == "## Step" => {
+                self.end_step();
+                self.heading = Some(heading);
+                self.lesson.entry.steps.push(LessonStep::default());
+            }
+            Block::Heading(heading) => self.mistake(heading, LessonMistake::Heading),
+            Block::Entry(lines) => self.entry(&lines),
+            Block::Paragraph(lines) => self.paragraph(&joined(&lines)),
+            Block::Code(fence, text, ends) => self.code(fence, text, ends),
+        }
+    }
+
+    fn paragraph(&mut self, text: &str) {
+        match self.lesson.entry.steps.last_mut() {
+            None => self.lesson.entry.text.push(text.to_owned()),
+            Some(step) if step.task.is_empty() => step.task = text.to_owned(),
+            Some(step) => step.task = format!("{} {text}", step.task),
+        }
+    }
+
+    fn code(&mut self, fence: Piece<'a>, text: Piece<'a>, ends: bool) {
+        if fence.text != PROGRAM {
+            return self.mistake(fence, LessonMistake::Language);
+        }
+        if !ends {
+            return self.mistake(fence, LessonMistake::OpenBlock);
+        }
+        if self.heading.is_some() {
+            if self.typed.replace(fence).is_some() {
+                self.mistake(fence, LessonMistake::SecondProgram);
+            }
+            self.lesson.typed.push(text);
+        } else if self.lesson.program.is_some() {
+            self.mistake(fence, LessonMistake::SecondProgram);
+        } else {
+            self.lesson.program = Some(text);
+            self.lesson.entry.program = Some(text.text.to_owned());
+        }
+    }
+
+    fn entry(&mut self, lines: &[Piece<'a>]) {
+        let first = lines[0];
+        let Some((name, value)) = first.split_once(':') else { return self.mistake(first, LessonMistake::NoField) };
+        let (name, value) = (name.trim(), value.trim());
+        let known = if self.heading.is_some() { OF_STEP } else { OF_LESSON };
+        let Some(field) = known.into_iter().find(|known| *known == name.text) else {
+            return self.mistake(name, LessonMistake::UnknownField { known: known.to_vec() });
+        };
+        let text = joined(&[&[value], &lines[1..]].concat());
+        if text.is_empty() {
+            return self.mistake(name, LessonMistake::EmptyField(field));
+        }
+        if field == "hint" {
+            return self.hint(name, text);
+        }
+        if let Some(&more) = lines.get(1) {
+            return self.mistake(more, LessonMistake::TooMuch);
+        }
+        match field {
+            "check" => self.check(value),
+            "do" => self.deed(value),
+            _ if self.fields.contains(&field) => self.mistake(name, LessonMistake::FieldTwice),
+            "tab" => {
+                self.fields.push("tab");
+                let tab = one_of(value, &["swarm", "tests", "robots"]);
+                self.lesson.entry.tab = match self.kept(tab).as_deref() {
+                    Some("tests") => LessonTab::Tests,
+                    Some("robots") => LessonTab::Robots,
+                    _ => LessonTab::Swarm,
+                };
+            }
+            _ => {
+                self.fields.push("best");
+                self.lesson.entry.best = goal(value.text);
+                if self.lesson.entry.best.is_none() {
+                    self.mistake(value, LessonMistake::BadBest);
+                }
+            }
+        }
+    }
+
+    fn hint(&mut self, name: Piece<'a>, text: String) {
+        let lesson = &mut self.lesson.entry;
+        let hints = lesson.steps.last_mut().map_or(&mut lesson.hints, |step| &mut step.hints);
+        hints.push(text);
+        if hints.len() > HINTS {
+            self.mistake(name, LessonMistake::TooManyHints { most: HINTS });
+        }
+    }
+
+    fn check(&mut self, value: Piece<'a>) {
+        let read = check(value, &mut self.lesson.ports);
+        // A wrong check is one, so that it is not missed, too.
+        let read = self.kept(read).unwrap_or(LessonCheck::Evolving);
+        if let Some(step) = self.lesson.entry.steps.last_mut() {
+            step.checks.push(read);
+        }
+    }
+
+    fn deed(&mut self, value: Piece<'a>) {
+        if value.text == "type" {
+            self.types = Some(value);
+        }
+        let read = deed(value, &mut self.lesson.ports);
+        self.kept(read);
+    }
+
+    fn end_step(&mut self) {
+        if let (Some(alone), None) | (None, Some(alone)) = (self.types.take(), self.typed.take()) {
+            self.mistake(alone, LessonMistake::Typing);
+        }
+        if let (Some(heading), Some(step)) = (self.heading, self.lesson.entry.steps.last()) {
+            let (has_task, has_check) = (!step.task.is_empty(), !step.checks.is_empty());
+            if !has_task {
+                self.mistake(heading, LessonMistake::NoTask);
+            }
+            if !has_check {
+                self.mistake(heading, LessonMistake::NoCheck);
+            }
+        }
+    }
+
+    fn finished(mut self) -> ReadLesson<'a> {
+        self.end_step();
+        if self.lesson.entry.title.is_empty() {
+            self.mistake(self.start, LessonMistake::NoTitle);
+        }
+        if self.lesson.entry.steps.is_empty() {
+            self.mistake(self.start, LessonMistake::NoSteps);
+        }
+        self.lesson
+    }
+}
+
+/// A goal such as `4 robots`.
+fn goal(text: &str) -> Option<LessonGoal> {
+    let (number, of) = text.split_once(' ')?;
+    let of = match of.trim() {
+        "robots" | "robot" => LessonMeasure::Robots,
+        "gates" | "gate" => LessonMeasure::Gates,
+        _ => return None,
+    };
+    let number = number.parse().ok().filter(|&number| number > 0)?;
+    Some(LessonGoal { number, of })
+}
+
+/// Lines as one.
+fn joined(lines: &[Piece<'_>]) -> String {
+    lines.iter().map(|line| line.text).collect::<Vec<_>>().join(" ").trim().to_owned()
+}

@@ -1,0 +1,50 @@
+//! The solution of a step: what a test of the page does. The page never gets it.
+
+use super::checking::{one_of, values};
+use super::mistake::{LessonMistake, Mistaken};
+use super::piece::Piece;
+
+/// The words with which the lines of a solution begin.
+const DEEDS: [&str; 14] = [
+    "set", "await", "wait", "pulse", "clock", "rewind", "circuit", "type", "test", "design", "mirror", "random",
+    "evolve", "choose",
+];
+
+/// Checks a line of a solution. The ports that it names are added to `ports`.
+///
+/// # Errors
+/// When it is none.
+pub(super) fn deed<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<(), Mistaken> {
+    let words = text.words();
+    let Some((&first, rest)) = words.split_first() else {
+        return Err(Mistaken::new(text, LessonMistake::EmptyField("do")));
+    };
+    let count = |most: usize| match rest.get(most) {
+        Some(&more) => Err(Mistaken::new(more, LessonMistake::TooMuch)),
+        None if rest.len() < most => Err(Mistaken::new(first, LessonMistake::Incomplete)),
+        None => Ok(()),
+    };
+    match one_of(first, &DEEDS)?.as_str() {
+        "set" | "await" => values(first, rest, ports).map(|_| ()),
+        "wait" => {
+            count(1)?;
+            let is_number = rest[0].text.parse::<u32>().is_ok();
+            if is_number { Ok(()) } else { Err(Mistaken::new(rest[0], LessonMistake::BadNumber)) }
+        }
+        "pulse" => {
+            count(1)?;
+            ports.push(rest[0]);
+            Ok(())
+        }
+        "test" => {
+            count(1)?;
+            one_of(rest[0], &["logic", "physics"]).map(|_| ())
+        }
+        "design" | "circuit" => count(1),
+        "choose" => {
+            count(1)?;
+            one_of(rest[0], &["niche"]).map(|_| ())
+        }
+        _ => count(0),
+    }
+}

@@ -1,0 +1,136 @@
+// The class: a learner can join it with a name, so that the teacher's page shows how far they are, and can leave it.
+
+import type { Connection } from "../connection";
+import { button, element, fill } from "../element";
+import { RequestError } from "../request";
+
+/** Where a learner is. */
+interface Place {
+  lesson: string;
+  done: number;
+  /** The size of their smallest circuit. */
+  size: number | null;
+}
+
+const NAME = "class-name";
+const LONGEST = 24;
+
+export class ClassPanel {
+  readonly host = element("section", { class: "class card", "aria-label": "Class", hidden: true });
+  readonly #problem = element("p", { class: "fail", role: "alert" });
+  #joined: string | null = null;
+  #told: { place: Place | null; finished: number } = { place: null, finished: 0 };
+
+  constructor(private readonly connection: Connection) {}
+
+  /** Shows whether the server has a class. A learner who had joined joins again. */
+  async open(hasClass: boolean): Promise<void> {
+    this.host.hidden = !hasClass;
+    this.#joined = null;
+    this.#show();
+    const name = remembered();
+    if (hasClass && name !== null) {
+      await this.#join(name);
+    }
+  }
+
+  /** Tells the class where the learner is, if they have joined. */
+  tell(place: Place | null, finished: number): void {
+    if (JSON.stringify({ place, finished }) === JSON.stringify(this.#told)) {
+      return;
+    }
+    this.#told = { place, finished };
+    this.#send();
+  }
+
+  #send(): void {
+    if (this.#joined !== null) {
+      this.connection.tell("progress", { ...this.#told });
+    }
+  }
+
+  async #join(name: string): Promise<void> {
+    this.#problem.textContent = "";
+    try {
+      await this.connection.request("join", { name });
+      this.#joined = name;
+      keepName(name);
+      this.#send();
+    } catch (error) {
+      if (!(error instanceof RequestError)) {
+        throw error;
+      }
+      this.#problem.textContent = `${error.message}${error.help === null ? "" : `; ${error.help}`}`;
+    }
+    this.#show();
+  }
+
+  #leave(): void {
+    this.connection.tell("leave", {});
+    this.#joined = null;
+    keepName(null);
+    this.#show();
+  }
+
+  #show(): void {
+    if (this.#joined !== null) {
+      fill(
+        this.host,
+        element("h3", {}, `You are in the class as ${this.#joined}`),
+        element("p", {}, SEEN),
+        button("Leave the class", () => this.#leave(), { "data-do": "leave-class" }),
+      );
+      return;
+    }
+    const field = element("input", {
+      type: "text",
+      maxlength: LONGEST,
+      "aria-label": "Your name in the class",
+      placeholder: "A name",
+      autocomplete: "off",
+      spellcheck: "false",
+      "data-do": "class-name",
+      value: remembered() ?? "",
+    });
+    const join = (): void => void this.#join(field.value.trim());
+    // A handler that returns false would swallow the key.
+    field.addEventListener("keydown", event => {
+      if (event.key === "Enter") {
+        join();
+      }
+    });
+    fill(
+      this.host,
+      element("h3", {}, "This is a class"),
+      element("p", {}, `You can join it with a name. ${SEEN}`),
+      element("p", { class: "row" }, field, button("Join the class", join, { "data-do": "join" })),
+      this.#problem,
+    );
+  }
+}
+
+const SEEN =
+  "The teacher's page shows your name, the lesson and step at which you are, the size of your smallest circuit in it, " +
+  "and how many lessons you have finished. It may be on a projector, so that the whole class sees it. Your programs " +
+  "are not shown. You can leave the class at any time.";
+
+/** The name in this tab, until it is closed. */
+function remembered(): string | null {
+  try {
+    return sessionStorage.getItem(NAME);
+  } catch {
+    return null;
+  }
+}
+
+function keepName(name: string | null): void {
+  try {
+    if (name === null) {
+      sessionStorage.removeItem(NAME);
+    } else {
+      sessionStorage.setItem(NAME, name);
+    }
+  } catch {
+    // Then a reload asks for the name again.
+  }
+}

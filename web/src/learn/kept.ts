@@ -1,0 +1,27 @@
+// The programs that a learner wrote in a lesson and that were replaced, remembered by the browser.
+
+import { recall, remember } from "../memory";
+
+export interface KeptProgram {
+  text: string;
+  /** When it was replaced, in milliseconds since 1970. */
+  at: number;
+}
+
+/** The most programs that are kept for a lesson. */
+const MOST = 10;
+
+/** The kept programs of a lesson, the latest first. */
+export function keptPrograms(folder: string, lesson: string): KeptProgram[] {
+  return recall<KeptProgram[]>(name(folder, lesson)) ?? [];
+}
+
+/** Keeps a program; one that was kept before becomes the latest. */
+export function keepProgram(folder: string, lesson: string, program: KeptProgram): void {
+  const others = keptPrograms(folder, lesson).filter(other => other.text !== program.text);
+  remember(name(folder, lesson), [program, ...others].slice(0, MOST));
+}
+
+function name(folder: string, lesson: string): string {
+  return `kept:${folder}:${lesson}`;
+}

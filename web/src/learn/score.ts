@@ -1,0 +1,32 @@
+// How small a circuit is, next to the best one known.
+
+import type { LessonEntry, LessonGoal } from "../protocol";
+import { holds } from "./checks";
+import type { Situation } from "./situation";
+import { gatesWritten } from "./source";
+
+export const STARS = 3;
+
+/** The size of the present circuit, if it is what the lesson asks for. */
+export function sizeOf(lesson: LessonEntry, situation: Situation): number | null {
+  if (lesson.best === null || !isRight(lesson, situation)) {
+    return null;
+  }
+  return lesson.best.of === "robots" ? situation.robots.length : gatesWritten(situation.text);
+}
+
+/** Whether all conditions of the lesson hold that are about the program alone. */
+function isRight(lesson: LessonEntry, situation: Situation): boolean {
+  const isAbout = (is: string): boolean => ["tests-pass", "tests-kept", "robots-only", "without"].includes(is);
+  const checks = lesson.steps.flatMap(step => step.checks).filter(check => isAbout(check.is));
+  return situation.robots.length > 0 && checks.every(check => holds(check, situation, lesson));
+}
+
+/** Three stars for the best size, two for half as much again, else one. */
+export function starsOf(size: number, best: number): number {
+  return size <= best ? STARS : size <= 1.5 * best ? 2 : 1;
+}
+
+export function sizeText(size: number, of: LessonGoal["of"]): string {
+  return `${size} ${size === 1 ? of.slice(0, -1) : of}`;
+}

@@ -1,0 +1,155 @@
+// Lessons on a phone, by keyboard alone, and as a screen reader finds them.
+
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+
+import { closeBrowser, visit, walking } from "./browser.mjs";
+import { compiled, done } from "./lessons.mjs";
+import { LATCH, folderWith, play } from "./program.mjs";
+
+let place, program;
+
+before(async () => {
+  place = folderWith({ "latch.nb": LATCH });
+  program = await play(place.folder, "latch.nb", { more: ["--class"] });
+});
+
+after(async () => {
+  await closeBrowser();
+  await program?.stop();
+  place?.remove();
+});
+
+test("a lesson is done on a phone by touch, and nothing is wider than its screen", async () => {
+  const page = await visit(program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  await walking(page);
+  const fits = async () => assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390);
+  await page.locator("#tab-learn").tap();
+  await fits();
+  await page.locator("[data-lesson=gate] [data-do=begin]").tap();
+  await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_gate.nb");
+  await compiled(page);
+  await page.locator(".speed").selectOption("16×");
+  await page.locator(".strip [data-do=hint]").tap();
+  assert.equal(await page.locator(".strip .hints li").count(), 1);
+  await fits();
+  // What can be touched is large enough for a finger.
+  for (const control of await page.locator(".strip button:visible").all()) {
+    const { width, height } = await control.boundingBox();
+    assert.ok(Math.min(width, height) >= 24, `${await control.textContent()} is ${width} x ${height}`);
+  }
+  for (const [step, count] of [
+    [1, 1],
+    [0, 2],
+  ]) {
+    await page.locator('button[data-input="a"]').tap();
+    await page.locator(`button[data-input="a"][aria-checked="${step === 1}"]`).waitFor();
+    await done(page, count);
+  }
+  await fits();
+  await page.locator(".strip [data-do=next]").tap();
+  await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_stimuli.nb");
+  await page.leave();
+});
+
+test("a lesson is done with the keyboard alone", async () => {
+  const page = await visit(program.url);
+  await walking(page);
+  /** Presses the tab key until the element with this selector has the focus. */
+  const reach = async (selector, key = "Tab") => {
+    for (let presses = 0; presses < 200; presses++) {
+      if (await page.evaluate(wanted => document.activeElement?.matches(wanted) ?? false, selector)) {
+        return;
+      }
+      // In the editor the tab key indents, until Esc is pressed.
+      if (await page.evaluate(() => document.activeElement?.shadowRoot !== null)) {
+        await page.keyboard.press("Escape");
+      }
+      await page.keyboard.press(key);
+    }
+    assert.fail(`the tab key does not reach ${selector}`);
+  };
+  await reach('[role=tab][aria-selected="true"]');
+  while ((await page.locator("#tab-learn").getAttribute("aria-selected")) !== "true") {
+    await page.keyboard.press("ArrowRight");
+  }
+  await reach("[data-lesson=gate] [data-do=begin]");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_gate.nb");
+  await compiled(page);
+  await reach(".strip [data-do=hint]", "Shift+Tab");
+  await page.keyboard.press("Enter");
+  await page.keyboard.press("Space");
+  assert.equal(await page.locator(".strip .hints li").count(), 2);
+  await reach(".speed");
+  await page.keyboard.press("End");
+  await page.keyboard.press("ArrowUp");
+  await reach('button[data-input="a"]', "Shift+Tab");
+  await page.keyboard.press("Space");
+  await done(page, 1);
+  await page.keyboard.press("Space");
+  await done(page, 2);
+  await reach(".strip [data-do=next]", "Shift+Tab");
+  await page.keyboard.press("Enter");
+  await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_stimuli.nb");
+  await reach(".strip [data-do=leave]", "Shift+Tab");
+  await page.keyboard.press("Enter");
+  await page.locator(".strip").waitFor({ state: "hidden" });
+  await page.leave();
+});
+
+/** The nodes of the accessibility tree below an element that can be used or that have a heading's role. */
+async function controls(page, selector) {
+  const session = await page.context().newCDPSession(page);
+  await session.send("Accessibility.enable");
+  const { root } = await session.send("DOM.getDocument");
+  const { nodeId } = await session.send("DOM.querySelector", { nodeId: root.nodeId, selector });
+  const { node } = await session.send("DOM.describeNode", { nodeId });
+  const { nodes } = await session.send("Accessibility.queryAXTree", { backendNodeId: node.backendNodeId });
+  const kinds = [
+    "button",
+    "textbox",
+    "link",
+    "checkbox",
+    "switch",
+    "combobox",
+    "DisclosureTriangle",
+    "heading",
+    "image",
+  ];
+  return nodes
+    .filter(one => !one.ignored && kinds.includes(one.role?.value))
+    .map(one => `${one.role.value}: ${one.name?.value ?? ""}`);
+}
+
+test("every control of the lessons has a role and a name", async () => {
+  const page = await visit(program.url);
+  await walking(page);
+  await page.locator("#tab-learn").click();
+  const lessons = await controls(page, "#panel-learn");
+  assert.ok(lessons.includes("heading: This is a class"), lessons.join("\n"));
+  assert.ok(lessons.includes("textbox: Your name in the class"));
+  assert.ok(lessons.includes("button: Join the class"));
+  assert.equal(lessons.filter(name => name.startsWith("button: Begin: ")).length, 22);
+  assert.ok(lessons.includes("heading: A robot is a gate"));
+  assert.equal(new Set(lessons.filter(name => name.startsWith("button"))).size, 23);
+  await page.locator("[data-lesson=stimuli] [data-do=begin]").click();
+  await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_stimuli.nb");
+  await page.locator(".strip [data-do=hint]").click();
+  const strip = await controls(page, ".strip");
+  assert.deepEqual(strip.sort(), [
+    "button: Another hint (2 of 3)",
+    "button: Leave the lesson",
+    "button: Start again",
+    "heading: Two stimuli 2 of 22",
+    "image: to do",
+  ]);
+  assert.equal(await page.getByRole("complementary", { name: "Lesson" }).count(), 1);
+  for (const all of [lessons, strip]) {
+    assert.deepEqual(
+      all.filter(name => name.endsWith(": ")),
+      [],
+    );
+  }
+  await page.leave();
+});
