@@ -119,7 +119,7 @@ fn print_least_distances(boxes: &[BTreeMap<u64, Run>]) {
 
 /// The published robots beside ours, by the second fitness. The long runs are of the first box.
 fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>], long: &BTreeMap<u64, Run>) -> Fallible<()> {
-    let published: Published = serde_json::from_str(include_str!("../tests/golden/paper_robots.json"))?;
+    let published: Published = serde_json::from_str(include_str!("../../tests/golden/paper_robots.json"))?;
     println!("\n| behavior | box | published | best run | median run | best long run |\n|---|---|---|---|---|---|");
     for PublishedRobot { behavior, min_displacement, body } in published.robots {
         let Some(place) = boxes.iter().position(|&side| side == body.len()) else { continue };

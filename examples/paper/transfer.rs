@@ -39,7 +39,7 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
             let mut same = [Proportion::default(); 4];
             for number in 0..if percent == 0 { 1 } else { WORLDS } {
                 let world = sample.world(&PhysicsWorld::default(), number);
-                let setting = Setting { world, ..Setting::default() };
+                let setting = Setting { factors: world.factors, ..Setting::default() };
                 let trials: Vec<_> = robots.iter().flat_map(|(_, body)| fixed_trials(body, STEPS)).collect();
                 let walked = simulator.run_trials(&setting, &trials);
                 for ((behavior, _), four) in robots.iter().zip(walked.chunks(4)) {
