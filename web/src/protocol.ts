@@ -355,7 +355,7 @@ export type ShownSwarm = {
   hold: number,
   /** Cycles at the start in which the robots take their shape. */
   start: number,
-  /** The ground's columns, which repeat: the rows from and up to which each is voxels, from below; none if it is flat. */
+  /** The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat. */
   ground: Array<Array<number>>,
   /** Poses in a cycle. */
   frames: number,

@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 /// Which cells of the ground are voxels, column by column (docs/physics.md 15). The columns repeat. The default is one
 /// row everywhere, as in the paper's world.
 ///
-/// There are two kinds: heights, whose columns repeat from the left end of the ground to the right, and cells of a file,
-/// which repeat around the place where robots start.
+/// There are two kinds: heights, whose columns repeat from the left end of the ground to the right, and cells of a
+/// file, which repeat around the place where robots start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "GroundShape", into = "GroundShape")]
 pub struct GroundProfile {
@@ -53,8 +53,8 @@ impl GroundProfile {
         is_possible.then(|| Self::of(heights.iter().map(|at| (2 << (at - least)) - 1), false))
     }
 
-    /// The ground of these columns of a file, each with a bit for every row that is a voxel, the bottom row first. There
-    /// are at least one and at most [`Self::MOST_COLUMNS`], and at least one voxel; `None` for others.
+    /// The ground of these columns of a file, each with a bit for every row that is a voxel, the bottom row first.
+    /// There are at least one and at most [`Self::MOST_COLUMNS`], and at least one voxel; `None` for others.
     pub fn of_cells(columns: &[u32]) -> Option<Self> {
         let is_possible = columns.len() <= Self::MOST_COLUMNS && columns.iter().any(|rows| *rows != 0);
         is_possible.then(|| Self::of(columns.iter().copied(), true))

@@ -22,7 +22,7 @@ use crate::check::test;
 use crate::check::uses::{NameUse, NameUses};
 use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EnvironmentError, EvolutionError};
-use crate::check::world::{Files, Worlds, world};
+use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
@@ -38,7 +38,7 @@ pub(crate) fn program(files: &dyn SourceWorld, trees: &[(Home, Tree)], sources: 
     assembly.stimuli();
     assembly.materials();
     assembly.schedules();
-    assembly.worlds(Files { world: files, sources });
+    assembly.worlds(ProgramFiles { world: files, sources });
     assembly.library_names();
     assembly.evolutions();
     assembly.libraries();
@@ -154,7 +154,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    fn worlds(&mut self, files: Files) {
+    fn worlds(&mut self, files: ProgramFiles) {
         let sources = self.declarations.records(RecordKeyword::World);
         for (place, (home, source)) in sources.iter().enumerate() {
             let declared = self.names.worlds.declare(&source.name, place, *home);

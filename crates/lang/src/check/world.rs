@@ -35,7 +35,7 @@ impl Worlds<'_> {
 
 /// The files beside a program.
 #[derive(Clone, Copy)]
-pub(crate) struct Files<'a> {
+pub(crate) struct ProgramFiles<'a> {
     pub(crate) world: &'a dyn SourceWorld,
     pub(crate) sources: &'a Sources,
 }
@@ -45,7 +45,7 @@ pub(crate) fn world(
     source: &RecordDeclaration,
     home: Home,
     (names, checked): (&NameTable, &[CheckState<NamedWorld>]),
-    files: Files<'_>,
+    files: ProgramFiles<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> CheckState<NamedWorld> {
     let mut fields = Fields::new("world", source);
@@ -103,7 +103,7 @@ fn change(name: &str, value: &ValueSyntax) -> Result<f64, Diagnostic> {
 }
 
 /// The heights of the columns of the ground, one after another, or its cells in a file.
-fn ground(value: &ValueSyntax, files: Files<'_>) -> Result<GroundProfile, Diagnostic> {
+fn ground(value: &ValueSyntax, files: ProgramFiles<'_>) -> Result<GroundProfile, Diagnostic> {
     match &value.kind {
         ValueKind::Text(path) => return ground_file(path, value.span, files),
         ValueKind::Instance(_) => return Err(quantity::wrong_kind(Expected::Ground, value.span)),
@@ -122,7 +122,7 @@ fn ground(value: &ValueSyntax, files: Files<'_>) -> Result<GroundProfile, Diagno
     Ok(GroundProfile::new(&heights).expect("each height is in its range"))
 }
 
-fn ground_file(path: &str, span: Span, files: Files<'_>) -> Result<GroundProfile, Diagnostic> {
+fn ground_file(path: &str, span: Span, files: ProgramFiles<'_>) -> Result<GroundProfile, Diagnostic> {
     let file = beside(&files.sources.file(span.file).name, path);
     let error = match files.world.read(&file).map(|text| GroundProfile::of_file(&text)) {
         Ok(Ok(profile)) => return Ok(profile),

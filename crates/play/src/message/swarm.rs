@@ -36,7 +36,7 @@ pub(crate) struct ShownSwarm {
     pub(crate) hold: u32,
     /// Cycles at the start in which the robots take their shape.
     pub(crate) start: usize,
-    /// The ground's columns, which repeat: the rows from and up to which each is voxels, from below; none if it is flat.
+    /// The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat.
     pub(crate) ground: Vec<Vec<u8>>,
     /// Poses in a cycle.
     pub(crate) frames: u32,
