@@ -61,16 +61,22 @@ def test_the_guides(root, tmp_path, page, least):
     assert done.returncode == 0, done.stderr
 
 
-def test_the_notebook():
+@pytest.mark.parametrize(
+    ("name", "shows"),
+    [("latch", {"image/svg+xml": 3, "text/html": 1}), ("evolution_gym", {"image/png": 3, "image/gif": 1})],
+)
+def test_notebooks(name, shows):
     import nbclient
     import nbformat
 
-    notebook = nbformat.read(EXAMPLES / "latch.ipynb", as_version=4)
+    if "gym" in name:
+        pytest.importorskip("gymnasium")
+    notebook = nbformat.read(EXAMPLES / f"{name}.ipynb", as_version=4)
     # Jupyter runs a notebook in its folder.
     place = {"metadata": {"path": str(EXAMPLES)}}
     nbclient.NotebookClient(notebook, timeout=1800, startup_timeout=1800, resources=place).execute()
     kinds = [kind for cell in notebook.cells for output in cell.get("outputs", []) for kind in output.get("data", {})]
-    assert kinds.count("image/svg+xml") >= 3 and "text/html" in kinds
+    assert all(kinds.count(kind) >= least for kind, least in shows.items()), kinds
 
 
 def test_types():

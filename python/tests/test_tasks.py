@@ -15,14 +15,15 @@ from nbc.evogym import comparison
 from nbc.evogym.tasks import TaskWorlds
 
 RECORDED = np.load(Path(__file__).parent / "data/tasks.npz")
-NAMES = sorted({key.split("/")[0] for key in RECORDED.files})
+NAMES = sorted({key.split("/")[0] for key in RECORDED.files}, key=lambda name: (name == "Catcher-v0", name))
 BODY = np.array([[3, 3, 3], [4, 1, 4], [3, 0, 3]])
-# Rounding grows in some walks (docs/physics.md 12), in none within so many env steps.
-SOUND = 100
+# Rounding grows in some walks (docs/physics.md 12), in none within so many env steps. The package of Catcher-v0 falls
+# onto the line between two voxels of a peg, so last bits decide from then on.
+SOUND, TOUCHES = 100, 14
 
 
 def test_every_task_is_recorded():
-    assert NAMES == sorted(evogym.TASKS) and {*evogym.BASELINE_ENV_NAMES} - {*NAMES} == {"Catcher-v0"}
+    assert set(NAMES) == set(evogym.TASKS) == set(evogym.BASELINE_ENV_NAMES)
 
 
 @pytest.fixture(scope="module")
@@ -55,13 +56,13 @@ def _follow(name: str) -> list:
 
 @pytest.mark.parametrize("name", NAMES)
 def test_rewards_are_those_of_evolution_gym(followed, name):
-    assert min(followed[name]) >= SOUND
+    assert min(followed[name]) >= (TOUCHES if name == "Catcher-v0" else SOUND)
 
 
 def test_half_of_the_episodes_are_those_of_evolution_gym_to_their_end(followed):
     ends = [RECORDED[f"{name}/{n}/rewards"].size for name in NAMES for n in range(3)]
     counts = [count for name in NAMES for count in followed[name]]
-    assert sum(count == end for count, end in zip(counts, ends)) == 49
+    assert sum(count == end for count, end in zip(counts, ends)) == 49, counts
 
 
 def _observed(worlds: TaskWorlds, n: int) -> np.ndarray:
@@ -74,6 +75,28 @@ def _observed(worlds: TaskWorlds, n: int) -> np.ndarray:
             values = values.reshape(2, -1)[:, :points].ravel()
         parts.append(values)
     return np.concatenate(parts)
+
+
+def test_the_package_of_a_catcher_falls_somewhere_else_in_each_episode():
+    task = evogym.TASKS["Catcher-v0"]
+    worlds = TaskWorlds(task, [task.make_world(BODY)] * 3)
+    worlds.reset([0, 1, 2], np.random.default_rng(1))
+    places = [world.objects["package"].pos for world in worlds.worlds]
+    assert len(set(places)) > 1 and all(15 <= x <= 25 and 41 <= y <= 46 for x, y in places)
+    for _ in range(3):
+        worlds.step(np.full(21, 1.2))
+    before = worlds.observe()
+    worlds.reset([1], None, [-6, 5])
+    assert worlds.worlds[1].objects["package"].pos == (15, 46)
+    np.testing.assert_array_equal(worlds.observe()[[0, 2]], before[[0, 2]])
+    assert worlds.scenes.clock.tolist() == [3, 0, 3]
+    for _ in range(2):
+        worlds.step(np.full(21, 0.9))
+    alone = TaskWorlds(task, [task.make_world(BODY)])
+    alone.reset([0], None, [-6, 5])
+    for _ in range(2):
+        alone.step(np.full(7, 0.9))
+    np.testing.assert_array_equal(worlds.observe()[1], alone.observe()[0])
 
 
 def test_a_comparison_counts_the_env_steps_that_agree():

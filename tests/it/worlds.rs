@@ -10,6 +10,7 @@ use nbc_swarm::{Assembly, Recording, Room, SwarmConditions, SwarmTrace, simulate
 
 use crate::support::bench::Bench;
 use crate::support::limits::InTime;
+use crate::support::root;
 use crate::support::schema::validate;
 
 const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.2, weak: 0.05, dead: 0.02, seed: 3 };
@@ -56,6 +57,40 @@ fn a_world_changes_the_physics_and_the_papers_does_not() {
     assert_ne!(on_stairs, paper);
     assert_eq!(paths(&format!("{stairs}world same {{ from: stairs, friction: 1 }}"), "in same"), on_stairs);
     assert_eq!(paths(&format!("{stairs}world even {{ from: stairs, ground: 0 }}"), "in even"), paper);
+}
+
+/// A file of Evolution Gym has the same ground as heights, around the place where robots start.
+#[test]
+fn the_ground_may_be_a_file() {
+    let column = |high: usize| (0..=high).map(|row| row * 8).collect::<Vec<_>>();
+    let cells: Vec<usize> =
+        (0..8).flat_map(|x| column(usize::from(x == 7)).into_iter().map(move |at| at + x)).collect();
+    let codes = vec!["5"; cells.len()].join(", ");
+    let file = format!(
+        r#"{{"grid_width": 8, "grid_height": 2, "objects": {{"floor": {{"indices": {cells:?}, "types": [{codes}]}}}}}}"#
+    );
+    let program = |world: &str| {
+        let mut files = MemoryWorld::default();
+        files.insert("worlds/step.json", file.clone());
+        files.insert("a/a.nb", format!("{}{world}", CIRCUIT.replace("WORLD", "in steps")));
+        let mut session = Session::new(files);
+        let checked = session.open("a/a.nb").unwrap_or_else(|error| panic!("{error}"));
+        assert!(checked.diagnostics.is_empty());
+        let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+        let run = session.test(&checked, &checked.program.tests[0], &options, &mut ()).unwrap().remove(0);
+        run.swarm.unwrap().trace.robots.into_iter().map(|robot| robot.com_x).collect::<Vec<_>>()
+    };
+    // The middle of the ground, a power of two, is column 6 of the file, so column 7 is the next of eight.
+    let heights = program("world steps { ground: [0, 1, 0, 0, 0, 0, 0, 0] }");
+    assert_eq!(program(r#"world steps { ground: "../worlds/step.json" }"#), heights);
+    assert_eq!(program("world hills { ground: \"../worlds/step.json\" }\nworld steps { from: hills }"), heights);
+    assert_ne!(program("world steps { ground: 0 }"), heights);
+}
+
+#[test]
+fn the_example_with_hills_passes() {
+    let ran = Bench::new().run(&["test", root().join("examples/hills.nb").to_str().unwrap()]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
 }
 
 #[test]

@@ -533,8 +533,8 @@ export type ShownSwarm = {
   hold: number,
   /** Cycles at the start in which the robots take their shape. */
   start: number,
-  /** How high the ground is in voxels: of columns that repeat; none if it is flat. */
-  ground: Array<number>,
+  /** The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat. */
+  ground: Array<Array<number>>,
   /** Poses in a cycle. */
   frames: number,
   /** What it is as a wave machine. */

@@ -51,8 +51,15 @@ enum WorkRecord {
 }
 
 /// A world with all its fields: messages have no names that could be left out.
-#[derive(Clone, Copy, Serialize, Deserialize)]
-struct WorldRecord(WorldFactors, WorldNoise, GroundProfile);
+#[derive(Clone, Serialize, Deserialize)]
+struct WorldRecord(WorldFactors, WorldNoise, GroundRecord);
+
+/// Ground as heights, or as the rows of each column of a file that are voxels.
+#[derive(Clone, Serialize, Deserialize)]
+enum GroundRecord {
+    Heights(Vec<u8>),
+    Cells(Vec<u32>),
+}
 
 #[derive(Serialize, Deserialize)]
 struct EvaluationRecord {
@@ -265,6 +272,10 @@ impl BodyRecord {
 
 impl From<PhysicsWorld> for WorldRecord {
     fn from(PhysicsWorld { factors, noise, ground }: PhysicsWorld) -> Self {
+        let ground = match ground.is_of_file() {
+            true => GroundRecord::Cells(ground.columns().to_vec()),
+            false => GroundRecord::Heights(ground.heights()),
+        };
         Self(factors, noise, ground)
     }
 }
@@ -272,6 +283,11 @@ impl From<PhysicsWorld> for WorldRecord {
 impl WorldRecord {
     fn check(self) -> Option<PhysicsWorld> {
         let Self(factors, noise, ground) = self;
+        let ground = match ground {
+            GroundRecord::Heights(heights) if heights.is_empty() => GroundProfile::default(),
+            GroundRecord::Heights(heights) => GroundProfile::new(&heights)?,
+            GroundRecord::Cells(columns) => GroundProfile::of_cells(&columns)?,
+        };
         Some(PhysicsWorld { factors, noise, ground }).filter(PhysicsWorld::is_possible)
     }
 }
@@ -376,6 +392,25 @@ pub(super) mod tests {
         let factors = WorldFactors { friction: 0.9, ..WorldFactors::default() };
         let ground = GroundProfile::new(&[0, 2, 1]).unwrap();
         PhysicsWorld { factors, ground, ..PhysicsWorld::default() }
+    }
+
+    #[test]
+    fn ground_travels() {
+        let ground = [
+            GroundProfile::default(),
+            GroundProfile::new(&[0, 2, 1]).unwrap(),
+            GroundProfile::of_cells(&[1, 0b101, 0]).unwrap(),
+        ];
+        for ground in ground {
+            let world = PhysicsWorld { ground, ..world() };
+            assert_eq!(WorldRecord::from(world).check(), Some(world));
+        }
+        let WorldRecord(factors, noise, _) = world().into();
+        for wrong in
+            [GroundRecord::Heights(vec![11]), GroundRecord::Cells(Vec::new()), GroundRecord::Cells(vec![1; 129])]
+        {
+            assert_eq!(WorldRecord(factors, noise, wrong).check(), None);
+        }
     }
 
     /// A swarm of two robots that sense each other and two inputs.

@@ -10,7 +10,7 @@ use crate::message::{
 use crate::refusal::Refused;
 use crate::runner::LoadedSwarm;
 use crate::served::SCHEME;
-use nbc_base::model::{CircuitTest, Instance, Stimulation, TestRow, Value as PortValue};
+use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::Effort;
 use nbc_circuit::waves::WaveMachine;
 use nbc_session::report::{self, Looks};
@@ -116,10 +116,16 @@ pub(super) fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> S
         timing: compiled.swarm_timing().describe(),
         hold: compiled.timing.hold,
         start: assembly.start_cycles(),
-        ground: compiled.assembly.world.ground.heights().to_vec(),
+        ground: columns(&assembly.setting(Session::LIVE_CYCLES).ground),
         frames: FRAMES,
         waves: compiled.mapping.waves.as_ref().map(|machine| waves(machine, &trace.recording.robots)),
     }
+}
+
+/// The stretches of voxels in the columns of the ground; none if it is flat.
+fn columns(ground: &GroundProfile) -> Vec<Vec<u8>> {
+    let ends = |column| ground.stretches(column).into_iter().flat_map(|rows| [rows.start as u8, rows.end as u8]);
+    (0..ground.columns().len()).map(|column| ends(column).collect()).collect()
 }
 
 fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {

@@ -52,10 +52,10 @@ impl Terrain {
         Self { voxels: placed.into_iter().map(|(_, voxel)| voxel).collect(), columns, cells }
     }
 
-    /// Ground of one column of voxels after another, as high as the profile says above one row that is everywhere.
+    /// Ground of one column of voxels after another, which has the profile's voxels. All neighbors are joined.
     pub fn ground(columns: usize, profile: &GroundProfile, constants: &Constants) -> Self {
-        let rows = 1 + profile.highest(0..columns.min(GroundProfile::MOST_COLUMNS));
-        let is_there = |row: usize, column: usize| rows - row <= 1 + profile.height(column);
+        let rows = profile.highest(0..columns.min(GroundProfile::MOST_COLUMNS));
+        let is_there = |row: usize, column: usize| profile.rows(column) >> (rows - 1 - row) & 1 == 1;
         let code = |at: usize| if is_there(at / columns, at % columns) { 5 } else { 0 };
         let codes: Vec<u8> = (0..rows * columns).map(code).collect();
         Self::new([(&Grid::structure(columns, rows, &codes), [0, 0])], constants)

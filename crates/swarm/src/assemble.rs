@@ -101,7 +101,8 @@ impl Assembly {
     pub fn setting(&self, cycles: usize) -> Setting {
         let widest = self.members.iter().map(|member| member.robot.body.width()).max().unwrap_or(0);
         let world_width = (2 * cycles * widest).next_power_of_two().max(LEAST_GROUND);
-        Setting { world_width, factors: self.world.factors, ground: self.world.ground, ..Setting::default() }
+        let ground = self.world.ground.on(world_width);
+        Setting { world_width, factors: self.world.factors, ground, ..Setting::default() }
     }
 
     /// The name of the net that a source drives, such as `a[3]`; a constant's is its value.

@@ -162,6 +162,7 @@ impl<'a> Probe<'a> {
         let trials: Vec<Trial> = plans.iter().enumerate().map(trial).collect();
         let start_x = self.setting.start_x.map(|x| x + start);
         let PhysicsWorld { factors, ground, .. } = self.world;
+        let ground = ground.on(self.setting.world_width);
         let setting = Setting { shift: noise(0).shift(), factors, ground, start_x, ..self.setting };
         let found = |(plan, trajectory): (&HoldPlan, Trajectory)| match trajectory.fault {
             Some(fault) => Err(fault),

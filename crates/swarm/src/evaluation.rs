@@ -31,7 +31,8 @@ const SAMPLE_SEED: u64 = 0;
 /// The setting of each simulation in a world. Every candidate starts at the same place.
 pub(super) fn setting(world: &PhysicsWorld) -> Setting {
     let shift = RobotNoise::new(&world.noise, 0).shift();
-    Setting { shift, factors: world.factors, ground: world.ground, ..Setting::default() }
+    let plain = Setting::default();
+    Setting { shift, factors: world.factors, ground: world.ground.on(plain.world_width), ..plain }
 }
 
 /// A body to be evaluated.

@@ -45,6 +45,9 @@ def is_array(value: Any) -> bool:
 
 def array_of(value: Any) -> npt.NDArray[Any]:
     """The numpy array of an array of any library, without a copy where possible."""
+    # A tensor of torch with a gradient gives its numbers only when it is detached.
+    if getattr(value, "requires_grad", False) is True:
+        value = value.detach()
     if hasattr(value, "__array__"):
         return np.asarray(value)
     if hasattr(value, "__dlpack__"):

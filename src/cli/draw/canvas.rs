@@ -34,7 +34,7 @@ impl Canvas {
             Drawing::Sheets { top, .. } => self.write(Drawing::Picture(top)),
             Drawing::Picture(svg) => self.bytes(&report::png(&svg)),
             Drawing::Text(text) => self.bytes(text.as_bytes()),
-            Drawing::Film { format, film, stage } => self.film(format, &film, stage),
+            Drawing::Film { format, film, stage } => self.film(format, &film, *stage),
         }
     }
 

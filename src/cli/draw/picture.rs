@@ -28,8 +28,8 @@ pub(super) enum Drawing {
     },
     Film {
         format: FilmFormat,
-        film: Film,
-        stage: Stage,
+        film: Box<Film>,
+        stage: Box<Stage>,
     },
 }
 

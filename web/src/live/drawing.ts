@@ -17,8 +17,8 @@ export interface Lane {
   scale: number;
   /** The voxel in the middle. */
   camera: number;
-  /** The heights of the columns of the ground, which repeat; none if it is flat. */
-  heights: number[];
+  /** The columns of the ground, which repeat: the rows from and up to which each is voxels; none if it is flat. */
+  columns: number[][];
 }
 
 type Pen = CanvasRenderingContext2D;
@@ -32,7 +32,7 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
   pen.fillRect(left, top, width, ground - top);
   pen.fillStyle = colors.ground;
   pen.fillRect(left, ground, width, top + height - ground);
-  drawColumns(pen, lane);
+  drawColumns(pen, lane, colors);
   pen.fillStyle = colors.tick;
   pen.font = `10px ${colors.font}`;
   pen.textAlign = "center";
@@ -47,15 +47,22 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
   }
 }
 
-/** The ground above its lowest place. */
-function drawColumns(pen: Pen, lane: Lane): void {
-  const { left, width, ground, scale, camera, heights } = lane;
+/** The voxels of ground above its lowest row, and the gaps in that row. */
+function drawColumns(pen: Pen, lane: Lane, colors: Colors): void {
+  const { left, top, width, height, ground, scale, camera, columns } = lane;
   const half = width / 2 / scale;
   for (let voxel = Math.max(0, Math.floor(camera - half)); voxel <= camera + half; voxel++) {
-    const high = (heights[voxel % heights.length] ?? 0) * scale;
-    if (high > 0) {
-      const [from, to] = [voxel, voxel + 1].map(x => Math.round((x - camera + half) * scale)) as [number, number];
-      pen.fillRect(left + Math.max(0, from), ground - high, Math.min(width, to) - Math.max(0, from), high);
+    const ends = columns[voxel % columns.length] ?? [0, 1];
+    const from = Math.max(0, Math.round((voxel - camera + half) * scale));
+    const wide = Math.min(width, Math.round((voxel + 1 - camera + half) * scale)) - from;
+    if (ends[0] !== 0) {
+      pen.fillStyle = colors.sky;
+      pen.fillRect(left + from, ground, wide, top + height - ground);
+    }
+    pen.fillStyle = colors.ground;
+    for (let i = 0; i + 1 < ends.length; i += 2) {
+      const [low, high] = [Math.max(1, ends[i] ?? 0) - 1, (ends[i + 1] ?? 0) - 1];
+      pen.fillRect(left + from, ground - high * scale, wide, (high - low) * scale);
     }
   }
 }

@@ -137,7 +137,7 @@ export class Stage implements View {
         (cell.height - 6) / this.#tallness(robot),
       );
       const ground = cell.top + cell.height - 5;
-      const lane: Lane = { ...cell, ground, scale, camera: middleOf(outline), heights: [] };
+      const lane: Lane = { ...cell, ground, scale, camera: middleOf(outline), columns: [] };
       drawRobot(pen, outline, voxels, this.swarm.definition.value?.looks ?? [], lane, colors.value);
     }
   }
@@ -230,15 +230,15 @@ export class Stage implements View {
   #drawWalk(pen: Pen, robot: number, area: { left: number; top: number; width: number; height: number }): void {
     const definition = this.swarm.definition.value;
     const outline = this.swarm.playback.outline(robot);
-    const heights = definition?.ground ?? [];
-    const tall = Math.max(5, this.#tallness(robot)) + Math.max(0, ...heights);
+    const columns = definition?.ground ?? [];
+    const tall = Math.max(5, this.#tallness(robot)) + Math.max(0, ...columns.map(ends => (ends.at(-1) ?? 1) - 1));
     const ground = area.top + area.height - Math.min(20, Math.max(9, area.height / 6));
     const scale = Math.min((ground - area.top) / (tall * 1.3), area.width / 14);
     const place = outline === null ? 0 : middleOf(outline);
     const half = area.width / 2 / scale;
     const camera = followWithSlack(this.#cameras.get(robot), place, half / 3);
     this.#cameras.set(robot, camera);
-    const lane: Lane = { ...area, ground, scale, camera, heights };
+    const lane: Lane = { ...area, ground, scale, camera, columns };
     pen.save();
     pen.beginPath();
     pen.rect(area.left, area.top, area.width, area.height);

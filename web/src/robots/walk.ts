@@ -39,7 +39,7 @@ export class GaitView {
     const ground = height - 10;
     const scale = Math.min((ground - 2) / (this.looking.height * 1.45), width / 11);
     this.#camera = followWithSlack(time === 0 ? place : this.#camera, place, width / scale / 5);
-    const lane = { left: 0, top: 0, width, height, ground, scale, camera: this.#camera, heights: [] };
+    const lane = { left: 0, top: 0, width, height, ground, scale, camera: this.#camera, columns: [] };
     drawGround(pen, lane, colors.value, false);
     drawRobot(pen, outline, this.looking.voxels, this.looking.looks, lane, colors.value);
   }

@@ -9,6 +9,8 @@ mod enumeration;
 mod evolution;
 mod function;
 mod genotype;
+mod ground;
+mod ground_file;
 mod material;
 mod palette;
 mod program;
@@ -38,6 +40,7 @@ pub use evolution::{
 };
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
+pub use ground::{GroundProfile, GroundShape};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use palette::Palette;
 pub use program::{
@@ -53,10 +56,10 @@ pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
 pub use wording::{
-    BehaviorError, BodyError, DisplacementsError, MaterialError, MaterialNumber, PaletteError, PatternError,
-    SettingError, VariationError,
+    BehaviorError, BodyError, DisplacementsError, GroundFileError, MaterialError, MaterialNumber, PaletteError,
+    PatternError, SettingError, VariationError,
 };
-pub use world::{GroundProfile, PhysicsWorld, WorldFactors, WorldNoise};
+pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

@@ -16,7 +16,8 @@ pub struct Setting {
     pub shift: f64,
     /// The physics as factors of the paper's.
     pub factors: WorldFactors,
-    /// How high the ground is. A body starts above the highest of the columns below it.
+    /// The ground, as columns that repeat from its left end. A body starts above the highest voxel of the columns below
+    /// it.
     pub ground: GroundProfile,
 }
 
@@ -59,7 +60,7 @@ impl Setting {
         let left = self.start_column(body_width) as f64 + self.shift;
         let below = |side: f64| side.clamp(0.0, self.world_width as f64) as usize;
         let columns = below(left.floor())..below((left + body_width as f64).ceil());
-        [left, 1.0 + self.ground.highest(columns) as f64]
+        [left, self.ground.highest(columns) as f64]
     }
 
     /// The start column of a body of that many columns.

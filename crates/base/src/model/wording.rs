@@ -72,6 +72,73 @@ impl fmt::Display for BodyError {
 
 impl Error for BodyError {}
 
+/// The reason why a text is not ground of Evolution Gym.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum GroundFileError {
+    /// Not JSON, or not that of a world.
+    NotWorld {
+        /// The first error in it.
+        reason: String,
+    },
+    /// An object with more or fewer codes than cells.
+    Uneven {
+        /// The object.
+        object: String,
+        /// The number of its cells.
+        cells: usize,
+        /// The number of its codes.
+        codes: usize,
+    },
+    /// An object with voxels that move.
+    NotFixed {
+        /// The object.
+        object: String,
+    },
+    /// A number that is not a cell.
+    Cell {
+        /// The object.
+        object: String,
+        /// The number.
+        cell: String,
+    },
+    /// A voxel too far from the lower left corner.
+    TooLarge {
+        /// The voxel's column, from 0.
+        column: usize,
+        /// Its row, from 0.
+        row: usize,
+        /// The most columns.
+        most_columns: usize,
+        /// The most rows.
+        most_rows: usize,
+    },
+    /// No voxels.
+    Empty,
+}
+
+impl fmt::Display for GroundFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NotWorld { reason } => write!(f, "it is not a world of Evolution Gym: {reason}"),
+            Self::Uneven { object, cells, codes } => {
+                write!(f, "the object `{object}` has {cells} voxels and {codes} codes, expected as many")
+            }
+            Self::NotFixed { object } => write!(f, "the object `{object}` has voxels that are not fixed"),
+            Self::Cell { object, cell } => {
+                write!(f, "the object `{object}` has a voxel at {cell}, expected the number of a cell")
+            }
+            Self::TooLarge { column, row, most_columns, most_rows } => write!(
+                f,
+                "it has a voxel in column {column} and row {row}, expected at most {most_columns} columns and \
+                 {most_rows} rows"
+            ),
+            Self::Empty => f.write_str("it has no voxels"),
+        }
+    }
+}
+
+impl Error for GroundFileError {}
+
 /// The reason why materials are not a palette.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PaletteError {

@@ -22,23 +22,23 @@ use crate::check::test;
 use crate::check::uses::{NameUse, NameUses};
 use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EnvironmentError, EvolutionError};
-use crate::check::world::{Worlds, world};
+use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
     CircuitId, CircuitTest, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, PhysicsWorld, Program,
     Reference, Script, Simulation, Stimulation,
 };
-use nbc_base::source::{Sources, Span};
+use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
 /// The program of the trees, and what is known of it.
-pub(crate) fn program(trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
+pub(crate) fn program(files: &dyn SourceWorld, trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
     let mut assembly = Assembly::new(trees, sources);
     assembly.stimuli();
     assembly.materials();
     assembly.schedules();
-    assembly.worlds();
+    assembly.worlds(ProgramFiles { world: files, sources });
     assembly.library_names();
     assembly.evolutions();
     assembly.libraries();
@@ -154,7 +154,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    fn worlds(&mut self) {
+    fn worlds(&mut self, files: ProgramFiles) {
         let sources = self.declarations.records(RecordKeyword::World);
         for (place, (home, source)) in sources.iter().enumerate() {
             let declared = self.names.worlds.declare(&source.name, place, *home);
@@ -163,7 +163,8 @@ impl<'a> Assembly<'a> {
         self.worlds = vec![CheckState::Open; sources.len()];
         for place in order(&sources, &self.names.worlds) {
             let (home, source) = sources[place];
-            let checked = world(source, home, &self.names.worlds, &self.worlds, &mut self.faults);
+            let names = &self.names.worlds;
+            let checked = world(source, home, (names, &self.worlds), files, &mut self.faults);
             self.worlds[place] = checked;
         }
         let sound = self.worlds.iter().filter_map(|state| match state {

@@ -3,12 +3,14 @@
 
 use crate::check::derived::{self, CheckState};
 use crate::check::fields::{self, Fields};
+use crate::check::load::beside;
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::{Expected, ValueError};
+use crate::check::wording::{Expected, LoadError, ValueError};
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{GroundProfile, NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
+use nbc_base::source::{SourceWorld, Sources, Span};
 
 /// The worlds that other declarations may name.
 #[derive(Clone, Copy)]
@@ -31,12 +33,19 @@ impl Worlds<'_> {
     }
 }
 
+/// The files beside a program.
+#[derive(Clone, Copy)]
+pub(crate) struct ProgramFiles<'a> {
+    pub(crate) world: &'a dyn SourceWorld,
+    pub(crate) sources: &'a Sources,
+}
+
 /// Checks a world; `checked` are the worlds by the position of their names, as far as they are checked.
 pub(crate) fn world(
     source: &RecordDeclaration,
     home: Home,
-    names: &NameTable,
-    checked: &[CheckState<NamedWorld>],
+    (names, checked): (&NameTable, &[CheckState<NamedWorld>]),
+    files: ProgramFiles<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> CheckState<NamedWorld> {
     let mut fields = Fields::new("world", source);
@@ -62,7 +71,7 @@ pub(crate) fn world(
         dead: fields.read("dead", base.noise.dead, share),
         seed: fields.read("seed", base.noise.seed as u32, |value| quantity::count(value, 0..=u32::MAX)).into(),
     };
-    let ground = fields.read("ground", base.ground, ground);
+    let ground = fields.read("ground", base.ground, |value| ground(value, files));
     let found = fields.finish();
     let sound = found.is_empty() && whole;
     faults.extend(found);
@@ -93,9 +102,14 @@ fn change(name: &str, value: &ValueSyntax) -> Result<f64, Diagnostic> {
     if name == "start" { voxels(value) } else { ratio(value, 0.0..=Variation::most(name)) }
 }
 
-/// The heights of the columns of the ground, one after another.
-fn ground(value: &ValueSyntax) -> Result<GroundProfile, Diagnostic> {
-    let (values, most) = (fields::list(value), GroundProfile::MOST_COLUMNS);
+/// The heights of the columns of the ground, one after another, or its cells in a file.
+fn ground(value: &ValueSyntax, files: ProgramFiles<'_>) -> Result<GroundProfile, Diagnostic> {
+    match &value.kind {
+        ValueKind::Text(path) => return ground_file(path, value.span, files),
+        ValueKind::Instance(_) => return Err(quantity::wrong_kind(Expected::Ground, value.span)),
+        _ => (),
+    }
+    let (values, most) = (fields::list(value), GroundProfile::MOST_HEIGHTS);
     match values.len() {
         0 => return Err(ValueError::EmptyList { field: "ground" }.at(value.span)),
         entries if entries > most => {
@@ -106,6 +120,16 @@ fn ground(value: &ValueSyntax) -> Result<GroundProfile, Diagnostic> {
     let height = |value| quantity::count(value, 0..=GroundProfile::MOST_HEIGHT.into()).map(|height| height as u8);
     let heights: Vec<u8> = values.iter().map(height).collect::<Result<_, _>>()?;
     Ok(GroundProfile::new(&heights).expect("each height is in its range"))
+}
+
+fn ground_file(path: &str, span: Span, files: ProgramFiles<'_>) -> Result<GroundProfile, Diagnostic> {
+    let file = beside(&files.sources.file(span.file).name, path);
+    let error = match files.world.read(&file).map(|text| GroundProfile::of_file(&text)) {
+        Ok(Ok(profile)) => return Ok(profile),
+        Ok(Err(error)) => LoadError::Ground { file, error },
+        Err(error) => LoadError::UnreadableGround { file, error },
+    };
+    Err(error.at(span))
 }
 
 /// A factor of the paper's physics.

@@ -36,8 +36,8 @@ pub(crate) struct ShownSwarm {
     pub(crate) hold: u32,
     /// Cycles at the start in which the robots take their shape.
     pub(crate) start: usize,
-    /// How high the ground is in voxels: of columns that repeat; none if it is flat.
-    pub(crate) ground: Vec<u8>,
+    /// The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat.
+    pub(crate) ground: Vec<Vec<u8>>,
     /// Poses in a cycle.
     pub(crate) frames: u32,
     /// What it is as a wave machine.

@@ -26,6 +26,8 @@ const DELAY: u16 = 4;
 const LARGE: usize = 32;
 const HEAD: f64 = 34.0;
 const FOOT: f64 = 14.0;
+/// The depth of the ground below its upper face.
+const GROUND: f64 = 9.0;
 
 /// How a film looks.
 #[derive(Clone, Debug)]
@@ -40,7 +42,7 @@ pub struct Film {
     pub largest: usize,
     /// The number of stimuli to show; of more than four, the first four.
     pub stimuli: usize,
-    /// How high the ground is below each robot.
+    /// The ground of each robot, as columns that repeat from its left end.
     pub ground: GroundProfile,
 }
 
@@ -108,19 +110,25 @@ impl<'a> Painter<'a> {
         }
     }
 
-    /// The columns of ground that are higher than the lowest.
+    /// The voxels of ground above its lowest row, and the gaps in that row.
     fn paint_ground(&mut self, camera: f64, half: f64, lane: usize, to_pixel: impl Fn((f64, f64)) -> (f64, f64)) {
         let film = self.film;
         let (left, top) = (film.left(lane) + film.labels(), film.top(lane));
         let columns = (camera - half).floor().max(0.0) as usize..(camera + half).ceil().max(0.0) as usize;
-        for column in columns.filter(|column| film.ground.height(*column) > 0) {
-            let high = film.ground.height(column) as f64;
-            let corner = |x: f64, y: f64| {
-                let (x, y) = to_pixel((x, y));
-                (x.clamp(left, left + film.span()), y.max(top))
-            };
-            let (from, to) = (corner(column as f64, 1.0 + high), corner(column as f64 + 1.0, 1.0));
-            fill_rect(&mut self.frame, from, to.0 - from.0, to.1 - from.1, Color::GROUND);
+        let corner = |column: usize, row: usize| {
+            let (x, y) = to_pixel((column as f64, row as f64));
+            (x.clamp(left, left + film.span()), y.max(top))
+        };
+        for column in columns {
+            let stretches = film.ground.stretches(column);
+            for rows in &stretches {
+                let (high, low) = (corner(column, rows.end), corner(column + 1, rows.start.max(1)));
+                fill_rect(&mut self.frame, high, low.0 - high.0, low.1 - high.1, Color::GROUND);
+            }
+            if stretches.first().is_none_or(|rows| rows.start > 0) {
+                let (from, to) = (corner(column, 1), corner(column + 1, 1));
+                fill_rect(&mut self.frame, from, to.0 - from.0, GROUND, Color::SKY);
+            }
         }
     }
 
@@ -147,7 +155,7 @@ impl<'a> Painter<'a> {
             }
         }
         if moment.faults[lane] {
-            fill_rect(&mut self.frame, (left + film.labels(), ground + 9.0), film.span(), 4.0, Color::FAULT);
+            fill_rect(&mut self.frame, (left + film.labels(), ground + GROUND), film.span(), 4.0, Color::FAULT);
         }
     }
 }
@@ -209,7 +217,7 @@ impl Film {
 
     /// Whole pixels, so that the edges of the ground are sharp.
     fn lane_height(&self) -> f64 {
-        let high = self.ground.heights().iter().max().map_or(0.0, |most| f64::from(*most));
+        let high = self.ground.heights().into_iter().max().map_or(0.0, f64::from);
         ((self.largest as f64 * 1.25 + 0.5 + high) * self.scale()).round() + 26.0
     }
 
@@ -239,7 +247,7 @@ impl Film {
             let (left, ground) = (self.left(lane), self.ground(lane));
             let top = self.top(lane);
             svg.rect((left + self.labels(), top), self.span(), ground - top, Paint::fill(Color::SKY));
-            svg.rect((left + self.labels(), ground), self.span(), 9.0, Paint::fill(Color::GROUND));
+            svg.rect((left + self.labels(), ground), self.span(), GROUND, Paint::fill(Color::GROUND));
             let (letters, size) = if self.is_dense() { (13, 7.0) } else { (15, 11.0) };
             let above = self.lamp() * 1.5;
             svg.text((left + self.lamp() - 2.0, ground - above), &shorten(name, letters), Type::new(size));

@@ -66,13 +66,15 @@ fn declaration(world: &PhysicsWorld) -> String {
     ];
     let changed = fields.into_iter().filter(|(_, value, own)| value != own);
     let mut words: Vec<String> = changed.map(|(name, value, _)| format!("{name}: {value}")).collect();
-    if !world.ground.is_flat() {
+    let is_of_file = world.ground.is_of_file();
+    if !world.ground.is_flat() && !is_of_file {
         words.push(format!("ground: {:?}", world.ground.heights()));
     }
     if [noise.start, noise.missed, noise.dead].iter().any(|amount| *amount > 0.0) {
         words.push(format!("seed: {}", noise.seed));
     }
-    if words.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", words.join(", ")) }
+    let record = if words.is_empty() { "{}".to_owned() } else { format!("{{ {} }}", words.join(", ")) };
+    if is_of_file { format!("{record}, and the ground of its file") } else { record }
 }
 
 /// The yield of a test for several sizes of change.

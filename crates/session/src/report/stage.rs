@@ -78,7 +78,8 @@ impl Stage {
     fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
         let palettes = assembly.members.iter().map(|member| Arc::clone(member.robot.body.palette())).collect();
         let spells = trace.cycles.iter().map(|cycle| (CYCLE_STEPS, cycle.sensed.clone())).collect();
-        Self::new((assembly.flock(&Simulator::default(), cycles), assembly.world.ground), palettes, spells, stride)
+        let ground = assembly.setting(cycles).ground;
+        Self::new((assembly.flock(&Simulator::default(), cycles), ground), palettes, spells, stride)
     }
 
     fn new(
@@ -92,7 +93,7 @@ impl Stage {
         Self { flock, ground, palettes, spells, spell: 0, left, stride, step: 0, started: false }
     }
 
-    /// How high the ground is below each robot.
+    /// The ground of each robot, as columns that repeat from its left end.
     pub fn ground(&self) -> GroundProfile {
         self.ground
     }

@@ -31,7 +31,7 @@ class Episode:
     first: _Floats
     """The observation at the start."""
     goals: List[int]
-    """The goals of BidirectionalWalker-v0; no other task has any."""
+    """The goals of BidirectionalWalker-v0, and where the package of Catcher-v0 begins; no other task has any."""
     seconds: float
     """The CPU time of its env steps."""
 
@@ -79,6 +79,8 @@ def record(
         env: Any = gymnasium.make(task, body=np.asarray(body), connections=connections).unwrapped
         first, _ = env.reset()
     goals = [goal.x_goal for goal in getattr(env, "goals", [])]
+    if hasattr(env, "offsetx"):
+        goals = [env.offsetx, env.offsety]
     rewards: List[float] = []
     done, count, start = False, env.action_space.shape[0], time.process_time()
     while len(rewards) < steps and not done:

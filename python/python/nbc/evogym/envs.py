@@ -14,6 +14,7 @@ import numpy.typing as npt
 from gymnasium import spaces
 from gymnasium.vector import AutoresetMode, VectorEnv
 
+from ..numbers import array_of
 from .picture import draw
 from .tasks import TASKS, TaskWorlds, task_of
 from .sim import EvoSim
@@ -67,7 +68,8 @@ class TaskEnv(gym.Env):
     def reset(
         self, *, seed: Optional[int] = None, options: Optional[Dict[str, Any]] = None
     ) -> Tuple[_Array, Dict[str, Any]]:
-        """Goes back to the start. ``options={"goals": [...]}`` sets the goals of BidirectionalWalker-v0."""
+        """Goes back to the start. ``options={"goals": [...]}`` sets the goals of BidirectionalWalker-v0, or by how many
+        voxels the package of Catcher-v0 begins to the right of its usual place and above it."""
         super().reset(seed=seed)
         self._worlds.reset([0], self.np_random, (options or {}).get("goals"))
         return self._worlds.observe()[0], {}
@@ -76,7 +78,7 @@ class TaskEnv(gym.Env):
         """The world around the robot as a picture, shape (height, width, 3)."""
         if self.render_mode is None:
             return None
-        return draw(self._worlds.scenes, 0, self.world, **self._options)
+        return draw(self._worlds.scenes, 0, self._worlds.worlds[0], **self._options)
 
     def close(self) -> None:
         """Frees the simulation."""
@@ -132,7 +134,7 @@ class TaskVectorEnv(VectorEnv):
 
     def step(self, actions: npt.ArrayLike) -> Tuple[_Array, _Array, _Array, _Array, Dict[str, Any]]:
         """Simulates an env step with a row of targets for each robot."""
-        targets = np.asarray(actions, dtype=np.float64)
+        targets = np.asarray(array_of(actions), dtype=np.float64)
         if targets.shape != self._is_used.shape:
             raise ValueError(f"the actions have the shape {targets.shape}, expected {self._is_used.shape}")
         resets = self._ended
@@ -179,7 +181,7 @@ class EvoGymBase(gym.Env):
         """Simulates an env step with the targets of each robot by its name, clipped to 0.6 to 1.6. Returns whether a
         robot became unstable."""
         for name, targets in action.items():
-            self._sim.set_action(name, np.clip(np.asarray(targets, dtype=np.float64), 0.6, 1.6))
+            self._sim.set_action(name, np.clip(np.asarray(array_of(targets), dtype=np.float64), 0.6, 1.6))
         return self._sim.step()
 
     def reset(  # type: ignore[override]

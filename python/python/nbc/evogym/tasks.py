@@ -14,6 +14,7 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
+from ..numbers import array_of
 from .sim import VOXEL_SIZE, Scenes
 from .world import EvoWorld
 
@@ -309,6 +310,13 @@ def _hull_area(points: _Floats) -> float:
     return sum(a * d - c * b for (a, b), (c, d) in zip(hull, following)) / 2
 
 
+def catches(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
+    """The robot comes below the package, which does not fall to the ground."""
+    one, two = before.object("package").com, after.object("package").com
+    reward = np.abs(before.robot.com[:, 0] - one[:, 0]) - np.abs(after.robot.com[:, 0] - two[:, 0])
+    return reward + np.where(two[:, 1] < 5.0 * VOXEL_SIZE, 10 * (two - one)[:, 1], 0), _no(after)
+
+
 # ---- the tasks ----
 
 
@@ -324,6 +332,7 @@ class Task:
     others: Tuple[str, ...] = ()
     blocks: Tuple[Tuple[int, int, int], ...] = ()
     has_goals: bool = False
+    falls: bool = False
 
     @property
     def turns(self) -> Optional[str]:
@@ -332,12 +341,19 @@ class Task:
             return "robot"
         return self.others[0] if any(getattr(part, "func", None) is turn_of for part in self.observes) else None
 
-    def make_world(self, body: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None) -> EvoWorld:
-        """The world with a robot in it, which is called ``robot``."""
+    def make_world(
+        self, body: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None, drop: Tuple[int, int] = (0, 0)
+    ) -> EvoWorld:
+        """The world with a robot in it, which is called ``robot``. A package that falls begins ``drop`` voxels to the
+        right of its usual place and above it."""
         world = EvoWorld.of_task(self.world)
         world.add_from_array("robot", body, *self.at, connections=connections)
         for number, (x, y, size) in enumerate(self.blocks):
             world.add_from_array(f"block_{number}", np.ones((size, size), dtype=int), x, y)
+        if self.falls:
+            for name, file, x, y in (("package", "package", 21, 41), ("peg1", "peg", 17, 39), ("peg2", "peg", 19, 25)):
+                for each in EvoWorld.of_task(file).objects.values():
+                    world.add_from_array(name, each.structure, x + drop[0], y + drop[1])
         return world
 
 
@@ -402,6 +418,12 @@ TASKS: Dict[str, Task] = {
         "Lifter-v0", (2, 3), 300, (partial(pair, name="package"), partial(turn_of, name="package"), shape), lifts,
         others=("package",),
     ),
+    "Catcher-v0": Task(
+        "Walker-v0", (22, 1), 400,
+        (partial(way_to, name="package"), velocity, partial(velocity_of, name="package"),
+         partial(turn_of, name="package"), shape),
+        catches, others=("package",), falls=True,
+    ),
     "Carrier-v0": Task("Carrier-v0", (1, 1), 500, _package(), carries, others=("package",)),
     "Carrier-v1": Task("Carrier-v1", (1, 4), 1000, _package(), carries_to_table, others=("package",)),
     "Pusher-v0": Task("Pusher-v0", (1, 1), 500, _package(), partial(pushes, place=99), others=("package",)),
@@ -440,7 +462,7 @@ class TaskWorlds:
     """Worlds of one task with different robots."""
 
     def __init__(self, task: Task, worlds: Sequence[EvoWorld]) -> None:
-        self.task, self.scenes = task, Scenes(worlds)
+        self.task, self.worlds, self.scenes = task, list(worlds), Scenes(worlds)
         self._all = list(range(len(worlds)))
         places = [self.scenes.actuators(n, "robot") for n in self._all]
         self.actuators = np.array([end - first for first, end in places])
@@ -463,20 +485,36 @@ class TaskWorlds:
         """Simulates an env step; see `Scenes.step`. Actions are clipped to 0.6 to 1.6. Returns rewards, and whether
         each world is done."""
         before = self.now
-        self.scenes.step(np.clip(np.asarray(actions, dtype=np.float64), 0.6, 1.6))
+        self.scenes.step(np.clip(np.asarray(array_of(actions), dtype=np.float64), 0.6, 1.6))
         self.now = self._look()
         broken = self.scenes.faults > 0
         reward, done = self.task.judge(before, self.now)
         return reward - 3.0 * broken, done | broken
 
     def reset(self, worlds: Sequence[int], random: Any, goals: Optional[Sequence[int]] = None) -> None:
-        """Puts some worlds back to their start, with goals drawn anew if the task has some."""
+        """Puts some worlds back to their start, with goals drawn anew if the task has some. The goal of a task whose
+        package falls is how far to the right, and how far up, that begins."""
+        if self.task.falls:
+            self._drop(worlds, random, goals)
         for n in worlds:
             self.scenes.reset(n)
             if self.task.has_goals:
                 self.goals[n] = list(goals) if goals is not None else _draw_goals(random)
                 self.goal[n] = 0
         self.now = self._look()
+
+    def _drop(self, worlds: Sequence[int], random: Any, goals: Optional[Sequence[int]]) -> None:
+        """Makes some worlds anew, with the package somewhere else."""
+        kept = {n: self.scenes._native.state(n) for n in self._all if n not in worlds}
+        for n in worlds:
+            drawn = goals if goals is not None else (random.integers(-6, 5), random.integers(0, 6))
+            self.goals[n] = [int(each) for each in drawn]
+            robot = self.worlds[n].objects["robot"].structure
+            self.worlds[n] = self.task.make_world(robot, drop=(self.goals[n][0], self.goals[n][1]))
+        self.scenes.close()
+        self.scenes = Scenes(self.worlds)
+        for n, (points, clock, fault) in kept.items():
+            self.scenes._native.restore(n, points, clock, fault)
 
     def observe(self) -> _Floats:
         """What each robot observes, shape (N, most values)."""

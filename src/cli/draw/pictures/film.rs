@@ -53,6 +53,6 @@ impl FilmPicture {
         let stimuli = bodies.iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
         let (title, ground) = (title.to_owned(), stage.ground());
         let film = Film { title, lanes, scheme: request.scheme(), largest, stimuli, ground };
-        Drawing::Film { format: self.0, film, stage }
+        Drawing::Film { format: self.0, film: Box::new(film), stage: Box::new(stage) }
     }
 }

@@ -1,6 +1,7 @@
 //! Files: those of the program, and folders of robots.
 
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, folder_error};
+use nbc_base::model::GroundFileError;
 use nbc_base::source::{FileError, Span};
 
 /// A file or folder that a program cannot use.
@@ -32,6 +33,10 @@ pub(crate) enum LoadError {
     UnreadableLibrary { folder: String, error: FileError },
     /// A folder without robot files.
     EmptyLibrary { folder: String },
+    /// A file of ground that cannot be read.
+    UnreadableGround { file: String, error: FileError },
+    /// A file that is not ground.
+    Ground { file: String, error: GroundFileError },
 }
 
 impl LoadError {
@@ -88,6 +93,10 @@ impl LoadError {
             }
             Self::UnreadableLibrary { folder, error } => library(&folder, folder_error(&error), span),
             Self::EmptyLibrary { folder } => library(&folder, "it contains no robot files (.yaml)", span),
+            Self::UnreadableGround { file, error } => Diagnostic::unreadable(&file, &error)
+                .with_label(span, "used here")
+                .with_help("the path is relative to the file that names it"),
+            Self::Ground { file, error } => ground(&file, &error, span),
         }
     }
 }
@@ -99,6 +108,23 @@ pub(crate) fn at_use(fault: Diagnostic, span: Span) -> Diagnostic {
 
 fn too_large(message: String, span: Span) -> Diagnostic {
     Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
+}
+
+fn ground(file: &str, error: &GroundFileError, span: Span) -> Diagnostic {
+    let (code, label, help) = match error {
+        GroundFileError::NotFixed { .. } => {
+            (Code::Value, "expected fixed voxels only", "remove the object, or make its voxels fixed (code 5)")
+        }
+        GroundFileError::TooLarge { .. } => {
+            (Code::OutOfRange, "expected a smaller world", "keep the part in which the robots walk; it repeats")
+        }
+        _ => {
+            let help = "the design tool of Evolution Gym writes such files, as JSON";
+            (Code::Unreadable, "expected a world file of Evolution Gym", help)
+        }
+    };
+    let message = format!("cannot use `{file}` as ground: {error}");
+    Diagnostic::new(code, message, span, label).with_help(help)
 }
 
 fn library(folder: &str, why: &str, span: Span) -> Diagnostic {

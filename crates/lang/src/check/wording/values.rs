@@ -99,6 +99,8 @@ pub(crate) enum Expected {
     Weights,
     /// The largest changes of worlds.
     Changes,
+    /// The ground of a world.
+    Ground,
 }
 
 impl fmt::Display for Expected {
@@ -120,6 +122,7 @@ impl fmt::Display for Expected {
             Self::Ratio => "a number such as `0.9` or `90%`",
             Self::Weight => "a weight",
             Self::Changes => "changes such as `{ friction: 10%, gravity: 5% }`",
+            Self::Ground => "heights such as `[0, 1, 2]`, or a file in quotes",
             Self::Weights => "weights such as `{ add_node: 1, change_weight: 2 }`",
         })
     }

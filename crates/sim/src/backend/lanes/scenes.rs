@@ -296,16 +296,24 @@ mod tests {
     #[test]
     fn a_robot_on_terrain_walks_as_on_the_ground() {
         let stairs: Vec<usize> = (0..WIDTH).map(|column| [0, 0, 1, 2, 1][column % 5]).collect();
-        walks_alike(&[0], &[5; WIDTH], 1);
+        let heights = |heights: &[u8]| GroundProfile::new(heights).unwrap();
+        walks_alike(heights(&[0]), &[5; WIDTH], 1);
         let codes: Vec<u8> =
             (0..3).flat_map(|row| stairs.iter().map(move |&high| if 2 - row <= high { 5 } else { 0 })).collect();
-        walks_alike(&[0, 0, 1, 2, 1], &codes, 3);
+        walks_alike(heights(&[0, 0, 1, 2, 1]), &codes, 3);
+        // Gaps in the floor, and voxels above nothing.
+        let cells: Vec<u32> =
+            (0..WIDTH as u32).map(|column| [0b001, 0b101, 0b100, 0b111, 0b000][column as usize % 5]).collect();
+        let codes: Vec<u8> = (0..3)
+            .rev()
+            .flat_map(|row| cells.iter().map(move |rows| if rows >> row & 1 == 1 { 5 } else { 0 }))
+            .collect();
+        walks_alike(GroundProfile::of_cells(&cells).unwrap().on(12), &codes, 3);
     }
 
-    /// A robot on ground of these heights is one in a scene with terrain of these codes.
-    fn walks_alike(heights: &[u8], codes: &[u8], rows: usize) {
+    /// A robot on this ground is one in a scene with terrain of these codes.
+    fn walks_alike(ground: GroundProfile, codes: &[u8], rows: usize) {
         let body = Body::parse(&["343", "434", "313"], &Palette::paper()).unwrap();
-        let ground = GroundProfile::new(heights).unwrap();
         let setting = Setting { world_width: WIDTH, ground, ..Setting::default() };
         let (constants, pattern) = (Constants::default(), Pattern::PAIRS[0]);
         let mut flock = LaneBackend::default().flock(&setting, std::slice::from_ref(&body));
