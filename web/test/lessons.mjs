@@ -116,9 +116,13 @@ const DEEDS = {
     await page.locator("[data-do=play][data-running=false]").waitFor();
     const slider = page.locator(".rewind");
     await slider.focus();
-    while (!(await isDone()) && (await slider.inputValue()) !== "0") {
+    for (let cycle = Number(await slider.inputValue()) - 1; cycle >= 0 && !(await isDone()); cycle--) {
       await page.keyboard.press("ArrowLeft");
-      await page.waitForTimeout(20);
+      // Each cycle is shown, so that none is skipped.
+      await page.waitForFunction(
+        shown => document.querySelector(".cycle").textContent.startsWith(`cycle ${shown} `),
+        cycle,
+      );
     }
   },
   circuit: async (page, [name]) => {

@@ -10,9 +10,9 @@ use crate::refusal::Refused;
 use nbc_base::diag::is_hidden;
 
 /// The most members.
-pub(super) const MOST: usize = 60;
+const MOST: usize = 60;
 /// The most letters of a name, and bytes of the name of a lesson.
-pub(super) const LONGEST: usize = 24;
+const LONGEST: usize = 24;
 const LESSON: usize = 64;
 
 /// The members of a class.
@@ -61,7 +61,7 @@ impl Class {
     pub(super) fn join(self: &Arc<Self>, name: &str) -> Result<Membership, Refused> {
         let name = name.trim();
         if name.is_empty() || name.chars().count() > LONGEST || name.contains(|c| c == '\n' || is_hidden(c)) {
-            return Err(Refused::ClassName);
+            return Err(Refused::ClassName { most: LONGEST });
         }
         let mut members = self.lock();
         if members.joined.len() >= MOST {
@@ -128,7 +128,7 @@ mod tests {
         assert_eq!(names(&class), ["Ada", "ben"]);
         assert!(matches!(class.join("ada"), Err(Refused::ClassNameTaken { .. })));
         for name in ["", " ", "a\nb", "a\u{202e}b", "\u{1b}[2J", &"x".repeat(LONGEST + 1)] {
-            assert!(matches!(class.join(name), Err(Refused::ClassName)), "{name:?}");
+            assert!(matches!(class.join(name), Err(Refused::ClassName { .. })), "{name:?}");
         }
         assert!(class.join(&"é".repeat(LONGEST)).is_ok());
         let place = ClassPlace { lesson: "gate".to_owned(), done: 1, size: None };

@@ -4,7 +4,6 @@ use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
-use crate::class;
 use crate::message::finding::{Finding, findings};
 use crate::wording::PlayError;
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
@@ -55,7 +54,7 @@ pub(super) enum Refused {
     /// The class is full.
     ClassFull { most: usize },
     /// A name that cannot be that of a learner.
-    ClassName,
+    ClassName { most: usize },
     /// A name that another learner has.
     ClassNameTaken { name: String },
     /// A fault of the program.
@@ -118,7 +117,7 @@ impl Refused {
             Self::Export(error) => Diagnostic::from(error.clone()).message,
             Self::NoClass => "this page is in no class".to_owned(),
             Self::ClassFull { most } => format!("the class has {most} members, and no room for another one"),
-            Self::ClassName => format!("a name has 1 to {} letters, in one line", class::LONGEST),
+            Self::ClassName { most } => format!("a name has 1 to {most} letters, in one line"),
             Self::ClassNameTaken { name } => format!("somebody else is called {name}"),
             Self::Internal => "the program failed; its log says where".to_owned(),
             Self::Source(found) => match found.list.iter().find(|one| one.is_error()) {

@@ -136,7 +136,8 @@ proptest::proptest! {
         lines in proptest::collection::vec(
             proptest::sample::select(vec![
                 "# T", "## Step", "# ", "#", "- check: keeps a=1", "- check: has-shown a=1,,b", "- check: ", "- : x",
-                "-", "- do: type", "```nb", "```", "é ", "  more", "", "- best: 9 gates", "circuit x(a) -> (q) { q = a }",
+                "-", "- do: type", "```nb", "```", "é ", "  more", "", "- best: 9 gates",
+                "circuit x(a) -> (q) { q = a }",
                 "- check: robots", "- check: robots only", "- hint: é", "\r",
             ]),
             0..20,
