@@ -152,3 +152,33 @@ fn a_library_without_a_steady_multiplexer_makes_no_latches_of_one_robot() {
     bench.file("bit.nb", text);
     bench.run(&["build", "bit.nb"]).expect_fault(&["no multiplexer without glitches", "`library: three`"]);
 }
+
+#[test]
+fn wave_machines_have_gates_of_three_inputs() {
+    let bench = Bench::new();
+    let text = "enum place { none = 2'b00, one = 2'b01, gap = 2'b10, found = 2'b11 }
+circuit detector(bit, clk) -> (state: place) {
+    state = register(match state {
+        none:  if bit then one else none
+        one:   if bit then one else gap
+        gap:   if bit then found else none
+        found: if bit then one else gap
+    }, clk)
+}
+swarm waves { circuit: detector, library: three, registers: waves }
+test detector {
+    bit clk | state
+    0   0   | none
+    1   ^   | one
+    0   ^   | gap
+    1   ^   | found
+    0   ^   | gap
+    0   ^   | none
+}
+";
+    bench.file("detector.nb", text);
+    let built: Value = bench.run(&["build", "detector.nb", "--format", "json"]).expect_json();
+    assert!(built.to_string().contains("mux"), "a multiplexer is one robot: {built}");
+    let tested = bench.run(&["test", "detector.nb", "--logic"]);
+    assert_eq!(tested.status, 0, "{}{}", tested.out, tested.err);
+}

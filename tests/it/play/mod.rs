@@ -1,8 +1,8 @@
 //! `nbc play`: the server, by a page of the tests' own. The tests of `web/` do the same in a browser.
 
 mod attacks;
-mod export;
 mod class;
+mod export;
 mod lessons;
 mod page;
 mod robots;

@@ -208,7 +208,11 @@ export function askPath(suggested: string): Promise<string | null> {
       answer = withEnding(field.value);
       dialog.close();
     };
-    field.onkeydown = event => event.key === "Enter" && accept();
+    field.onkeydown = event => {
+      if (event.key === "Enter") {
+        accept();
+      }
+    };
     dialog.onclose = () => {
       dialog.remove();
       resolve(answer);

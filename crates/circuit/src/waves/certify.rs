@@ -288,7 +288,9 @@ impl Steps<'_> {
                 }
                 Some(before) => waiting.push(before),
                 None => {
-                    let signal = self.made.add(function, [pins[0], pins[pins.len() - 1]]);
+                    // A cell of one pin reads it as both inputs.
+                    pins.resize(function.inputs(), pins[0]);
+                    let signal = self.made.add_function(function, &pins);
                     self.signals.insert(id, signal);
                 }
             }
