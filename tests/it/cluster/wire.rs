@@ -8,7 +8,7 @@ use crate::cluster::server::Server;
 use crate::support::limits::PATIENCE;
 
 /// The first byte of each message.
-pub const VERSION: u8 = 3;
+pub const VERSION: u8 = 4;
 
 /// A connection that receives every message of the program.
 pub struct Wire {
