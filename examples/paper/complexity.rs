@@ -56,9 +56,8 @@ fn reaches(signals: &mut Vec<u8>, wanted: u8, most: usize) -> bool {
 
 /// Each behavior with its complexity and the median of its least distance, and how the two are correlated.
 pub fn print(boxes: &[BTreeMap<u64, Run>]) {
-    println!(
-        "\n| behavior | function | inputs | sensitivity | NANDs | 5x5 | 7x7 | 10x10 |\n|---|---|---|---|---|---|---|---|"
-    );
+    println!("\n| behavior | function | inputs | sensitivity | NANDs | 5x5 | 7x7 | 10x10 |");
+    println!("|---|---|---|---|---|---|---|---|");
     let mut measures = [const { Vec::new() }; 3];
     let mut distances = vec![Vec::new(); boxes.len()];
     for behavior in Behavior::all(2) {

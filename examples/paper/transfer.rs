@@ -57,7 +57,8 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
     Ok(())
 }
 
-/// 0 for robots that ignore both stimuli, 1 for those that follow one, 2 for those that follow both, 3 for XOR and XNOR.
+/// 0 for robots that ignore both stimuli, 1 for those that follow one, 2 for those that follow both, and 3 for XOR and
+/// XNOR.
 fn difficulty(behavior: Behavior) -> usize {
     let function = behavior.function();
     let inputs = (0..2).filter(|&input| function.depends_on(input)).count();
