@@ -116,7 +116,10 @@ impl CrateRun {
     fn entities(&self) -> Vec<Value> {
         let (action, Self { evolution, seed, generations, .. }) = (self.action(), self);
         let title = format!("{evolution}, seed {seed}, {generations} generations");
-        let setting = |name: &str, value: Value| json!({ "@id": format!("{action}/{name}"), "@type": "PropertyValue", "name": name, "value": value });
+        let setting = |name: &str, value: Value| {
+            let id = format!("{action}/{name}");
+            json!({ "@id": id, "@type": "PropertyValue", "name": name, "value": value })
+        };
         let settings = [
             setting("evolution", json!(evolution)),
             setting("seed", json!(seed)),
