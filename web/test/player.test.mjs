@@ -135,6 +135,12 @@ test("a wave machine counts its steps", async () => {
   await page.locator("[data-do=play]").click();
   const output = () => page.locator('[data-output="count"]').textContent();
   await page.locator("[data-do=reset]").click();
+  // Else the cycle of before could be that after the first step.
+  await page.waitForFunction(
+    () =>
+      /^\D*0$/.test(document.querySelector(".cycle").textContent) &&
+      document.querySelector("[data-do=play]").dataset.running === "false",
+  );
   const seen = [];
   for (let step = 0; step < 14; step++) {
     const now = await page.locator(".cycle").textContent();
