@@ -1,27 +1,17 @@
 // A class: learners join with a name, the teacher's page shows where they are, and they can leave.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 
-import { closeBrowser, setInput, visit, walking } from "./browser.mjs";
+import { setInput, visit, walking } from "./browser.mjs";
 import { done } from "./lessons.mjs";
-import { LATCH, folderWith, play } from "./program.mjs";
+import { served } from "./opened.mjs";
+import { LATCH, play } from "./program.mjs";
 
-let place, program;
-
-before(async () => {
-  place = folderWith({ "latch.nb": LATCH });
-  program = await play(place.folder, "latch.nb", { more: ["--class"] });
-});
-
-after(async () => {
-  await closeBrowser();
-  await program?.stop();
-  place?.remove();
-});
+const here = served({ "latch.nb": LATCH }, "latch.nb", { more: ["--class"] });
 
 async function learner(name) {
-  const page = await visit(program.url);
+  const page = await visit(here.program.url);
   await walking(page);
   await page.locator("#tab-learn").click();
   await page.locator("[data-do=class-name]").pressSequentially(name);
@@ -32,7 +22,7 @@ async function learner(name) {
 const row = (board, name) => board.locator("tbody tr").filter({ has: board.locator("th", { hasText: name }) });
 
 test("the teacher sees who is at which step, and names are nothing but text", async () => {
-  const board = await visit(program.teacher());
+  const board = await visit(here.program.teacher());
   await board.getByText("Nobody has joined yet.").waitFor();
   const evil = "<img src=x onerror=1>";
   const [ada, other] = [await learner("Ada"), await learner(evil)];
@@ -66,10 +56,10 @@ test("the teacher sees who is at which step, and names are nothing but text", as
 });
 
 test("the addresses of learners and teacher open nothing of each other", async () => {
-  const teacher = program.teacher();
+  const teacher = here.program.teacher();
   const status = async address => (await fetch(address)).status;
   assert.equal(await status(new URL("members", teacher)), 200);
-  assert.equal(await status(new URL("members", program.url)), 404);
+  assert.equal(await status(new URL("members", here.program.url)), 404);
   for (const name of ["live", "language", "take/1/a", "app.js"]) {
     assert.equal(await status(new URL(name, teacher)), 404, name);
   }
@@ -80,7 +70,7 @@ test("the addresses of learners and teacher open nothing of each other", async (
 });
 
 test("without --class there is none", async () => {
-  const alone = await play(place.folder, "latch.nb");
+  const alone = await play(here.place.folder, "latch.nb");
   assert.equal(alone.teacher(), undefined);
   const page = await visit(alone.url);
   await walking(page);

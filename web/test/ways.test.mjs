@@ -1,27 +1,17 @@
 // Lessons on a phone, by keyboard alone, and as a screen reader finds them.
 
 import assert from "node:assert/strict";
-import { after, before, test } from "node:test";
+import { test } from "node:test";
 
-import { closeBrowser, visit, walking } from "./browser.mjs";
+import { visit, walking } from "./browser.mjs";
 import { compiled, done } from "./lessons.mjs";
-import { LATCH, folderWith, play } from "./program.mjs";
+import { served } from "./opened.mjs";
+import { LATCH } from "./program.mjs";
 
-let place, program;
-
-before(async () => {
-  place = folderWith({ "latch.nb": LATCH });
-  program = await play(place.folder, "latch.nb", { more: ["--class"] });
-});
-
-after(async () => {
-  await closeBrowser();
-  await program?.stop();
-  place?.remove();
-});
+const here = served({ "latch.nb": LATCH }, "latch.nb", { more: ["--class"] });
 
 test("a lesson is done on a phone by touch, and nothing is wider than its screen", async () => {
-  const page = await visit(program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const page = await visit(here.program.url, { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
   await walking(page);
   const fits = async () => assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 390);
   await page.locator("#tab-learn").tap();
@@ -53,7 +43,7 @@ test("a lesson is done on a phone by touch, and nothing is wider than its screen
 });
 
 test("a lesson is done with the keyboard alone", async () => {
-  const page = await visit(program.url);
+  const page = await visit(here.program.url);
   await walking(page);
   /** Presses the tab key until the element with this selector has the focus. */
   const reach = async (selector, key = "Tab") => {
@@ -123,7 +113,7 @@ async function controls(page, selector) {
 }
 
 test("every control of the lessons has a role and a name", async () => {
-  const page = await visit(program.url);
+  const page = await visit(here.program.url);
   await walking(page);
   await page.locator("#tab-learn").click();
   const lessons = await controls(page, "#panel-learn");

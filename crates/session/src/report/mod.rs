@@ -92,7 +92,7 @@ pub use progress::{Course, draw_progress};
 #[cfg(feature = "pictures")]
 pub use raster::{png, rasterize};
 pub use result::{RobotResult, RunResult, SwarmResult};
-pub use ro_crate::{CrateFile, CrateRun, RO_CRATE_FILE, ro_crate};
+pub use ro_crate::{CrateFile, CrateRun, ro_crate};
 pub use robustness::{YieldCurve, describe_robustness, draw_yields};
 pub use run_page::{PageSwarm, SwarmOutcome, draw_run_page};
 

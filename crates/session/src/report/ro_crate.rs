@@ -8,7 +8,7 @@ use std::collections::BTreeSet;
 use serde_json::{Value, json};
 
 /// The name that the metadata file of an RO-Crate must have.
-pub const RO_CRATE_FILE: &str = "ro-crate-metadata.json";
+const RO_CRATE_FILE: &str = "ro-crate-metadata.json";
 
 /// The format of the metadata file.
 const RO_CRATE: &str = "https://w3id.org/ro/crate/1.1";
@@ -44,7 +44,7 @@ pub struct CrateRun {
     pub generations: u32,
     /// The version of the program that wrote it.
     pub version: String,
-    /// When it ended, as `2026-11-25T17:51:46+00:00`.
+    /// When its checkpoint was last written, as `2026-11-25T17:51:46+00:00`.
     pub ended: String,
     /// Its files.
     pub files: Vec<CrateFile>,
