@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use nbc_base::model::{Behavior, Body, PhysicsWorld, Setting, Variation};
+use nbc_session::report;
 use nbc_sim::Simulator;
 use nbc_swarm::{Proportion, WorldSample, fixed_displacements, fixed_trials};
 
@@ -44,7 +45,7 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
                 let walked = simulator.run_trials(&setting, &trials);
                 for ((behavior, _), four) in robots.iter().zip(walked.chunks(4)) {
                     let shown = fixed_displacements(four).ok().map(|walked| Behavior::of(&walked));
-                    let group = &mut same[difficulty(*behavior)];
+                    let group = &mut same[report::difficulty_of(*behavior)];
                     group.attempts += 1;
                     group.successes += usize::from(shown == Some(*behavior));
                 }
@@ -55,12 +56,4 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
         }
     }
     Ok(())
-}
-
-/// 0 for robots that ignore both stimuli, 1 for those that follow one, 2 for those that follow both, and 3 for XOR and
-/// XNOR.
-fn difficulty(behavior: Behavior) -> usize {
-    let function = behavior.function();
-    let inputs = (0..2).filter(|&input| function.depends_on(input)).count();
-    if inputs == 2 && (0..4).filter(|&row| function.row(row)).count() == 2 { 3 } else { inputs }
 }

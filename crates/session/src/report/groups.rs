@@ -66,6 +66,12 @@ pub(super) fn group_of(behavior: Behavior) -> usize {
     GROUPS.iter().position(|group| group.0 == name).expect("there are eight such names")
 }
 
+/// The place of a behavior of two stimuli in the paper's order of difficulty, from 0 for the easiest to 3.
+pub fn difficulty_of(behavior: Behavior) -> usize {
+    let (_, _, difficulty) = GROUPS[group_of(behavior)];
+    difficulty
+}
+
 /// The groups' values, one for each run. Champions of one run are not independent samples, and neither are two runs
 /// with the same seed, so runs are grouped by seed. Behaviors of three stimuli are in no group.
 pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup> {

@@ -77,7 +77,7 @@ pub use evolution_results::{EvolutionResults, SeedRun, axis_word};
 pub use export::{Elites, robots_csv};
 #[cfg(feature = "pictures")]
 pub use film::{FRAMES_PER_CYCLE, Film, write_apng, write_gif};
-pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups};
+pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups, difficulty_of};
 pub use heatmap::{ArchiveMap, draw_heatmap, heat};
 pub use history::{History, ProgressLine};
 pub use html::{base64, embedded};
