@@ -11,7 +11,15 @@ import { LATCH } from "./program.mjs";
 
 const GATE = "circuit gate(a, b) -> (q) {\n    q = a and b\n}\n";
 
-const here = opened({ "latch.nb": LATCH, "gate.nb": GATE }, "gate.nb");
+const VERILOG = `module toggle(input clk, input t, output reg q);
+  always @(posedge clk) if (t) q <= ~q;
+endmodule
+module both(input [1:0] a, output q);
+  assign q = &a;
+endmodule
+`;
+
+const here = opened({ "latch.nb": LATCH, "gate.nb": GATE, "both.nb": GATE, "both.v": VERILOG }, "gate.nb");
 
 const onDisk = name => readFileSync(path.join(here.place.folder, name), "utf8");
 
@@ -144,4 +152,19 @@ test("other files, examples and new files can be opened", async () => {
   await here.page.locator('.file[data-unsaved="false"]').waitFor();
   await here.page.waitForFunction(() => document.querySelector("[data-do=save]").disabled);
   assert.match(onDisk("mine.nb"), /circuit mine/);
+});
+
+test("Verilog is opened as a program with its modules as robots", async () => {
+  await here.page.locator("[data-do=open]").click();
+  await here.page.locator('[data-open="both.v"]').click();
+  // The program of that name is another one.
+  await here.page.waitForFunction(() => document.querySelector(".file").textContent === "both_2.nb");
+  const text = await here.page.locator(".cm-content").textContent();
+  assert.match(text, /use "both.v"/);
+  assert.match(text, /swarm toggle_robots/);
+  for (const circuit of ["toggle", "both"]) {
+    const option = here.page.locator(".swarm .circuit option", { hasText: circuit });
+    await option.first().waitFor({ state: "attached" });
+  }
+  await walking(here.page);
 });

@@ -38,7 +38,7 @@ impl Workspace {
 
     /// The paths of its source files, in order. Hidden folders and those of results and packages are left out.
     pub(super) fn files(&self) -> Vec<String> {
-        store::source_files(self.folders.iter().map(PathBuf::from))
+        store::source_files(self.folders.iter().map(PathBuf::from), |path| path.ends_with(".nb"))
     }
 }
 

@@ -9,7 +9,10 @@ use include_dir::{Dir, File, include_dir};
 
 use crate::message::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, PlayEvent};
 use crate::refusal::Refused;
+use nbc_base::model::Circuit;
 use nbc_base::source::SourceWorld;
+use nbc_circuit::formats::CircuitSource;
+use nbc_session::Session;
 use nbc_session::store::{self, FolderWorld};
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
@@ -25,7 +28,7 @@ impl PageFiles {
         Self { world, known: BTreeMap::new() }
     }
 
-    /// The programs below the folder.
+    /// The programs below the folder, and the circuit files that programs can use.
     pub(super) fn list(&self) -> Vec<FileEntry> {
         let root = self.world.root();
         let one = |path: String| {
@@ -33,7 +36,8 @@ impl PageFiles {
             let path = Path::new(&path).strip_prefix(root).ok()?.to_string_lossy().into_owned();
             Some(FileEntry { path, size })
         };
-        store::source_files([root.to_owned()]).into_iter().filter_map(one).collect()
+        let usable = |path: &str| path.ends_with(".nb") || is_circuit(path);
+        store::source_files([root.to_owned()], usable).into_iter().filter_map(one).collect()
     }
 
     /// The text of a file. From now on, changes of the file are reported.
@@ -116,6 +120,32 @@ impl PageFiles {
         let time = about.modified().ok()?.duration_since(UNIX_EPOCH).unwrap_or_default();
         Some(format!("{}.{}", time.as_nanos(), about.len()))
     }
+}
+
+/// Whether a page reads that file as a program that uses it.
+pub(super) fn is_circuit(path: &str) -> bool {
+    CircuitSource::of_path(path).is_some()
+}
+
+/// A program beside a circuit file of another tool, which makes a swarm of each of its circuits. It has no file yet.
+///
+/// # Errors
+/// When the circuit file cannot be read.
+pub(super) fn program_around(world: &FolderWorld, session: &mut Session, path: &str) -> Result<FileText, Refused> {
+    let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (folder, name));
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    let place = |number: u32| {
+        let number = if number == 1 { String::new() } else { format!("_{number}") };
+        if folder.is_empty() { format!("{stem}{number}.nb") } else { format!("{folder}/{stem}{number}.nb") }
+    };
+    let free = (1..).map(place).find(|place| world.existing(place).is_err()).expect("a folder has less files");
+    let text = format!("// The circuits of {name}, made of robots.\n\nuse {name:?}\n");
+    session.update(&free, 1, text.clone());
+    let checked = session.open(&free)?;
+    let file = |circuit: &Circuit| &checked.sources.file(circuit.span.file).name;
+    let circuits = checked.program.circuits.iter().filter(|circuit| file(circuit).starts_with(path));
+    let swarms = circuits.map(|circuit| format!("\nswarm {0}_robots {{\n    circuit: {0}\n}}\n", circuit.name));
+    Ok(FileText { path: free, text: text + &swarms.collect::<String>(), stamp: None })
 }
 
 /// The examples: their names and descriptions.

@@ -1,5 +1,7 @@
 //! Programs for a page: their description as JSON, and compiling and testing their circuits.
 
+use std::iter;
+
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
 use crate::message::finding::findings;
@@ -20,21 +22,24 @@ use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, SwarmTrace};
 /// The most robots of a live swarm.
 pub(super) const MOST_ROBOTS: usize = 2000;
 
-/// The description of a checked program: its diagnostics, circuits and tests.
+/// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
+/// of, and its tests.
 pub(super) fn program(checked: &Checked) -> ProgramReport {
-    let own = checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == checked.file);
-    let circuits = own
-        .filter_map(|circuit| {
-            let instance = checked.in_use(circuit)?;
-            let swarms = checked.swarms(&instance).iter().map(|swarm| swarm.name.clone()).collect();
-            let line = checked.sources.file(circuit.span.file).lines().line(circuit.span.start as usize) + 1;
-            Some(CircuitEntry { name: circuit.name.clone(), circuit: instance.to_string(), swarms, line })
-        })
-        .collect();
+    let own = checked.program.circuits.iter().filter_map(|circuit| {
+        let swarms = checked.program.swarms.iter().filter(|swarm| swarm.circuit.circuit == circuit.name);
+        let mut places = iter::once(circuit.span).chain(swarms.map(|swarm| swarm.span));
+        Some((circuit, places.find(|place| Some(place.file) == checked.file)?))
+    });
+    let circuits = own.filter_map(|(circuit, place)| {
+        let instance = checked.in_use(circuit)?;
+        let swarms = checked.swarms(&instance).iter().map(|swarm| swarm.name.clone()).collect();
+        let line = checked.sources.file(place.file).lines().line(place.start as usize) + 1;
+        Some(CircuitEntry { name: circuit.name.clone(), circuit: instance.to_string(), swarms, line })
+    });
     ProgramReport {
         errors: checked.diagnostics.iter().filter(|found| found.is_error()).count(),
         diagnostics: findings(&checked.diagnostics, &checked.sources),
-        circuits,
+        circuits: circuits.collect(),
         tests: checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect(),
     }
 }

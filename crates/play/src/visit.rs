@@ -10,7 +10,7 @@ use serde_json::Value;
 use tokio::sync::mpsc;
 
 use crate::class::Membership;
-use crate::files::{PageFiles, example, examples};
+use crate::files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, Jobs};
 use crate::message::finding::findings;
@@ -111,8 +111,8 @@ impl Visit {
         let answer = match verb {
             Verb::Hello => Ok(RequestResult::Hello(self.hello())),
             Verb::Files => Ok(RequestResult::Files(self.files.list())),
-            Verb::Read { path: Some(path), .. } => self.files.read(path).map(RequestResult::Read),
-            Verb::Read { example: name, .. } => example(&name.unwrap_or_default()).map(RequestResult::Read),
+            Verb::Read { path: Some(path), .. } if !is_circuit(&path) => self.files.read(path).map(RequestResult::Read),
+            Verb::Read { path: None, example: name } => example(&name.unwrap_or_default()).map(RequestResult::Read),
             Verb::Save { path, text, stamp } => self.files.save(path, &text, stamp.as_deref()).map(RequestResult::Save),
             Verb::Program { path, text } => {
                 self.revision += 1;
@@ -162,6 +162,13 @@ impl Visit {
                 return self.run_swarm(id, &path, RequestResult::Replay, move |session, checked, job| {
                     programs::until_row(session, checked, (test, swarm.as_deref(), row), job)
                 });
+            }
+            Verb::Read { path: Some(path), .. } => {
+                let world = self.served.world.clone();
+                Ok(boxed(move |job| {
+                    let mut session = Session::new(GuardedWorld::until(world.clone(), job.stop.clone()));
+                    Ok(Some(RequestResult::Read(program_around(&world, &mut session, &path)?)))
+                }))
             }
             Verb::Test { path, test, level } => self.with_program(&path, move |session, checked, job| {
                 programs::run_test(session, checked, test, level.into(), job)

@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 /// The most files and folders that are looked at.
 const MOST: usize = 10_000;
 
-/// The paths of the source files in folders and below them, in order. Hidden folders and those of results and packages
-/// are left out.
-pub fn source_files(folders: impl IntoIterator<Item = PathBuf>) -> Vec<String> {
+/// The paths of the source files in folders and below them that are `wanted`, in order. Hidden folders and those of
+/// results and packages are left out.
+pub fn source_files(folders: impl IntoIterator<Item = PathBuf>, wanted: impl Fn(&str) -> bool) -> Vec<String> {
     let mut found = Vec::new();
     let mut open: Vec<PathBuf> = folders.into_iter().collect();
     let mut seen = 0;
@@ -19,8 +19,9 @@ pub fn source_files(folders: impl IntoIterator<Item = PathBuf>) -> Vec<String> {
             match kind {
                 _ if seen > MOST => break,
                 Ok(kind) if kind.is_dir() && !is_left_out(&path) => open.push(path),
-                Ok(kind) if kind.is_file() && path.extension().is_some_and(|extension| extension == "nb") => {
-                    found.push(path.to_string_lossy().into_owned());
+                Ok(kind) if kind.is_file() => {
+                    let path = path.to_string_lossy().into_owned();
+                    found.extend(Some(path).filter(|path| wanted(path)));
                 }
                 _ => {}
             }
