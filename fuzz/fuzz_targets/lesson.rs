@@ -3,4 +3,6 @@
 
 use libfuzzer_sys::fuzz_target;
 
-fuzz_target!(|text: &str| _ = nbc_play::faults_of_lesson(text));
+fuzz_target!(|text: &str| {
+    let _ = nbc_play::faults_of_lesson(text);
+});
