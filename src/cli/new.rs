@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::wording::UsageError;
-use crate::cli::{Context, Failure, Status};
+use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_circuit::formats::is_word;
 use nbc_session::store;
 
@@ -56,6 +56,9 @@ impl NewArguments {
         let shown = path.display().to_string();
         let name = path.file_stem().and_then(|stem| stem.to_str()).filter(|stem| is_word(stem));
         let Some(name) = name else { return Err(UsageError::NoWord { file: shown }.into()) };
+        if context.format == OutputFormat::Json {
+            return Err(UsageError::NoJson { what: "a first program" }.into());
+        }
         if path.exists() {
             return Err(UsageError::Exists { file: shown }.into());
         }
