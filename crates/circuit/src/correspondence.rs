@@ -22,6 +22,9 @@ const CYCLES: usize = 64;
 /// Counterexamples that split classes together.
 const LANES: usize = 64;
 
+/// Words of random states in which the registers of each class agree, before a proof is tried.
+const WORDS: usize = 8;
+
 /// The registers that a design does not need, by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Removed {
@@ -88,15 +91,30 @@ impl<'d> Classes<'d> {
         let mut classes = Self { design, network, leaders: Vec::new(), forcing };
         let histories = classes.histories();
         classes.split(|at| (None, histories[at].clone()));
+        let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6363_6c61_7373);
         loop {
+            // Most classes that do not hold are split by any states in which they would have to.
+            while classes.split_by_next(WORDS, |_, _| random.next_u64()) {}
             let patterns = classes.counterexamples();
-            if patterns.is_empty() {
-                return classes;
-            }
-            let values = classes.next_values(&patterns);
-            let before = classes.leaders.clone();
-            classes.split(|at| (Some(before[at]), vec![values[at]]));
+            let Some(first) = patterns.first() else { return classes };
+            let lane = |lane: usize| patterns.get(lane).unwrap_or(first);
+            let word = |input: usize| (0..LANES).fold(0, |word, at| word | u64::from(lane(at)[input]) << at);
+            classes.split_by_next(1, |_, input| word(input));
         }
+    }
+
+    /// Splits the classes by the next values in some words of inputs and states, `word(number, input)`; whether it did.
+    fn split_by_next(&mut self, words: usize, mut word: impl FnMut(usize, usize) -> u64) -> bool {
+        let network = self.assumed();
+        let mut values: Vec<Vec<u64>> = vec![Vec::new(); self.leaders.len()];
+        for number in 0..words {
+            let inputs: Vec<u64> = (0..network.inputs).map(|input| word(number, input)).collect();
+            let found = network.simulate(&inputs);
+            values.iter_mut().zip(self.nexts(&network)).for_each(|(values, &next)| values.push(found[next as usize]));
+        }
+        let before = self.leaders.clone();
+        self.split(|at| (Some(before[at]), values[at].clone()));
+        self.leaders != before
     }
 
     /// The signal of a register.
@@ -186,25 +204,21 @@ impl<'d> Classes<'d> {
 
     /// Inputs and states in which registers equal their leaders, but some do not in the next cycle.
     fn counterexamples(&self) -> Vec<Vec<bool>> {
-        let network = self.assumed();
+        let mut network = self.assumed();
+        let nexts = self.nexts(&network).to_vec();
+        // A follower, with the next values that must be equal.
+        let pair = |at: usize| {
+            let leader = self.leaders[at];
+            (leader != self.state(at))
+                .then(|| [self.register(leader).map_or(leader, |leader| nexts[leader]), nexts[at]])
+        };
+        let pairs: Vec<[Signal; 2]> = (0..self.leaders.len()).filter_map(pair).collect();
+        network.outputs = pairs.iter().flatten().copied().collect();
+        let network = network.swept();
         let mut sweep = SatSweep::new(network.inputs);
         let signals = sweep.add(&network);
-        let nexts = self.nexts(&network);
-        let followers = (0..self.leaders.len()).filter(|&at| self.leaders[at] != self.state(at));
-        let mut difference = |at: usize| {
-            let expected = self.register(self.leaders[at]).map_or(self.leaders[at], |leader| nexts[leader]);
-            sweep.difference(signals[expected as usize], signals[nexts[at] as usize])
-        };
-        followers.filter_map(&mut difference).take(LANES).collect()
-    }
-
-    /// The next value of each register in these patterns, one bit for each; the first pattern fills the bits left over.
-    fn next_values(&self, patterns: &[Vec<bool>]) -> Vec<u64> {
-        let network = self.assumed();
-        let lane = |lane: usize| patterns.get(lane).unwrap_or(&patterns[0]);
-        let word = |input: usize| (0..LANES).fold(0, |word, at| word | u64::from(lane(at)[input]) << at);
-        let values = network.simulate(&(0..network.inputs).map(word).collect::<Vec<_>>());
-        self.nexts(&network).iter().map(|&next| values[next as usize]).collect()
+        let difference = |pair: &[Signal]| sweep.difference(signals[pair[0] as usize], signals[pair[1] as usize]);
+        network.outputs.chunks(2).filter_map(difference).take(LANES).collect()
     }
 
     fn removed(&self) -> Removed {

@@ -1,7 +1,7 @@
 //! Comparison of two networks by SAT: gates that agree in simulation are proved equal from the inputs on and merged, so
 //! that the outputs are easy in the end (SAT sweeping).
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use batsat::SolverInterface;
 use rand::SeedableRng;
@@ -17,6 +17,16 @@ use nbc_base::model::Function;
 
 /// Words of 64 random patterns to start with.
 const WORDS: usize = 32;
+
+/// Patterns found by the solver that are simulated together, and those of them in a word. Each of these has the rest of
+/// its share of the word for patterns that differ from it in some inputs.
+const BATCH: usize = 16;
+const IN_A_WORD: usize = 4;
+
+/// The calls and the variables after which a solver is replaced: each pattern that it finds costs time for each
+/// variable, and what it has learned is mostly of signals that are proved already.
+const MOST_CALLS: usize = 100;
+const MANY_VARIABLES: u32 = 1_000;
 
 /// Proves two networks equal; fails with an output and inputs at which it differs.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
@@ -53,7 +63,7 @@ impl Comparison {
 
     /// The work of the solver so far: its calls, and its propagations.
     pub fn work(&self) -> [u64; 2] {
-        [self.sweep.calls as u64, self.sweep.solver.batsat_ref().num_propagations()]
+        [self.sweep.calls as u64, self.sweep.propagations + self.sweep.cones.propagations()]
     }
 
     /// The number of signals that were compared so far.
@@ -64,7 +74,11 @@ impl Comparison {
 
 /// Signals of several networks over the same inputs, merged if they are proved equal or opposite.
 pub struct SatSweep {
-    solver: BasicSolver,
+    cones: Cones,
+    /// The propagations of solvers that were replaced.
+    propagations: u64,
+    /// Of each clause, one of these inputs has the given value.
+    assumed: Vec<Vec<(Signal, bool)>>,
     /// The input words so far, `patterns[word][input]`.
     patterns: Vec<Vec<u64>>,
     inputs: usize,
@@ -73,9 +87,10 @@ pub struct SatSweep {
     values: Vec<Vec<u64>>,
     /// The signature of each signal's values, inverted if they are 1 in the first pattern.
     hashes: Vec<u64>,
-    /// Signals by their hashes. If different values have the same hash, the solver finds a pattern that distinguishes
-    /// them.
-    classes: BTreeMap<u64, Signal>,
+    /// Patterns found by the solver that are in no word yet.
+    found: Vec<Vec<bool>>,
+    /// The signals that represent a class by their hashes, in order. Those of equal hashes are known to be different.
+    classes: BTreeMap<u64, Vec<Signal>>,
     /// The signal of each gate, by its function and pins as one number.
     known: BTreeMap<u128, (Signal, bool)>,
     /// The number of calls of the solver.
@@ -88,21 +103,22 @@ impl SatSweep {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_726f_6f66);
         let patterns = (0..WORDS).map(|word| (0..inputs).map(|_| random_word(word, &mut random)).collect()).collect();
         let mut sweep = Self {
-            solver: BasicSolver::default(),
+            cones: Cones::default(),
+            propagations: 0,
+            assumed: Vec::new(),
             patterns,
             inputs,
             gates: Vec::new(),
             values: Vec::new(),
             hashes: Vec::new(),
+            found: Vec::new(),
             classes: BTreeMap::new(),
             known: BTreeMap::new(),
             calls: 0,
         };
         sweep.values = (0..2 + inputs).map(|signal| sweep.source_values(signal)).collect();
         sweep.hashes = sweep.values.iter().map(|values| hash(values)).collect();
-        sweep.clause(&[sweep.literal(0, false)]);
-        sweep.clause(&[sweep.literal(1, true)]);
-        sweep.classify();
+        sweep.classify((0..sweep.values.len() as Signal).filter(|&signal| signal != 1).collect());
         sweep
     }
 
@@ -114,19 +130,11 @@ impl SatSweep {
         }
     }
 
-    fn literal(&self, signal: Signal, value: bool) -> Lit {
-        Lit::new(signal, !value)
-    }
-
-    fn clause(&mut self, literals: &[Lit]) {
-        self.solver.add_clause(literals.iter().copied().collect()).expect("clauses fit into memory");
-    }
-
     /// Requires that one of these inputs has the given value. Signals that are merged later are equal only then.
     pub fn assume(&mut self, clause: &[(usize, bool)]) {
-        let literals: Vec<Lit> =
-            clause.iter().map(|&(input, value)| self.literal(input as Signal + 2, value)).collect();
-        self.clause(&literals);
+        let clause: Vec<_> = clause.iter().map(|&(input, value)| (input as Signal + 2, value)).collect();
+        self.cones.clause(&clause);
+        self.assumed.push(clause);
     }
 
     /// Adds a network's gates and returns the merged signal for each of its signals.
@@ -158,39 +166,25 @@ impl SatSweep {
         self.hashes.push(hash(&values));
         self.values.push(values);
         self.gates.push(Gate { function, pins });
-        self.define(signal, function, pins);
-        loop {
-            let hash = self.hashes[signal as usize];
-            let Some(&class) = self.classes.get(&hash) else {
-                self.classes.insert(hash, signal);
-                return (signal, false);
-            };
+        let hash = self.hashes[signal as usize];
+        for class in self.classes.get(&hash).cloned().unwrap_or_default() {
             let opposite = self.is_turned(signal) != self.is_turned(class);
             match self.difference((class, opposite), (signal, false)) {
-                None => {
-                    self.clause(&[self.literal(class, opposite), self.literal(signal, true)]);
-                    self.clause(&[self.literal(class, !opposite), self.literal(signal, false)]);
-                    // From here on the class represents the gate.
-                    return (class, opposite);
-                }
-                Some(pattern) => self.learn(&pattern),
+                // From here on the class represents the gate.
+                None => return (class, opposite),
+                Some(pattern) => self.found.push(pattern),
             }
         }
+        self.classes.entry(hash).or_default().push(signal);
+        if self.found.len() >= BATCH {
+            self.learn();
+        }
+        (signal, false)
     }
 
     /// Whether a signal is 1 in the first pattern.
     fn is_turned(&self, signal: Signal) -> bool {
         self.values[signal as usize][0] & 1 == 1
-    }
-
-    /// The clauses of a gate: one for each pattern of its pins.
-    fn define(&mut self, signal: Signal, function: Function, [a, b]: [Signal; 2]) {
-        for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
-            if a != b || x == y {
-                let output = self.literal(signal, function.output(x, y));
-                self.clause(&[self.literal(a, !x), self.literal(b, !y), output]);
-            }
-        }
     }
 
     /// Inputs at which two signals, each maybe inverted, differ.
@@ -204,52 +198,126 @@ impl SatSweep {
     /// Inputs at which signals, each maybe inverted, have these values.
     pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
         self.calls += 1;
-        let literal = |&((signal, inverted), value): &((Signal, bool), bool)| self.literal(signal, value != inverted);
-        let assumed: Vec<Lit> = wanted.iter().map(literal).collect();
+        if self.cones.calls >= MOST_CALLS && self.cones.variables > MANY_VARIABLES {
+            self.propagations += self.cones.propagations();
+            self.cones = Cones::default();
+            self.assumed.iter().for_each(|clause| self.cones.clause(clause));
+        }
+        let assumed: Vec<_> = wanted.iter().map(|&((signal, inverted), value)| (signal, value != inverted)).collect();
+        let first_gate = 2 + self.inputs;
+        let gate = |signal: Signal| (signal as usize).checked_sub(first_gate).map(|at| self.gates[at]);
+        let is_found = self.cones.solve(&assumed, gate);
+        is_found.then(|| (0..self.inputs).map(|i| self.cones.is_on(i as Signal + 2)).collect())
+    }
+
+    /// Simulates the patterns that were found, and those that differ from them in some inputs.
+    fn learn(&mut self) {
+        let found = std::mem::take(&mut self.found);
+        for patterns in found.chunks(IN_A_WORD) {
+            let share = 64 / IN_A_WORD;
+            let word = |input: usize| {
+                let one = |(at, pattern): (usize, &Vec<bool>)| {
+                    let same = if pattern[input] { (1 << share) - 1 } else { 0 };
+                    (same ^ 2 << (input % (share - 1))) << (at * share)
+                };
+                patterns.iter().enumerate().map(one).fold(0, |word: u64, bits: u64| word | bits)
+            };
+            self.patterns.push((0..self.inputs).map(word).collect());
+        }
+        let known = self.values[0].len();
+        for signal in 0..self.values.len() {
+            let mut words: Vec<u64> = match signal.checked_sub(2 + self.inputs) {
+                None => self.source_values(signal)[known..].to_vec(),
+                Some(i) => {
+                    let Gate { function, pins } = self.gates[i];
+                    let [a, b] = pins.map(|pin| &self.values[pin as usize][known..]);
+                    a.iter().zip(b).map(|(&a, &b)| word(function, a, b)).collect()
+                }
+            };
+            let turn = if self.is_turned(signal as Signal) { !0 } else { 0 };
+            self.hashes[signal] = words.iter().fold(self.hashes[signal], |hash, word| extended(hash, word ^ turn));
+            self.values[signal].append(&mut words);
+        }
+        let mut members: Vec<Signal> = std::mem::take(&mut self.classes).into_values().flatten().collect();
+        members.sort_unstable();
+        self.classify(members);
+    }
+
+    /// Sorts signals that represent their classes by their values.
+    fn classify(&mut self, members: Vec<Signal>) {
+        for signal in members {
+            self.classes.entry(self.hashes[signal as usize]).or_default().push(signal);
+        }
+    }
+}
+
+/// A solver with the gates on which some signals depend.
+#[derive(Default)]
+struct Cones {
+    solver: BasicSolver,
+    /// The variable of each signal that the solver has.
+    variable: BTreeMap<Signal, u32>,
+    /// The signals whose gates the solver has.
+    defined: BTreeSet<Signal>,
+    variables: u32,
+    calls: usize,
+}
+
+impl Cones {
+    fn propagations(&self) -> u64 {
+        self.solver.batsat_ref().num_propagations()
+    }
+
+    /// Whether signals can have these values. `gate` knows the gate of each signal that is no source.
+    fn solve(&mut self, wanted: &[(Signal, bool)], gate: impl Fn(Signal) -> Option<Gate>) -> bool {
+        self.calls += 1;
+        let mut waiting: Vec<Signal> = wanted.iter().map(|&(signal, _)| signal).collect();
+        while let Some(signal) = waiting.pop() {
+            if !self.defined.insert(signal) {
+                continue;
+            }
+            match gate(signal) {
+                None if signal < 2 => self.clause(&[(signal, signal == 1)]),
+                None => _ = self.literal((signal, true)),
+                Some(Gate { function, pins }) => {
+                    self.define(signal, function, pins);
+                    waiting.extend(pins);
+                }
+            }
+        }
+        let assumed: Vec<Lit> = wanted.iter().map(|&wanted| self.literal(wanted)).collect();
         match self.solver.solve_assumps(&assumed) {
-            Ok(SolverResult::Sat) => Some(self.inputs_found()),
-            Ok(SolverResult::Unsat) => None,
+            Ok(SolverResult::Sat) => true,
+            Ok(SolverResult::Unsat) => false,
             other => unreachable!("the solver runs without limits, and gave {other:?}"),
         }
     }
 
-    fn inputs_found(&self) -> Vec<bool> {
-        let value = |i: usize| self.solver.lit_val(self.literal(i as Signal + 2, true));
-        (0..self.inputs).map(|i| matches!(value(i), Ok(TernaryVal::True))).collect()
+    /// Whether a signal is 1 in what was found last. One that the solver does not have may be either.
+    fn is_on(&self, signal: Signal) -> bool {
+        let value = |&variable| self.solver.lit_val(Lit::new(variable, false));
+        self.variable.get(&signal).is_some_and(|variable| matches!(value(variable), Ok(TernaryVal::True)))
     }
 
-    /// Adds a word of patterns: the given one and those that differ from it in one input.
-    fn learn(&mut self, pattern: &[bool]) {
-        let words: Vec<u64> =
-            pattern.iter().enumerate().map(|(i, &value)| if value { !0u64 } else { 0 } ^ 2 << (i % 63)).collect();
-        self.patterns.push(words.clone());
-        for signal in 0..self.values.len() {
-            let value = match signal.checked_sub(2 + self.inputs) {
-                None => self.source_values(signal)[self.patterns.len() - 1],
-                Some(i) => {
-                    let Gate { function, pins } = self.gates[i];
-                    let [a, b] = pins.map(|pin| *self.values[pin as usize].last().expect("there are patterns"));
-                    word(function, a, b)
-                }
-            };
-            let turned = if self.is_turned(signal as Signal) { !value } else { value };
-            self.hashes[signal] = extended(self.hashes[signal], turned);
-            self.values[signal].push(value);
-        }
-        self.classify();
+    fn literal(&mut self, (signal, value): (Signal, bool)) -> Lit {
+        let variable = *self.variable.entry(signal).or_insert_with(|| {
+            self.variables += 1;
+            self.variables - 1
+        });
+        Lit::new(variable, !value)
     }
 
-    /// Sorts the signals that represent their classes by their values again.
-    fn classify(&mut self) {
-        let members: Vec<Signal> = if self.classes.is_empty() {
-            (0..self.values.len() as Signal).filter(|&signal| signal != 1).collect()
-        } else {
-            self.classes.values().copied().collect()
-        };
-        self.classes.clear();
-        for signal in members {
-            let class = self.classes.entry(self.hashes[signal as usize]).or_insert(signal);
-            *class = signal.min(*class);
+    fn clause(&mut self, clause: &[(Signal, bool)]) {
+        let literals: Vec<Lit> = clause.iter().map(|&one| self.literal(one)).collect();
+        self.solver.add_clause(literals.into_iter().collect()).expect("clauses fit into memory");
+    }
+
+    /// The clauses of a gate: one for each pattern of its pins.
+    fn define(&mut self, signal: Signal, function: Function, [a, b]: [Signal; 2]) {
+        for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
+            if a != b || x == y {
+                self.clause(&[(a, !x), (b, !y), (signal, function.output(x, y))]);
+            }
         }
     }
 }
