@@ -53,7 +53,9 @@ fn new_writes_a_program_that_passes_and_overwrites_none() {
     assert_eq!(bench.run(&["fmt", "--check", "adder.nb"]).status, 0, "it is in the canonical form");
     let tested = bench.run(&["test", "adder.nb"]);
     assert_eq!(tested.out, "pass  adder \"adds\" (4 rows, physics)\n1 passed, 0 failed\n", "{}", tested.err);
-    bench.run(&["new", "other", "--format", "json"]).expect_fault(&["a first program cannot be JSON"]);
+    let json = bench.run(&["new", "other", "--format", "json"]);
+    assert!(json.status == 2 && json.out.contains("a first program cannot be JSON"), "{}", json.out);
+    assert!(!bench.path().join("other.nb").exists());
     bench.run(&["new", "adder.nb"]).expect_fault(&["`adder.nb` exists already", "choose another name"]);
     bench.run(&["new", "2nd"]).expect_fault(&["no circuit can have the name of `2nd.nb`"]);
     bench.run(&["new", "nand"]).expect_fault(&["no circuit can have the name of `nand.nb`"]);
