@@ -76,7 +76,8 @@ const DEEDS = {
     for (const [name, value] of values(words)) {
       const number = page.locator(`input[data-input="${name}"]`);
       if ((await number.count()) > 0) {
-        await number.fill(String(value));
+        await number.selectText();
+        await number.pressSequentially(String(value));
         await number.press("Enter");
       } else {
         await setInput(page, name, value);
