@@ -138,7 +138,7 @@ pub(super) fn program_around(world: &FolderWorld, session: &mut Session, path: &
         let number = if number == 1 { String::new() } else { format!("_{number}") };
         if folder.is_empty() { format!("{stem}{number}.nb") } else { format!("{folder}/{stem}{number}.nb") }
     };
-    let free = (1..).map(place).find(|place| world.existing(place).is_err()).expect("a folder has less files");
+    let free = (1..).map(place).find(|place| world.existing(place).is_err()).expect("some number is free");
     let text = format!("// The circuits of {name}, made of robots.\n\nuse {name:?}\n");
     session.update(&free, 1, text.clone());
     let checked = session.open(&free)?;

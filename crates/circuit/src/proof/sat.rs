@@ -26,7 +26,7 @@ const IN_A_WORD: usize = 4;
 /// The calls and the variables after which a solver is replaced: each pattern that it finds costs time for each
 /// variable, and what it has learned is mostly of signals that are proved already.
 const MOST_CALLS: usize = 100;
-const MANY_VARIABLES: u32 = 1_000;
+const MANY_VARIABLES: usize = 1_000;
 
 /// Proves two networks equal; fails with an output and inputs at which it differs.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
@@ -198,7 +198,7 @@ impl SatSweep {
     /// Inputs at which signals, each maybe inverted, have these values.
     pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
         self.calls += 1;
-        if self.cones.calls >= MOST_CALLS && self.cones.variables > MANY_VARIABLES {
+        if self.cones.calls >= MOST_CALLS && self.cones.variable.len() > MANY_VARIABLES {
             self.propagations += self.cones.propagations();
             self.cones = Cones::default();
             self.assumed.iter().for_each(|clause| self.cones.clause(clause));
@@ -259,7 +259,6 @@ struct Cones {
     variable: BTreeMap<Signal, u32>,
     /// The signals whose gates the solver has.
     defined: BTreeSet<Signal>,
-    variables: u32,
     calls: usize,
 }
 
@@ -300,11 +299,8 @@ impl Cones {
     }
 
     fn literal(&mut self, (signal, value): (Signal, bool)) -> Lit {
-        let variable = *self.variable.entry(signal).or_insert_with(|| {
-            self.variables += 1;
-            self.variables - 1
-        });
-        Lit::new(variable, !value)
+        let next = self.variable.len() as u32;
+        Lit::new(*self.variable.entry(signal).or_insert(next), !value)
     }
 
     fn clause(&mut self, clause: &[(Signal, bool)]) {
