@@ -135,6 +135,11 @@ pub(super) mod gpu {
             Simulator::new(self.0.clone())
         }
 
+        /// Whether a device was opened: never.
+        pub fn is_device(&self) -> bool {
+            false
+        }
+
         /// Does nothing, because no device can have failed.
         ///
         /// # Errors

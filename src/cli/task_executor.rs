@@ -13,6 +13,9 @@ use nbc_swarm::Executor;
 /// The most calls for workers at once: each has a thread here that waits, and a run also keeps a file open.
 const MOST_WAITING: usize = 500;
 
+/// The most runs whose robots are on a device at once. Each has a thread here.
+const MOST_ON_DEVICE: usize = 32;
+
 /// Does the tasks of a command. If workers are chosen, they do all tasks; otherwise the device does.
 pub struct TaskExecutor {
     device: OpenDevice,
@@ -71,9 +74,14 @@ impl TaskExecutor {
         threads(self.queue.as_ref())
     }
 
-    /// The same for the runs of searches. Here they are made one after the other, each on all cores.
+    /// The same for the runs of searches. On this processor they are made one after the other, each on all cores. A
+    /// device has room for the robots of many, and each takes as long as its simulations one after another.
     pub fn threads_for_runs(&self) -> usize {
-        if self.is_elsewhere() { MOST_WAITING } else { 1 }
+        match self.queue {
+            Some(_) => MOST_WAITING,
+            None if self.device.is_device() => MOST_ON_DEVICE,
+            None => 1,
+        }
     }
 
     /// Whether a signal has stopped the work.

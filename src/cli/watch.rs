@@ -69,7 +69,8 @@ impl WatchArguments {
     /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let signal = Interrupt::watch()?;
-        let mut session = Session::new(signal.world());
+        let device = self.test.device(context)?;
+        let mut session = Session::new(signal.world()).with_simulator(device.simulator());
         let mut stamps = Stamps::default();
         while !signal.is_raised() {
             context.clear()?;
@@ -78,6 +79,7 @@ impl WatchArguments {
                 break;
             }
             self.round(&session, &checked, (&stamps, &signal), context)?;
+            device.check()?;
             context.flush()?;
             for path in wait(&mut stamps, &signal, context) {
                 session.close(&path);

@@ -92,8 +92,11 @@ fn is_door(path: &Path) -> bool {
     matches!(place(path).0.as_str(), "nbc" | "nbc_lsp" | "nbc_play" | "nbc_cluster")
 }
 
+/// The file that calls the driver of a device and waits for it.
+const DRIVER: &str = "backend/opencl/card.rs";
+
 fn is_shell(path: &Path) -> bool {
-    is_door(path) || DISK.iter().any(|name| path.ends_with(name))
+    is_door(path) || path.ends_with(DRIVER) || DISK.iter().any(|name| path.ends_with(name))
 }
 
 #[test]

@@ -30,10 +30,11 @@ impl OpenRuns {
         state.bar = Some(Progress::resumed("generations", state.generations.0, state.generations.1));
     }
 
-    /// Counts a generation, and shows a note if there is one.
+    /// Counts a generation, and shows a note on its run if no other is in progress.
     pub(super) fn advance(&self, note: Option<String>) {
         let mut state = self.lock();
         state.generations.0 += 1;
+        let note = note.filter(|_| state.runs == 1);
         match (&state.bar, note) {
             (Some(bar), Some(note)) => bar.set_with_note(state.generations.0, note),
             (Some(bar), None) => bar.set(state.generations.0),

@@ -40,6 +40,11 @@ impl OpenDevice {
         }
     }
 
+    /// Whether a device was opened.
+    pub fn is_device(&self) -> bool {
+        self.device.is_some()
+    }
+
     /// Checks that the device has not failed.
     ///
     /// # Errors

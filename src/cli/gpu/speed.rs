@@ -44,7 +44,7 @@ pub(super) fn measure(backend: &OpenClBackend) -> DeviceFigures {
 fn cases(backend: &OpenClBackend, side: usize) -> Vec<DeviceCase> {
     let simulator = Simulator::new(backend.clone());
     // The kernel is compiled before anything is measured.
-    race(&simulator, side, 1, 1);
+    race(&simulator, side, ROBOTS[0], 1);
     let mut cases = Vec::new();
     for robots in ROBOTS {
         let spent = race(&simulator, side, robots, CYCLE_STEPS);

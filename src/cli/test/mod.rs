@@ -10,8 +10,10 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::cli::cluster::open_queue;
+use crate::cli::gpu::OpenDevice;
 use crate::cli::in_order::in_order;
 use crate::cli::options::circuit::{FilesArguments, RunsArguments};
+use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::mapping::GoalArguments;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::runs::unknown_run;
@@ -22,6 +24,7 @@ use nbc_base::diag::{Diagnostic, counted};
 use nbc_session::report::{self, Schema};
 use nbc_session::store;
 use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
+use nbc_sim::LaneBackend;
 use nbc_swarm::{Executor, Level, Task, TaskResult, TestVerdict};
 
 use keeping::{Keeper, Keeping};
@@ -71,6 +74,8 @@ pub struct TestArguments {
     #[command(flatten)]
     named: FilesArguments,
     #[command(flatten)]
+    device: DeviceArguments,
+    #[command(flatten)]
     queue: QueueArguments,
 }
 
@@ -84,12 +89,23 @@ impl TestArguments {
     /// When a file has errors or declares no test; then no test runs.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
-        let mut session = Session::new(interrupt.world());
+        let device = self.device(context)?;
+        let mut session = Session::new(interrupt.world()).with_simulator(device.simulator());
         let files = match self.files.iter().map(|file| load(&mut session, file)).collect::<Result<Vec<_>, _>>() {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             files => files?,
         };
-        self.test(&session, &files, &interrupt, context)
+        let status = self.test(&session, &files, &interrupt, context)?;
+        device.end(context)?;
+        Ok(status)
+    }
+
+    /// The device for tests in physics.
+    ///
+    /// # Errors
+    /// When the user asked for one that cannot be used.
+    pub(super) fn device(&self, context: &Context) -> Result<OpenDevice, Failure> {
+        OpenDevice::open(self.device.choice(), LaneBackend::default(), context)
     }
 
     /// The paths of the files.

@@ -80,7 +80,9 @@ fn circuits_run_the_same_on_a_device() {
         bench.file("flip.nb", "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n");
         let ran = bench.run(&["run", "flip.nb", "--no-report", "--device", device]);
         assert_eq!(ran.status, 0, "{}", ran.err);
-        fs::read_to_string(bench.path().join("out/flip/result.json")).unwrap()
+        let tested = bench.run(&["test", "flip.nb", "--physics", "--format", "json", "--device", device]);
+        assert_eq!(tested.status, 0, "{}", tested.err);
+        (fs::read_to_string(bench.path().join("out/flip/result.json")).unwrap(), tested.out)
     };
     assert_eq!(run("gpu"), run("cpu"));
 }

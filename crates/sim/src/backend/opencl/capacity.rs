@@ -41,6 +41,12 @@ impl Capacity {
         }
     }
 
+    /// The least capacity for the bodies of two.
+    pub fn max(self, other: Self) -> Self {
+        let Self { masses, springs, tiles } = other;
+        Self { masses: self.masses.max(masses), springs: self.springs.max(springs), tiles: self.tiles.max(tiles) }
+    }
+
     /// Bytes of local memory that a work-group needs, with room for what a compiler adds.
     pub fn local_bytes(self) -> usize {
         let (point_words, tile_words) = (self.masses.div_ceil(32), self.tiles.div_ceil(32));

@@ -6,16 +6,22 @@
 #![allow(unsafe_code, reason = "calls of the driver's functions")]
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 use std::fmt;
+use std::marker::PhantomData;
 use std::mem;
 use std::ptr;
+use std::slice;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::{Duration, Instant};
 
-use opencl3::command_queue::{CL_QUEUE_PROFILING_ENABLE, CommandQueue};
+use opencl3::command_queue::CommandQueue;
 use opencl3::context::Context;
 use opencl3::device::Device;
 use opencl3::error_codes::{CL_INVALID_BUFFER_SIZE, CL_MEM_OBJECT_ALLOCATION_FAILURE, CL_OUT_OF_HOST_MEMORY, ClError};
+use opencl3::event::{CL_COMPLETE, Event};
 use opencl3::kernel::Kernel;
 use opencl3::memory::{Buffer, CL_MEM_READ_WRITE};
 use opencl3::program::Program;
@@ -29,27 +35,54 @@ use crate::constants::Constants;
 /// The kernel's text.
 const TEXT: &str = include_str!("step.cl");
 const KERNEL: &str = "advance";
+/// Why a queue has its commands.
+const PRESENT: &str = "a queue has its commands until it is dropped";
 
-/// An open device with the compiled kernel.
+/// Robots that are so few that no other needs their multiprocessor.
+const FEW: usize = 16;
+
+/// How often a caller asks whether a launch is done. A driver's own wait would keep a core busy.
+const POLL: Duration = Duration::from_micros(300);
+
+/// What a kernel is compiled for: the capacity of its robots, and the work-items of a group.
+type KernelSize = (Capacity, usize);
+
+/// An open device with the compiled kernels.
 pub struct Card {
     /// The device that is open.
     pub device: OpenClDevice,
     group: Option<usize>,
-    /// The handles from the driver; `None` once the device is lost.
-    handles: Mutex<Option<Handles>>,
-    /// Whether the device is lost. Then no handle is released, because the driver may refuse this.
-    lost: Arc<AtomicBool>,
+    handles: Mutex<Handles>,
+    storage: Arc<Storage>,
 }
 
-/// The handles from the driver.
+/// The handles from the driver that all callers share.
 struct Handles {
-    context: Context,
+    context: Arc<Context>,
+    /// The programs compiled so far.
+    programs: BTreeMap<KernelSize, Program>,
+    /// Commands that no caller uses now.
+    spare: Vec<Commands>,
+}
+
+/// A queue of commands, and the kernels that are launched on it: a kernel has one set of arguments at a time.
+struct Commands {
+    context: Arc<Context>,
     queue: CommandQueue,
-    /// The kernels compiled so far, with their programs.
-    kernels: BTreeMap<Capacity, (Kernel, Program)>,
+    kernels: BTreeMap<KernelSize, Kernel>,
+}
+
+/// The commands of one caller. Those of several callers are done side by side, as far as the device can.
+pub struct CardQueue<'a> {
+    /// The device that does the commands.
+    pub card: &'a Card,
+    /// Present until this is dropped.
+    commands: Option<Commands>,
 }
 
 /// Types that the kernel reads and writes without conversion.
+///
+/// They have no padding, and every pattern of bits is a value.
 pub trait Plain: Copy + Default {}
 
 impl Plain for u16 {}
@@ -61,9 +94,21 @@ impl Plain for [u32; 2] {}
 /// Memory of a device.
 #[derive(Debug)]
 pub struct CardMemory<T: Plain> {
-    buffer: Option<Buffer<T>>,
+    /// Present until this is dropped.
+    buffer: Option<Buffer<u8>>,
+    /// The numbers for which there is room.
     count: usize,
-    lost: Arc<AtomicBool>,
+    storage: Arc<Storage>,
+    numbers: PhantomData<T>,
+}
+
+/// Memory of a device that is not used now, by its size. To release memory, a driver may wait for the commands of all
+/// callers, so it is kept for the next one who needs as much.
+#[derive(Debug, Default)]
+struct Storage {
+    spare: Mutex<BTreeMap<usize, Vec<Buffer<u8>>>>,
+    /// Whether the device is lost. Then no handle is released, because the driver may refuse this.
+    lost: AtomicBool,
 }
 
 /// The arguments of a launch, as the kernel names them.
@@ -101,20 +146,19 @@ impl Card {
         if !device.has_doubles {
             return Err(DeviceError::NoDoubles { device: device.name.clone() });
         }
-        let fault = |error: ClError| failure(&device.name, error);
-        let context = Context::from_device(&Device::new(device.id())).map_err(fault)?;
-        let queue = CommandQueue::create_default(&context, CL_QUEUE_PROFILING_ENABLE).map_err(fault)?;
-        let handles = Some(Handles { context, queue, kernels: BTreeMap::new() });
-        Ok(Self { device: device.clone(), group, handles: Mutex::new(handles), lost: Arc::default() })
+        let context = Context::from_device(&Device::new(device.id())).map_err(|error| failure(&device.name, error))?;
+        let handles = Handles { context: Arc::new(context), programs: BTreeMap::new(), spare: Vec::new() };
+        Ok(Self { device: device.clone(), group, handles: Mutex::new(handles), storage: Arc::default() })
     }
 
-    /// The work-items of a robot's group.
-    pub fn group(&self, capacity: Capacity) -> usize {
+    /// The work-items of the group of each of so many robots.
+    fn group(&self, capacity: Capacity, robots: usize) -> usize {
         let best = match self.device.kind {
             // A processor runs the work-items of a group one after another.
             DeviceKind::Processor => 1,
             DeviceKind::Graphics | DeviceKind::Other if capacity.springs <= 48 => 32,
-            DeviceKind::Graphics | DeviceKind::Other if capacity.springs <= 128 => 64,
+            // A robot has a multiprocessor for itself, so it may have an item for each of its springs.
+            DeviceKind::Graphics | DeviceKind::Other if capacity.springs > 128 && robots <= FEW => 256,
             DeviceKind::Graphics | DeviceKind::Other => 128,
         };
         self.group.unwrap_or(best).min(self.device.group_size)
@@ -125,19 +169,110 @@ impl Card {
         capacity.local_bytes() <= self.device.local_bytes
     }
 
+    /// A queue for a caller.
+    ///
+    /// # Errors
+    /// When the driver fails.
+    pub fn queue(&self) -> Result<CardQueue<'_>, DeviceError> {
+        self.check()?;
+        let mut handles = self.lock();
+        let spare = handles.spare.pop();
+        let commands = spare.map_or_else(|| Commands::new(&handles.context), Ok).map_err(|error| self.fail(error))?;
+        Ok(CardQueue { card: self, commands: Some(commands) })
+    }
+
+    /// A kernel, whose program is compiled if this is the first of its size.
+    fn kernel(&self, size: KernelSize, constants: &Constants) -> Result<Kernel, DeviceError> {
+        let mut handles = self.lock();
+        let Handles { context, programs, .. } = &mut *handles;
+        let program = match programs.entry(size) {
+            Entry::Occupied(place) => place.into_mut(),
+            Entry::Vacant(place) => {
+                let (capacity, group) = size;
+                let text = capacity.prelude(group, constants) + TEXT;
+                let rejected = |log: String| DeviceError::Rejected { device: self.device.name.clone(), log };
+                let program = Program::create_and_build_from_source(context, &text, &self.options(group));
+                place.insert(program.map_err(rejected)?)
+            }
+        };
+        Kernel::create(program, KERNEL).map_err(|error| self.fail(error))
+    }
+
+    /// The options of the compiler: nothing that changes how an operation is rounded.
+    fn options(&self, group: usize) -> String {
+        let mut options = "-cl-std=CL1.2".to_owned();
+        options += match self.device.rounds_single {
+            true => " -cl-fp32-correctly-rounded-divide-sqrt",
+            false => " -DROUND_THROUGH_DOUBLE",
+        };
+        if group > 1 && self.device.kind == DeviceKind::Processor {
+            options += " -DAPART";
+        }
+        options
+    }
+
+    /// The error of a driver's function. After one other than of memory, the device counts as lost.
+    fn fail(&self, error: ClError) -> DeviceError {
+        let failure = failure(&self.device.name, error);
+        if matches!(failure, DeviceError::Lost { .. }) {
+            self.storage.lost.store(true, Ordering::Relaxed);
+        }
+        failure
+    }
+
+    /// Checks that the device is not lost.
+    fn check(&self) -> Result<(), DeviceError> {
+        let gone = || DeviceError::Lost { device: self.device.name.clone(), reason: "it failed before".to_owned() };
+        if self.is_lost() { Err(gone()) } else { Ok(()) }
+    }
+
+    fn is_lost(&self) -> bool {
+        self.storage.is_lost()
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Handles> {
+        self.handles.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl fmt::Debug for Card {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Card").field("device", &self.device).finish_non_exhaustive()
+    }
+}
+
+impl Drop for Card {
+    fn drop(&mut self) {
+        if self.is_lost() {
+            let mut handles = self.lock();
+            mem::forget(Arc::clone(&handles.context));
+            mem::forget((mem::take(&mut handles.programs), mem::take(&mut handles.spare)));
+        }
+    }
+}
+
+impl Commands {
+    fn new(context: &Arc<Context>) -> Result<Self, ClError> {
+        let queue = CommandQueue::create_default(context, 0)?;
+        Ok(Self { context: Arc::clone(context), queue, kernels: BTreeMap::new() })
+    }
+}
+
+impl CardQueue<'_> {
     /// Copies numbers to the device.
     ///
     /// # Errors
     /// When there is no room, or the driver fails.
     pub fn upload<T: Plain>(&self, data: &[T]) -> Result<CardMemory<T>, DeviceError> {
         let mut memory = self.room(data.len().max(1))?;
-        self.with(|handles| {
+        self.with(|commands| {
             if data.is_empty() {
                 return Ok(());
             }
+            // SAFETY: `Plain` types have no padding.
+            let bytes = unsafe { slice::from_raw_parts(data.as_ptr().cast::<u8>(), size_of_val(data)) };
             // SAFETY: the buffer has room for the data, and the call ends when they are copied.
-            let written = unsafe { handles.queue.enqueue_write_buffer(memory.buffer_mut(), CL_BLOCKING, 0, data, &[]) };
-            written.map(drop)
+            unsafe { commands.queue.enqueue_write_buffer(memory.buffer_mut(), CL_BLOCKING, 0, bytes, &[]) }.map(drop)
         })?;
         Ok(memory)
     }
@@ -147,11 +282,22 @@ impl Card {
     /// # Errors
     /// When there is none, or the driver fails.
     pub fn room<T: Plain>(&self, count: usize) -> Result<CardMemory<T>, DeviceError> {
-        self.with(|handles| {
+        let bytes = (count * size_of::<T>()).next_power_of_two();
+        let storage = &self.card.storage;
+        let create = |commands: &Commands| {
             // SAFETY: the buffer has no memory of this process.
-            let buffer = unsafe { Buffer::create(&handles.context, CL_MEM_READ_WRITE, count, ptr::null_mut()) }?;
-            Ok(CardMemory { buffer: Some(buffer), count, lost: Arc::clone(&self.lost) })
-        })
+            unsafe { Buffer::create(&commands.context, CL_MEM_READ_WRITE, bytes, ptr::null_mut()) }
+        };
+        let buffer = match storage.take(bytes) {
+            Some(buffer) => buffer,
+            None => self.with(|commands| {
+                create(commands).or_else(|_| {
+                    storage.release();
+                    create(commands)
+                })
+            })?,
+        };
+        Ok(CardMemory { buffer: Some(buffer), count, storage: Arc::clone(storage), numbers: PhantomData })
     }
 
     /// Copies numbers from the start of a memory of the device.
@@ -167,33 +313,38 @@ impl Card {
         if count == 0 {
             return Ok(data);
         }
-        self.with(|handles| {
-            // SAFETY: the buffer has as many numbers, every pattern of bits is one, and the call ends when they are
-            // copied.
-            let read = unsafe { handles.queue.enqueue_read_buffer(memory.buffer(), CL_BLOCKING, 0, &mut data, &[]) };
-            read.map(drop)
+        // SAFETY: `Plain` types have no padding, and every pattern of bits is one of their values.
+        let bytes = unsafe { slice::from_raw_parts_mut(data.as_mut_ptr().cast::<u8>(), size_of_val(&*data)) };
+        self.with(|commands| {
+            // SAFETY: the buffer has as many bytes, and the call ends when they are copied.
+            unsafe { commands.queue.enqueue_read_buffer(memory.buffer(), CL_BLOCKING, 0, bytes, &[]) }.map(drop)
         })?;
         Ok(data)
     }
 
     /// Simulates as many robots as groups, and returns the time in nanoseconds. The kernel is compiled if this is the
-    /// first launch of its capacity.
+    /// first launch of its size.
     ///
     /// # Errors
     /// When the kernel cannot be compiled, or the driver fails.
     pub fn launch(
-        &self,
+        &mut self,
         capacity: Capacity,
         constants: &Constants,
         groups: usize,
         arguments: &Arguments<'_>,
     ) -> Result<u64, DeviceError> {
-        self.compile(capacity, constants)?;
-        let group = self.group(capacity);
+        let group = self.card.group(capacity, groups);
+        let size = (capacity, group);
+        let commands = self.commands.as_mut().expect(PRESENT);
+        if let Entry::Vacant(place) = commands.kernels.entry(size) {
+            place.insert(self.card.kernel(size, constants)?);
+        }
         let Arguments { robots, bodies, plan, stiffness, targets, state, centers, outcomes, .. } = arguments;
-        self.with(|handles| {
-            let kernel = &handles.kernels[&capacity].0;
+        self.with(|commands| {
+            let kernel = &commands.kernels[&size];
             let (items, of_group) = ([groups * group], [group]);
+            let started = Instant::now();
             // SAFETY: the arguments are those of the kernel, in its order, and both sizes have one dimension. The
             // kernel stays within the buffers, because `DeviceRuns` makes the lists and the buffers from the same
             // plans.
@@ -212,65 +363,29 @@ impl Card {
                 kernel.set_arg(11, centers.buffer())?;
                 kernel.set_arg(12, outcomes.buffer())?;
                 let (items, of_group) = (items.as_ptr(), of_group.as_ptr());
-                handles.queue.enqueue_nd_range_kernel(kernel.get(), 1, ptr::null(), items, of_group, &[])
+                commands.queue.enqueue_nd_range_kernel(kernel.get(), 1, ptr::null(), items, of_group, &[])
             }?;
-            event.wait()?;
-            Ok(event.profiling_command_end()?.saturating_sub(event.profiling_command_start()?))
+            commands.queue.flush()?;
+            wait(&event)?;
+            Ok(started.elapsed().as_nanos() as u64)
         })
     }
 
-    /// Compiles the kernel of a capacity, unless it is there.
-    fn compile(&self, capacity: Capacity, constants: &Constants) -> Result<(), DeviceError> {
-        let mut guard = self.handles.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(handles) = guard.as_mut() else { return Err(self.gone()) };
-        if handles.kernels.contains_key(&capacity) {
-            return Ok(());
-        }
-        let group = self.group(capacity);
-        let text = capacity.prelude(group, constants) + TEXT;
-        let rejected = |log: String| DeviceError::Rejected { device: self.device.name.clone(), log };
-        let program = Program::create_and_build_from_source(&handles.context, &text, &self.options(group));
-        let program = program.map_err(rejected)?;
-        let kernel = Kernel::create(&program, KERNEL).map_err(|error| failure(&self.device.name, error))?;
-        handles.kernels.insert(capacity, (kernel, program));
-        Ok(())
-    }
-
-    /// The options of the compiler: nothing that changes how an operation is rounded.
-    fn options(&self, group: usize) -> String {
-        let mut options = "-cl-std=CL1.2".to_owned();
-        options += match self.device.rounds_single {
-            true => " -cl-fp32-correctly-rounded-divide-sqrt",
-            false => " -DROUND_THROUGH_DOUBLE",
-        };
-        if group > 1 && self.device.kind == DeviceKind::Processor {
-            options += " -DAPART";
-        }
-        options
-    }
-
-    /// Calls the driver. After an error other than one of memory, the device counts as lost.
-    fn with<T>(&self, call: impl FnOnce(&Handles) -> Result<T, ClError>) -> Result<T, DeviceError> {
-        let mut guard = self.handles.lock().unwrap_or_else(PoisonError::into_inner);
-        let Some(handles) = guard.as_ref() else { return Err(self.gone()) };
-        call(handles).map_err(|error| {
-            let failure = failure(&self.device.name, error);
-            if matches!(failure, DeviceError::Lost { .. }) {
-                self.lost.store(true, Ordering::Relaxed);
-                mem::forget(guard.take());
-            }
-            failure
-        })
-    }
-
-    fn gone(&self) -> DeviceError {
-        DeviceError::Lost { device: self.device.name.clone(), reason: "it failed before".to_owned() }
+    /// Calls the driver.
+    fn with<T>(&self, call: impl FnOnce(&Commands) -> Result<T, ClError>) -> Result<T, DeviceError> {
+        self.card.check()?;
+        call(self.commands.as_ref().expect(PRESENT)).map_err(|error| self.card.fail(error))
     }
 }
 
-impl fmt::Debug for Card {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Card").field("device", &self.device).finish_non_exhaustive()
+impl Drop for CardQueue<'_> {
+    fn drop(&mut self) {
+        let commands = self.commands.take();
+        if self.card.is_lost() {
+            mem::forget(commands);
+        } else {
+            self.card.lock().spare.extend(commands);
+        }
     }
 }
 
@@ -280,19 +395,58 @@ impl<T: Plain> CardMemory<T> {
         self.count
     }
 
-    fn buffer(&self) -> &Buffer<T> {
+    fn buffer(&self) -> &Buffer<u8> {
         self.buffer.as_ref().expect("a memory has its buffer until it is dropped")
     }
 
-    fn buffer_mut(&mut self) -> &mut Buffer<T> {
+    fn buffer_mut(&mut self) -> &mut Buffer<u8> {
         self.buffer.as_mut().expect("a memory has its buffer until it is dropped")
     }
 }
 
 impl<T: Plain> Drop for CardMemory<T> {
     fn drop(&mut self) {
-        if self.lost.load(Ordering::Relaxed) {
-            mem::forget(self.buffer.take());
+        let bytes = (self.count * size_of::<T>()).next_power_of_two();
+        self.storage.lock().entry(bytes).or_default().extend(self.buffer.take());
+    }
+}
+
+impl Storage {
+    /// Spare memory of a size in bytes.
+    fn take(&self, bytes: usize) -> Option<Buffer<u8>> {
+        self.lock().get_mut(&bytes)?.pop()
+    }
+
+    /// Gives all spare memory back to the driver, or none if the device is lost.
+    fn release(&self) {
+        let spare = mem::take(&mut *self.lock());
+        if self.is_lost() {
+            mem::forget(spare);
+        }
+    }
+
+    fn is_lost(&self) -> bool {
+        self.lost.load(Ordering::Relaxed)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, BTreeMap<usize, Vec<Buffer<u8>>>> {
+        self.spare.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Drop for Storage {
+    fn drop(&mut self) {
+        self.release();
+    }
+}
+
+/// Waits until a command is done.
+fn wait(event: &Event) -> Result<(), ClError> {
+    loop {
+        match event.command_execution_status()?.0 {
+            CL_COMPLETE => return Ok(()),
+            failed if failed < 0 => return Err(ClError(failed)),
+            _ => thread::sleep(POLL),
         }
     }
 }

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use crate::backend::opencl::capacity::Capacity;
-use crate::backend::opencl::card::{Arguments, Card, CardMemory};
+use crate::backend::opencl::card::{Arguments, Card, CardMemory, CardQueue};
 use crate::backend::opencl::error::DeviceError;
 use crate::backend::opencl::plan::BodyPlan;
 use crate::backend::run::Run;
@@ -21,6 +21,9 @@ const FIRST_WINDOW: u32 = 4;
 /// The time that a launch should take, in nanoseconds. Drivers of cards that also show a screen stop programs after
 /// some seconds, and a simulation can be stopped only between launches.
 const PATIENCE: u64 = 200_000_000;
+
+/// Robots that a multiprocessor simulates side by side.
+const AT_ONCE: usize = 4;
 
 /// The kernel's code for a robot that became unstable.
 const UNSTABLE: u32 = 1;
@@ -40,14 +43,20 @@ pub struct DeviceWorld {
     pub monitor: Option<Arc<Monitor>>,
 }
 
+/// A run of a list, with the plan of its body.
+struct Member {
+    run: usize,
+    plan: Arc<BodyPlan>,
+}
+
 /// Runs with plans of one capacity, in the memory of the device.
 struct DeviceRuns<'a> {
     world: &'a DeviceWorld,
+    queue: CardQueue<'a>,
     capacity: Capacity,
+    members: &'a [Member],
     /// The body and the first mass of each run.
     places: Vec<[u32; 2]>,
-    /// The mass of each point of each run's body.
-    masses: Vec<Arc<BodyPlan>>,
     bodies: CardMemory<u32>,
     plan: CardMemory<u16>,
     stiffness: CardMemory<f64>,
@@ -75,24 +84,36 @@ impl DeviceWorld {
     /// # Errors
     /// When the device fails. The clocks and the states of the runs may then be of different env steps.
     pub fn finish(&self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<Vec<usize>, DeviceError> {
-        let plans = self.plans(runs);
-        let mut groups: BTreeMap<Capacity, Vec<usize>> = BTreeMap::new();
+        let mut groups: BTreeMap<Capacity, Vec<Member>> = BTreeMap::new();
         let mut too_large = Vec::new();
-        for (run, plan) in plans.iter().enumerate().filter(|(run, _)| !runs[*run].is_done()) {
-            let capacity = Capacity::of(plan);
+        for (run, plan) in self.plans(runs).into_iter().enumerate().filter(|(run, _)| !runs[*run].is_done()) {
+            let capacity = Capacity::of(&plan);
             if self.card.fits(capacity) {
-                groups.entry(capacity).or_default().push(run);
+                groups.entry(capacity).or_default().push(Member { run, plan });
             } else {
                 too_large.push(run);
             }
         }
-        for (capacity, mut members) in groups {
-            members.sort_by_key(|&run| (std::cmp::Reverse(runs[run].remaining()), run));
+        for (capacity, mut members) in self.side_by_side(groups) {
+            members.sort_by_key(|member| (std::cmp::Reverse(runs[member.run].remaining()), member.run));
             for members in members.chunks(self.most_robots(capacity)) {
-                self.finish_some(capacity, members, &plans, runs, record)?;
+                self.finish_some(capacity, members, runs, record)?;
             }
         }
         Ok(too_large)
+    }
+
+    /// Groups that are simulated one after another. Robots that the device simulates side by side are one group, with
+    /// room for the largest, because each group takes as long as its longest run.
+    fn side_by_side(&self, groups: BTreeMap<Capacity, Vec<Member>>) -> BTreeMap<Capacity, Vec<Member>> {
+        let robots: usize = groups.values().map(Vec::len).sum();
+        let largest = groups.keys().copied().reduce(Capacity::max);
+        let have_room =
+            |&largest: &Capacity| robots <= AT_ONCE * self.card.device.multiprocessors && self.card.fits(largest);
+        match largest.filter(have_room) {
+            Some(largest) => BTreeMap::from([(largest, groups.into_values().flatten().collect())]),
+            None => groups,
+        }
     }
 
     /// The most robots for which the device has room. Half of its memory is left for other programs.
@@ -107,17 +128,16 @@ impl DeviceWorld {
     fn finish_some(
         &self,
         capacity: Capacity,
-        members: &[usize],
-        plans: &[Arc<BodyPlan>],
+        members: &[Member],
         runs: &mut [Run],
         record: &mut dyn FnMut(usize, [f64; 2]),
     ) -> Result<(), DeviceError> {
-        match DeviceRuns::new(self, capacity, members, plans, runs) {
-            Ok(device_runs) => device_runs.finish(members, runs, record),
+        match DeviceRuns::new(self, capacity, members, runs) {
+            Ok(device_runs) => device_runs.finish(runs, record),
             Err(DeviceError::OutOfMemory { .. }) if members.len() > 1 => {
                 let (first, second) = members.split_at(members.len() / 2);
-                self.finish_some(capacity, first, plans, runs, record)?;
-                self.finish_some(capacity, second, plans, runs, record)
+                self.finish_some(capacity, first, runs, record)?;
+                self.finish_some(capacity, second, runs, record)
             }
             Err(error) => Err(error),
         }
@@ -129,15 +149,14 @@ impl<'a> DeviceRuns<'a> {
     fn new(
         world: &'a DeviceWorld,
         capacity: Capacity,
-        members: &[usize],
-        plans: &[Arc<BodyPlan>],
+        members: &'a [Member],
         runs: &[Run],
     ) -> Result<Self, DeviceError> {
         let (mut headers, mut words, mut stiffness) = (Vec::new(), Vec::new(), Vec::new());
         let mut bodies: BTreeMap<usize, u32> = BTreeMap::new();
         let (mut places, mut state) = (Vec::new(), [(); 3].map(|()| Vec::new()));
-        for &member in members {
-            let (run, plan) = (&runs[member], &plans[member]);
+        for Member { run, plan } in members {
+            let run = &runs[*run];
             let next = bodies.len() as u32;
             let body = *bodies.entry(run.body).or_insert_with(|| {
                 headers.extend(plan.header(words.len(), stiffness.len()));
@@ -151,72 +170,66 @@ impl<'a> DeviceRuns<'a> {
                 all.extend(by_mass(plan, own));
             }
         }
-        let longest = members.iter().map(|&member| runs[member].remaining()).max().unwrap_or(0);
+        let longest = members.iter().map(|member| runs[member.run].remaining()).max().unwrap_or(0);
         let window = longest.clamp(1, WINDOW);
-        let card = &world.card;
+        let queue = world.card.queue()?;
         let [position, previous, velocity] = state;
         Ok(Self {
             world,
             capacity,
+            members,
             places,
-            masses: members.iter().map(|&member| Arc::clone(&plans[member])).collect(),
-            bodies: card.upload(&headers)?,
-            plan: card.upload(&words)?,
-            stiffness: card.upload(&stiffness)?,
-            state: [card.upload(&position)?, card.upload(&previous)?, card.upload(&velocity)?],
-            centers: card.room(members.len() * window as usize)?,
-            outcomes: card.room(members.len())?,
+            bodies: queue.upload(&headers)?,
+            plan: queue.upload(&words)?,
+            stiffness: queue.upload(&stiffness)?,
+            state: [queue.upload(&position)?, queue.upload(&previous)?, queue.upload(&velocity)?],
+            centers: queue.room(members.len() * window as usize)?,
+            outcomes: queue.room(members.len())?,
             window,
+            queue,
         })
     }
 
     /// Simulates the runs until they are done, and reads their states.
-    fn finish(
-        self,
-        members: &[usize],
-        runs: &mut [Run],
-        record: &mut dyn FnMut(usize, [f64; 2]),
-    ) -> Result<(), DeviceError> {
-        let mut live: Vec<usize> = (0..members.len()).collect();
+    fn finish(mut self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<(), DeviceError> {
+        let mut live: Vec<usize> = (0..self.members.len()).collect();
         let mut window = FIRST_WINDOW;
         while !live.is_empty() {
             if self.world.monitor.as_ref().is_some_and(|monitor| monitor.is_stopped()) {
-                live.iter().for_each(|&place| runs[members[place]].stop());
+                live.iter().for_each(|&place| runs[self.members[place].run].stop());
                 break;
             }
-            let longest = live.iter().map(|&place| runs[members[place]].remaining()).max().unwrap_or(0);
+            let longest = live.iter().map(|&place| runs[self.members[place].run].remaining()).max().unwrap_or(0);
             let steps = window.min(self.window).min(longest);
-            let spent = self.advance(steps, &live, members, runs, record)?;
+            let spent = self.advance(steps, &live, runs, record)?;
             window = next_window(steps, spent);
-            live.retain(|&place| !runs[members[place]].is_done());
+            live.retain(|&place| !runs[self.members[place].run].is_done());
         }
-        self.read_states(members, runs)
+        self.read_states(runs)
     }
 
     /// One launch: simulates `steps` env steps of each run, or fewer if less is left of it. Returns the time in
     /// nanoseconds.
     fn advance(
-        &self,
+        &mut self,
         steps: u32,
         live: &[usize],
-        members: &[usize],
         runs: &mut [Run],
         record: &mut dyn FnMut(usize, [f64; 2]),
     ) -> Result<u64, DeviceError> {
-        let card = &self.world.card;
-        let mut signals = SignalTable::new(live.iter().map(|&place| &runs[members[place]]));
+        let mut signals = SignalTable::new(live.iter().map(|&place| &runs[self.members[place].run]));
         let mut robots = Vec::with_capacity(4 * live.len());
         for &place in live {
             let [body, state] = self.places[place];
-            let run = &runs[members[place]];
+            let run = &runs[self.members[place].run];
             robots.extend([body, state, signals.add(run, steps), run.remaining().min(steps)]);
         }
         let arguments = Arguments {
-            robots: &card.upload(&robots)?,
+            robots: &self.queue.upload(&robots)?,
             bodies: &self.bodies,
             plan: &self.plan,
             stiffness: &self.stiffness,
-            targets: &card.upload(&signals.targets)?,
+            targets: &self.queue.upload(&signals.targets)?,
             codes: signals.codes as u32,
             world_width: self.world.width as u32,
             window: steps,
@@ -224,14 +237,15 @@ impl<'a> DeviceRuns<'a> {
             centers: &self.centers,
             outcomes: &self.outcomes,
         };
-        let spent = card.launch(self.capacity, &self.world.constants, live.len(), &arguments)?;
-        let centers = card.read(&self.centers, live.len() * steps as usize)?;
-        let outcomes = card.read(&self.outcomes, live.len())?;
+        let spent = self.queue.launch(self.capacity, &self.world.constants, live.len(), &arguments)?;
+        let centers = self.queue.read(&self.centers, live.len() * steps as usize)?;
+        let outcomes = self.queue.read(&self.outcomes, live.len())?;
         for ((&place, centers), [done, fault]) in live.iter().zip(centers.chunks(steps as usize)).zip(outcomes) {
-            let run = &mut runs[members[place]];
+            let member = self.members[place].run;
+            let run = &mut runs[member];
             for &center in &centers[..done as usize] {
                 run.finish_env_step(center, false);
-                record(members[place], center);
+                record(member, center);
             }
             if fault != SOUND {
                 run.finish_env_step([f64::NAN; 2], fault == UNSTABLE);
@@ -244,12 +258,12 @@ impl<'a> DeviceRuns<'a> {
     }
 
     /// Reads the runs' states after their last complete env steps.
-    fn read_states(&self, members: &[usize], runs: &mut [Run]) -> Result<(), DeviceError> {
+    fn read_states(&self, runs: &mut [Run]) -> Result<(), DeviceError> {
         let [position, previous, velocity] = self.state.each_ref();
-        let read = |memory: &CardMemory<[f64; 2]>| self.world.card.read(memory, memory.count());
+        let read = |memory: &CardMemory<[f64; 2]>| self.queue.read(memory, memory.count());
         let (position, previous, velocity) = (read(position)?, read(previous)?, read(velocity)?);
-        for ((&member, plan), [_, first]) in members.iter().zip(&self.masses).zip(&self.places) {
-            let state = &mut runs[member].state;
+        for (Member { run, plan }, [_, first]) in self.members.iter().zip(&self.places) {
+            let state = &mut runs[*run].state;
             for (point, &mass) in plan.masses.iter().enumerate() {
                 let place = *first as usize + mass;
                 state.position[point] = position[place];

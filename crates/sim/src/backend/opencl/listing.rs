@@ -50,6 +50,8 @@ pub struct OpenClDevice {
     pub buffer_bytes: u64,
     /// The size of the memory that a work-group shares, in bytes.
     pub local_bytes: usize,
+    /// Its multiprocessors: each simulates a few robots side by side.
+    pub multiprocessors: usize,
     /// The most work-items of a group.
     pub group_size: usize,
     /// Whether it has numbers of double precision.
@@ -106,6 +108,7 @@ fn describe(device: Device, platform: &str) -> Result<OpenClDevice, ClError> {
         global_bytes: device.global_mem_size()?,
         buffer_bytes: device.max_mem_alloc_size()?,
         local_bytes: device.local_mem_size()? as usize,
+        multiprocessors: device.max_compute_units()? as usize,
         group_size: device.max_work_group_size()?,
         has_doubles: device.double_fp_config().unwrap_or(0) != 0,
         rounds_single: device.single_fp_config()? & CL_FP_CORRECTLY_ROUNDED_DIVIDE_SQRT != 0,

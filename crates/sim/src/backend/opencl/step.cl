@@ -115,6 +115,7 @@ typedef struct {
     __local uint *unstable;
     __local uint *columns;
     __local uint *bites;
+    __local uint *rigid_bites;
 } Robot;
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -278,7 +279,7 @@ bool is_inside(double2 point, double2 c0, double2 c1, double2 c2, double2 c3) {
     return upper || lower;
 }
 
-// Clears what the survey finds.
+// Clears what the survey of the next substep finds.
 PART void clear_survey(const Robot *r, uint item) {
     EACH(word, TILE_WORDS) r->low[word] = 0;
     if (item == 0) {
@@ -422,6 +423,13 @@ typedef struct {
     double2 normal;
 } Hit;
 
+// A contact: the hit, and the masses that it pushes, the point's and those of the side's ends.
+typedef struct {
+    Hit hit;
+    uint point;
+    uint2 ends;
+} Contact;
+
 PART Quad robot_quad(const Robot *r, uint n) {
     __global const ushort *corners = tile(r, n);
     Quad quad;
@@ -465,6 +473,17 @@ bool is_clear_of(const Quad *quad, double2 point) {
     return outside && fabs(end.x * start.y - end.y * start.x) > NEAR_DIAGONAL;
 }
 
+// Whether a quotient, rounded, is from 0 to 1. It is greater than 1 exactly if the one number is greater than the other,
+// because the least number above the divisor gives a quotient beyond the middle between 1 and the number after it. So
+// nothing is divided, except where the quotient could be rounded to zero, or is of numbers that are not finite.
+bool is_share(double dividend, double divisor) {
+    if (!(fabs(dividend) > 1e-150 && fabs(divisor) < 1e150)) {
+        double share = dividend / divisor;
+        return 0.0 <= share && share <= 1.0;
+    }
+    return fabs(dividend) <= fabs(divisor) && (dividend < 0.0) == (divisor < 0.0);
+}
+
 // Whether a side of the main voxel crosses a side of the reference; never when nearly parallel (docs/physics.md 7.3).
 PART bool crosses(const Quad *main, uint own, const Quad *reference, uint side) {
     uint2 first = side_ends(main, own), second = side_ends(reference, side);
@@ -473,9 +492,7 @@ PART bool crosses(const Quad *main, uint own, const Quad *reference, uint side) 
     double2 q = reference->corner[second.x] - main->corner[first.x];
     double det = -d1.x * d2.y + d2.x * d1.y;
     if (fabs(det) < PARALLEL) return false;
-    double t = (-d2.y * q.x + d2.x * q.y) / det;
-    double u = (-d1.y * q.x + d1.x * q.y) / det;
-    return 0.0 <= t && t <= 1.0 && 0.0 <= u && u <= 1.0;
+    return is_share(-d2.y * q.x + d2.x * q.y, det) && is_share(-d1.y * q.x + d1.x * q.y, det);
 }
 
 double distance_from(const Quad *quad, uint side, double2 point) {
@@ -520,9 +537,10 @@ PART Hit hit_by(const Quad *reference, const Quad *main, uint corner) {
 double2 true_velocity(const Robot *r, uint mass) { return (r->at[mass] - r->before[mass]) / SUBSTEP; }
 
 // Puts the forces of a contact, multiplied, into a place of the scratch: on the point and on each end of the side.
-PART void push(const Robot *r, uint place, const Hit *hit, uint point, uint2 ends, double times) {
-    double2 normal = hit->normal;
-    double strength = CONTACT_STIFFNESS * (CONTACT_DEPTH + hit->distance);
+PART void push(const Robot *r, uint place, const Contact *contact, double times) {
+    uint point = contact->point;
+    double2 normal = contact->hit.normal;
+    double strength = CONTACT_STIFFNESS * (CONTACT_DEPTH + contact->hit.distance);
     double2 force = strength * normal;
     double2 friction = (double2)(0.0);
     if (point != NONE) {
@@ -534,7 +552,7 @@ PART void push(const Robot *r, uint place, const Hit *hit, uint point, uint2 end
         r->scratch[3 * place] = (force - damping + friction) * times * PER_SUBSTEP_SQUARED;
     }
     r->target[3 * place] = point;
-    uint end[2] = { ends.x, ends.y };
+    uint end[2] = { contact->ends.x, contact->ends.y };
     for (uint n = 0; n < 2; n++) {
         if (end[n] != NONE) {
             double2 damping = EDGE_DAMPING * dot_product(normal, true_velocity(r, end[n])) * normal;
@@ -546,51 +564,46 @@ PART void push(const Robot *r, uint place, const Hit *hit, uint point, uint2 end
 
 // Contact of a low voxel with the ground: candidate `k` of its ground voxel is corner `k` of the voxel in the ground,
 // or corner `k - 4` of the ground in the voxel.
-PART bool ground_contact(const Robot *r, uint candidate, uint columns, uint world_width, bool is_pushed, uint place) {
+PART Contact ground_contact(const Robot *r, uint candidate, uint columns, uint world_width) {
     uint low = candidate / 8 / columns, column = candidate / 8 % columns, corner = candidate % 8;
-    if (column >= r->column_count[low]) return false;
+    Contact contact = { { -1, 0.0, (double2)(0.0) }, NONE, (uint2)(NONE) };
+    if (column >= r->column_count[low]) return contact;
     Quad ground = ground_quad(r->first_column[low] + column, world_width);
     Quad quad = robot_quad(r, r->list[low]);
     __global const ushort *masses = tile(r, r->list[low]);
-    Hit hit = corner < 4 ? hit_by(&ground, &quad, corner) : hit_by(&quad, &ground, corner - 4);
-    if (hit.side < 0) return false;
-    if (is_pushed && corner < 4) {
-        push(r, place, &hit, masses[corner], (uint2)(NONE), 1.0);
-    } else if (is_pushed) {
-        uint2 ends = side_ends(&quad, hit.side);
-        push(r, place, &hit, NONE, (uint2)(masses[ends.x], masses[ends.y]), 1.0);
+    contact.hit = corner < 4 ? hit_by(&ground, &quad, corner) : hit_by(&quad, &ground, corner - 4);
+    if (corner < 4) {
+        contact.point = masses[corner];
+    } else if (contact.hit.side >= 0) {
+        uint2 ends = side_ends(&quad, contact.hit.side);
+        contact.ends = (uint2)(masses[ends.x], masses[ends.y]);
     }
-    return true;
+    return contact;
 }
 
 // Contact of a point inside a tile: candidate `n` is the n-th surface voxel at the point.
-PART bool self_contact(const Robot *r, uint candidate, bool is_pushed, uint place) {
+PART Contact self_contact(const Robot *r, uint candidate) {
     uint reference = r->list[candidate / 4] >> 16, mass = r->list[candidate / 4] & 0xffff, n = candidate % 4;
     uint own = r->around[4 * mass + n];
-    if (own == NONE) return false;
+    Contact contact = { { -1, 0.0, (double2)(0.0) }, mass, (uint2)(NONE) };
+    if (own == NONE) return contact;
     uint corner = n == 0 ? 2 : n == 1 ? 3 : n == 2 ? 1 : 0;
     Quad quad = robot_quad(r, reference), main = robot_quad(r, own);
-    if (!overlap(main.bounds, quad.bounds)) return false;
-    Hit hit = hit_by(&quad, &main, corner);
-    if (hit.side < 0) return false;
-    if (is_pushed) {
+    if (!overlap(main.bounds, quad.bounds)) return contact;
+    contact.hit = hit_by(&quad, &main, corner);
+    if (contact.hit.side >= 0) {
         __global const ushort *masses = tile(r, reference);
-        uint2 ends = side_ends(&quad, hit.side);
-        push(r, place, &hit, mass, (uint2)(masses[ends.x], masses[ends.y]), 2.0);
+        uint2 ends = side_ends(&quad, contact.hit.side);
+        contact.ends = (uint2)(masses[ends.x], masses[ends.y]);
     }
-    return true;
+    return contact;
 }
 
-// The place of the n-th set bit of some words.
-PART uint nth_bit(__local const uint *words, uint n) {
-    uint word = 0, count = popcount(words[0]);
-    while (n >= count) {
-        n -= count;
-        count = popcount(words[++word]);
-    }
-    uint bits = words[word];
-    for (; n > 0; n--) bits &= bits - 1;
-    return 32 * word + 31 - clz(bits & -bits);
+// The set bits of some words before a place.
+PART uint count_before(__local const uint *words, uint place) {
+    uint bits = popcount(words[place / 32] & ((1u << place % 32) - 1));
+    for (uint word = 0; word < place / 32; word++) bits += popcount(words[word]);
+    return bits;
 }
 
 // The candidates of a robot: with `columns`, those of low voxels and the ground, else those of points inside tiles.
@@ -602,12 +615,16 @@ PART void clear_hits(const Robot *r, uint item) {
     EACH(word, WORDS(TESTED)) r->hits[word] = 0;
 }
 
-// Finds out which of the first candidates are contacts.
-PART void test_candidates(const Robot *r, uint item, Candidates all) {
-    EACH(n, min((uint)TESTED, all.count - all.from)) {
-        bool is_hit = all.columns != 0 ? ground_contact(r, all.from + n, all.columns, all.world_width, false, 0)
-                                       : self_contact(r, all.from + n, false, 0);
-        if (is_hit) atomic_or(&r->hits[n / 32], 1u << n % 32);
+// Finds out which of the first candidates are contacts. Each work-item keeps those that it found.
+PART void test_candidates(const Robot *r, uint item, Candidates all, Contact *found) {
+    for (uint own = 0; own < SHARE(TESTED); own++) {
+        uint n = own * GROUP + item;
+        if (n < min((uint)TESTED, all.count - all.from)) {
+            uint candidate = all.from + n;
+            found[own] = all.columns != 0 ? ground_contact(r, candidate, all.columns, all.world_width)
+                                          : self_contact(r, candidate);
+            if (found[own].hit.side >= 0) atomic_or(&r->hits[n / 32], 1u << n % 32);
+        }
     }
 }
 
@@ -617,14 +634,15 @@ PART uint count_bits(__local const uint *words, uint count) {
     return bits;
 }
 
-// Computes the forces of some contacts.
-PART void push_contacts(const Robot *r, uint item, Candidates all, uint done, uint pushed) {
-    EACH(n, pushed) {
-        uint candidate = all.from + nth_bit(r->hits, done + n);
-        if (all.columns != 0) {
-            ground_contact(r, candidate, all.columns, all.world_width, true, n);
-        } else {
-            self_contact(r, candidate, true, n);
+// Computes the forces of some contacts. Each contact of the robot with itself is evaluated twice.
+PART void push_contacts(const Robot *r, uint item, uint columns, const Contact *found, uint done, uint pushed) {
+    for (uint own = 0; own < SHARE(TESTED); own++) {
+        uint n = own * GROUP + item;
+        if (n < TESTED && (r->hits[n / 32] >> n % 32 & 1) != 0) {
+            uint place = count_before(r->hits, n);
+            if (done <= place && place < done + pushed) {
+                push(r, place - done, &found[own], columns != 0 ? 1.0 : 2.0);
+            }
         }
     }
 }
@@ -641,15 +659,16 @@ PART void add_loads(const Robot *r, uint item, uint pushed, double2 *load) {
 
 // Tests candidates for a contact and adds the forces of the contacts to the loads, in order of the candidates.
 void collide(const Robot *r, uint item, Candidates all, double2 *load) {
+    Contact found[SHARE(TESTED)];
     do {
         clear_hits(r, item);
         SYNC();
-        test_candidates(r, item, all);
+        test_candidates(r, item, all, found);
         SYNC();
         uint contacts = count_bits(r->hits, WORDS(TESTED)), done = 0;
         do {
             uint pushed = min((uint)PUSHED, contacts - done);
-            push_contacts(r, item, all, done, pushed);
+            push_contacts(r, item, all.columns, found, done, pushed);
             SYNC();
             add_loads(r, item, pushed, load);
             SYNC();
@@ -661,7 +680,7 @@ void collide(const Robot *r, uint item, Candidates all, double2 *load) {
 
 // Lists a low voxel with the ground voxels that its box overlaps or touches.
 PART void list_low_tile(const Robot *r, uint n, uint world_width) {
-    uint place = popcount(r->low[n / 32] & ((1u << n % 32) - 1)) + count_bits(r->low, n / 32);
+    uint place = count_before(r->low, n);
     Quad quad = robot_quad(r, n);
     double2 least = quad.bounds.least, greatest = quad.bounds.greatest;
     uint from = 0, to = 0;
@@ -679,7 +698,8 @@ PART void list_low_tile(const Robot *r, uint n, uint world_width) {
 }
 
 PART void list_low_tiles(const Robot *r, uint item, uint world_width) {
-    EACH(n, r->tiles) {
+    // By the last work-items: the first ones find insides at the same time.
+    for (uint n = GROUP - 1 - item; n < r->tiles; n += GROUP) {
         if ((r->low[n / 32] >> n % 32 & 1) != 0) list_low_tile(r, n, world_width);
     }
 }
@@ -735,8 +755,6 @@ void collide_with_itself(const Robot *r, uint item, double2 *load) {
 // Contact forces and the instability test, both from the positions at the start of the substep.
 void apply_contacts(const Robot *r, uint item, uint world_width, double2 *load) {
     for (uint own = 0; own < MASS_SHARE; own++) load[own] = (double2)(0.0, WEIGHT);
-    clear_survey(r, item);
-    SYNC();
     survey(r, item);
     SYNC();
     WHEN(*r->moved) renew(r, item);
@@ -790,18 +808,27 @@ PART void pull(const Robot *r, uint item, uint stage, Springs *springs) {
     }
 }
 
+// Where the springs of a mass are; some place for those that it does not have. So all are read at once, and none waits
+// for a test.
+ushort8 places(ushort8 gather) {
+    return select(gather, (ushort8)(0), gather == (ushort8)(NONE));
+}
+
 // The force on a mass: its load and the forces of its springs, in the order of the frames.
 PART double2 gather_force(const Robot *r, ushort8 gather, double2 force) {
     __local const double2 *pull = r->scratch;
-    if (gather.s0 != NONE) force += pull[gather.s0];
-    if (gather.s1 != NONE) force += pull[gather.s1];
-    if (gather.s2 != NONE) force -= pull[gather.s2];
-    if (gather.s3 != NONE) force -= pull[gather.s3];
-    if (gather.s4 != NONE) force += pull[gather.s4 + 2];
-    if (gather.s5 != NONE) force += pull[gather.s5 + 1] + pull[gather.s5 + 3];
-    if (gather.s6 != NONE) force += pull[gather.s6] - pull[gather.s6 + 3];
-    if (gather.s7 != NONE) force -= pull[gather.s7] + (pull[gather.s7 + 1] + pull[gather.s7 + 2]);
-    return force;
+    ushort8 at = places(gather);
+    double2 p0 = pull[at.s0], p1 = pull[at.s1], p2 = pull[at.s2], p3 = pull[at.s3], p4 = pull[at.s4 + 2];
+    double2 p5 = pull[at.s5 + 1] + pull[at.s5 + 3], p6 = pull[at.s6] - pull[at.s6 + 3];
+    double2 p7 = pull[at.s7] + (pull[at.s7 + 1] + pull[at.s7 + 2]);
+    force = gather.s0 != NONE ? force + p0 : force;
+    force = gather.s1 != NONE ? force + p1 : force;
+    force = gather.s2 != NONE ? force - p2 : force;
+    force = gather.s3 != NONE ? force - p3 : force;
+    force = gather.s4 != NONE ? force + p4 : force;
+    force = gather.s5 != NONE ? force + p5 : force;
+    force = gather.s6 != NONE ? force + p6 : force;
+    return gather.s7 != NONE ? force - p7 : force;
 }
 
 // The force of the plane y = 0 under the ground.
@@ -877,16 +904,19 @@ PART void measure_limits(const Robot *r, uint item, const Springs *springs) {
 // The sum of the shifts of a mass, in the order of the frames.
 PART double2 gather_shifts(const Robot *r, ushort8 gather) {
     __local const double2 *shift = r->scratch;
+    ushort8 at = places(gather);
+    double2 s0 = shift[at.s0], s1 = shift[at.s1], s2 = shift[at.s2], s3 = shift[at.s3], s4 = shift[at.s4 + 2];
+    double2 s51 = shift[at.s5 + 1], s53 = shift[at.s5 + 3], s60 = shift[at.s6], s63 = shift[at.s6 + 3];
+    double2 s70 = shift[at.s7], s71 = shift[at.s7 + 1], s72 = shift[at.s7 + 2];
     double2 sum = (double2)(0.0);
-    if (gather.s0 != NONE) sum += shift[gather.s0];
-    if (gather.s1 != NONE) sum += shift[gather.s1];
-    if (gather.s2 != NONE) sum -= shift[gather.s2];
-    if (gather.s3 != NONE) sum -= shift[gather.s3];
-    if (gather.s4 != NONE) sum += shift[gather.s4 + 2];
-    if (gather.s5 != NONE) sum = sum + shift[gather.s5 + 1] + shift[gather.s5 + 3];
-    if (gather.s6 != NONE) sum = sum + shift[gather.s6] - shift[gather.s6 + 3];
-    if (gather.s7 != NONE) sum = sum - shift[gather.s7] - shift[gather.s7 + 1] - shift[gather.s7 + 2];
-    return sum;
+    sum = gather.s0 != NONE ? sum + s0 : sum;
+    sum = gather.s1 != NONE ? sum + s1 : sum;
+    sum = gather.s2 != NONE ? sum - s2 : sum;
+    sum = gather.s3 != NONE ? sum - s3 : sum;
+    sum = gather.s4 != NONE ? sum + s4 : sum;
+    sum = gather.s5 != NONE ? sum + s51 + s53 : sum;
+    sum = gather.s6 != NONE ? sum + s60 - s63 : sum;
+    return gather.s7 != NONE ? sum - s70 - s71 - s72 : sum;
 }
 
 PART void apply_limits(const Robot *r, uint item, const Masses *masses) {
@@ -900,12 +930,22 @@ PART void apply_limits(const Robot *r, uint item, const Masses *masses) {
 
 // First pass, all edges at once.
 void limit_lengths(const Robot *r, uint item, const Springs *springs, const Masses *masses) {
-    if (item == 0) *r->bites = 0;
+    if (item == 0) *r->bites = *r->rigid_bites = 0;
     SYNC();
     measure_limits(r, item, springs);
     SYNC();
     apply_limits(r, item, masses);
     SYNC();
+}
+
+// Whether the length of a side of a rigid voxel is at or beyond a bound.
+bool is_beyond(double2 from, double2 to) {
+    double square = square_of(from - to);
+    return (RIGID_MOST * RIGID_MOST <= square) | (square <= RIGID_LEAST * RIGID_LEAST);
+}
+
+bool has_side_beyond(double2 a, double2 b, double2 c, double2 d) {
+    return is_beyond(a, b) | is_beyond(b, c) | is_beyond(c, d) | is_beyond(d, a);
 }
 
 // One side of a rigid voxel: moves its ends if it is at or beyond a bound.
@@ -924,28 +964,47 @@ PART void limit_voxels(const Robot *r, uint item, uint from, uint to) {
     for (uint voxel = from + item; voxel < to; voxel += GROUP) {
         __global const ushort *masses = r->rigid + 4 * voxel;
         double2 a = r->at[masses[0]], b = r->at[masses[1]], c = r->at[masses[2]], d = r->at[masses[3]];
-        limit_side(&a, &b);
-        limit_side(&b, &c);
-        limit_side(&c, &d);
-        limit_side(&d, &a);
-        r->at[masses[0]] = a;
-        r->at[masses[1]] = b;
-        r->at[masses[2]] = c;
-        r->at[masses[3]] = d;
+        // Where no side is beyond a bound, no mass is moved. These tests do not wait for each other.
+        if (has_side_beyond(a, b, c, d)) {
+            limit_side(&a, &b);
+            limit_side(&b, &c);
+            limit_side(&c, &d);
+            limit_side(&d, &a);
+            r->at[masses[0]] = a;
+            r->at[masses[1]] = b;
+            r->at[masses[2]] = c;
+            r->at[masses[3]] = d;
+        }
     }
 }
 
-// Second pass, the sides of rigid voxels one after another. Voxels of one level have no mass in common, so they can be
-// processed at the same time.
-void limit_rigid(const Robot *r, uint item) {
+// Finds out whether a side of any rigid voxel is at or beyond a bound. If none is, the second pass changes nothing.
+PART void measure_rigid(const Robot *r, uint item) {
+    EACH(voxel, r->levels > 0 ? r->levels_end[r->levels - 1] : 0) {
+        __global const ushort *masses = r->rigid + 4 * voxel;
+        double2 a = r->at[masses[0]], b = r->at[masses[1]], c = r->at[masses[2]], d = r->at[masses[3]];
+        if (has_side_beyond(a, b, c, d)) *r->rigid_bites = 1;
+    }
+}
+
+// The sides of rigid voxels one after another. Voxels of one level have no mass in common, so they can be processed at
+// the same time.
+void limit_levels(const Robot *r, uint item) {
     uint level = 0, from = 0;
     do {
-        uint to = level < r->levels ? r->levels_end[level] : 0;
+        uint to = *r->rigid_bites && level < r->levels ? r->levels_end[level] : from;
         limit_voxels(r, item, from, to);
         SYNC();
         from = to;
         level++;
     } while (level < r->levels);
+}
+
+// Second pass, the sides of rigid voxels.
+void limit_rigid(const Robot *r, uint item) {
+    measure_rigid(r, item);
+    SYNC();
+    WHEN(*r->rigid_bites) limit_levels(r, item);
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -994,6 +1053,7 @@ PART void set_aims(const Robot *r, uint item, Springs *springs, __global const d
 // One substep (docs/physics.md 5).
 void substep(const Robot *r, uint item, uint world_width, Springs *springs, Masses *masses) {
     apply_contacts(r, item, world_width, masses->load);
+    clear_survey(r, item);
     for (uint stage = 1; stage <= 4; stage++) {
         pull(r, item, stage, springs);
         SYNC();
@@ -1065,7 +1125,7 @@ void advance(__global const uint *robots, __global const uint *bodies, __global 
     __local uint near_points[TILES * POINT_WORDS], inside[TILES * POINT_WORDS], near_tiles[TILES * TILE_WORDS];
     __local uint low[TILE_WORDS], hits[WORDS(TESTED)];
     __local uint list[TILES], first_column[TILES], column_count[TILES];
-    __local uint moved, any_inside, pairs, suspect, unstable, columns, bites;
+    __local uint moved, any_inside, pairs, suspect, unstable, columns, bites, rigid_bites;
     __local double mean[2];
     const uint item = get_local_id(0), number = get_group_id(0);
     __global const uint *robot = robots + ROBOT_WORDS * number;
@@ -1092,6 +1152,7 @@ void advance(__global const uint *robots, __global const uint *bodies, __global 
     own.unstable = &unstable;
     own.columns = &columns;
     own.bites = &bites;
+    own.rigid_bites = &rigid_bites;
     const Robot *r = &own;
     const uint first = robot[ROBOT_STATE];
     State state = { positions + first, previous + first, velocities + first };
@@ -1100,6 +1161,7 @@ void advance(__global const uint *robots, __global const uint *bodies, __global 
     load_springs(r, item, &springs);
     load_masses(r, item, &masses, &state);
     if (item == 0) unstable = 0;
+    clear_survey(r, item);
     SYNC();
     uint fault = SOUND, done = 0;
     do {
