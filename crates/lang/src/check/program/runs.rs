@@ -1,0 +1,274 @@
+//! The simulations and the tests of a program, once its circuits and swarms are known.
+
+use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
+
+use crate::check::circuit::circuit;
+use crate::check::instance::instance;
+use crate::check::names::Home;
+use crate::check::program::Assembly;
+use crate::check::simulate::{Schedules, spells};
+use crate::check::test;
+use crate::check::vocabulary::Vocabulary;
+use crate::check::wording::{CircuitError, EnvironmentError};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax};
+use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::model::{
+    CircuitId, CircuitTest, Column, Instance, PhysicsWorld, Program, Reference, Script, Simulation, Stimulation,
+};
+use nbc_base::source::Span;
+use nbc_circuit::Inspector;
+
+impl<'a> Assembly<'a> {
+    /// The simulations of the program's own file.
+    pub(super) fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
+        let mut simulations = Vec::new();
+        for declaration in self.declarations.own() {
+            let DeclarationKind::Simulate(source) = &declaration.kind else { continue };
+            let Some(simulated) = self.simulated(&source.swarm, program) else { continue };
+            let Some((inputs, _)) = self.ports(&simulated, source.swarm.span, inspector) else { continue };
+            if let tree::With::Spells { columns, .. } = &source.with {
+                self.ports_named(&simulated.circuit, columns);
+            }
+            let schedules = Schedules { names: &self.names.schedules, declared: &program.schedules };
+            let at = source.swarm.span;
+            let spells =
+                spells(&source.with, at, &inputs, Home::Own, schedules, self.declarations.sources, &mut self.faults);
+            let world = self.world(source.world.as_ref());
+            let (file, line) = self.declarations.line(declaration.span);
+            let (swarm, span) = (source.swarm.text.clone(), source.swarm.span);
+            simulations.push(Simulation { swarm, circuit: simulated, span, file, line, inputs, spells, world });
+        }
+        simulations
+    }
+
+    /// The circuit of the swarm of that name, or the circuit of that name if there is no such swarm.
+    fn simulated(&mut self, name: &NameSyntax, program: &Program) -> Option<Instance> {
+        let is_circuit = self.names.circuits.find(&name.text, Home::Own).is_some();
+        if self.names.swarms.find(&name.text, Home::Own).is_none() && is_circuit {
+            let circuit = self.names.circuits.resolve(name, Home::Own).ok()?;
+            return Some(Instance::from(self.circuits.headers.circuits[circuit].name.as_str()));
+        }
+        match self.names.swarms.resolve(name, Home::Own) {
+            Ok(swarm) => swarm.map(|swarm| program.swarms[swarm].circuit.clone()),
+            Err(fault) => {
+                self.faults.push(fault);
+                None
+            }
+        }
+    }
+
+    /// The test in each of its worlds.
+    pub(super) fn test(
+        &mut self,
+        span: Span,
+        source: &'a tree::Test,
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Vec<CircuitTest> {
+        let worlds: Vec<Option<PhysicsWorld>> = match &source.worlds[..] {
+            [] => vec![None],
+            worlds => worlds.iter().map(|world| self.world(Some(world))).collect(),
+        };
+        let Some(test) = self.test_in(span, source, program, inspector) else { return Vec::new() };
+        worlds.into_iter().map(|world| CircuitTest { world, ..test.clone() }).collect()
+    }
+
+    fn test_in(
+        &mut self,
+        span: Span,
+        source: &'a tree::Test,
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<CircuitTest> {
+        let tested = self.instance(&source.circuit)?;
+        let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
+        let ports = (&inputs[..], &outputs[..]);
+        let environment = match &source.environment {
+            Some(name) => Some(self.environment(name, &tested, ports, program, inspector)?),
+            None => None,
+        };
+        let stimulation = match &source.kind {
+            tree::TestKind::Table(table) => {
+                self.ports_named(&tested.circuit, &table.inputs);
+                self.ports_named(&tested.circuit, &table.outputs);
+                let given = environment.as_ref().map_or(Vec::new(), |(_, given)| given.clone());
+                let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs, given };
+                let steps = test::steps(table, &ports, self.declarations.sources, &mut self.faults);
+                let environment = environment.map(|(environment, _)| environment);
+                if environment.is_some() || steps.iter().any(|step| step.until.is_some()) {
+                    Stimulation::Script(Script { environment, steps })
+                } else {
+                    Stimulation::Rows(steps.into_iter().flat_map(|step| step.rows).collect())
+                }
+            }
+            tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, ports)?,
+            tree::TestKind::Reference(body) => {
+                let circuit = self.reference(&tested, &source.circuit.name, body, ports, program)?;
+                Stimulation::All { reference: Reference::Body(Box::new(circuit)) }
+            }
+        };
+        if let Stimulation::All { .. } = stimulation {
+            let place = source.circuit.name.span;
+            self.all_inputs(&inputs, place)?;
+            let circuit = self.circuits.place(&tested.circuit);
+            if circuit.is_some_and(|circuit| inspector.has_memory(circuit, &tested.arguments, place)) {
+                self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
+            }
+        }
+        let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
+        let (file, line) = self.declarations.line(span);
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world: None })
+    }
+
+    /// The environment of a test, and the inputs of the circuit that it gives. Its inputs are outputs of the circuit,
+    /// or inputs that have columns; its outputs are inputs of the circuit, or what it prints.
+    fn environment(
+        &mut self,
+        name: &NameSyntax,
+        tested: &Instance,
+        (inputs, outputs): (&[Column], &[Column]),
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<(CircuitId, Vec<String>)> {
+        let place = match self.names.circuits.resolve(name, Home::Own) {
+            Ok(place) => CircuitId(place as u32),
+            Err(fault) => {
+                self.faults.push(fault);
+                return None;
+            }
+        };
+        if !program.environments.contains(&place) {
+            self.faults.push(EnvironmentError::NoEnvironment { circuit: name.text.clone() }.at(name.span));
+            return None;
+        }
+        if !self.circuits.is_sound(place) {
+            return None;
+        }
+        let (own_inputs, own_outputs) = inspector.ports(place, &[], name.span)?;
+        let circuit = &program.circuits[place.0 as usize];
+        let declared = |columns: Vec<Column>, count: usize| columns.into_iter().take(count).collect::<Vec<_>>();
+        let (own_inputs, own_outputs) = (declared(own_inputs, circuit.inputs), declared(own_outputs, circuit.outputs));
+        let before = self.faults.len();
+        let mut same = |own: &Column, others: &[&[Column]]| {
+            let found = others.iter().flat_map(|ports| ports.iter()).find(|port| port.name == own.name);
+            if let Some(port) = found.filter(|port| port.width != own.width) {
+                let error = EnvironmentError::Width { port: own.name.clone(), widths: [own.width, port.width] };
+                self.faults.push(error.at(name.span));
+            }
+            found.is_some()
+        };
+        let mut given = Vec::new();
+        for own in &own_outputs {
+            if same(own, &[inputs]) {
+                given.push(own.name.clone());
+            }
+        }
+        let (mut unknown, circuit) = (Vec::new(), tested.circuit.clone());
+        for own in &own_inputs {
+            if given.contains(&own.name) || !same(own, &[outputs, inputs]) {
+                unknown
+                    .push(EnvironmentError::NoPort { port: own.name.clone(), circuit: circuit.clone() }.at(name.span));
+            }
+        }
+        self.faults.extend(unknown);
+        (self.faults.len() == before).then_some((place, given))
+    }
+
+    /// Warns of tests that only their line tells apart.
+    pub(super) fn same_titles(&mut self) {
+        let mut known = BTreeMap::new();
+        for (_, test) in self.declarations.own_tests() {
+            let Some(title) = &test.title else { continue };
+            let instance = test
+                .circuit
+                .arguments
+                .last()
+                .map_or(test.circuit.name.span, |last| test.circuit.name.span.to(last.span));
+            let circuit = self.declarations.sources.text(instance);
+            let world: Vec<&String> = test.worlds.iter().map(|world| &world.text).collect();
+            match known.entry((circuit, &title.text, world)) {
+                Entry::Vacant(entry) => _ = entry.insert(title.span),
+                Entry::Occupied(first) => {
+                    let (circuit, first) = (test.circuit.name.text.clone(), *first.get());
+                    let error = CircuitError::SameTitle { circuit, title: title.text.clone(), first };
+                    self.faults.push(error.at(title.span));
+                }
+            }
+        }
+    }
+
+    /// The circuit of a test.
+    fn instance(&mut self, source: &tree::InstanceSyntax) -> Option<Instance> {
+        let named = instance(source, Home::Own, &self.names.circuits, &self.circuits.headers);
+        named.map_err(|fault| self.faults.push(fault)).ok()
+    }
+
+    fn against(
+        &mut self,
+        tested: &tree::InstanceSyntax,
+        other: &tree::InstanceSyntax,
+        inspector: &mut Inspector<'_>,
+        ports: (&[Column], &[Column]),
+    ) -> Option<Stimulation> {
+        let reference = self.instance(other)?;
+        let (inputs, outputs) = self.ports(&reference, other.name.span, inspector)?;
+        let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
+        if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
+            let circuits = [&tested.name, &other.name].map(|name| name.text.clone());
+            let error = CircuitError::DifferentPorts { circuits, first: tested.name.span };
+            self.faults.push(error.at(other.name.span));
+            return None;
+        }
+        Some(Stimulation::All { reference: Reference::Circuit(reference) })
+    }
+
+    /// The body of a test as a circuit with the ports of the tested one.
+    fn reference(
+        &mut self,
+        instance: &Instance,
+        tested: &NameSyntax,
+        body: &tree::BodySyntax,
+        ports: (&[Column], &[Column]),
+        program: &Program,
+    ) -> Option<nbc_base::model::Circuit> {
+        let mut body = body.clone();
+        let mut port = |column: &Column| {
+            let kind = tree::SizeSyntaxKind::Literal(column.width.to_string());
+            body.sizes.push(tree::SizeSyntax { kind, span: tested.span });
+            let name = NameSyntax { text: column.name.clone(), span: tested.span };
+            tree::Port::new(name, Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)))
+        };
+        let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
+        let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
+        let source = tree::CircuitSyntax { is_environment: false, name, parameters: Vec::new(), inputs, outputs, body };
+        let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers);
+        let sound = !self.declarations.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
+        let called = checked.calls.iter().all(|&(callee, _)| self.circuits.is_sound(callee));
+        // Its ports are those of the tested circuit.
+        let (ports, own): (Vec<_>, Vec<_>) = checked.uses.into_iter().partition(|found| found.declared == tested.span);
+        let names: Vec<_> = ports
+            .into_iter()
+            .filter(|found| found.place != tested.span)
+            .map(|found| NameSyntax { text: self.declarations.sources.text(found.place).to_owned(), span: found.place })
+            .collect();
+        self.ports_named(&instance.circuit, &names);
+        self.inner.extend(own);
+        // The reference may ignore an input of the tested circuit.
+        self.faults.extend(checked.diagnostics.into_iter().filter(|fault| fault.code != Code::Unused));
+        (sound && called).then_some(checked.circuit)
+    }
+
+    /// Rejects a test over all inputs that would have too many rows.
+    fn all_inputs(&mut self, inputs: &[Column], span: Span) -> Option<()> {
+        let bits: usize = inputs.iter().map(|column| column.width).sum();
+        if bits > MAX_TRIED_BITS {
+            self.faults.push(CircuitError::TooManyInputs { bits, most: MAX_TRIED_BITS }.at(span));
+            return None;
+        }
+        Some(())
+    }
+}
+
+/// The most input bits of a test over all inputs.
+const MAX_TRIED_BITS: usize = 16;
