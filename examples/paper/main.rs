@@ -1,8 +1,11 @@
 //! Prints the tables of docs/paper.md from the runs in `out/paper` and `out/long`:
 //!
 //!     cargo run --release --example paper
+//!     cargo run --release --example paper -- transfer mutants gates    only these parts, which simulate for minutes
 
 mod complexity;
+mod gates;
+mod mutants;
 mod transfer;
 
 use std::collections::BTreeMap;
@@ -50,20 +53,39 @@ fn main() -> Fallible<()> {
     let boxes = [5, 7, 10];
     let runs: Vec<BTreeMap<u64, Run>> =
         boxes.iter().map(|side| read(&format!("paper/paper{side}"))).collect::<Fallible<_>>()?;
-    let (mut long, code) = (read("long/paper5")?, read("paper/code5")?);
+    let (mut long, code, gate) = (read("long/paper5")?, read("paper/code5")?, read("long/gate5")?);
     // Others are still going on.
     long.retain(|_, run| run.results.progress.last().is_some_and(|line| line.generation >= LONG));
+    let parts: Vec<String> = std::env::args().skip(1).collect();
+    let is_wanted = |part: &str| parts.is_empty() || parts.iter().any(|wanted| wanted == part);
     let [small, medium, large] = [&runs[0], &runs[1], &runs[2]];
     let long_name = "5x5, 3,000 generations";
-    print_runs(&[("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long), ("5x5, as: code", &code)]);
-    print_least_distances(&runs);
-    print_published(&boxes, &runs, &long)?;
-    print_mirrors(&runs);
-    print_difficulties(&runs);
-    print_growth(small, &long);
-    print_rules(small, &code);
-    complexity::print(&runs);
-    transfer::print(&[("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long)])?;
+    let named = [("5x5", small), ("7x7", medium), ("10x10", large), (long_name, &long)];
+    if is_wanted("tables") {
+        let [first, second, third, fourth] = named;
+        print_runs(&[first, second, third, fourth, ("5x5, as: code", &code)]);
+        print_least_distances(&runs);
+        print_published(&boxes, &runs, &long)?;
+        let with_long = [small, medium, large, &long];
+        print_mirrors(&with_long);
+        print_difficulties(&with_long);
+        print_growth(small, &long);
+        print_rules(small, &code);
+        complexity::print(&runs);
+    }
+    if is_wanted("transfer") {
+        transfer::print(&named)?;
+    }
+    if is_wanted("mutants") {
+        mutants::print(&named)?;
+    }
+    if is_wanted("gates") {
+        gates::print(&[
+            ("distance, 300 generations", small, 1),
+            ("distance, 3,000 generations", &long, 1),
+            ("gate", &gate, 0),
+        ])?;
+    }
     Ok(())
 }
 
@@ -91,10 +113,6 @@ fn print_runs(declarations: &[(&str, &BTreeMap<u64, Run>)]) {
     println!("|---|---|---|---|---|---|");
     for (name, runs) in declarations {
         let of = |value: &dyn Fn(&Run) -> f64| Spread::of(runs.values().map(value));
-        let whole = |run: &Run| {
-            let found = run.results.progress.iter().find(|line| line.behaviors.len() == 16);
-            found.map_or(f64::INFINITY, |line| f64::from(line.generation))
-        };
         let last = |run: &Run| run.results.progress.last().cloned();
         println!(
             "| {name} | {} | {:.0} | {:.0} | {:.1} % | {:.0} |",
@@ -105,6 +123,12 @@ fn print_runs(declarations: &[(&str, &BTreeMap<u64, Run>)]) {
             of(&|run| last(run).map_or(0.0, |line| line.qd_score)),
         );
     }
+}
+
+/// The generation in which a run had all behaviors.
+fn whole(run: &Run) -> f64 {
+    let found = run.results.progress.iter().find(|line| line.behaviors.len() == 16);
+    found.map_or(f64::INFINITY, |line| f64::from(line.generation))
 }
 
 /// The largest second fitness of each seed, by behavior.
@@ -131,8 +155,8 @@ fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>], long: &BTreeMap
 }
 
 /// In each group, the behavior that starts to the left beside its mirror image.
-fn print_mirrors(boxes: &[BTreeMap<u64, Run>]) {
-    println!("\n| group | 5x5 | 7x7 | 10x10 |\n|---|---|---|---|");
+fn print_mirrors(boxes: &[&BTreeMap<u64, Run>]) {
+    println!("\n| group | 5x5 | 7x7 | 10x10 | 5x5, 3,000 |\n|---|---|---|---|---|");
     let starting = |runs: &BTreeMap<u64, Run>, direction: Direction| {
         groups(runs, |champion| champion.behavior.direction(Pattern::PAIRS[0]) == direction)
     };
@@ -150,8 +174,8 @@ fn print_mirrors(boxes: &[BTreeMap<u64, Run>]) {
 
 /// The paper's order of difficulty: a value for each run is the mean of its groups. The last line compares the robots
 /// that follow the first stimulus with those that follow the second.
-fn print_difficulties(boxes: &[BTreeMap<u64, Run>]) {
-    println!("\n| compared | 5x5 | 7x7 | 10x10 |\n|---|---|---|---|");
+fn print_difficulties(boxes: &[&BTreeMap<u64, Run>]) {
+    println!("\n| compared | 5x5 | 7x7 | 10x10 | 5x5, 3,000 |\n|---|---|---|---|---|");
     let compared: Vec<Vec<GroupComparison>> = boxes
         .iter()
         .map(|runs| {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use nbc_base::model::{Behavior, Body, PhysicsWorld, Setting, Variation};
+use nbc_base::model::{Behavior, Body, Genotype, PhysicsWorld, Setting, Variation};
 use nbc_session::report;
 use nbc_sim::Simulator;
 use nbc_swarm::{Proportion, WorldSample, fixed_displacements, fixed_trials};
@@ -13,14 +13,15 @@ use crate::{Fallible, Run};
 const WORLDS: usize = 5;
 
 /// Env steps under each constant pattern: ten cycles.
-const STEPS: u32 = 840;
+pub const STEPS: u32 = 840;
 
-/// The best robot of each behavior by the least distance, of each run.
-fn champions(runs: &BTreeMap<u64, Run>) -> Vec<(Behavior, Body)> {
+/// The best robot of each behavior by the least distance, of each run, with its network.
+pub fn champions(runs: &BTreeMap<u64, Run>) -> Vec<(Behavior, Body, Option<Genotype>)> {
     let best = |run: &Run, behavior: Behavior| {
         let elites = run.results.niches.iter().flat_map(|(_, elites)| elites);
         let own = elites.filter(|elite| elite.behavior == behavior);
-        own.max_by(|a, b| a.fitness[1].total_cmp(&b.fitness[1])).map(|elite| (behavior, elite.body.clone()))
+        own.max_by(|a, b| a.fitness[1].total_cmp(&b.fitness[1]))
+            .map(|elite| (behavior, elite.body.clone(), elite.genotype.clone()))
     };
     runs.values().flat_map(|run| Behavior::all(2).filter_map(move |behavior| best(run, behavior))).collect()
 }
@@ -41,9 +42,9 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
             for number in 0..if percent == 0 { 1 } else { WORLDS } {
                 let world = sample.world(&PhysicsWorld::default(), number);
                 let setting = Setting { factors: world.factors, ..Setting::default() };
-                let trials: Vec<_> = robots.iter().flat_map(|(_, body)| fixed_trials(body, STEPS)).collect();
+                let trials: Vec<_> = robots.iter().flat_map(|(_, body, _)| fixed_trials(body, STEPS)).collect();
                 let walked = simulator.run_trials(&setting, &trials);
-                for ((behavior, _), four) in robots.iter().zip(walked.chunks(4)) {
+                for ((behavior, ..), four) in robots.iter().zip(walked.chunks(4)) {
                     let shown = fixed_displacements(four).ok().map(|walked| Behavior::of(&walked));
                     let group = &mut same[report::difficulty_of(*behavior)];
                     group.attempts += 1;
