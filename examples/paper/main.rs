@@ -69,7 +69,9 @@ fn main() -> Fallible<()> {
         let with_long = [small, medium, large, &long];
         print_mirrors(&with_long);
         print_difficulties(&with_long);
+        print_means(&with_long);
         print_growth(small, &long);
+        print_unfinished(&[("7x7", read("long/paper7")?), ("10x10", read("long/paper10")?)]);
         print_rules(small, &code);
         complexity::print(&runs);
     }
@@ -193,6 +195,36 @@ fn print_difficulties(boxes: &[&BTreeMap<u64, Run>]) {
             pairs.get(line).iter().for_each(|pair| print!(" | {:.5} ({:.2})", pair.p_adjusted, pair.a12));
         }
         println!(" |");
+    }
+}
+
+/// Student's t for 95 % intervals of the mean of ten values.
+const T: f64 = 2.262;
+
+/// The mean distance of each group over its runs, with its 95 % interval, in voxels.
+fn print_means(boxes: &[&BTreeMap<u64, Run>]) {
+    println!("\n| group | 5x5 | 7x7 | 10x10 | 5x5, 3,000 |\n|---|---|---|---|---|");
+    let boxes: Vec<Vec<BehaviorGroup>> = boxes.iter().map(|runs| groups(runs, |_| true)).collect();
+    for place in 0..8 {
+        print!("| {}", boxes[0][place].name);
+        for groups in &boxes {
+            let values = &groups[place].values;
+            let count = values.len() as f64;
+            let mean = values.iter().sum::<f64>() / count;
+            let squares: f64 = values.iter().map(|value| (value - mean).powi(2)).sum();
+            print!(" | {mean:.1} ± {:.1}", T * (squares / (count - 1.0) / count).sqrt());
+        }
+        println!(" |");
+    }
+}
+
+/// The generations that each run has which has not the paper's number.
+fn print_unfinished(boxes: &[(&str, BTreeMap<u64, Run>)]) {
+    println!();
+    for (name, runs) in boxes {
+        let last = |run: &Run| run.results.progress.last().map_or(0, |line| line.generation);
+        let each: Vec<String> = runs.iter().map(|(seed, run)| format!("{seed}: {}", last(run))).collect();
+        println!("{name}, generations by seed: {}", each.join(", "));
     }
 }
 
