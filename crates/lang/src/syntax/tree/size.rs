@@ -4,11 +4,11 @@ use nbc_base::source::Span;
 
 use crate::syntax::tree::NameSyntax;
 
-/// The place of an expression in [`BodySyntax::expressions`].
+/// The place of an expression in [`BodySyntax::expressions`](crate::syntax::tree::BodySyntax::expressions).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ExpressionSyntaxId(pub u32);
 
-/// The place of a size in [`BodySyntax::sizes`].
+/// The place of a size in [`BodySyntax::sizes`](crate::syntax::tree::BodySyntax::sizes).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SizeSyntaxId(pub u32);
 
