@@ -2,14 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use nbc_base::model::{Behavior, Setting};
+use nbc_base::model::Setting;
 use nbc_session::report;
 use nbc_sim::Simulator;
-use nbc_swarm::evolve::Elite;
 use nbc_swarm::{Proportion, fixed_displacements, fixed_trials, screen};
 
 use crate::transfer::STEPS;
-use crate::{Fallible, Run, Spread, whole};
+use crate::{Fallible, Run, Spread, champions, whole};
 
 /// The largest clock of a gate, in cycles.
 const CLOCK: u32 = 4;
@@ -23,13 +22,7 @@ pub fn print(objectives: &[(&str, &BTreeMap<u64, Run>, usize)]) -> Fallible<()> 
     let simulator = Simulator::default();
     let mut distances = String::new();
     for &(name, runs, fitness) in objectives {
-        let best = |run: &Run, behavior: Behavior| -> Option<Elite> {
-            let own =
-                run.results.niches.iter().flat_map(|(_, elites)| elites).filter(|elite| elite.behavior == behavior);
-            own.max_by(|a, b| a.fitness[fitness].total_cmp(&b.fitness[fitness])).cloned()
-        };
-        let elites: Vec<Elite> =
-            runs.values().flat_map(|run| Behavior::all(2).filter_map(|behavior| best(run, behavior))).collect();
+        let elites = champions(runs, fitness);
         let mut gates = [Proportion::default(); 4];
         for elite in &elites {
             let group = &mut gates[report::difficulty_of(elite.behavior)];

@@ -2,16 +2,16 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nbc_base::model::{Behavior, Body, Genotype, MutationWeights, Rules, Setting};
+use nbc_base::model::{Body, Genotype, MutationWeights, Rules, Setting};
 use nbc_session::report;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::{develop, mutate};
-use nbc_swarm::{Proportion, fixed_displacements, fixed_trials};
+use nbc_swarm::{Proportion, fixed_trials};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::transfer::{STEPS, champions};
-use crate::{Fallible, Run};
+use crate::transfer::{STEPS, shown};
+use crate::{Fallible, LEAST_DISTANCE, Run, champions};
 
 /// Mutants of a robot.
 const MUTANTS: usize = 6;
@@ -34,32 +34,25 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
     let simulator = Simulator::default();
     for (name, runs) in boxes {
         let mut same = [Proportion::default(); 4];
-        let mut others = [0; 4];
-        let mut parents = [0; 4];
-        for (number, (behavior, body, genotype)) in champions(runs).iter().enumerate() {
+        let mut others = [0.0; 4];
+        let mut parents = [0.0; 4];
+        for (number, parent) in champions(runs, LEAST_DISTANCE).into_iter().enumerate() {
             let mut rng = ChaCha8Rng::seed_from_u64(number as u64);
-            let genotype = genotype.as_ref().ok_or("the runs of the paper have networks")?;
-            let mutants: Vec<Body> = (0..MUTANTS).filter_map(|_| mutant(body, genotype, &mut rng)).collect();
+            let genotype = parent.genotype.as_ref().ok_or("the runs of the paper have networks")?;
+            let mutants: Vec<Body> = (0..MUTANTS).filter_map(|_| mutant(&parent.body, genotype, &mut rng)).collect();
             let trials: Vec<_> = mutants.iter().flat_map(|body| fixed_trials(body, STEPS)).collect();
-            let walked = simulator.run_trials(&Setting::default(), &trials);
-            let shown: Vec<Option<Behavior>> = walked
-                .chunks(4)
-                .map(|four| fixed_displacements(four).ok().map(|walked| Behavior::of(&walked)))
-                .collect();
-            let group = report::difficulty_of(*behavior);
-            parents[group] += 1;
+            let shown = shown(&simulator.run_trials(&Setting::default(), &trials));
+            let group = report::difficulty_of(parent.behavior);
+            parents[group] += 1.0;
             same[group].attempts += shown.len();
-            same[group].successes += shown.iter().filter(|&&shown| shown == Some(*behavior)).count();
-            let different = shown.iter().flatten().filter(|&shown| shown != behavior);
-            others[group] += different.collect::<BTreeSet<_>>().len();
+            same[group].successes += shown.iter().filter(|&&shown| shown == Some(parent.behavior)).count();
+            let different = shown.iter().flatten().filter(|&&shown| shown != parent.behavior);
+            others[group] += different.collect::<BTreeSet<_>>().len() as f64;
         }
         print!("| {name} | the parent's behavior");
         same.iter().for_each(|group| print!(" | {:.0} %", 100.0 * group.share()));
-        print!(" |\n| {name} | other behaviors of six mutants");
-        others
-            .iter()
-            .zip(parents)
-            .for_each(|(&others, parents)| print!(" | {:.1}", f64::from(others as u32) / f64::from(parents)));
+        print!(" |\n| {name} | other behaviors");
+        others.iter().zip(parents).for_each(|(others, parents)| print!(" | {:.1}", others / parents));
         println!(" |");
     }
     Ok(())

@@ -13,7 +13,8 @@ use nbc_swarm::Executor;
 /// The most calls for workers at once: each has a thread here that waits, and a run also keeps a file open.
 const MOST_WAITING: usize = 500;
 
-/// The most runs whose robots are on a device at once. Each has a thread here.
+/// The most runs whose robots are on a device at once: 22 of the paper kept the card of docs/gpu.md busy. Each has a
+/// thread here.
 const MOST_ON_DEVICE: usize = 32;
 
 /// Does the tasks of a command. If workers are chosen, they do all tasks; otherwise the device does.

@@ -12,7 +12,7 @@ use crate::designs::{files, libraries, read};
 use crate::support::abc::abc;
 
 #[test]
-#[ignore = "maps all benchmarks; .ci/run runs it"]
+#[ignore = "maps all benchmarks; .ci/full runs it"]
 fn abc_proves_every_written_blif_of_the_benchmarks() {
     let folder = tempfile::tempdir().unwrap();
     let options = MapOptions { effort: Effort::Fast, ..MapOptions::default() };

@@ -94,7 +94,7 @@ fn areas(printed: &str) -> Vec<u32> {
 }
 
 #[test]
-#[ignore = "many flows of ABC; .ci/run runs it"]
+#[ignore = "many flows of ABC; .ci/full runs it"]
 fn abc_finds_the_best_full_adder_of_all_cells() {
     let netlist = full_adder();
     let folder = tempfile::tempdir().unwrap();

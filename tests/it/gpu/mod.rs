@@ -96,7 +96,7 @@ fn random_bodies_of_every_box() {
 }
 
 #[test]
-#[ignore = "minutes; .ci/run runs it"]
+#[ignore = "minutes; .ci/full runs it"]
 fn two_hundred_bodies_of_5x5_by_the_papers_protocol() {
     agrees_on_two_hundred(5);
 }

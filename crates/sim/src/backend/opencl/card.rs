@@ -38,10 +38,11 @@ const KERNEL: &str = "advance";
 /// Why a queue has its commands.
 const PRESENT: &str = "a queue has its commands until it is dropped";
 
-/// Robots that are so few that no other needs their multiprocessor.
+/// Robots that are so few that no other needs their multiprocessor. Larger groups were faster with up to 64
+/// (docs/gpu.md).
 const FEW: usize = 16;
 
-/// How often a caller asks whether a launch is done. A driver's own wait would keep a core busy.
+/// How often a caller asks whether a launch is done, which may take 200 ms. A driver's own wait may keep a core busy.
 const POLL: Duration = Duration::from_micros(300);
 
 /// What a kernel is compiled for: the capacity of its robots, and the work-items of a group.
@@ -74,8 +75,7 @@ struct Commands {
 
 /// The commands of one caller. Those of several callers are done side by side, as far as the device can.
 pub struct CardQueue<'a> {
-    /// The device that does the commands.
-    pub card: &'a Card,
+    card: &'a Card,
     /// Present until this is dropped.
     commands: Option<Commands>,
 }
@@ -282,7 +282,7 @@ impl CardQueue<'_> {
     /// # Errors
     /// When there is none, or the driver fails.
     pub fn room<T: Plain>(&self, count: usize) -> Result<CardMemory<T>, DeviceError> {
-        let bytes = (count * size_of::<T>()).next_power_of_two();
+        let bytes = CardMemory::<T>::bytes(count);
         let storage = &self.card.storage;
         let create = |commands: &Commands| {
             // SAFETY: the buffer has no memory of this process.
@@ -395,6 +395,11 @@ impl<T: Plain> CardMemory<T> {
         self.count
     }
 
+    /// The bytes of the buffer for so many numbers: sizes are few, so that buffers can be used again.
+    fn bytes(count: usize) -> usize {
+        (count * size_of::<T>()).next_power_of_two()
+    }
+
     fn buffer(&self) -> &Buffer<u8> {
         self.buffer.as_ref().expect("a memory has its buffer until it is dropped")
     }
@@ -406,8 +411,7 @@ impl<T: Plain> CardMemory<T> {
 
 impl<T: Plain> Drop for CardMemory<T> {
     fn drop(&mut self) {
-        let bytes = (self.count * size_of::<T>()).next_power_of_two();
-        self.storage.lock().entry(bytes).or_default().extend(self.buffer.take());
+        self.storage.lock().entry(Self::bytes(self.count)).or_default().extend(self.buffer.take());
     }
 }
 

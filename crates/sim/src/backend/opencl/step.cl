@@ -473,9 +473,10 @@ bool is_clear_of(const Quad *quad, double2 point) {
     return outside && fabs(end.x * start.y - end.y * start.x) > NEAR_DIAGONAL;
 }
 
-// Whether a quotient, rounded, is from 0 to 1. It is greater than 1 exactly if the one number is greater than the other,
-// because the least number above the divisor gives a quotient beyond the middle between 1 and the number after it. So
-// nothing is divided, except where the quotient could be rounded to zero, or is of numbers that are not finite.
+// Whether a quotient, rounded, is from 0 to 1. It is greater than 1 exactly if the one number is greater than the
+// other, because the least number above the divisor gives a quotient beyond the middle between 1 and the number after
+// it. So nothing is divided, except where the quotient could be rounded to zero, or is of numbers that are not
+// finite.
 bool is_share(double dividend, double divisor) {
     if (!(fabs(dividend) > 1e-150 && fabs(divisor) < 1e150)) {
         double share = dividend / divisor;
