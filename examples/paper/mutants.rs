@@ -22,8 +22,8 @@ const TRIES: usize = 200;
 fn mutant(parent: &Body, genotype: &Genotype, rng: &mut ChaCha8Rng) -> Option<Body> {
     let mut child = genotype.clone();
     (0..TRIES).find_map(|_| {
-        mutate(&mut child, &MutationWeights::default(), Rules::Paper, rng);
-        let body = develop(&child, parent.palette(), Rules::Paper, parent.width(), parent.height()).ok();
+        mutate(&mut child, &MutationWeights::default(), Rules::PAPER, rng);
+        let body = develop(&child, parent.palette(), Rules::PAPER, parent.width(), parent.height()).ok();
         body.filter(|body| body != parent)
     })
 }

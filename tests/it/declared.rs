@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nbc::Session;
 use nbc_base::model::{
-    Axis, Body, Count, Evolution, Genome, MutationWeights, Niche, Palette, Pattern, Rules, SampledWorlds, Schedule,
-    SearchObjective, Setting, Spell, StartBodies, Symmetry, Trial, Variation,
+    Axis, Body, Count, Evolution, Genome, Matter, MutationWeights, Niche, Palette, Pattern, Rules, SampledWorlds,
+    Schedule, SearchObjective, Setting, Spell, StartBodies, Symmetry, Trial, Variation,
 };
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
@@ -93,7 +93,9 @@ fn changes() -> Vec<Change> {
         ("batch: 4", |run| run.batch = 4),
         ("newcomers: 3", |run| run.newcomers = 3),
         ("seed: 8", |run| run.seeds = vec![8]),
-        ("as: code", |run| run.rules = Rules::Code),
+        ("as: code", |run| run.rules = Rules::CODE),
+        ("as: sigmoid", |run| run.rules = Matter::Sigmoid.into()),
+        ("as: [repair, sensors]", |run| run.rules = Rules::from(Matter::Sensors).and(Matter::Repair.into())),
         ("genome: voxels", |run| run.genome = Genome::Voxels { crossover: 0.0 }),
         ("genome: voxels, crossover: 70%", |run| run.genome = Genome::Voxels { crossover: 0.7 }),
         ("genome: voxels, start: shipped", |run| {
@@ -120,7 +122,7 @@ fn changes() -> Vec<Change> {
 fn each_field_is_read_and_nothing_else_changes() {
     let base = declared("");
     assert_eq!((base.width, base.height, base.batch, base.newcomers, base.fixed_steps), (3, 3, 5, 1, 84));
-    assert_eq!((base.rules, base.niche), (Rules::Paper, Niche::Dominance), "the paper's are the usual ones");
+    assert_eq!((base.rules, base.niche), (Rules::PAPER, Niche::Dominance), "the paper's are the usual ones");
     let seeds: Change = ("seed: [5, 2, 9]", |run| run.seeds = vec![5, 2, 9]);
     let range: Change = ("seed: 4..6", |run| run.seeds = vec![4, 5, 6]);
     let generations: Change = ("generations: 77", |run| run.generations = 77);

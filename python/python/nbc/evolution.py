@@ -50,7 +50,7 @@ class Evolution:
         niche: Optional[str] = None,
         fixed: Optional[str] = None,
         descriptors: Optional[Sequence[str]] = None,
-        rules: Optional[str] = None,
+        rules: Union[str, Sequence[str], None] = None,
         vary: Optional[Mapping[str, float]] = None,
         worlds: Optional[int] = None,
         box: None = None,
@@ -73,7 +73,8 @@ class Evolution:
             niche: ``dominance`` (the paper's) or for example ``pareto(4)``.
             fixed: the length of a fixed simulation, for example ``10 cycles``.
             descriptors: the axes of the archive, for example ``["voxels in 4 bins", "behavior"]``.
-            rules: ``paper`` or ``code``, where the paper's text and code differ.
+            rules: ``paper`` or ``code``, where the paper's text and code differ, or a list of the matters in which to
+                follow the code, for example ``["sensors", "repair"]``.
             vary: the largest changes of other worlds in which the objectives of gates try bodies too, for example
                 ``{"friction": 0.1}``, or ``{"all": 0.1}`` for all factors.
             worlds: the number of these worlds.
@@ -93,12 +94,12 @@ class Evolution:
             "genome": genome,
             "crossover": crossover,
             "objective": objective,
-            "behaviors": None if behaviors is None else f"[{', '.join(_words(behaviors, 'behaviors'))}]",
+            "behaviors": None if behaviors is None else _listed(behaviors, "behaviors"),
             "symmetry": symmetry,
             "niche": niche,
             "fixed": fixed,
-            "descriptors": None if descriptors is None else f"[{', '.join(_words(descriptors, 'descriptors'))}]",
-            "as": rules,
+            "descriptors": None if descriptors is None else _listed(descriptors, "descriptors"),
+            "as": rules if rules is None or isinstance(rules, str) else _listed(rules, "rules"),
             "vary": None if vary is None else _variation(vary),
             "worlds": worlds,
         }
@@ -283,10 +284,10 @@ def _no_box(box: Any) -> str:
     return f"box=({columns}, {rows}), columns first, is now shape=({rows}, {columns}), rows first as in all shapes"
 
 
-def _words(texts: Sequence[str], name: str) -> Sequence[str]:
+def _listed(texts: Sequence[str], name: str) -> str:
     if isinstance(texts, str) or not all(isinstance(text, str) for text in texts):
         raise TypeError(f"{name} is {texts!r}, expected a list of texts")
-    return texts
+    return f"[{', '.join(texts)}]"
 
 
 def _variation(vary: Mapping[str, float]) -> str:

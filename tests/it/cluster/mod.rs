@@ -22,7 +22,7 @@ use crate::cluster::server::Server;
 use crate::support::bench::{Bench, Ran};
 
 const SMALL: &str = "\
-evolution small { box: 3 x 3, variable: short, fixed: 1 cycles, batch: 8, generations: 12, seed: 1..3 }
+evolution small { box: 3 x 3, variable: short, fixed: 1 cycles, batch: 8, generations: 6, seed: 1..3 }
 evolution gated { from: small, objective: gate, batch: 2, generations: 2, seed: 5 }
 ";
 /// Env steps of an evaluation of `small`.

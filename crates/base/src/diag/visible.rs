@@ -51,6 +51,7 @@ mod tests {
         assert!(matches!(visible("größe →\n"), Cow::Borrowed(_)));
     }
 
+    #[cfg(feature = "render")]
     #[test]
     fn escaping_excerpts_keeps_byte_offsets() {
         let text = "a\u{1b}b\u{9b}c\u{202e}d\te\r\nf\rg";

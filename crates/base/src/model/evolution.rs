@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Behavior, Function, Palette, PhysicsWorld, Schedule, Variation};
+use super::{Behavior, Function, Palette, PhysicsWorld, Rules, Schedule, Variation};
 
 /// A declared evolution run (paper, Methods).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -106,17 +106,6 @@ pub struct StartBodies {
     pub library: String,
     /// The rows of those of its robots that fit into the box, in the codes of the run; empty until they are read.
     pub bodies: Vec<Vec<String>>,
-}
-
-/// The reading of the paper where its text and its code differ (docs/physics.md 11).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Rules {
-    /// As in the paper's text.
-    #[default]
-    Paper,
-    /// As in the authors' code.
-    Code,
 }
 
 /// One axis of an archive.

@@ -15,6 +15,7 @@ mod material;
 mod palette;
 mod program;
 mod robot;
+mod rules;
 mod schedule;
 mod stimulus;
 mod table;
@@ -35,8 +36,7 @@ pub use circuit::{
 pub use column::{Column, bit_parts};
 pub use enumeration::{Enumeration, EnumerationMember, MemberEncoding};
 pub use evolution::{
-    Axis, Count, Evolution, Genome, MutationWeights, Niche, Rules, SampledWorlds, SearchObjective, StartBodies,
-    Symmetry,
+    Axis, Count, Evolution, Genome, MutationWeights, Niche, SampledWorlds, SearchObjective, StartBodies, Symmetry,
 };
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
@@ -48,6 +48,7 @@ pub use program::{
     Swarm, WaveTimes,
 };
 pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
+pub use rules::{Matter, Rules};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;
 pub use table::{OutputValue, Table, TableOutput, TablePattern, TableRow};

@@ -14,8 +14,8 @@ use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, Value
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::LEAST_ACTUATORS;
 use nbc_base::model::{
-    Axis, Behavior, Count, Evolution, Function, Genome, Material, MaterialKind, MutationWeights, NamedSchedule, Niche,
-    Palette, Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell,
+    Axis, Behavior, Count, Evolution, Function, Genome, Material, MaterialKind, Matter, MutationWeights, NamedSchedule,
+    Niche, Palette, Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell,
     StartBodies, Symmetry, Variation,
 };
 use nbc_base::source::Span;
@@ -108,8 +108,7 @@ pub(crate) fn evolution(
             as usize,
         generations: fields.read("generations", base.generations, |value| quantity::count(value, 1..=u32::MAX)),
         seeds: seeds(&mut fields).unwrap_or(base.seeds),
-        rules: fields
-            .read("as", base.rules, |value| fields::choice(value, &[("paper", Rules::Paper), ("code", Rules::Code)])),
+        rules: rules(&mut fields, base.rules),
         objective,
         behaviors: behaviors(&mut fields, base.behaviors, objective),
         symmetry: fields.read("symmetry", base.symmetry, |value| {
@@ -210,6 +209,15 @@ fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObje
     behaviors.sort_unstable_by_key(|behavior| behavior.function());
     behaviors.dedup();
     if is_gate { behaviors } else { Vec::new() }
+}
+
+/// What a run follows where the paper's text and its code differ: a word or several.
+fn rules(fields: &mut Fields<'_>, base: Rules) -> Rules {
+    let whole = [("paper", Rules::PAPER), ("code", Rules::CODE)].into_iter();
+    let parts = Matter::WORDS.into_iter().map(|(word, matter)| (word, Rules::from(matter)));
+    let words: Vec<_> = whole.chain(parts).collect();
+    let read = fields.read_list("as", |value| fields::choice(value, &words));
+    read.map_or(base, |rules| rules.into_iter().fold(Rules::PAPER, Rules::and))
 }
 
 /// The other worlds of the gate objective; none if nothing varies.

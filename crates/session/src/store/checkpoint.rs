@@ -191,7 +191,7 @@ mod tests {
             newcomers: 1,
             generations: 5,
             seeds: vec![1],
-            rules: Rules::Paper,
+            rules: Rules::PAPER,
             objective: SearchObjective::Distance,
             behaviors: Vec::new(),
             symmetry: Symmetry::Npn,

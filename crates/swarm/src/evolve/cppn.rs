@@ -1,7 +1,7 @@
 //! Compositional pattern-producing networks: the starting network, and its scores over a bounding box (docs/physics.md
 //! 11).
 
-use nbc_base::model::{Activation, Genotype, Link, NodeId, NodeKind, Rules};
+use nbc_base::model::{Activation, Genotype, Link, Matter, NodeId, NodeKind, Rules};
 
 /// Inputs of a network: x, y (row), z (column), distance, bias.
 const INPUTS: u8 = 5;
@@ -22,7 +22,7 @@ pub struct ScoreMap {
 /// `materials` is the size of the palette; there is one more output, for empty. By the paper's text there is no input
 /// for an axis of length 1.
 pub fn start(materials: usize, rules: Rules) -> Genotype {
-    let first = if rules == Rules::Code { 0 } else { 1 };
+    let first = if rules.follow_code(Matter::Depth) { 0 } else { 1 };
     let inputs = (first..INPUTS).map(NodeKind::Input);
     let outputs = (0..=materials as u8).map(|code| NodeKind::Output(code, Activation::Sigmoid));
     let nodes: Vec<_> = (0..).map(NodeId).zip(inputs.chain(outputs)).collect();
@@ -89,7 +89,7 @@ impl<'a> Run<'a> {
 
     /// The map of the output at index `at`. In the authors' code, an output that an earlier one reads is 0 everywhere.
     fn output(&mut self, at: usize) -> Vec<f64> {
-        let taken = self.rules == Rules::Code && self.remembered[at].is_some();
+        let taken = self.rules.follow_code(Matter::Outputs) && self.remembered[at].is_some();
         let mut map = self.zeros();
         if !taken {
             self.give(at, |value, map| *map = value, &mut map);
@@ -118,7 +118,9 @@ impl<'a> Run<'a> {
         let activated: Vec<f64> = sum.iter().map(|&u| activate(activation, u)).collect();
         pass(&activated, to);
         // The authors' code remembers the sum: later consumers see the node without its activation.
-        self.remembered[at] = Some(if self.rules == Rules::Code { sum } else { activated });
+        let is_hidden = matches!(self.genotype.nodes[at].1, NodeKind::Hidden(_));
+        let is_raw = self.rules.follow_code(Matter::Targets) && (is_hidden || self.rules.follow_code(Matter::Outputs));
+        self.remembered[at] = Some(if is_raw { sum } else { activated });
     }
 
     fn sum(&mut self, at: usize) -> Vec<f64> {
@@ -138,13 +140,13 @@ impl<'a> Run<'a> {
 fn inputs(rules: Rules, width: usize, height: usize) -> Vec<Vec<f64>> {
     let along = |index: usize, length: usize| match length {
         // A coordinate without extent is the middle; in the authors' code it is the low end.
-        0 | 1 if rules == Rules::Code => -1.0,
+        0 | 1 if rules.follow_code(Matter::Depth) => -1.0,
         0 | 1 => 0.0,
         // Integers first, so that opposite places have exactly opposite coordinates.
         _ => (2.0 * index as f64 - (length - 1) as f64) / (length - 1) as f64,
     };
     let places = || (0..height).flat_map(|row| (0..width).map(move |column| (row, column)));
-    let x = if rules == Rules::Code { -1.0 } else { 0.0 };
+    let x = if rules.follow_code(Matter::Depth) { -1.0 } else { 0.0 };
     let rows: Vec<f64> = places().map(|(row, _)| along(row, height)).collect();
     let columns: Vec<f64> = places().map(|(_, column)| along(column, width)).collect();
     let distance = rows.iter().zip(&columns).map(|(y, z)| (x * x + y * y + z * z).sqrt()).collect();
@@ -156,7 +158,7 @@ fn inputs(rules: Rules, width: usize, height: usize) -> Vec<Vec<f64>> {
 fn scaled(values: Vec<f64>, rules: Rules) -> Vec<f64> {
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let flat = if rules == Rules::Code { -1.0 } else { 0.0 };
+    let flat = if rules.follow_code(Matter::Depth) { -1.0 } else { 0.0 };
     values.iter().map(|v| if most > least { (v - least) / (most - least) * 2.0 - 1.0 } else { flat }).collect()
 }
 
@@ -185,31 +187,34 @@ mod tests {
 
     #[test]
     fn only_the_code_gives_the_raw_sum_to_a_second_target() {
-        assert_eq!(values(&shared_hidden(), Rules::Paper), [9.0, 9.0]);
-        assert_eq!(values(&shared_hidden(), Rules::Code), [9.0, 3.0]);
+        assert_eq!(values(&shared_hidden(), Rules::PAPER), [9.0, 9.0]);
+        assert_eq!(values(&shared_hidden(), Rules::CODE), [9.0, 3.0]);
+        assert_eq!(values(&shared_hidden(), Matter::Targets.into()), [9.0, 3.0]);
     }
 
     #[test]
     fn only_the_code_sets_an_output_read_by_an_earlier_one_to_zero() {
         let mut genotype = shared_hidden();
         genotype.links = vec![
-            Link { source: NodeId(0), target: NodeId(2), weight: 2.0 },
+            Link { source: NodeId(0), target: NodeId(2), weight: -2.0 },
             Link { source: NodeId(2), target: NodeId(1), weight: 5.0 },
         ];
-        assert_eq!(values(&genotype, Rules::Paper), [10.0, 2.0]);
-        assert_eq!(values(&genotype, Rules::Code), [10.0, 0.0]);
+        assert_eq!(values(&genotype, Rules::PAPER), [10.0, 2.0]);
+        assert_eq!(values(&genotype, Rules::CODE), [10.0, 0.0]);
+        assert_eq!(values(&genotype, Matter::Outputs.into()), [10.0, 0.0]);
+        assert_eq!(values(&genotype, Matter::Targets.into()), [10.0, 2.0]);
     }
 
     #[test]
     fn a_cycle_ends() {
         let mut genotype = shared_hidden();
         genotype.links.push(Link { source: NodeId(1), target: NodeId(100), weight: 1.0 });
-        assert!(values(&genotype, Rules::Paper).iter().all(|v| v.is_finite()));
+        assert!(values(&genotype, Rules::PAPER).iter().all(|v| v.is_finite()));
     }
 
     #[test]
     fn coordinates_are_opposite_at_opposite_places() {
-        let maps = inputs(Rules::Paper, 7, 5);
+        let maps = inputs(Rules::PAPER, 7, 5);
         for row in 0..5 {
             for column in 0..7 {
                 let (here, there) = (row * 7 + column, row * 7 + 6 - column);
@@ -223,8 +228,8 @@ mod tests {
 
     #[test]
     fn x_is_constant_in_the_code_and_absent_in_the_paper() {
-        assert_eq!(start(8, Rules::Code).links.len(), 45);
-        assert_eq!(start(8, Rules::Paper).links.len(), 36);
-        assert!(inputs(Rules::Code, 5, 5)[0].iter().all(|&x| x == -1.0));
+        assert_eq!(start(8, Rules::CODE).links.len(), 45);
+        assert_eq!(start(8, Rules::PAPER).links.len(), 36);
+        assert!(inputs(Rules::CODE, 5, 5)[0].iter().all(|&x| x == -1.0));
     }
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, Function, MaterialKind, Rules};
+use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, Function, MaterialKind, Matter, Rules};
 
 /// A niche: the bin on each axis, from 0; on a behavior axis the bits of the function, on a class axis
 /// those of the first of its class.
@@ -69,7 +69,8 @@ impl Descriptor {
             (Count::Active, kind) => matches!(kind, Some(MaterialKind::Actuator(_))),
             // The authors' code counts codes 5 and 6 alone (docs/physics.md 11).
             (Count::Sensory, kind) => {
-                matches!(kind, Some(MaterialKind::Sensor(_))) && (self.rules == Rules::Paper || matches!(code, 5 | 6))
+                let is_counted = !self.rules.follow_code(Matter::Sensors) || matches!(code, 5 | 6);
+                matches!(kind, Some(MaterialKind::Sensor(_))) && is_counted
             }
         }
     }
@@ -89,16 +90,16 @@ mod tests {
 
     #[test]
     fn counts_fall_into_bins_of_a_quarter_of_the_box() {
-        check(Rules::Paper, &["33333", "55555", "00000", "00000", "00000"], [1, 0, 0, 7]);
-        check(Rules::Paper, &["33333", "35555", "51000", "00000", "00000"], [2, 1, 0, 7]);
-        check(Rules::Paper, &["33333"; 5], [3, 3, 0, 7]);
+        check(Rules::PAPER, &["33333", "55555", "00000", "00000", "00000"], [1, 0, 0, 7]);
+        check(Rules::PAPER, &["33333", "35555", "51000", "00000", "00000"], [2, 1, 0, 7]);
+        check(Rules::PAPER, &["33333"; 5], [3, 3, 0, 7]);
     }
 
     #[test]
     fn the_code_counts_two_of_the_four_sensors() {
         let rows = ["77777", "88888", "33300", "00000", "00000"];
-        check(Rules::Paper, &rows, [2, 0, 1, 7]);
-        check(Rules::Code, &rows, [2, 0, 0, 7]);
+        check(Rules::PAPER, &rows, [2, 0, 1, 7]);
+        check(Rules::CODE, &rows, [2, 0, 0, 7]);
     }
 
     #[test]

@@ -77,14 +77,14 @@ mod tests {
 
     #[test]
     fn the_start_is_empty() {
-        let body = phenotype(&cppn::start(8, Rules::Paper), &Palette::paper(), Rules::Paper, 5, 5);
+        let body = phenotype(&cppn::start(8, Rules::PAPER), &Palette::paper(), Rules::PAPER, 5, 5);
         assert!(body.codes().iter().all(|&code| code == 0), "equal scores give the first code");
     }
 
     proptest! {
         #[test]
         fn development_gives_connected_bodies_or_a_reason(seed: u64, times in 0..120usize, code: bool) {
-            let rules = if code { Rules::Code } else { Rules::Paper };
+            let rules = if code { Rules::CODE } else { Rules::PAPER };
             let palette = Palette::paper();
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
             let mut genotype = cppn::start(8, rules);

@@ -2,7 +2,7 @@
 
 use rand::{Rng, RngExt};
 
-use nbc_base::model::{Activation, Genotype, Link, MutationWeights, NodeId, NodeKind, Rules};
+use nbc_base::model::{Activation, Genotype, Link, Matter, MutationWeights, NodeId, NodeKind, Rules};
 
 /// Draws for an admissible link before giving up.
 const LINK_DRAWS: usize = 999;
@@ -12,9 +12,10 @@ const WEIGHT_STEP: f64 = 0.5;
 /// Activations that hidden nodes draw from: the paper's text names four, the authors' code has the negatives too.
 fn activations(rules: Rules) -> &'static [Activation] {
     use Activation::{Abs, NegAbs, NegSqrtAbs, NegSquare, Sine, SqrtAbs, Square};
-    match rules {
-        Rules::Paper => &[Sine, Abs, Square, SqrtAbs],
-        Rules::Code => &[Sine, Abs, NegAbs, Square, NegSquare, SqrtAbs, NegSqrtAbs],
+    if rules.follow_code(Matter::Activations) {
+        &[Sine, Abs, NegAbs, Square, NegSquare, SqrtAbs, NegSqrtAbs]
+    } else {
+        &[Sine, Abs, Square, SqrtAbs]
     }
 }
 
@@ -78,7 +79,7 @@ fn add_link<R: Rng>(genotype: &mut Genotype, rules: Rules, rng: &mut R) {
             return;
         }
     }
-    if rules == Rules::Code {
+    if rules.follow_code(Matter::Links) {
         // The authors' code uses the last pair that it drew, admissible or not, unless it closes a cycle.
         if let Some(link) = draw_link(genotype, rng).filter(|link| !closes_cycle(genotype, *link)) {
             set_link(genotype, link);
@@ -99,7 +100,7 @@ fn change_activation<R: Rng>(genotype: &mut Genotype, rules: Rules, rng: &mut R)
         .iter_mut()
         .filter_map(|(_, kind)| match kind {
             NodeKind::Hidden(activation) => Some(activation),
-            NodeKind::Output(_, activation) => (rules == Rules::Code).then_some(activation),
+            NodeKind::Output(_, activation) => rules.follow_code(Matter::Sigmoid).then_some(activation),
             NodeKind::Input(_) => None,
         })
         .collect();
@@ -215,7 +216,7 @@ mod tests {
 
     #[test]
     fn networks_stay_well_formed() {
-        for rules in [Rules::Paper, Rules::Code] {
+        for rules in [Rules::PAPER, Rules::CODE] {
             for seed in 0..20 {
                 let genotype = mutated(rules, seed, 200);
                 let outputs = genotype.nodes.iter().filter(|(_, kind)| matches!(kind, NodeKind::Output(..))).count();
@@ -246,8 +247,8 @@ mod tests {
                 )
                 .count()
         };
-        assert_eq!(lost(Rules::Paper), 0);
-        assert!(lost(Rules::Code) > 0);
+        assert_eq!(lost(Rules::PAPER), 0);
+        assert!(lost(Rules::CODE) > 0);
     }
 
     #[test]
@@ -262,7 +263,7 @@ mod tests {
             }
             found.len()
         };
-        assert_eq!((drawn(Rules::Paper), drawn(Rules::Code)), (4, 7));
+        assert_eq!((drawn(Rules::PAPER), drawn(Rules::CODE)), (4, 7));
     }
 
     #[test]
@@ -275,21 +276,21 @@ mod tests {
                 genotype != start
             })
         };
-        assert!(!changed(Rules::Paper));
-        assert!(changed(Rules::Code));
+        assert!(!changed(Rules::PAPER));
+        assert!(changed(Rules::CODE));
     }
 
     #[test]
     fn removing_a_node_bridges_it_with_the_product_of_weights() {
         let mut rng = ChaCha8Rng::seed_from_u64(1);
-        let mut genotype = cppn::start(8, Rules::Paper);
+        let mut genotype = cppn::start(8, Rules::PAPER);
         genotype.links[0].weight = 0.5;
         let before = genotype.links[0];
         for _ in 0..200 {
-            add_node(&mut genotype, Rules::Paper, &mut rng);
+            add_node(&mut genotype, Rules::PAPER, &mut rng);
         }
         for _ in 0..200 {
-            remove_node(&mut genotype, Rules::Paper, &mut rng);
+            remove_node(&mut genotype, Rules::PAPER, &mut rng);
         }
         assert_eq!(hidden_nodes(&genotype).count(), 0);
         assert_eq!(genotype.links.len(), 36);

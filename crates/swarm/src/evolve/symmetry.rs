@@ -209,7 +209,7 @@ mod tests {
 
     #[test]
     fn images_of_networks_develop_into_images_of_bodies() {
-        for rules in [Rules::Paper, Rules::Code] {
+        for rules in [Rules::PAPER, Rules::CODE] {
             for seed in 0..60 {
                 let genotype = network(rules, seed);
                 let body = phenotype(&genotype, &Palette::paper(), rules, 7, 5);

@@ -333,7 +333,7 @@ pub(crate) mod tests {
             newcomers: 0,
             generations: 30,
             seeds: vec![1],
-            rules: Rules::Paper,
+            rules: Rules::PAPER,
             objective: SearchObjective::Distance,
             behaviors: Vec::new(),
             symmetry: Symmetry::None,
@@ -417,7 +417,7 @@ pub(crate) mod tests {
         for (symmetry, genome) in
             [(Symmetry::None, Genome::Cppn), (Symmetry::Npn, Genome::Cppn), (Symmetry::Npn, voxels)]
         {
-            let evolution = Evolution { symmetry, genome, rules: Rules::Code, ..evolution() };
+            let evolution = Evolution { symmetry, genome, rules: Rules::CODE, ..evolution() };
             let mut straight = Search::new(&evolution, 7);
             (0..12).for_each(|_| advance(&mut straight));
             let mut resumed = Search::resume(&evolution, straight.state());
@@ -471,7 +471,7 @@ pub(crate) mod tests {
         let mut search = Search::new(&Evolution { symmetry: Symmetry::Npn, ..evolution() }, 3);
         (0..6).for_each(|_| advance(&mut search));
         for elite in search.archive().elites() {
-            assert_eq!(phenotype(elite.genotype.as_ref().unwrap(), &Palette::paper(), Rules::Paper, 5, 5), elite.body);
+            assert_eq!(phenotype(elite.genotype.as_ref().unwrap(), &Palette::paper(), Rules::PAPER, 5, 5), elite.body);
             for recoding in recodings(&Palette::paper()) {
                 let (body, behavior) = (recoding.body(&elite.body), recoding.behavior(elite.behavior));
                 let held = !search.rivals(&body).admit(behavior, &elite.fitness);

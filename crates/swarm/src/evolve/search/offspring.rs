@@ -6,7 +6,7 @@ use super::Search;
 use crate::evolve::mutate::pick;
 use crate::evolve::neighbors::{crossed, random_body};
 use crate::evolve::{Elite, NicheKey, cppn, mutate, neighbor, phenotype, validate};
-use nbc_base::model::{Body, Evolution, Genome, Genotype, Rules};
+use nbc_base::model::{Body, Evolution, Genome, Genotype, Matter, Rules};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
@@ -134,11 +134,12 @@ enum Attempt {
 /// By the paper's text, a mutation without a valid body is undone, and an offspring differs from its parent. In the
 /// authors' code, mutations accumulate until the body is valid, even if it is the parent's.
 fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
-    match (validate(body), rules, parent) {
-        (Ok(()), Rules::Paper, Some(parent)) if parent == body => Attempt::GoOn,
-        (Ok(()), _, _) => Attempt::Done,
-        (Err(_), Rules::Paper, Some(_)) => Attempt::Undo,
-        (Err(_), _, _) => Attempt::GoOn,
+    let is_kept = rules.follow_code(Matter::Repair);
+    match (validate(body), parent) {
+        (Ok(()), Some(parent)) if !is_kept && parent == body => Attempt::GoOn,
+        (Ok(()), _) => Attempt::Done,
+        (Err(_), Some(_)) if !is_kept => Attempt::Undo,
+        (Err(_), _) => Attempt::GoOn,
     }
 }
 
@@ -155,9 +156,9 @@ mod tests {
             let found = [&same, &other, &apart].map(|found| judge(rules, parent, found));
             assert_eq!(found, expected, "{rules:?}, {parent:?}");
         };
-        check(Rules::Paper, Some(&same), [GoOn, Done, Undo]);
-        check(Rules::Code, Some(&same), [Done, Done, GoOn]);
-        check(Rules::Paper, None, [Done, Done, GoOn]);
-        check(Rules::Code, None, [Done, Done, GoOn]);
+        check(Rules::PAPER, Some(&same), [GoOn, Done, Undo]);
+        check(Rules::CODE, Some(&same), [Done, Done, GoOn]);
+        check(Rules::PAPER, None, [Done, Done, GoOn]);
+        check(Rules::CODE, None, [Done, Done, GoOn]);
     }
 }
