@@ -2,12 +2,11 @@
 
 use std::collections::BTreeMap;
 
-use nbc_base::model::Setting;
+use nbc_base::model::Body;
 use nbc_session::report;
 use nbc_sim::Simulator;
-use nbc_swarm::{Proportion, fixed_displacements, fixed_trials, screen};
+use nbc_swarm::{Proportion, screen, walk};
 
-use crate::transfer::STEPS;
 use crate::{Fallible, Run, Spread, champions, whole};
 
 /// The largest clock of a gate, in cycles.
@@ -33,10 +32,10 @@ pub fn print(objectives: &[(&str, &BTreeMap<u64, Run>, usize)]) -> Fallible<()> 
         print!("| {name} | {:.0}", Spread::of(runs.values().map(whole)));
         gates.iter().for_each(|group| print!(" | {} of {}", group.successes, group.attempts));
         println!(" |");
-        let trials: Vec<_> = elites.iter().flat_map(|elite| fixed_trials(&elite.body, STEPS)).collect();
+        let bodies: Vec<Body> = elites.iter().map(|elite| elite.body.clone()).collect();
         let mut least: [Vec<f64>; 4] = Default::default();
-        for (elite, four) in elites.iter().zip(simulator.run_trials(&Setting::default(), &trials).chunks(4)) {
-            let Ok(walked) = fixed_displacements(four) else { continue };
+        for (elite, walked) in elites.iter().zip(walk(&simulator, &bodies)) {
+            let Ok(walked) = walked else { continue };
             let shortest = walked.iter().map(|walk| walk.abs()).fold(f64::INFINITY, f64::min);
             least[report::difficulty_of(elite.behavior)].push(shortest);
         }

@@ -6,6 +6,7 @@
 mod complexity;
 mod gates;
 mod mutants;
+mod rules;
 mod transfer;
 
 use std::collections::BTreeMap;
@@ -55,7 +56,7 @@ fn main() -> Fallible<()> {
     let boxes = [5, 7, 10];
     let runs: Vec<BTreeMap<u64, Run>> =
         boxes.iter().map(|side| read(&format!("paper/paper{side}"))).collect::<Fallible<_>>()?;
-    let (mut long, code, gate) = (read("long/paper5")?, read("paper/code5")?, read("long/gate5")?);
+    let (mut long, code) = (read("long/paper5")?, read("paper/code5")?);
     // Others are still going on.
     long.retain(|_, run| run.results.progress.last().is_some_and(|line| line.generation >= LONG));
     let parts: Vec<String> = std::env::args().skip(1).collect();
@@ -74,7 +75,13 @@ fn main() -> Fallible<()> {
         print_means(&with_long);
         print_growth(small, &long);
         print_unfinished(&[("7x7", read("long/paper7")?), ("10x10", read("long/paper10")?)]);
-        print_rules(small, &code);
+        rules::print_distances(small, &code);
+        rules::print_matters(&[
+            ("nothing", "paper/paper5"),
+            ("all", "paper/code5"),
+            ("`repair`", "paper/repair5"),
+            ("all but `repair`", "paper/others5"),
+        ])?;
         complexity::print(&runs);
     }
     if is_wanted("transfer") {
@@ -87,7 +94,8 @@ fn main() -> Fallible<()> {
         gates::print(&[
             ("distance, 300 generations", small, LEAST_DISTANCE),
             ("distance, 3,000 generations", &long, LEAST_DISTANCE),
-            ("gate", &gate, 0),
+            ("gate", &read("long/gate5")?, 0),
+            ("gate, voxels with crossover", &read("long/crossed5")?, 0),
         ])?;
     }
     Ok(())
@@ -95,11 +103,8 @@ fn main() -> Fallible<()> {
 
 /// The runs in a folder of `out`, by seed.
 fn read(name: &str) -> Fallible<BTreeMap<u64, Run>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("out").join(name);
-    let Ok(seeds) = std::fs::read_dir(folder) else { return Ok(BTreeMap::new()) };
-    let folders: Vec<PathBuf> = seeds.map(|seed| Ok(seed?.path())).collect::<Result<_, std::io::Error>>()?;
     let mut runs = BTreeMap::new();
-    for folder in folders {
+    for folder in folders(name)? {
         let checkpoint = Checkpoint::open(&folder.join("checkpoint.nbc")).map_err(|fault| fault.message)?;
         let Some(checkpoint) = checkpoint else { continue };
         let text = std::fs::read_to_string(folder.join("progress.jsonl"))?;
@@ -109,6 +114,13 @@ fn read(name: &str) -> Fallible<BTreeMap<u64, Run>> {
         runs.insert(checkpoint.state.seed, Run { results, end });
     }
     Ok(runs)
+}
+
+/// The folders of runs in a folder of `out`; none if it is not there.
+fn folders(name: &str) -> Fallible<Vec<PathBuf>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("out").join(name);
+    let Ok(seeds) = std::fs::read_dir(folder) else { return Ok(Vec::new()) };
+    Ok(seeds.map(|seed| Ok(seed?.path())).collect::<Result<_, std::io::Error>>()?)
 }
 
 /// What the runs of each declaration found.
@@ -262,18 +274,6 @@ fn print_growth(short: &BTreeMap<u64, Run>, long: &BTreeMap<u64, Run>) {
             let difficulties = by_difficulty(&report::behavior_groups(&champions));
             difficulties.iter().for_each(|group| print!(" {:.1} |", group.values[0]));
             println!();
-        }
-    }
-}
-
-/// The groups of behaviors by the rules of the paper's text and by those of its code.
-fn print_rules(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
-    println!("\n| group | text | code | p | A12 |\n|---|---|---|---|---|");
-    let both = groups(text, |_| true).into_iter().zip(groups(code, |_| true));
-    for pair in both.map(<[BehaviorGroup; 2]>::from) {
-        let [ours, theirs] = [&pair[0], &pair[1]].map(|group| Spread::of(group.values.iter().copied()).median);
-        for comparison in report::compare_groups(&pair) {
-            println!("| {} | {ours:.1} | {theirs:.1} | {:.5} | {:.2} |", pair[0].name, comparison.p, comparison.a12);
         }
     }
 }

@@ -5,12 +5,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use nbc_base::model::{Body, Genotype, MutationWeights, Rules, Setting};
 use nbc_session::report;
 use nbc_sim::Simulator;
+use nbc_swarm::Proportion;
 use nbc_swarm::evolve::{develop, mutate};
-use nbc_swarm::{Proportion, fixed_trials};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::transfer::{STEPS, shown};
+use crate::transfer::shown;
 use crate::{Fallible, LEAST_DISTANCE, Run, champions};
 
 /// Mutants of a robot.
@@ -40,8 +40,7 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
             let mut rng = ChaCha8Rng::seed_from_u64(number as u64);
             let genotype = parent.genotype.as_ref().ok_or("the runs of the paper have networks")?;
             let mutants: Vec<Body> = (0..MUTANTS).filter_map(|_| mutant(&parent.body, genotype, &mut rng)).collect();
-            let trials: Vec<_> = mutants.iter().flat_map(|body| fixed_trials(body, STEPS)).collect();
-            let shown = shown(&simulator.run_trials(&Setting::default(), &trials));
+            let shown = shown(&simulator, &Setting::default(), &mutants);
             let group = report::difficulty_of(parent.behavior);
             parents[group] += 1.0;
             same[group].attempts += shown.len();

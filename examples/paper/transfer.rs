@@ -2,22 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use nbc_base::model::{Behavior, PhysicsWorld, Setting, Trajectory, Variation};
+use nbc_base::model::{Behavior, Body, PhysicsWorld, Setting, Variation};
 use nbc_session::report;
 use nbc_sim::Simulator;
-use nbc_swarm::{Proportion, WorldSample, fixed_displacements, fixed_trials};
+use nbc_swarm::{FIXED_STEPS, Proportion, WorldSample, fixed_displacements};
 
 use crate::{Fallible, LEAST_DISTANCE, Run, champions};
 
 /// The worlds of each size of changes.
 const WORLDS: usize = 5;
 
-/// Env steps under each constant pattern: ten cycles.
-pub const STEPS: u32 = 840;
-
-/// The behaviors that bodies show, from four walks of each; none if one was faulty.
-pub fn shown(walked: &[Trajectory]) -> Vec<Option<Behavior>> {
-    walked.chunks(4).map(|four| fixed_displacements(four).ok().map(|walked| Behavior::of(&walked))).collect()
+/// The behaviors that bodies show; none if a simulation was faulty.
+pub fn shown(simulator: &Simulator, setting: &Setting, bodies: &[Body]) -> Vec<Option<Behavior>> {
+    let walked = fixed_displacements(simulator, setting, bodies, FIXED_STEPS);
+    walked.into_iter().map(|walked| walked.ok().map(|walked| walked.behavior())).collect()
 }
 
 /// The share of champions, by difficulty, whose four directions stay the same in worlds that vary by so much.
@@ -26,6 +24,7 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
     let simulator = Simulator::default();
     for (name, runs) in boxes {
         let robots = champions(runs, LEAST_DISTANCE);
+        let bodies: Vec<Body> = robots.iter().map(|elite| elite.body.clone()).collect();
         for percent in [0, 10, 20] {
             let variation = match percent {
                 0 => Variation::default(),
@@ -36,9 +35,7 @@ pub fn print(boxes: &[(&str, &BTreeMap<u64, Run>)]) -> Fallible<()> {
             for number in 0..if percent == 0 { 1 } else { WORLDS } {
                 let world = sample.world(&PhysicsWorld::default(), number);
                 let setting = Setting { factors: world.factors, ..Setting::default() };
-                let trials: Vec<_> = robots.iter().flat_map(|elite| fixed_trials(&elite.body, STEPS)).collect();
-                let walked = simulator.run_trials(&setting, &trials);
-                for (elite, shown) in robots.iter().zip(shown(&walked)) {
+                for (elite, shown) in robots.iter().zip(shown(&simulator, &setting, &bodies)) {
                     let group = &mut same[report::difficulty_of(elite.behavior)];
                     group.attempts += 1;
                     group.successes += usize::from(shown == Some(elite.behavior));

@@ -413,6 +413,18 @@ fn workers_and_a_device_cannot_both_simulate() {
 }
 
 #[test]
+fn logic_needs_no_place_where_robots_are_simulated() {
+    let bench = Bench::new();
+    bench.file("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
+    for (place, name) in
+        [(["--device", "gpu"], "--device <DEVICE>"), (["--nats", "nats://localhost:4222"], "--nats <URL>")]
+    {
+        let ran = bench.run(&[&["test", "gate.nb", "--logic"][..], &place].concat());
+        ran.expect_fault(&["'--logic'", "cannot be used with", name]);
+    }
+}
+
+#[test]
 #[cfg(not(feature = "cluster"))]
 fn a_program_without_work_on_several_machines_says_how_to_get_it() {
     let bench = Bench::new();

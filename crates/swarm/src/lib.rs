@@ -37,9 +37,7 @@ pub use activity::{RowActivity, SimulationResult, activity};
 pub use assemble::{Assembly, Member, StimulusSource, assemble, assemble_waves};
 pub use cells::{cells, prefer, within_beat};
 pub use characterize::{characterize, screen, sketch};
-pub use evaluate::{
-    evaluate, evaluate_bodies, evaluate_tasks, evolve_generation, fixed_displacements, fixed_trials, full_steps,
-};
+pub use evaluate::{evaluate, evaluate_bodies, evaluate_tasks, evolve_generation, fixed_displacements, full_steps};
 pub use evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 pub use executor::{Executor, perform};
 pub use judge::{RowHold, STEADY_CYCLES, judge_logic, judge_row, judge_swarm, passes, resting_outputs};

@@ -1,8 +1,8 @@
 //! All measurements of a body for its robot file.
 
 use crate::characterize::characterize;
-use crate::evaluate::{fixed_displacements, fixed_trials};
-use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Setting, Trial};
+use crate::evaluate::fixed_displacements;
+use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Setting};
 use nbc_sim::Simulator;
 
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
@@ -22,10 +22,7 @@ pub struct Measurement {
 /// The displacement of each body in the paper's fixed simulations, in voxels, one for each pattern; or the fault of one
 /// of them.
 pub fn walk(simulator: &Simulator, bodies: &[Body]) -> Vec<Result<Displacements, Fault>> {
-    let trials: Vec<Trial> = bodies.iter().flat_map(|body| fixed_trials(body, FIXED_STEPS)).collect();
-    let mut trajectories = simulator.run_trials(&Setting::default(), &trials).into_iter();
-    let mut own = |body: &Body| trajectories.by_ref().take(1 << body.palette().inputs()).collect::<Vec<_>>();
-    bodies.iter().map(|body| fixed_displacements(&own(body))).collect()
+    fixed_displacements(simulator, &Setting::default(), bodies, FIXED_STEPS)
 }
 
 /// Measures a body by the paper's fixed simulations and as a gate.

@@ -57,7 +57,7 @@ pub struct TestArguments {
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// Test at the level of logic
-    #[arg(long, conflicts_with = "physics")]
+    #[arg(long, conflicts_with_all = ["physics", "device", "nats"])]
     logic: bool,
     /// Test in full physics
     #[arg(long)]

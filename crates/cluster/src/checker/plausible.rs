@@ -45,10 +45,13 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
         SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
         SearchObjective::Gate | SearchObjective::Wave => task.rivals.admit(scores.behavior, &scores.fitness),
     };
-    // A gate that is wrong in a world is not tried in those that follow.
-    let worlds = 1 + protocol.others.len() as u64;
-    let is_whole =
-        evaluated.work.left_out.is_multiple_of(full_steps(protocol) / worlds) && evaluated.work.env_steps > 0;
+    let unit = match protocol.objective {
+        // Patterns that a body does not tell apart are simulated once.
+        SearchObjective::Distance => u64::from(protocol.fixed_steps),
+        // A gate that is wrong in a world is not tried in those that follow.
+        SearchObjective::Gate | SearchObjective::Wave => full_steps(protocol) / (1 + protocol.others.len() as u64),
+    };
+    let is_whole = evaluated.work.left_out.is_multiple_of(unit) && evaluated.work.env_steps > 0;
     is_complete && could_enter && is_sound(protocol, scores) && is_whole
 }
 
