@@ -91,3 +91,10 @@ def test_a_passive_body_is_inconsistent_or_stands_still():
     result = nbc.evaluate([["22222"] * 5])
     assert result.outcome[0] in ("measured", "inconsistent")
     assert not result.measured[0] or result.behavior[0] == "LLLL"
+
+
+def test_rules_are_a_word_or_a_list_of_matters():
+    assert nbc.Evolution(rules="code").fields["rules"] == "code"
+    assert nbc.Evolution(rules=["repair", "sensors"]).fields["rules"] == ["sensors", "repair"]
+    with pytest.raises(nbc.NbcError, match="colors"):
+        nbc.Evolution(rules=["colors"])
