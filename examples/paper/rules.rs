@@ -9,7 +9,7 @@ use serde::Deserialize;
 
 use crate::{Fallible, Run, Spread, folders, groups};
 
-/// The generation at which the differences are compared; the runs of most of them had no more.
+/// The generation at which the differences are compared. Runs that have fewer are left out, and not counted.
 const GENERATION: u32 = 100;
 
 /// A line of a run's `progress.jsonl`.
@@ -76,7 +76,7 @@ fn lines(folder: &str) -> Fallible<Vec<Line>> {
     Ok(found)
 }
 
-/// The exact test of two sets of values.
+/// The Mann-Whitney test of two sets of values: exact, unless some are equal.
 fn p(one: &[f64], other: &[f64]) -> f64 {
     let group = |values: &[f64]| BehaviorGroup { name: "", stimuli: 0, difficulty: 0, values: values.to_vec() };
     let compared = report::compare_groups(&[group(one), group(other)]);

@@ -40,7 +40,7 @@ pub struct Evolution {
     pub generations: u32,
     /// The seeds of the runs, one run for each.
     pub seeds: Vec<u64>,
-    /// Whether to follow the paper's text or the authors' code where they differ.
+    /// In what to follow the authors' code where the paper's text differs.
     pub rules: Rules,
     /// What makes a body better than another in its niche.
     pub objective: SearchObjective,

@@ -117,7 +117,8 @@ impl<'a> Run<'a> {
         let sum = self.sum(at);
         let activated: Vec<f64> = sum.iter().map(|&u| activate(activation, u)).collect();
         pass(&activated, to);
-        // The authors' code remembers the sum: later consumers see the node without its activation.
+        // The authors' code remembers the sum: later consumers see the node without its activation. The map of
+        // an output is made after that: unless it becomes 0, the activated value is kept for it.
         let is_hidden = matches!(self.genotype.nodes[at].1, NodeKind::Hidden(_));
         let is_raw = self.rules.follow_code(Matter::Targets) && (is_hidden || self.rules.follow_code(Matter::Outputs));
         self.remembered[at] = Some(if is_raw { sum } else { activated });
