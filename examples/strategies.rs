@@ -15,7 +15,7 @@ type Fallible<T> = Result<T, Box<dyn Error>>;
 
 /// A gate of each class that others follow from by symmetry: NOT, AND and XOR.
 const CLASSES: [&str; 3] = ["RRLL", "LLLR", "LRRL"];
-/// The margin that has the score three quarters (docs/evolution.md).
+/// The margin that has the score three quarters (docs/strategies.md).
 const HALF_MARGIN: f64 = 0.05;
 
 /// Fields of a line of a run's `progress.jsonl`.

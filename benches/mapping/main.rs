@@ -1,4 +1,4 @@
-//! The compiler on the benchmark circuits: the table of docs/compiler.md, with ABC measured in the same run:
+//! The compiler on the benchmark circuits: the table of docs/synthesis.md, with ABC measured in the same run:
 //! `EFFORT=high cargo bench --bench mapping`.
 //!
 //! `EFFORT` is `fast`, `normal`, which takes half an hour, or `high`, which takes hours. `ONLY` selects circuits by

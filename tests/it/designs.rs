@@ -28,7 +28,7 @@ pub fn read(path: &Path) -> Design {
     }
 }
 
-/// The cell libraries of docs/compiler.md: (a), (b) and (c).
+/// The cell libraries of docs/synthesis.md: (a), (b) and (c).
 pub fn libraries() -> [(&'static str, CellLibrary); 3] {
     let all = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
     [

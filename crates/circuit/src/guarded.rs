@@ -1,5 +1,5 @@
 //! Guarded memory: the cells that stay as written in every pass and in mapping, because their transitions between two
-//! states decide what is stored (docs/compiler.md, "What stays as written").
+//! states decide what is stored (docs/timing.md, "What stays as written").
 
 use std::collections::{BTreeMap, BTreeSet};
 

@@ -1,4 +1,4 @@
-//! Races: memory whose state depends on the delays of robots, found by ternary simulation (docs/compiler.md, "Races").
+//! Races: memory whose state depends on the delays of robots, found by ternary simulation (docs/timing.md, "Races").
 //!
 //! An input switches in a stable state, and every receiver sees it in the same cycle. Each cell that may change becomes
 //! unknown, until no more cells do. Then every cell whose value is determined takes this value. A memory element that

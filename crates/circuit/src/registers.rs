@@ -1,5 +1,5 @@
 //! Registers made of cells, in forms that are safe for every delay of one to three cycles if the inverter of a clock is
-//! no slower than two other cells (docs/compiler.md, "Registers").
+//! no slower than two other cells (docs/timing.md, "Registers as cells").
 
 use std::collections::BTreeMap;
 

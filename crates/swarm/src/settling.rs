@@ -4,7 +4,7 @@
 //! The output of a robot is correct once its stimuli have been the same for as many cycles as its clock. Until then it
 //! is unknown, unless the robot does not glitch and its previous output was the same and correct. A robot with an
 //! unknown stimulus has an unknown output, unless the other stimulus decides it. A row has settled when no output is
-//! unknown and none changes (docs/compiler.md, "Time"). Seger & Bryant, "Modeling of circuit delays in symbolic
+//! unknown and none changes (docs/timing.md, "hold: auto"). Seger & Bryant, "Modeling of circuit delays in symbolic
 //! simulation" (1989).
 
 use crate::{Assembly, Member};

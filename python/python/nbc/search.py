@@ -93,7 +93,7 @@ class Archive:
     __hash__ = None  # type: ignore[assignment]
 
     def frame(self) -> Any:
-        """The elites as a pandas frame, with the columns of the CSV of ``nbc export`` (docs/evolution.md), except
+        """The elites as a pandas frame, with the columns of the CSV of ``nbc export`` (docs/export.md), except
         ``run`` and ``seed``."""
         import pandas
 

@@ -23,7 +23,7 @@ use nbc_session::store::{self, RobotRecord};
   nbc export out --to ro-crate --license MIT -o out/ro-crate-metadata.json
                                             what runs there are, for an archive of research data
 
-docs/evolution.md lists the columns and shows how pandas and pyribs read them.")]
+docs/export.md lists the columns and shows how pandas and pyribs read them.")]
 pub struct ExportArguments {
     /// The folder of a run or of one of its seeds, a folder of robot files, a robot file, or `shipped`; for `--to
     /// ro-crate`, also a folder of runs

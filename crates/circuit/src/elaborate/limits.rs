@@ -1,7 +1,7 @@
 //! The largest circuits.
 
-/// The most cells of a circuit, written in the language or read from a file; docs/compiler.md has figures for this size
-/// ("Measured").
+/// The most cells of a circuit, written in the language or read from a file; docs/synthesis.md, "Measured", has figures
+/// for this size.
 pub(crate) const MAX_CELLS: u64 = 1_000_000;
 
 /// The most bits of nets and gates of a circuit, including the circuits it contains.

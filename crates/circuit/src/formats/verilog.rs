@@ -1,6 +1,6 @@
 //! Structural Verilog: an `assign` a cell, an `always` block a register.
 //!
-//! The cells that stay as written (docs/compiler.md, "What stays as written") are instances of modules, which other
+//! The cells that stay as written (docs/timing.md, "What stays as written") are instances of modules, which other
 //! tools do not dissolve. An attribute of the instance is the start value of a cell on a loop.
 
 use std::collections::{BTreeMap, BTreeSet};

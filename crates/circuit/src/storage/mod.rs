@@ -1,5 +1,5 @@
 //! Storage: the latches and flip-flops of a netlist, recognized by what their cells do, and the net that opens and
-//! closes each (docs/compiler.md, "Time").
+//! closes each (docs/timing.md, "Static timing").
 
 mod cone;
 mod element;

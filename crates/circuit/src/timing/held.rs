@@ -1,5 +1,5 @@
 //! Latches of one cell: a multiplexer that reads itself shows its data while it is open, and else what it showed before
-//! (docs/compiler.md, "Latches of one robot").
+//! (docs/timing.md, "Latches of one robot").
 //!
 //! A latch of one bit, whatever its cells, becomes one such cell, and a flip-flop two of them, which read the clock
 //! itself. This is safe because the multiplexer does not glitch: when its enable closes it, it shows the same before

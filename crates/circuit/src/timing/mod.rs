@@ -2,7 +2,7 @@
 //!
 //! A robot's output is correct some cycles after its last input switched: its settle time. A path ends at a latch that
 //! is closed in the phase that a row ends in. A loop of other cells is passed twice, once by the change and once by the
-//! response to it, until the change has reached every net of the loop (docs/compiler.md, "Time").
+//! response to it, until the change has reached every net of the loop (docs/timing.md, "Static timing").
 
 mod arrivals;
 mod clock;

@@ -1,5 +1,5 @@
 //! Pulsed latches: registers as one latch of four cells each, which short pulses of one generator open at an edge of
-//! the clock (docs/compiler.md, "Pulsed latches").
+//! the clock (docs/timing.md, "Pulsed latches").
 //!
 //! A flip-flop of two latches loses its first latch, and its second one is opened by the pulse. This is safe for delays
 //! between one cycle and the clocks of the cells if the pulse is long enough for a latch to settle, and if no change
