@@ -57,10 +57,12 @@ codes! {
     GroundEnds = "ground-ends", Warning: "A robot that walks off the end of its ground.";
     HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the robots need to settle.";
     IncompleteLibrary = "incomplete-library", Error: "A cell library with too few functions.";
+    IndexOutside = "index-outside", Warning: "A value that can select a word or a bit that does not exist.";
     LoopWithoutStart = "loop-without-start", Warning: "A feedback loop without a start value.";
     MissingField = "missing-field", Error: "A declaration without a required field.";
     MultipleDrivers = "multiple-drivers", Error: "A net driven more than once.";
     Nesting = "nesting", Error: "Text that is nested too deeply.";
+    NoEffect = "no-effect", Error: "A field that nothing uses.";
     NoWaves = "no-waves", Error: "A circuit or a row of a test that no wave machine can run.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
     OutOfRange = "out-of-range", Error: "A number out of range.";

@@ -129,6 +129,8 @@ pub struct Net {
     pub default: Option<SizeId>,
     /// The enumeration whose members the values are, as its place in [`super::Program::enumerations`].
     pub members: Option<usize>,
+    /// The array of which its values select a word, to write it; of a memory, also to read it.
+    pub selects: Option<NetSlot>,
     /// Whether it writes text: an output of an environment, whose highest bit says whether the others are a character.
     pub is_text: bool,
 }

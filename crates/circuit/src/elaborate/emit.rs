@@ -3,6 +3,7 @@
 use crate::elaborate::build::{ModuleBuilder, ModuleKey};
 use crate::elaborate::frame::Item;
 use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
+use crate::elaborate::outside::IndexedNet;
 use crate::elaborate::table::TableValues;
 use crate::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
 use crate::index::ListIndex;
@@ -132,6 +133,13 @@ impl ModuleBuilder<'_, '_> {
             let what = Wide::Value { net: name, target: target.span };
             self.fault(WidthError::Wrong { what, expected: count, found }.into());
             return;
+        }
+        if let Some(array) = self.circuit.nets[slot.0 as usize].selects
+            && let Some(words) = self.words_of(array, frame)
+        {
+            let name = self.circuit.nets[array.0 as usize].name.clone();
+            let index = self.items[by as usize].value;
+            self.look_outside(IndexedNet { name, count: words, is_word: true }, index, value);
         }
         let first = self.module.nets[net].first + low;
         for (at, &driver) in value.iter().enumerate() {
@@ -329,7 +337,7 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// The word of an array, or the bit of another net, that a value selects: a tree of choices. A place that does not
-    /// exist shows any other.
+    /// exist shows 0.
     fn element(
         &mut self,
         slot: NetSlot,
@@ -340,14 +348,17 @@ impl ModuleBuilder<'_, '_> {
         let net = self.net(slot, frame);
         let width = self.module.nets[net].width?;
         let words = self.module.nets[net].words.unwrap_or(width);
+        let name = self.module.nets[net].name.clone();
         let places = SizeKind::log2(words.into()).max(1) as u32;
         if value.len() as u32 != places {
             let found = self.operand(index, &value);
-            let what = Wide::Index { net: self.module.nets[net].name.clone(), words };
+            let what = Wide::Index { net: name, words };
             self.fault(WidthError::Wrong { what, expected: places, found }.into());
             return None;
         }
-        let (name, word) = (self.module.nets[net].name.clone(), width / words);
+        let is_word = self.module.nets[net].words.is_some();
+        self.look_outside(IndexedNet { name: name.clone(), count: words, is_word }, index, &value);
+        let word = width / words;
         let (low, count) = match bits {
             Some(bits) => self.slice(bits, word, &name, frame)?,
             None => (0, word),
@@ -361,7 +372,7 @@ impl ModuleBuilder<'_, '_> {
                     .chunks(2)
                     .map(|pair| match *pair {
                         [zero, one] => builder.select(selected, one, zero, span),
-                        _ => pair[0],
+                        _ => builder.unless(selected, pair[0], span),
                     })
                     .collect();
             }
@@ -445,6 +456,15 @@ impl ModuleBuilder<'_, '_> {
         let chosen = self.gate(Function::AND, [condition, then], span);
         let other = self.gate(Function::new(A_WITHOUT_B), [otherwise, condition], span);
         self.gate(Function::OR, [chosen, other], span)
+    }
+
+    /// `value` if the condition is 0, else 0.
+    fn unless(&mut self, condition: Bit, value: Bit, span: Span) -> Bit {
+        match [false, true].into_iter().find(|&known| self.is_constant(condition, known)) {
+            Some(false) => value,
+            Some(true) => self.constant(false),
+            None => self.gate(Function::new(A_WITHOUT_B), [value, condition], span),
+        }
     }
 
     /// Instantiates a circuit; `values` are the operands.

@@ -17,6 +17,7 @@ mod memories;
 mod memory_ports;
 mod module;
 mod numbers;
+mod outside;
 mod size;
 mod starts;
 mod table;
@@ -34,7 +35,7 @@ pub use wording::TableError;
 
 use crate::Netlist;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Circuit, CircuitId, Column, Instance, Program, Reference};
+use nbc_base::model::{Circuit, CircuitId, Column, Instance, Program};
 use nbc_base::source::Span;
 
 use build::Builder;
@@ -83,11 +84,7 @@ pub fn elaborate_environment(
 ///
 /// # Errors
 /// As [`elaborate`].
-pub fn elaborate_reference(program: &Program, reference: &Reference) -> Result<Netlist, Vec<Diagnostic>> {
-    let circuit = match reference {
-        Reference::Circuit(instance) => return elaborate(program, instance),
-        Reference::Body(circuit) => circuit,
-    };
+pub fn elaborate_reference(program: &Program, circuit: &Circuit) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.reference(circuit);
     finish(builder, module, &circuit.name)

@@ -6,7 +6,7 @@ use crate::elaborate::limits::{MAX_STATEMENTS, MAX_WIDTH};
 use crate::elaborate::module::ModuleNet;
 use crate::elaborate::size;
 use crate::elaborate::wording::{ElaborateError, RangeError};
-use nbc_base::model::{Block, NetSlot, SizeId, SizeKind, Statement};
+use nbc_base::model::{Block, NetSlot, Size, SizeId, SizeKind, Statement};
 use nbc_base::source::Span;
 
 impl<'a> ModuleBuilder<'a, '_> {
@@ -86,6 +86,18 @@ impl<'a> ModuleBuilder<'a, '_> {
             self.failed = true;
             return;
         };
+        let sizes = &self.circuit.sizes;
+        let is_fixed = |end: SizeId| {
+            let parts = Size::first_part(sizes, end).0..=end.0;
+            parts.into_iter().all(|at| !matches!(sizes[at as usize].kind, SizeKind::Variable(_)))
+        };
+        if from > to && is_fixed(range.1) {
+            let is_literal =
+                [range.0, range.1].iter().all(|end| matches!(sizes[end.0 as usize].kind, SizeKind::Literal(_)));
+            self.fault(RangeError::DescendingLoop { ends: [from, to], is_literal }.at(span));
+            self.failed = true;
+            return;
+        }
         let turns = to.saturating_sub(from).max(0) as usize;
         let statements = turns.saturating_mul(body.statements.len().max(1));
         if statements.saturating_add(self.items.len()) > MAX_STATEMENTS || self.frames.len() + turns > MAX_STATEMENTS {

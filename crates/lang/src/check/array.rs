@@ -255,6 +255,7 @@ impl CircuitChecker<'_> {
             self.used[net.0 as usize] = true;
             (net, value)
         });
+        self.circuit.nets[nets[0].0.0 as usize].selects = Some(written.net);
         let last = self.circuit.nets.len() as u32;
         let drive = |(net, value): (NetSlot, ExpressionId)| {
             let target = Target { net: Some(net), word: None, bits: None, start: None, span };
@@ -350,6 +351,7 @@ impl CircuitChecker<'_> {
         let at = self.circuit.memories[memory].reads.len();
         let address = self.add_net(format!("{name}.at{at}"), span, Some(places));
         let data = self.add_net(format!("{name}.word{at}"), span, Some(width));
+        self.circuit.nets[address.0 as usize].selects = Some(self.circuit.memories[memory].net);
         for net in [address, data] {
             self.driven[net.0 as usize] = true;
             self.used[net.0 as usize] = true;

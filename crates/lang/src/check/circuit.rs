@@ -233,7 +233,8 @@ impl<'a> CircuitChecker<'a> {
     pub(crate) fn add_net(&mut self, name: String, span: Span, width: Option<SizeId>) -> NetSlot {
         let slot = NetSlot(self.circuit.nets.len() as u32);
         let is_quiet = name.starts_with('_');
-        self.circuit.nets.push(Net { name, span, width, words: None, default: None, members: None, is_text: false });
+        let (words, default, members, selects) = (None, None, None, None);
+        self.circuit.nets.push(Net { name, span, width, words, default, members, selects, is_text: false });
         self.used.push(is_quiet);
         self.driven.push(false);
         slot

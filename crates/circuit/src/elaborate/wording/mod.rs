@@ -173,6 +173,8 @@ pub(super) enum ElaborateError {
     OtherStart { net: String },
     /// A feedback loop without a start value.
     NoStart { nets: Vec<String> },
+    /// A value up to `most` that selects one of `count` bits, or words.
+    IndexOutside { net: String, count: u32, most: u64, is_word: bool },
     /// Circuits that are nested too deeply.
     TooDeep { most: usize },
     /// Too many nets, at the first one above the limit.
@@ -234,6 +236,19 @@ impl ElaborateError {
                 Diagnostic::new(Code::LoopWithoutStart, message, span, "this net feeds back on itself")
                     .with_help(format!("give one of its nets a start value: `{} init 0 = …`", nets[0]))
             }
+            Self::IndexOutside { net, count, most, is_word } => {
+                let part = if is_word { "word" } else { "bit" };
+                let message = format!("this value can select a {part} that `{net}` does not have");
+                let label = format!("it can be {most}, but the last {part} is {}", count - 1);
+                let help = match is_word {
+                    true => format!("declare {} words: outside, words are 0, and nothing is written", most + 1),
+                    false => format!(
+                        "if 0 is meant for the others, say so: select from `{{{}'d0, {net}}}`",
+                        most + 1 - u64::from(count)
+                    ),
+                };
+                Diagnostic::new(Code::IndexOutside, message, span, label).with_help(help)
+            }
             Self::TooDeep { most } => {
                 let message = format!("circuits are nested more than {most} levels deep");
                 Diagnostic::new(Code::Nesting, message, span, "the limit is reached here")
@@ -262,6 +277,8 @@ pub(super) enum RangeError {
     NetWidth { width: i64, most: i64 },
     /// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
     AscendingSlice { net: String, ends: [i64; 2], is_literal: bool },
+    /// A loop that would have to count down; `is_literal` where both ends are written as digits.
+    DescendingLoop { ends: [i64; 2], is_literal: bool },
     /// A bit that the net does not have.
     NoSuchBit { net: String, bit: i64, width: u32 },
     /// A word that the array does not have.
@@ -291,6 +308,12 @@ impl RangeError {
                 let message = format!("the slice `{first}..{last}` is in ascending order");
                 outside(message, "expected the highest bit first".to_owned())
                     .with_help(format!("write `{net}[{last}..{first}]`"))
+                    .with_fix(is_literal.then(|| Fix::replace(span, format!("{last}..{first}"))))
+            }
+            Self::DescendingLoop { ends: [first, last], is_literal } => {
+                let message = format!("the loop from {first} to {last} makes no turn");
+                outside(message, "expected the lower end first".to_owned())
+                    .with_help(format!("a loop counts up, and leaves out its end: `{last}..{first}`"))
                     .with_fix(is_literal.then(|| Fix::replace(span, format!("{last}..{first}"))))
             }
             Self::NoSuchBit { net, bit, width } => {

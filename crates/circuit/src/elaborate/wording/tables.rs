@@ -92,13 +92,13 @@ impl TableError {
                     .with_label(first, counted(before, "bit"))
             }
             Self::TwoElse { first } => {
-                Diagnostic::new(Code::TableOverlap, "the table has two `else` rows", span, "this row")
-                    .with_label(first, "and this row")
+                Diagnostic::new(Code::TableOverlap, "the table has two `else` rows", span, "and this row")
+                    .with_label(first, "this row")
             }
             Self::Overlap { first } => {
                 let message = "two rows of the table match the same pattern";
-                Diagnostic::new(Code::TableOverlap, message, span, "this row")
-                    .with_label(first, "and this row")
+                Diagnostic::new(Code::TableOverlap, message, span, "and this row")
+                    .with_label(first, "this row")
                     .with_help("remove one of them, or write `0` or `1` for `-`")
             }
             Self::MissingRow { pattern, rest } => {
