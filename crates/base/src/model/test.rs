@@ -35,8 +35,9 @@ pub enum Stimulation {
     Script(Script),
     /// Every input pattern in counting order, against a circuit with the same ports.
     All {
-        /// The reference circuit.
-        reference: Reference,
+        /// The reference: a circuit with the ports of the tested one. It is not part of the program, because nothing
+        /// else can name it.
+        reference: Box<Circuit>,
     },
 }
 
@@ -74,16 +75,6 @@ pub struct Until {
     pub span: Span,
 }
 
-/// The circuit that a test compares with. A circuit written inside the test is not part of the program, because nothing
-/// else can name it.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Reference {
-    /// `against other`
-    Circuit(Instance),
-    /// `for all inputs { … }`, with the ports of the tested circuit.
-    Body(Box<Circuit>),
-}
-
 /// One row of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestRow {
@@ -101,6 +92,10 @@ pub struct TestRow {
     pub line: usize,
     /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
     pub row: usize,
+    /// Whether it is the first half of a pulse, which is applied, but not checked.
+    pub is_half: bool,
+    /// How often it was repeated, if that is as often as its `until` permits and it still waits for its value.
+    pub given_up: Option<usize>,
 }
 
 impl CircuitTest {

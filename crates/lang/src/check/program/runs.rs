@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
 
+use crate::check::against;
 use crate::check::circuit::circuit;
 use crate::check::instance::instance;
 use crate::check::names::Home;
@@ -14,7 +15,7 @@ use crate::check::wording::{CircuitError, EnvironmentError};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
-    CircuitId, CircuitTest, Column, Instance, PhysicsWorld, Program, Reference, Script, Simulation, Stimulation,
+    CircuitId, CircuitTest, Column, Instance, PhysicsWorld, Program, Script, Simulation, Stimulation,
 };
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
@@ -81,7 +82,7 @@ impl<'a> Assembly<'a> {
         program: &Program,
         inspector: &mut Inspector<'_>,
     ) -> Option<CircuitTest> {
-        let tested = self.instance(&source.circuit)?;
+        let tested = self.instance(&source.circuit, program)?;
         let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
         let ports = (&inputs[..], &outputs[..]);
         let environment = match &source.environment {
@@ -102,10 +103,10 @@ impl<'a> Assembly<'a> {
                     Stimulation::Rows(steps.into_iter().flat_map(|step| step.rows).collect())
                 }
             }
-            tree::TestKind::Against(other) => self.against(&source.circuit, other, inspector, ports)?,
+            tree::TestKind::Against(other) => self.against(&source.circuit, other, program, inspector, ports)?,
             tree::TestKind::Reference(body) => {
-                let circuit = self.reference(&tested, &source.circuit.name, body, ports, program)?;
-                Stimulation::All { reference: Reference::Body(Box::new(circuit)) }
+                let reference = Box::new(self.reference(&tested, &source.circuit.name, body, ports, program)?);
+                Stimulation::All { reference }
             }
         };
         if let Stimulation::All { .. } = stimulation {
@@ -199,8 +200,9 @@ impl<'a> Assembly<'a> {
     }
 
     /// The circuit of a test.
-    fn instance(&mut self, source: &tree::InstanceSyntax) -> Option<Instance> {
-        let named = instance(source, Home::Own, &self.names.circuits, &self.circuits.headers);
+    fn instance(&mut self, source: &tree::InstanceSyntax, program: &Program) -> Option<Instance> {
+        let declared = Vocabulary::of(&self.names, program);
+        let named = instance(source, Home::Own, declared, &self.circuits.headers);
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
@@ -208,19 +210,19 @@ impl<'a> Assembly<'a> {
         &mut self,
         tested: &tree::InstanceSyntax,
         other: &tree::InstanceSyntax,
+        program: &Program,
         inspector: &mut Inspector<'_>,
         ports: (&[Column], &[Column]),
     ) -> Option<Stimulation> {
-        let reference = self.instance(other)?;
+        let reference = self.instance(other, program)?;
         let (inputs, outputs) = self.ports(&reference, other.name.span, inspector)?;
-        let widths = |columns: &[Column]| columns.iter().map(|column| column.width).collect::<Vec<_>>();
-        if widths(&inputs) != widths(ports.0) || widths(&outputs) != widths(ports.1) {
-            let circuits = [&tested.name, &other.name].map(|name| name.text.clone());
-            let error = CircuitError::DifferentPorts { circuits, first: tested.name.span };
-            self.faults.push(error.at(other.name.span));
-            return None;
-        }
-        Some(Stimulation::All { reference: Reference::Circuit(reference) })
+        let circuit = self.circuits.place(&reference.circuit)?;
+        let names = [&tested.name, &other.name];
+        let mut arguments: Vec<Option<u64>> = reference.arguments.into_iter().map(Some).collect();
+        arguments.resize(program.circuits[circuit.0 as usize].parameters.len(), None);
+        let reference = against::reference(names, ports, (circuit, &arguments), (&inputs, &outputs));
+        let reference = Box::new(reference.map_err(|fault| self.faults.push(fault)).ok()?);
+        Some(Stimulation::All { reference })
     }
 
     /// The body of a test as a circuit with the ports of the tested one.
