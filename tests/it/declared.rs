@@ -98,7 +98,8 @@ fn changes() -> Vec<Change> {
         ("as: [repair, sensors]", |run| run.rules = Rules::from(Matter::Sensors).and(Matter::Repair.into())),
         ("genome: voxels", |run| run.genome = Genome::Voxels { crossover: 0.0 }),
         ("genome: voxels, crossover: 70%", |run| run.genome = Genome::Voxels { crossover: 0.7 }),
-        ("genome: voxels, start: shipped", |run| {
+        ("box: 7 x 7, genome: voxels, start: shipped", |run| {
+            (run.width, run.height) = (7, 7);
             run.genome = Genome::Voxels { crossover: 0.0 };
             run.start = Some(StartBodies { library: "shipped".to_owned(), bodies: Vec::new() });
         }),
@@ -206,7 +207,8 @@ fn a_search_of_voxels_begins_with_the_robots_that_fit() {
     world.insert("run.nb", source.to_owned());
     let mut session = Session::new(world);
     let checked = session.checked("run.nb");
-    assert_eq!(checked.diagnostics, []);
+    let said: Vec<&str> = checked.diagnostics.iter().map(|fault| fault.message.as_str()).collect();
+    assert_eq!(said, ["no robot of `some` fits into the box and the materials of `other`"]);
     let started = |name: &str| session.started(&checked, checked.program.evolution(name).unwrap(), "out");
     let own = started("own").unwrap();
     let fitting: Vec<Vec<String>> = session

@@ -45,7 +45,7 @@ fn paths(declarations: &str, world: &str) -> Vec<Vec<f64>> {
 #[test]
 fn a_world_changes_the_physics_and_the_papers_does_not() {
     let paper = paths("", "");
-    assert_eq!(paths("world same { friction: 100%, seed: 9 }", "in same"), paper);
+    assert_eq!(paths("world same { friction: 100% }", "in same"), paper);
     assert_eq!(paths("", "in paper"), paper);
     let fields = ["friction", "gravity", "stiffness", "drag", "damping", "swelling"].map(|field| (field, "1.05"));
     for (field, value) in fields.into_iter().chain([("start", "0.3"), ("weak", "5%"), ("dead", "20%")]) {
@@ -57,6 +57,36 @@ fn a_world_changes_the_physics_and_the_papers_does_not() {
     assert_ne!(on_stairs, paper);
     assert_eq!(paths(&format!("{stairs}world same {{ from: stairs, friction: 1 }}"), "in same"), on_stairs);
     assert_eq!(paths(&format!("{stairs}world even {{ from: stairs, ground: 0 }}"), "in even"), paper);
+}
+
+/// `world paper` of a file is the world of its tests, swarms, simulations, evolutions and worlds that name none.
+#[test]
+fn a_redeclared_paper_is_the_world_of_all_that_names_none() {
+    let heavy = "world paper { gravity: 1.2 }\n";
+    let other = paths("world other { gravity: 1.2 }", "in other");
+    assert_ne!(other, paths("", ""));
+    for declarations in ["", "swarm s { circuit: gate }", "library shipped { from: shipped }"] {
+        assert_eq!(paths(&format!("{heavy}{declarations}"), ""), other, "{declarations}");
+    }
+    assert_eq!(paths("world light { gravity: 0.6 }\nworld paper { from: light, gravity: 1.2 }", ""), other);
+    let text = format!(
+        "{CIRCUIT}{heavy}world rough {{ friction: 2 }}
+swarm s {{ circuit: gate }}
+evolution own {{ box: 3 x 3 }}
+evolution named {{ from: own, world: rough }}
+evolution taken {{ from: named, seed: 2 }}
+simulate s with schedule (a, b) {{ 0 0 for 2 cycles }}"
+    );
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("a.nb", 1, text.replace("WORLD", ""));
+    let checked = session.open("a.nb").unwrap_or_else(|error| panic!("{error}"));
+    let program = &checked.program;
+    let gravity = |name: &str| program.evolution(name).unwrap().world.factors.gravity;
+    assert_eq!(["own", "named", "taken", "gates"].map(gravity), [1.2, 1.2, 1.2, 1.0]);
+    let friction = |name: &str| program.evolution(name).unwrap().world.factors.friction;
+    assert_eq!(["own", "named", "taken"].map(friction), [1.0, 2.0, 2.0]);
+    let run = session.simulate(&checked, &program.simulations[0], &CompileOptions::default(), &mut ()).unwrap();
+    assert_eq!(run.swarm.compiled.plan.world.factors.gravity, 1.2);
 }
 
 /// A file of Evolution Gym has the same ground as heights, around the place where robots start.

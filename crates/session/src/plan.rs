@@ -87,7 +87,7 @@ pub(super) fn of_swarm(
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
         waves: declaration.map_or(WaveTimes::default(), |swarm| swarm.waves),
-        world: declaration.map_or(PhysicsWorld::default(), |swarm| swarm.world),
+        world: declaration.map_or_else(|| program.default_world(), |swarm| swarm.world),
     })
 }
 

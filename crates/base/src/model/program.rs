@@ -188,7 +188,18 @@ pub struct InputSpell {
     pub line: usize,
 }
 
+impl NamedWorld {
+    /// The name of the world of all that names none. The prelude declares it, and a file may declare it again.
+    pub const DEFAULT: &str = "paper";
+}
+
 impl Program {
+    /// The world of swarms that name none.
+    pub fn default_world(&self) -> PhysicsWorld {
+        let declared = self.worlds.iter().find(|named| named.name == NamedWorld::DEFAULT);
+        declared.map_or(PhysicsWorld::default(), |named| named.world)
+    }
+
     /// The circuit of that name.
     pub fn circuit(&self, name: &str) -> Option<&Circuit> {
         self.circuits.iter().find(|circuit| circuit.name == name)

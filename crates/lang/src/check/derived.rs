@@ -17,11 +17,18 @@ pub(crate) enum CheckState<T> {
     Sound(Box<T>),
 }
 
-/// The positions of records, each after the one named by its `from`, as far as such an order exists.
-pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &NameTable) -> Vec<usize> {
+/// The positions of records, each after the one named by its `from`, or else after that of the `usual` name, as far as
+/// such an order exists. What the usual one is made from comes before it.
+pub(crate) fn order(
+    sources: &[(Home, &RecordDeclaration)],
+    names: &NameTable,
+    usual: Option<&'static str>,
+) -> Vec<usize> {
     let mut taken = vec![false; sources.len()];
     let mut order = Vec::new();
-    for start in 0..sources.len() {
+    let is_usual = |place: &usize| usual == Some(sources[*place].1.name.text.as_str());
+    let (first, others): (Vec<usize>, Vec<usize>) = (0..sources.len()).partition(is_usual);
+    for start in first.into_iter().chain(others) {
         let mut chain = Vec::new();
         let mut at = Some(start);
         while let Some(place) = at.filter(|&place| !taken[place]) {
@@ -29,8 +36,12 @@ pub(crate) fn order(sources: &[(Home, &RecordDeclaration)], names: &NameTable) -
             chain.push(place);
             let (home, source) = sources[place];
             let from = source.record.field("from");
-            let word = from.and_then(|field| fields::word(&field.value, Expected::Name(names.kind().word())).ok());
-            at = word.and_then(|name| names.find(&name.text, home));
+            let word = |value| fields::word(value, Expected::Name(names.kind().word())).ok();
+            let name = match from {
+                Some(field) => word(&field.value).map(|name| name.text.as_str()),
+                None => usual,
+            };
+            at = name.and_then(|name| names.find(name, home));
         }
         order.extend(chain.into_iter().rev());
     }

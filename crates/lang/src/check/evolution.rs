@@ -26,6 +26,10 @@ const MAX_BOX: u32 = 64;
 /// The most seeds of a range.
 const MAX_SEEDS: u32 = 10_000;
 
+/// What makes a body better than another, by name.
+const OBJECTIVES: [(&str, SearchObjective); 3] =
+    [("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate), ("wave", SearchObjective::Wave)];
+
 /// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
     pub(crate) program: &'a Program,
@@ -40,6 +44,8 @@ pub(crate) struct Known<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct NamedEvolution {
     evolution: Evolution,
+    /// The world that it or the one it is made from names.
+    world: Option<PhysicsWorld>,
     /// The stimuli of its schedule, two or three, as indices of [`Program::stimuli`], in ascending order.
     stimuli: Vec<usize>,
 }
@@ -47,7 +53,7 @@ pub(crate) struct NamedEvolution {
 impl NamedEvolution {
     /// The evolution by itself: its stimuli are the first two or three of its bodies.
     pub(crate) fn into_evolution(self) -> Evolution {
-        let Self { evolution, stimuli } = self;
+        let Self { evolution, stimuli, .. } = self;
         let own = |material: &Material| match material.kind {
             MaterialKind::Sensor(response) => {
                 let stimulus = stimuli.binary_search(&response.stimulus).expect("its schedule has every stimulus");
@@ -80,18 +86,25 @@ pub(crate) fn evolution(
     let mut fields = Fields::new("evolution", source);
     let base = fields
         .read("from", &known.checked[0], |value| derived::base(value, home, &known.names.evolutions, known.checked));
-    let (NamedEvolution { evolution: base, stimuli }, whole) = match base {
+    let (NamedEvolution { evolution: base, world, stimuli }, whole) = match base {
         CheckState::Sound(base) => (NamedEvolution::clone(base), true),
         // The first evolution of the prelude has the default values of the others.
-        _ => (NamedEvolution { evolution: paper(), stimuli: Vec::new() }, source.record.field("from").is_none()),
+        _ => (
+            NamedEvolution { evolution: paper(), world: None, stimuli: Vec::new() },
+            source.record.field("from").is_none(),
+        ),
     };
+    if !whole {
+        fields.note_fault();
+    }
     let (width, height) = fields.read("box", (base.width, base.height), area);
     let palette = fields.read("materials", None, |value| palette(value, home, known).map(Some));
     let genome = genome(&mut fields, base.genome);
     let start = start(&mut fields, base.start, genome, home, known);
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
     let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
-    let objective = fields.read("objective", base.objective, objective);
+    let objective = fields.choose("objective", base.objective, &OBJECTIVES);
+    let world = fields.read("world", world, |value| known.worlds.of(value, home).map(Some));
     let evolution = Evolution {
         name: source.name.text.clone(),
         width,
@@ -108,20 +121,20 @@ pub(crate) fn evolution(
             as usize,
         generations: fields.read("generations", base.generations, |value| quantity::count(value, 1..=u32::MAX)),
         seeds: seeds(&mut fields).unwrap_or(base.seeds),
-        rules: rules(&mut fields, base.rules),
+        rules: rules(&mut fields, base.rules, genome),
         objective,
         behaviors: behaviors(&mut fields, base.behaviors, objective),
         symmetry: fields.read("symmetry", base.symmetry, |value| {
             fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
         }),
         niche: fields.read("niche", base.niche, niche),
-        world: fields.read("world", base.world, |value| known.worlds.of(value, home)),
+        world: world.unwrap_or_else(|| known.worlds.default(home)),
         sample: sample(&mut fields, base.sample, objective),
     };
     let found = fields.finish();
     let sound = found.is_empty() && whole;
     faults.extend(found);
-    let checked = NamedEvolution { evolution, stimuli };
+    let checked = NamedEvolution { evolution, world, stimuli };
     let misfit = if sound { misfit(source, &checked, known.program) } else { None };
     let fits = misfit.is_none();
     faults.extend(misfit);
@@ -200,38 +213,40 @@ fn paper() -> Evolution {
 
 /// The behaviors that gates are searched for.
 fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObjective) -> Vec<Behavior> {
-    let is_gate = objective != SearchObjective::Distance;
-    let read = |value: &ValueSyntax| match library::behavior(value)? {
-        behavior if is_gate => Ok(behavior),
-        _ => Err(EvolutionError::BehaviorsWithoutGate.at(value.span)),
-    };
-    let mut behaviors = fields.read_list("behaviors", read).unwrap_or(base);
+    let mut behaviors = fields.read_list("behaviors", library::behavior).unwrap_or(base);
     behaviors.sort_unstable_by_key(|behavior| behavior.function());
     behaviors.dedup();
-    if is_gate { behaviors } else { Vec::new() }
+    if objective == SearchObjective::Distance { Vec::new() } else { behaviors }
 }
 
 /// What a run follows where the paper's text and its code differ: a word or several.
-fn rules(fields: &mut Fields<'_>, base: Rules) -> Rules {
+fn rules(fields: &mut Fields<'_>, base: Rules, genome: Genome) -> Rules {
     let whole = [("paper", Rules::PAPER), ("code", Rules::CODE)].into_iter();
     let parts = Matter::WORDS.into_iter().map(|(word, matter)| (word, Rules::from(matter)));
     let words: Vec<_> = whole.chain(parts).collect();
-    let read = fields.read_list("as", |value| fields::choice(value, &words));
+    let read = fields.read_list("as", |value| match fields::choice(value, &words)? {
+        // Of these matters, only the sensors are those of other bodies than networks make.
+        rules if !genome.is_cppn() && rules != Rules::PAPER && !rules.follow_code(Matter::Sensors) => {
+            Err(EvolutionError::MatterOfNetworks.at(value.span))
+        }
+        rules => Ok(rules),
+    });
     read.map_or(base, |rules| rules.into_iter().fold(Rules::PAPER, Rules::and))
 }
 
 /// The other worlds of the gate objective; none if nothing varies.
 fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: SearchObjective) -> Option<SampledWorlds> {
     let usual = base.map_or(Variation::default(), |base| base.vary);
-    let vary = fields.read("vary", usual, |value| match world::variation(value)? {
-        vary if vary == Variation::default() || objective != SearchObjective::Distance => Ok(vary),
-        _ => Err(EvolutionError::WorldsWithoutGate.at(value.span)),
-    });
+    let before = fields.faults.len();
+    let vary = fields.read("vary", usual, world::variation);
+    if fields.faults.len() > before {
+        fields.note_fault();
+    }
+    if vary != Variation::default() {
+        fields.note("vary", "");
+    }
     let usual = base.map_or(SampledWorlds::USUAL, |base| base.worlds);
-    let worlds = fields.read("worlds", usual, |value| match quantity::count(value, 1..=SampledWorlds::MOST)? {
-        _ if vary == Variation::default() => Err(EvolutionError::WorldsWithoutChange.at(value.span)),
-        worlds => Ok(worlds),
-    });
+    let worlds = fields.read("worlds", usual, |value| quantity::count(value, 1..=SampledWorlds::MOST));
     let is_used = vary != Variation::default() && objective != SearchObjective::Distance;
     is_used.then_some(SampledWorlds { worlds, vary })
 }
@@ -247,10 +262,7 @@ fn start(
     let start = fields.read("start", base, |value| {
         let name = fields::word(value, Expected::Name("library"))?;
         known.names.libraries.resolve(name, home)?;
-        match genome {
-            Genome::Cppn => Err(EvolutionError::StartOfNetworks.at(value.span)),
-            Genome::Voxels { .. } => Ok(Some(StartBodies { library: name.text.clone(), bodies: Vec::new() })),
-        }
+        Ok(Some(StartBodies { library: name.text.clone(), bodies: Vec::new() }))
     });
     start.filter(|_| !genome.is_cppn())
 }
@@ -262,12 +274,8 @@ fn genome(fields: &mut Fields<'_>, base: Genome) -> Genome {
         Genome::Voxels { crossover } => crossover,
     };
     let voxels = Genome::Voxels { crossover: usual };
-    let genome =
-        fields.read("genome", base, |value| fields::choice(value, &[("cppn", Genome::Cppn), ("voxels", voxels)]));
-    let crossover = fields.read("crossover", usual, |value| match genome {
-        Genome::Cppn => Err(EvolutionError::CrossoverOfNetworks.at(value.span)),
-        Genome::Voxels { .. } => world::share(value),
-    });
+    let genome = fields.choose("genome", base, &[("cppn", Genome::Cppn), ("voxels", voxels)]);
+    let crossover = fields.read("crossover", usual, world::share);
     if genome.is_cppn() { genome } else { Genome::Voxels { crossover } }
 }
 
@@ -380,28 +388,23 @@ fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
     }
     let mut known = BTreeMap::new();
     fields.read_list("seed", |value| {
-        let seed = quantity::count(value, 0..=u32::MAX)?;
+        let ValueKind::Quantity(seed) = &value.kind else {
+            return Err(quantity::wrong_kind(Expected::Number, value.span));
+        };
+        let seed = quantity::seed(seed)?;
         match known.insert(seed, value.span) {
-            None => Ok(u64::from(seed)),
+            None => Ok(seed),
             Some(first) => Err(NameError::RepeatedSeed { seed, first }.at(value.span)),
         }
     })
 }
 
 fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u64>, Diagnostic> {
-    let seed = |end| quantity::whole(quantity::bare(end)?, 0..=u32::MAX, Quantity::span(end), "");
-    let (first, last) = (seed(first)?, seed(last)?);
-    if first > last || last - first >= MAX_SEEDS {
+    let (first, last) = (quantity::seed(first)?, quantity::seed(last)?);
+    if first > last || last - first >= u64::from(MAX_SEEDS) {
         return Err(EvolutionError::SeedRange { most: MAX_SEEDS }.at(span));
     }
-    Ok((first..=last).map(u64::from).collect())
-}
-
-fn objective(value: &ValueSyntax) -> Result<SearchObjective, Diagnostic> {
-    fields::choice(
-        value,
-        &[("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate), ("wave", SearchObjective::Wave)],
-    )
+    Ok((first..=last).collect())
 }
 
 fn niche(value: &ValueSyntax) -> Result<Niche, Diagnostic> {
@@ -430,8 +433,11 @@ fn mutation(value: &ValueSyntax) -> Result<MutationWeights, Diagnostic> {
         change_activation: fields.read("change_activation", 1.0, weight),
         change_weight: fields.read("change_weight", 1.0, weight),
     };
+    let MutationWeights { add_node, remove_node, add_link, remove_link, change_activation, change_weight } = weights;
+    let all = [add_node, remove_node, add_link, remove_link, change_activation, change_weight];
     match fields.finish().into_iter().next() {
         Some(fault) => Err(fault),
+        None if all.iter().all(|weight| *weight == 0.0) => Err(EvolutionError::NoMutation.at(value.span)),
         None => Ok(weights),
     }
 }

@@ -1,5 +1,6 @@
 //! The fields of a record: no duplicates, no unknown fields, all required fields present.
 
+use crate::check::applies::{Fact, needs};
 use crate::check::names::duplicate;
 use crate::check::quantity::wrong_kind;
 use crate::check::wording::{self, Expected, FieldError, ValueError};
@@ -14,6 +15,10 @@ pub(crate) struct Fields<'a> {
     place: Span,
     record: &'a RecordSyntax,
     known: Vec<&'static str>,
+    /// What decides which fields have an effect.
+    facts: Vec<Fact>,
+    /// Whether an error hides some of these.
+    is_vague: bool,
     /// The required fields that are missing, each with an example.
     missing: Vec<[&'static str; 2]>,
     pub(crate) faults: Vec<Diagnostic>,
@@ -28,6 +33,8 @@ impl<'a> Fields<'a> {
             place: source.name.span,
             record: &source.record,
             known: Vec::new(),
+            facts: Vec::new(),
+            is_vague: false,
             missing: Vec::new(),
             faults: Vec::new(),
         }
@@ -36,13 +43,39 @@ impl<'a> Fields<'a> {
     /// The fields of a record of that kind inside another.
     pub(crate) fn inner(kind: &'static str, place: Span, record: &'a RecordSyntax) -> Self {
         let what = wording::Record { kind, name: None };
-        Self { what, place, record, known: Vec::new(), missing: Vec::new(), faults: Vec::new() }
+        let (known, facts, missing, faults) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        Self { what, place, record, known, facts, is_vague: false, missing, faults }
+    }
+
+    /// Notes what the record is or has, on which the effect of other fields depends.
+    pub(crate) fn note(&mut self, field: &'static str, word: &'static str) {
+        self.facts.push((field, word));
+    }
+
+    /// Notes that it is unknown which fields have an effect.
+    pub(crate) fn note_fault(&mut self) {
+        self.is_vague = true;
+    }
+
+    /// A field with one word of a set, on which the effect of other fields depends.
+    pub(crate) fn choose<T: Copy + PartialEq>(
+        &mut self,
+        field: &'static str,
+        default: T,
+        choices: &[(&'static str, T)],
+    ) -> T {
+        let before = self.faults.len();
+        let chosen = self.read(field, default, |value| choice(value, choices));
+        self.is_vague |= self.faults.len() > before;
+        self.note(field, word_of(choices, chosen));
+        chosen
     }
 
     /// The value of a field.
     pub(crate) fn value(&mut self, field: &'static str) -> Option<&'a ValueSyntax> {
         // A field that has several forms is read once for each.
         if !self.known.contains(&field) {
+            debug_assert!(needs(self.what.kind, field).is_some(), "{field} of a {} has a rule", self.what.kind);
             self.known.push(field);
         }
         self.record.field(field).map(|given| &given.value)
@@ -104,12 +137,21 @@ impl<'a> Fields<'a> {
         self.errors(true)
     }
 
+    /// The facts of which a field needs one, if none of them holds.
+    fn idle(&self, field: &str) -> Option<&'static [Fact]> {
+        let facts = needs(self.what.kind, field)?;
+        (!self.is_vague && !facts.is_empty() && !facts.iter().any(|fact| self.facts.contains(fact))).then_some(facts)
+    }
+
     /// The errors; if not `all` allowed fields were read, an unknown field may be one of these.
     fn errors(mut self, all: bool) -> Vec<Diagnostic> {
         for (at, field) in self.record.fields.iter().enumerate() {
             let name = &field.name;
             if let Some(first) = self.record.fields[..at].iter().find(|first| first.name.text == name.text) {
                 self.faults.push(duplicate("field", name, first.name.span));
+            } else if let Some(with) = self.idle(&name.text).filter(|_| all) {
+                let (record, field) = (self.what.clone(), name.text.clone());
+                self.faults.push(FieldError::NoEffect { record, field, with }.at(name.span));
             } else if !self.known.contains(&name.text.as_str()) {
                 let left = self.known.iter().copied().filter(|known| self.record.field(known).is_none());
                 let meant = Suggestion::near(&name.text, left);
@@ -146,6 +188,11 @@ pub(crate) fn choice<T: Copy>(value: &ValueSyntax, choices: &[(&'static str, T)]
         .find(|(word, _)| *word == name.text)
         .map(|(_, choice)| *choice)
         .ok_or_else(|| unknown_word(name, expected, &words))
+}
+
+/// The word of a choice.
+pub(crate) fn word_of<T: PartialEq>(choices: &[(&'static str, T)], choice: T) -> &'static str {
+    choices.iter().find(|(_, known)| *known == choice).map_or("", |(word, _)| word)
 }
 
 /// The error for a word that is not one of `words`, perhaps with the one that is meant.

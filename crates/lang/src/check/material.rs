@@ -12,7 +12,7 @@ use nbc_base::source::Span;
 /// The smallest and the largest width of a voxel, as a fraction of its rest width (docs/physics.md 3).
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.6..=1.6;
 
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 enum Kind {
     Rigid,
     Soft,
@@ -35,6 +35,7 @@ pub(crate) fn material(
         faults.extend(fields.abandon());
         return None;
     };
+    fields.note("kind", fields::word_of(&kinds, kind));
     let kind = match kind {
         Kind::Rigid => Some(MaterialKind::Rigid),
         Kind::Soft => Some(MaterialKind::Soft),

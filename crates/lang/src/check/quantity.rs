@@ -78,9 +78,16 @@ pub(crate) fn cycles(quantity: &Quantity) -> Result<u32, Diagnostic> {
 /// An integer without a unit.
 pub(crate) fn count(value: &ValueSyntax, range: RangeInclusive<u32>) -> Result<u32, Diagnostic> {
     match &value.kind {
-        ValueKind::Quantity(quantity) => whole(bare(quantity)?, range, quantity.span(), ""),
+        ValueKind::Quantity(quantity) => in_range(bare(quantity)?, &quantity.number.text, range, quantity.span(), ""),
         _ => Err(wrong_kind(Expected::Number, value.span)),
     }
+}
+
+/// A seed: an integer of 64 bits without a unit. A number of a record has fewer exact digits.
+pub(crate) fn seed(quantity: &Quantity) -> Result<u64, Diagnostic> {
+    bare(quantity)?;
+    let text = &quantity.number.text;
+    text.parse().map_err(|_| outside(text.clone(), Bounds::Seed { most: u64::MAX }, quantity.span()))
 }
 
 /// A number without a unit.
@@ -110,6 +117,17 @@ pub(crate) fn number(number: &Number) -> Result<f64, Diagnostic> {
 
 /// An integer in a range.
 pub(crate) fn whole(value: f64, range: RangeInclusive<u32>, span: Span, unit: &'static str) -> Result<u32, Diagnostic> {
+    in_range(value, &value.to_string(), range, span, unit)
+}
+
+/// As [`whole`], for a number that is written so.
+fn in_range(
+    value: f64,
+    written: &str,
+    range: RangeInclusive<u32>,
+    span: Span,
+    unit: &'static str,
+) -> Result<u32, Diagnostic> {
     // Seconds need not be a whole number of steps to the last bit.
     let rounded = value.round();
     let near = (value - rounded).abs() < 1e-6;
@@ -119,10 +137,10 @@ pub(crate) fn whole(value: f64, range: RangeInclusive<u32>, span: Span, unit: &'
     }
     let expected = match (near, most) {
         (false, _) => Bounds::Whole { unit },
-        (true, u32::MAX) => Bounds::From { least, unit },
+        (true, u32::MAX) if rounded < f64::from(least) => Bounds::From { least, unit },
         (true, most) => Bounds::Between { least, most, unit },
     };
-    Err(outside(value.to_string(), expected, span))
+    Err(outside(written.to_owned(), expected, span))
 }
 
 /// A real number in a range.

@@ -5,11 +5,12 @@ use crate::check::fields::{self, Fields};
 use crate::check::instance::instance;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::check::wording::{Expected, FieldError};
+use crate::check::vocabulary::Vocabulary;
+use crate::check::wording::Expected;
 use crate::check::world::Worlds;
 use crate::syntax::tree::{RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Hold, PhysicsWorld, RegisterStyle, Swarm, WaveTimes};
+use nbc_base::model::{Hold, RegisterStyle, Swarm, WaveTimes};
 
 /// The default library of a swarm; the prelude declares it.
 pub const DEFAULT_LIBRARY: &str = "shipped";
@@ -33,13 +34,14 @@ pub(crate) fn swarm(
     source: &RecordDeclaration,
     home: Home,
     names: &Names,
+    declared: Vocabulary<'_>,
     headers: &Headers,
     worlds: Worlds<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Swarm> {
     let mut fields = Fields::new("swarm", source);
     let circuit = fields.need("circuit", "circuit: d_latch", |value| match &value.kind {
-        ValueKind::Instance(source) => instance(source, home, &names.circuits, headers),
+        ValueKind::Instance(source) => instance(source, home, declared, headers),
         _ => Err(quantity::wrong_kind(Expected::Name("circuit"), value.span)),
     });
     let library = fields.read("library", DEFAULT_LIBRARY.to_owned(), |value| {
@@ -53,16 +55,16 @@ pub(crate) fn swarm(
         }
         _ => Err(quantity::wrong_kind(Expected::Time("3 cycles"), value.span)),
     });
-    let registers = fields.read("registers", RegisterStyle::MasterSlave, |value| fields::choice(value, &REGISTERS));
-    let waves = wave_times(&mut fields, registers == RegisterStyle::Waves);
-    let world = fields.read("world", PhysicsWorld::default(), |value| worlds.of(value, home));
+    let registers = fields.choose("registers", RegisterStyle::MasterSlave, &REGISTERS);
+    let waves = wave_times(&mut fields);
+    let world = fields.read("world", worlds.default(home), |value| worlds.of(value, home));
     faults.extend(fields.finish());
     let (name, span) = (source.name.text.clone(), source.name.span);
     Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers, waves, world })
 }
 
-/// The times of a wave machine. It has no hold and no window, and other swarms have no beat and no step.
-fn wave_times(fields: &mut Fields<'_>, is_waves: bool) -> WaveTimes {
+/// The times of a wave machine.
+fn wave_times(fields: &mut Fields<'_>) -> WaveTimes {
     let mut time = |field, most| {
         let read = |value: &ValueSyntax| match &value.kind {
             ValueKind::Quantity(time) => {
@@ -73,13 +75,7 @@ fn wave_times(fields: &mut Fields<'_>, is_waves: bool) -> WaveTimes {
         };
         fields.read(field, None, read)
     };
-    let times = WaveTimes { beat: time("beat", MAX_WINDOW), step: time("step", MAX_STEP) };
-    for field in if is_waves { ["hold", "window"] } else { ["beat", "step"] } {
-        if let Some(place) = fields.value(field).map(|value| value.span) {
-            fields.faults.push(FieldError::NotOfWaves { field, is_waves }.at(place));
-        }
-    }
-    times
+    WaveTimes { beat: time("beat", MAX_WINDOW), step: time("step", MAX_STEP) }
 }
 
 fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {

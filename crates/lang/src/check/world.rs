@@ -26,6 +26,12 @@ impl Worlds<'_> {
         self.named(fields::word(value, Expected::Name("world"))?, home)
     }
 
+    /// The world of a declaration that names none.
+    pub(crate) fn default(self, home: Home) -> PhysicsWorld {
+        let declared = self.names.find(NamedWorld::DEFAULT, home).map(|place| &self.checked[place]);
+        if let Some(CheckState::Sound(named)) = declared { named.world } else { PhysicsWorld::default() }
+    }
+
     /// The world of that name. For one with errors, which are already reported, it is the paper's.
     pub(crate) fn named(self, name: &NameSyntax, home: Home) -> Result<PhysicsWorld, Diagnostic> {
         let found = &self.checked[self.names.resolve(name, home)?];
@@ -52,7 +58,9 @@ pub(crate) fn world(
     let base = fields.read("from", None, |value| derived::base(value, home, names, checked).map(Some));
     let (base, whole) = match base {
         Some(CheckState::Sound(base)) => (base.world, true),
-        _ => (PhysicsWorld::default(), fields.value("from").is_none()),
+        Some(_) => (PhysicsWorld::default(), false),
+        None if source.name.text == NamedWorld::DEFAULT => (PhysicsWorld::default(), true),
+        None => (Worlds { names, checked }.default(home), true),
     };
     let mut factor = |field, of: f64| fields.read(field, of, factor);
     let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = base.factors;
@@ -69,8 +77,19 @@ pub(crate) fn world(
         missed: fields.read("missed", base.noise.missed, share),
         weak: fields.read("weak", base.noise.weak, share),
         dead: fields.read("dead", base.noise.dead, share),
-        seed: fields.read("seed", base.noise.seed as u32, |value| quantity::count(value, 0..=u32::MAX)).into(),
+        seed: fields.read("seed", base.noise.seed, |value| match &value.kind {
+            ValueKind::Quantity(seed) => quantity::seed(seed),
+            _ => Err(quantity::wrong_kind(Expected::Number, value.span)),
+        }),
     };
+    if !whole || !fields.faults.is_empty() {
+        fields.note_fault();
+    }
+    for (field, amount) in [("start", noise.start), ("missed", noise.missed), ("dead", noise.dead)] {
+        if amount > 0.0 {
+            fields.note(field, "");
+        }
+    }
     let ground = fields.read("ground", base.ground, |value| ground(value, files));
     let found = fields.finish();
     let sound = found.is_empty() && whole;

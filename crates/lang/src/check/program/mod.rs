@@ -24,8 +24,7 @@ use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
-    CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, PhysicsWorld, Program, Reference,
-    Stimulation,
+    CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, PhysicsWorld, Program, Stimulation,
 };
 use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -159,7 +158,7 @@ impl<'a> Assembly<'a> {
             self.note(declared);
         }
         self.worlds = vec![CheckState::Open; sources.len()];
-        for place in order(&sources, &self.names.worlds) {
+        for place in order(&sources, &self.names.worlds, Some(NamedWorld::DEFAULT)) {
             let (home, source) = sources[place];
             let names = &self.names.worlds;
             let checked = world(source, home, (names, &self.worlds), files, &mut self.faults);
@@ -186,7 +185,7 @@ impl<'a> Assembly<'a> {
             self.note(declared);
         }
         let mut checked = vec![CheckState::Open; sources.len()];
-        for place in order(&sources, &self.names.evolutions) {
+        for place in order(&sources, &self.names.evolutions, None) {
             let (home, source) = sources[place];
             let known = evolution::Known {
                 program: &self.program,
@@ -222,10 +221,15 @@ impl<'a> Assembly<'a> {
     /// The enumerations, integers and files.
     fn named_values(&mut self) {
         for (home, declaration) in self.declarations.all() {
+            if let DeclarationKind::Enumeration(source) = &declaration.kind {
+                self.enumeration(source, home);
+            }
+        }
+        for (home, declaration) in self.declarations.all() {
             match &declaration.kind {
-                DeclarationKind::Enumeration(source) => self.enumeration(source, home),
                 DeclarationKind::Let(source) => {
-                    let value = enumeration::integer(source, home, &self.names.integers, &mut self.faults);
+                    let declared = Vocabulary::of(&self.names, &self.program);
+                    let value = enumeration::integer(source, home, declared, &mut self.faults);
                     let declared = self.names.integers.declare(&source.name, value.unwrap_or(1), home);
                     self.note(declared);
                 }
@@ -331,7 +335,9 @@ impl<'a> Assembly<'a> {
     fn swarms(&mut self) {
         for (home, source) in self.declarations.records(RecordKeyword::Swarm) {
             let worlds = Worlds { names: &self.names.worlds, checked: &self.worlds };
-            let checked = swarm(source, home, &self.names, &self.circuits.headers, worlds, &mut self.faults);
+            let declared = Vocabulary::of(&self.names, &self.program);
+            let headers = &self.circuits.headers;
+            let checked = swarm(source, home, &self.names, declared, headers, worlds, &mut self.faults);
             let position = checked.as_ref().map(|_| self.program.swarms.len());
             let declared = self.names.swarms.declare(&source.name, position, home);
             self.note(declared);
@@ -379,8 +385,8 @@ impl<'a> Assembly<'a> {
             tests.extend(self.test(span, test, &program, &mut inspector));
         }
         for test in &tests {
-            if let Stimulation::All { reference: Reference::Body(body) } = &test.stimulation {
-                inspector.inspect_body(body);
+            if let Stimulation::All { reference } = &test.stimulation {
+                inspector.inspect_body(reference);
             }
         }
         self.same_titles();

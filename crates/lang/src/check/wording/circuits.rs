@@ -26,6 +26,9 @@ pub(crate) enum CircuitError {
     Recursion { circuit: String, through: Vec<String> },
     /// A reference whose ports differ from those of the tested circuit, which is named at `first`.
     DifferentPorts { circuits: [String; 2], first: Span },
+    /// A reference with ports of the same names as the tested circuit, and others of different names: the names that
+    /// only the tested circuit has, and those that only the reference has.
+    MixedPorts { circuits: [String; 2], kind: &'static str, ports: [Vec<String>; 2], first: Span },
     /// A test over all inputs with too many input bits.
     TooManyInputs { bits: usize, most: usize },
     /// A test over all inputs of a circuit with memory.
@@ -100,8 +103,18 @@ impl CircuitError {
             }
             Self::DifferentPorts { circuits: [tested, other], first } => {
                 let message = format!("`{tested}` and `{other}` have different ports");
-                let label = "expected as many ports, with the same widths,";
-                Diagnostic::new(Code::Operands, message, span, label).with_label(first, "as this circuit has")
+                let label = "expected as many ports as the tested circuit has, with the same widths";
+                Diagnostic::new(Code::Operands, message, span, label).with_label(first, "the tested circuit")
+            }
+            Self::MixedPorts { circuits: [tested, other], kind, ports: [own, theirs], first } => {
+                let message = format!("only some {kind} of `{tested}` and `{other}` have the same names");
+                let only = |names: &[String]| format!("only this circuit has {}", suggest::alternatives(names, "and"));
+                Diagnostic::new(Code::Operands, message, span, only(&theirs)).with_label(first, only(&own)).with_help(
+                    format!(
+                        "give all {kind} the same names to pair them by name, or all different names to pair them in \
+                         order"
+                    ),
+                )
             }
             Self::TooManyInputs { bits, most } => {
                 let message = format!("too many patterns to test: {bits} input bits");
@@ -115,8 +128,8 @@ impl CircuitError {
             }
             Self::SameTitle { circuit, title, first } => {
                 let message = format!("two tests of `{circuit}` have the title \"{title}\"");
-                Diagnostic::new(Code::SameTitle, message, span, "this test")
-                    .with_label(first, "and this test")
+                Diagnostic::new(Code::SameTitle, message, span, "and this test")
+                    .with_label(first, "this test")
                     .with_help("give each its own title, so that results and reports can be told apart")
             }
             Self::StartOfCall { net, circuit, start, edit } => {
@@ -320,7 +333,7 @@ impl EnumerationError {
             }
             Self::SameValue { names: [first_name, name], first } => {
                 let message = format!("`{first_name}` and `{name}` have the same value");
-                Diagnostic::new(Code::Duplicate, message, span, "this member").with_label(first, "and this member")
+                Diagnostic::new(Code::Duplicate, message, span, "and this member").with_label(first, "this member")
             }
             Self::Width { net } => {
                 let message = format!("`{net}` has an enumeration and a width");

@@ -26,16 +26,10 @@ pub(crate) enum EvolutionError {
     SeedRange { most: u32 },
     /// Too many stimuli.
     TooManyStimuli { most: usize },
-    /// A share of crossed offspring where bodies develop from networks.
-    CrossoverOfNetworks,
-    /// Robots to begin with where bodies develop from networks.
-    StartOfNetworks,
-    /// Behaviors for an objective that takes all.
-    BehaviorsWithoutGate,
-    /// Other worlds for an objective that has none.
-    WorldsWithoutGate,
-    /// A number of worlds that do not vary.
-    WorldsWithoutChange,
+    /// A matter that is one of networks only, where bodies are made of voxels.
+    MatterOfNetworks,
+    /// Mutations of no weight at all.
+    NoMutation,
 }
 
 impl EvolutionError {
@@ -99,29 +93,15 @@ impl EvolutionError {
             Self::TooManyStimuli { most } => {
                 Diagnostic::new(Code::OutOfRange, "too many stimuli", span, format!("expected at most {most} stimuli"))
             }
-            Self::CrossoverOfNetworks => {
-                let message = "only bodies made of voxels can be crossed";
-                Diagnostic::new(Code::Value, message, span, "this evolution's genome is `cppn`")
-                    .with_help("write `genome: voxels`, or remove `crossover`")
+            Self::MatterOfNetworks => {
+                let message = "this matter has no effect, because the bodies are not made from networks";
+                Diagnostic::new(Code::NoEffect, message, span, "used only with `genome: cppn`")
+                    .with_help("remove it, or write `genome: cppn`")
             }
-            Self::StartOfNetworks => {
-                let message = "only a search of voxels can begin with robots";
-                Diagnostic::new(Code::Value, message, span, "this evolution's genome is `cppn`")
-                    .with_help("write `genome: voxels`, or remove `start`")
-            }
-            Self::BehaviorsWithoutGate => {
-                let message = "only the objectives of gates search for some behaviors";
-                Diagnostic::new(Code::Value, message, span, "this evolution's objective is `distance`")
-                    .with_help("write `objective: gate` or `objective: wave`, or remove `behaviors`")
-            }
-            Self::WorldsWithoutGate => {
-                let message = "only the objectives of gates try bodies in several worlds";
-                Diagnostic::new(Code::Value, message, span, "this evolution's objective is `distance`")
-                    .with_help("write `objective: gate` or `objective: wave`, or name one world with `world`")
-            }
-            Self::WorldsWithoutChange => {
-                let label = "expected `vary` too, for example `vary: { all: 10% }`";
-                Diagnostic::new(Code::MissingField, "the worlds do not vary", span, label)
+            Self::NoMutation => {
+                let message = "no mutation has a weight, so no body would have offspring";
+                Diagnostic::new(Code::OutOfRange, message, span, "expected one that is above 0")
+                    .with_help("a weight that is left out is 1")
             }
         }
     }

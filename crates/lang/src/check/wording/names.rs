@@ -37,7 +37,7 @@ pub(crate) enum NameError {
     /// A material that is listed twice.
     RepeatedMaterial { name: String },
     /// A seed that is listed twice.
-    RepeatedSeed { seed: u32, first: Span },
+    RepeatedSeed { seed: u64, first: Span },
 }
 
 impl NameError {

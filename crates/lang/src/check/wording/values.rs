@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::check::applies::Fact;
 use nbc_base::diag::{Code, Diagnostic, Fix, Suggestion, suggest};
 use nbc_base::source::Span;
 
@@ -28,8 +29,8 @@ pub(crate) enum FieldError {
     Missing { record: Record, field: &'static str, example: &'static str },
     /// A field that this kind of record does not have.
     Unknown { record: Record, field: String, known: Vec<&'static str>, meant: Suggestion },
-    /// A field of a swarm that a wave machine does not have, or that only a wave machine has.
-    NotOfWaves { field: &'static str, is_waves: bool },
+    /// A field that nothing uses, because it needs one of these facts.
+    NoEffect { record: Record, field: String, with: &'static [Fact] },
 }
 
 impl FieldError {
@@ -49,15 +50,17 @@ impl FieldError {
                     _ => error.with_help(format!("its fields are {}", suggest::alternatives(&known, "and"))),
                 }
             }
-            Self::NotOfWaves { field, is_waves: true } => {
-                let message = format!("a swarm of `registers: waves` has no `{field}`");
-                Diagnostic::new(Code::Value, message, span, "leave this out")
-                    .with_help("its rows are steps, whose length `step` sets")
-            }
-            Self::NotOfWaves { field, is_waves: false } => {
-                let message = format!("only a swarm of `registers: waves` has a `{field}`");
-                Diagnostic::new(Code::Value, message, span, "leave this out")
-                    .with_help("add `registers: waves` to make the circuit a wave machine")
+            Self::NoEffect { record, field, with } => {
+                let fact = |(field, word): &Fact| match *word {
+                    "" => (*field).to_owned(),
+                    word => format!("{field}: {word}"),
+                };
+                let facts: Vec<String> = with.iter().map(fact).collect();
+                let facts = suggest::alternatives(&facts, "or");
+                let message = format!("`{field}` has no effect in {record}");
+                let write = if with.iter().all(|(_, word)| word.is_empty()) { "add" } else { "write" };
+                Diagnostic::new(Code::NoEffect, message, span, format!("used only with {facts}"))
+                    .with_help(format!("remove it, or {write} {facts}"))
             }
         }
     }
@@ -137,6 +140,8 @@ pub(crate) enum Bounds {
     From { least: u32, unit: &'static str },
     /// A whole number from `least` to `most`.
     Between { least: u32, most: u32, unit: &'static str },
+    /// A whole number of at most `most`.
+    Seed { most: u64 },
     /// A real number from `least` to `most`.
     Real { least: f64, most: f64 },
     /// A smaller number.
@@ -151,6 +156,7 @@ impl fmt::Display for Bounds {
             Self::Whole { unit } => write!(f, "a whole number of {unit}"),
             Self::From { least, unit } => write!(f, "{least} or more{}", after(unit)),
             Self::Between { least, most, unit } => write!(f, "{least} to {most}{}", after(unit)),
+            Self::Seed { most } => write!(f, "a whole number from 0 to {most}"),
             Self::Real { least, most } => write!(f, "{least} to {most}"),
             Self::Smaller => f.write_str("a smaller number"),
         }
@@ -182,6 +188,8 @@ pub(crate) enum ValueError {
     Descending { high: f64, low: f64 },
     /// An integer of more than 32 bits.
     TooLarge,
+    /// A member of an enumeration whose value is too wide for an integer.
+    WideMember { member: String },
     /// A parameter that is not written in digits.
     NotANumber,
 }
@@ -239,6 +247,10 @@ impl ValueError {
             }
             Self::TooLarge => {
                 Diagnostic::new(Code::OutOfRange, "number is too large", span, format!("expected at most {}", u32::MAX))
+            }
+            Self::WideMember { member } => {
+                let message = format!("the value of `{member}` is too large for a number");
+                Diagnostic::new(Code::OutOfRange, message, span, "expected at most 63 bits")
             }
             Self::NotANumber => Diagnostic::new(Code::Value, "parameter is not a number", span, "expected a number"),
         }
