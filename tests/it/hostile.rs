@@ -127,7 +127,8 @@ fn a_long_line_and_a_long_file_are_rejected() {
     rejected("(".repeat(1_000_000), Code::Nesting);
     rejected("circuit f(a) -> (q) { q = a }\0", Code::Unreadable);
     rejected("", Code::Empty);
-    rejected("\u{feff}circuit f(a) -> (q) { q = a }", Code::Syntax);
+    assert_eq!(found("\u{feff}circuit f(a) -> (q) { q = a }".to_owned()), []);
+    rejected("circuit f(a) -> (q) { q = a }\u{feff}", Code::Syntax);
 }
 
 #[test]

@@ -64,7 +64,8 @@ fn number(word: &NameSyntax, column: &Column) -> Result<Option<Vec<Option<bool>>
 
 /// As [`cell`], for an input, whose bits are all known.
 pub(crate) fn input_cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
-    if constant::is_unknown(&word.text) || with_any_bits(&word.text).is_some() {
+    let is_number = constant::unsized_number(&word.text).is_some();
+    if constant::is_unknown(&word.text) || (!is_number && with_any_bits(&word.text).is_some()) {
         return Err(CellError::NotAnInput { word: word.text.clone() }.at(word.span));
     }
     cell(word, column)

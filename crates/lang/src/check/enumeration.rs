@@ -1,8 +1,9 @@
 //! Enumerations and integers with names.
 
 use crate::check::constant;
-use crate::check::names::{Home, NameTable};
+use crate::check::names::Home;
 use crate::check::size;
+use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{EnumerationError, NameError};
 use crate::syntax::tree::{EnumerationSyntax, LetSyntax, MemberSyntax, NameSyntax};
 use nbc_base::diag::{Diagnostic, Suggestion};
@@ -89,13 +90,13 @@ fn values(members: &[MemberSyntax], faults: &mut Vec<Diagnostic>) -> Option<(u32
     (faults.len() == before).then(|| (width, values.into_iter().map(|(value, _)| value).collect()))
 }
 
-/// The integer of a `let` outside circuits, which may name those before it.
+/// The integer of a `let` outside circuits, which may name those before it, and members of enumerations.
 pub(crate) fn integer(
     source: &LetSyntax,
     home: Home,
-    integers: &NameTable<i64>,
+    declared: Vocabulary<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<i64> {
-    let known = |name: &str| integers.find(name, home);
-    size::value(&source.sizes, known).map_err(|fault| faults.push(fault)).ok()
+    let value = size::value(&source.sizes, |name, place| declared.integer(name, place, home));
+    value.map_err(|fault| faults.push(fault)).ok()
 }

@@ -2,24 +2,25 @@
 
 use crate::check::circuit::Headers;
 use crate::check::expression::parameter_place;
-use crate::check::names::{Home, NameTable};
+use crate::check::names::Home;
+use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{NameError, OperandError, ValueError};
 use crate::syntax::parse_instance;
 use crate::syntax::tree::{self, SizeSyntaxKind};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Instance, Program};
-use nbc_base::source::{FileId, Sources};
+use nbc_base::source::{FileId, Sources, Span};
 
 /// A circuit with numbers for its parameters.
 pub(crate) fn instance(
     source: &tree::InstanceSyntax,
     home: Home,
-    names: &NameTable,
+    declared: Vocabulary<'_>,
     headers: &Headers,
 ) -> Result<Instance, Diagnostic> {
-    let header = &headers.circuits[names.resolve(&source.name, home)?];
-    names.note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
-    with_numbers(source, &header.name, &header.parameters)
+    let header = &headers.circuits[declared.circuits.resolve(&source.name, home)?];
+    declared.circuits.note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
+    with_numbers(source, &header.name, &header.parameters, |name, place| declared.integer(name, place, home))
 }
 
 /// The circuit named in a text such as `adder[8]` on a command line.
@@ -34,15 +35,20 @@ pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Insta
         NameError::Unknown { kind: "circuit", name: name.to_owned(), meant }.at(source.name.span)
     })?;
     let parameters: Vec<String> = circuit.parameters.iter().map(|parameter| parameter.name.clone()).collect();
-    with_numbers(&source, &circuit.name, &parameters)
+    with_numbers(&source, &circuit.name, &parameters, |_, _| None)
 }
 
-/// A circuit whose parameters have these names, with the given numbers for them.
-fn with_numbers(source: &tree::InstanceSyntax, circuit: &str, parameters: &[String]) -> Result<Instance, Diagnostic> {
+/// A circuit whose parameters have these names, with the given numbers for them; `named` has those with names.
+fn with_numbers(
+    source: &tree::InstanceSyntax,
+    circuit: &str,
+    parameters: &[String],
+    named: impl Fn(&str, Span) -> Option<Result<i64, Diagnostic>>,
+) -> Result<Instance, Diagnostic> {
     let mut values = vec![None; parameters.len()];
     for (place, argument) in source.arguments.iter().enumerate() {
         let place = parameter_place(&source.name, parameters, place, argument)?;
-        values[place] = Some(literal(&source.sizes[argument.value.0 as usize])?);
+        values[place] = Some(number(&source.sizes[argument.value.0 as usize], &named)?);
     }
     let given = values.iter().rposition(Option::is_some).map_or(0, |last| last + 1);
     let arguments: Option<Vec<u64>> = values[..given].iter().copied().collect();
@@ -57,11 +63,16 @@ fn with_numbers(source: &tree::InstanceSyntax, circuit: &str, parameters: &[Stri
     }
 }
 
-fn literal(size: &tree::SizeSyntax) -> Result<u64, Diagnostic> {
-    match &size.kind {
+fn number(
+    size: &tree::SizeSyntax,
+    named: impl Fn(&str, Span) -> Option<Result<i64, Diagnostic>>,
+) -> Result<u64, Diagnostic> {
+    let named = match &size.kind {
         SizeSyntaxKind::Literal(digits) => {
-            digits.parse::<u32>().map(u64::from).map_err(|_| ValueError::TooLarge.at(size.span))
+            return digits.parse::<u32>().map(u64::from).map_err(|_| ValueError::TooLarge.at(size.span));
         }
-        _ => Err(ValueError::NotANumber.at(size.span)),
-    }
+        SizeSyntaxKind::Name(name) => named(name, size.span).transpose()?,
+        _ => None,
+    };
+    named.and_then(|value| u64::try_from(value).ok()).ok_or_else(|| ValueError::NotANumber.at(size.span))
 }

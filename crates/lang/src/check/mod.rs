@@ -1,7 +1,9 @@
 //! From trees to a [`Program`](nbc_base::model::Program): names, units, widths. There is a file for each kind of
 //! declaration. Checking never stops at the first error.
 
+mod against;
 mod analysis;
+mod applies;
 mod array;
 mod cell;
 mod circuit;

@@ -74,11 +74,14 @@ impl CircuitChecker<'_> {
                 self.used[slot.0 as usize] = true;
                 NameError::NetForNumber { name }
             }
-            None if self.declared.integers.find(&name, self.home).is_some() => {
-                self.declared.integers.refer_to(&name, span, self.home);
-                return SizeKind::Literal(self.declared.integers.find(&name, self.home).expect("it was found"));
-            }
-            None => NameError::UnknownNumber { meant: Suggestion::of(&name, self.numbers_in_scope()), name },
+            None => match self.declared.integer(&name, span, self.home) {
+                Some(Ok(value)) => return SizeKind::Literal(value),
+                Some(Err(fault)) => {
+                    self.diagnostics.push(fault);
+                    return SizeKind::Literal(1);
+                }
+                None => NameError::UnknownNumber { meant: Suggestion::of(&name, self.numbers_in_scope()), name },
+            },
         };
         self.diagnostics.push(error.at(span));
         SizeKind::Literal(1)
@@ -90,19 +93,24 @@ impl CircuitChecker<'_> {
             .rev()
             .flatten()
             .filter_map(|(name, binding)| matches!(binding, Binding::Variable(..)).then_some(*name))
+            .chain(self.declared.integers.all())
+            .chain(self.declared.members.all())
     }
 }
 
 /// The value of the last of some sizes, where only names that `known` knows are defined.
-pub(crate) fn value(sizes: &[tree::SizeSyntax], known: impl Fn(&str) -> Option<i64>) -> Result<i64, Diagnostic> {
+pub(crate) fn value(
+    sizes: &[tree::SizeSyntax],
+    known: impl Fn(&str, Span) -> Option<Result<i64, Diagnostic>>,
+) -> Result<i64, Diagnostic> {
     let mut values: Vec<i64> = Vec::with_capacity(sizes.len());
     for size in sizes {
         let at = |id: tree::SizeSyntaxId| values[id.0 as usize];
         let value = match &size.kind {
             tree::SizeSyntaxKind::Literal(digits) => digits.parse::<u32>().ok().map(i64::from),
-            tree::SizeSyntaxKind::Name(name) => Some(known(name).ok_or_else(|| {
+            tree::SizeSyntaxKind::Name(name) => Some(known(name, size.span).ok_or_else(|| {
                 NameError::UnknownNumber { name: name.clone(), meant: Suggestion::None }.at(size.span)
-            })?),
+            })??),
             tree::SizeSyntaxKind::Log2(inner) => Some(SizeKind::log2(at(*inner))),
             tree::SizeSyntaxKind::Group(inner) => Some(at(*inner)),
             tree::SizeSyntaxKind::Binary(operator, left, right) => operator.apply(at(*left), at(*right)),

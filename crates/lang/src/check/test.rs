@@ -173,8 +173,8 @@ impl Columns<'_> {
         for turn in (0..turns).rev() {
             let inputs = input_bits(&inputs, self.ports.inputs, turn == 0, row.span, &mut found);
             let expected = if turn == 0 { expected.clone() } else { vec![None; expected.len()] };
-            let bases = bases.clone();
-            rows.push(TestRow { inputs, expected, bases, hold, span: row.span, line, row: number });
+            let (bases, span, is_half, given_up) = (bases.clone(), row.span, turn != 0, None);
+            rows.push(TestRow { inputs, expected, bases, hold, span, line, row: number, is_half, given_up });
         }
         if !found.is_empty() {
             rows.clear();

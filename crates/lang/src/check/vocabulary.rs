@@ -1,7 +1,10 @@
 //! What the bodies of circuits can name beside nets and parameters.
 
 use crate::check::names::{Home, NameTable, Names};
+use crate::check::wording::ValueError;
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Enumeration, EnumerationMember, Program};
+use nbc_base::source::Span;
 
 /// What the bodies of circuits can name beside nets and parameters.
 #[derive(Clone, Copy)]
@@ -35,5 +38,20 @@ impl<'a> Vocabulary<'a> {
     pub(crate) fn member(&self, name: &str, home: Home) -> Option<(usize, &EnumerationMember)> {
         let (enumeration, member) = self.members.find(name, home)?;
         Some((enumeration, &self.all[enumeration].members[member]))
+    }
+
+    /// The integer that a name stands for: that of a `let`, or the value of a member. `None` if it has no such name.
+    ///
+    /// # Errors
+    /// When the value of the member is too wide for an integer.
+    pub(crate) fn integer(&self, name: &str, place: Span, home: Home) -> Option<Result<i64, Diagnostic>> {
+        if let Some((_, member)) = self.member(name, home) {
+            self.members.refer_to(name, place, home);
+            let too_wide = |_| ValueError::WideMember { member: name.to_owned() }.at(place);
+            return Some(i64::try_from(member.value).map_err(too_wide));
+        }
+        let value = self.integers.find(name, home)?;
+        self.integers.refer_to(name, place, home);
+        Some(Ok(value))
     }
 }

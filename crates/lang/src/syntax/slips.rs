@@ -41,12 +41,13 @@ pub(crate) struct SlipPlace<'a> {
 type Found = Option<(Slip, Span)>;
 
 /// In order: the first that recognizes the place decides.
-const LOOKS: [fn(&SlipPlace<'_>) -> Found; 12] = [
+const LOOKS: [fn(&SlipPlace<'_>) -> Found; 13] = [
     letters,
     unclosed_quote,
     single_quote,
     start_of_net,
     reserved_word,
+    sign,
     width_of_constant,
     nets_in_braces,
     space_before_operands,
@@ -173,6 +174,29 @@ fn reserved_word(place: &SlipPlace<'_>) -> Found {
         (assigned(place.after()) && RESERVED.contains(&word) && !line.ends_with(is_word)).then_some((word, start))?
     };
     Some((Slip::ReservedWord { word: word.to_owned() }, place.span(start, start + word.len())))
+}
+
+/// A `-` before an operand, which no value has.
+fn sign(place: &SlipPlace<'_>) -> Found {
+    let before = place.before().trim_end();
+    if place.found != "-" || !place.in_body() || ends_operand(before) {
+        return None;
+    }
+    let operand = place.after()[1..].trim_start();
+    let operand = &operand[..operand.find(|c| !is_word(c)).unwrap_or(operand.len())];
+    let operator = before.chars().next_back().filter(|last| matches!(last, '+' | '-'));
+    let end = place.at + place.after().find(operand)? + operand.len();
+    let start = if operator.is_some() { place.start + before.len() - 1 } else { place.at };
+    let text = match (operator, operand.parse::<u128>()) {
+        (Some('+'), _) => format!("- {operand}"),
+        (Some(_), _) => format!("+ {operand}"),
+        (None, Ok(0)) => "0".to_owned(),
+        (None, Ok(number)) => format!("not {}", number - 1),
+        (None, Err(_)) => format!("0 - {operand}"),
+    };
+    let follows_sign = before.ends_with(['*', '<', '>', '&', '|', '^']) || operand.is_empty();
+    let instead = (!follows_sign).then(|| (place.span(start, end), text));
+    Some((Slip::Sign { instead }, place.here()))
 }
 
 fn width_of_constant(place: &SlipPlace<'_>) -> Found {

@@ -151,6 +151,8 @@ pub(crate) enum Slip {
     MissingOperator { found: String },
     /// A pattern with spaces; `whole` covers it.
     SpaceInPattern { found: String, pattern: String, whole: Span },
+    /// A `-` before an operand; what to write instead, and where, if that is certain.
+    Sign { instead: Option<(Span, String)> },
     /// Two entries of a list without a comma; `before` is the first of them.
     MissingComma { before: Option<(String, Span)>, found: String, close: char },
     /// `module` or `fn` for a circuit; the rest may be as it should.
@@ -217,6 +219,7 @@ impl Slip {
             Self::ColonInLoop => ":",
             Self::IfBlock { .. } => "if",
             Self::MissingThen => "{",
+            Self::Sign { .. } => "-",
             Self::SingleQuote { .. } | Self::WidthOfConstant { .. } => "'",
             Self::ColonInSlice { .. } | Self::RangeOfPort { .. } => ":",
             Self::WidthBeforeName { .. } => "[",
@@ -266,6 +269,7 @@ impl Slip {
             Self::StatementEnd { .. } | Self::StatementKeyword { .. } | Self::IfBlock { .. } => "expected a statement",
             Self::DriveSign { .. } => "expected `=`",
             Self::NotSign { .. } => "expected `not`",
+            Self::Sign { .. } => "values have no sign",
             Self::BaseOfComputed { .. } => "expected `d` before a computed value",
             Self::ParametersOfNet => "expected a bit or a slice",
             Self::SliceOfCircuit => "expected parameters",
@@ -325,6 +329,10 @@ impl Slip {
             Self::DriveSign { .. } => "drive a net with `=`".to_owned(),
             Self::FieldSign { field } => format!("write `{field}: …`"),
             Self::NotSign { .. } => "write `not`".to_owned(),
+            Self::Sign { instead } => {
+                let text = instead.as_ref().map_or("(0 - a)", |(_, text)| text);
+                format!("write `{text}`: results wrap, so it is the two's complement")
+            }
             Self::OperatorSign { operator, .. } => format!("write `{operator}`"),
             Self::BaseOfComputed { .. } => "write `'d(…)`".to_owned(),
             Self::ParametersOfNet => "a bit is `a[3]`, a slice is `a[7..4]`; the parameters of a circuit stand \
@@ -372,6 +380,10 @@ impl Slip {
             Self::DriveSign { .. } => Fix::replace(here, "="),
             Self::FieldSign { .. } => Fix::replace(here, ":"),
             Self::NotSign { .. } => Fix::replace(here, "not "),
+            Self::Sign { instead } => {
+                let (span, text) = instead.as_ref()?;
+                Fix::replace(*span, text.as_str())
+            }
             Self::OperatorSign { text, .. } => Fix::replace(here, text.as_str()),
             _ => return None,
         })
