@@ -72,7 +72,8 @@ impl RunArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
-        let mut session = Session::new(interrupt.world()).with_simulator(device.simulator());
+        let mut session =
+            Session::new(interrupt.world()).with_simulator(device.simulator()).with_files(self.named.files());
         if !self.no_report {
             session = session.with_poses(Room::SWARM);
         }
@@ -80,11 +81,12 @@ impl RunArguments {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             file => file?,
         };
+        self.named.check(std::slice::from_ref(&file)).map_err(Failure::plain)?;
         let list = self.chosen(&file)?;
         let folder = self.folder();
         folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
         let compile =
-            CompileOptions { cancel: interrupt.cancel(), ..self.named.with(self.goal.with(self.runs.options())) };
+            CompileOptions { cancel: interrupt.cancel(), ..self.named.of(&file, self.goal.with(self.runs.options())) };
         let report = run_list(&session, &file, &list, compile, &interrupt)?;
         device.end(context)?;
         let (all, left) = (list.len(), report.left);

@@ -70,7 +70,8 @@ impl WatchArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let signal = Interrupt::watch()?;
         let device = self.test.device(context)?;
-        let mut session = Session::new(signal.world()).with_simulator(device.simulator());
+        let mut session =
+            Session::new(signal.world()).with_simulator(device.simulator()).with_files(self.test.named_files());
         let mut stamps = Stamps::default();
         while !signal.is_raised() {
             context.clear()?;

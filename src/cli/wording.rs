@@ -23,6 +23,8 @@ pub(in crate::cli) enum UsageError {
     UnknownFunction { name: String, known: Vec<&'static str> },
     /// A robot that the library does not have.
     UnknownRobot { name: String, meant: Suggestion },
+    /// A file that is named twice.
+    TwoFiles { name: String },
     /// A circuit without tests that is to be hardened by them.
     NoTest { circuit: String },
     /// A folder without robot files.
@@ -55,6 +57,9 @@ impl From<UsageError> for Diagnostic {
             }
             UsageError::TwoFormats { option } => {
                 bad(format!("`--format json` and `{option}` ask for two formats")).with_help("leave out one")
+            }
+            UsageError::TwoFiles { name } => {
+                bad(format!("the file `{name}` is given twice")).with_help("leave out one")
             }
             UsageError::NoJson { what } => bad(format!("{what} cannot be JSON")).with_help("leave out `--format json`"),
             UsageError::CircuitFormat { path } => {

@@ -2,6 +2,7 @@
 
 use serde_json::Value;
 
+use crate::contents;
 use nbc_base::diag::{Diagnostic, Diagnostics, json};
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
@@ -50,6 +51,14 @@ impl Checked {
     /// The tree of a file; `None` if nothing could be parsed.
     pub fn tree(&self, file: FileId) -> Option<&Tree> {
         self.trees.iter().find(|tree| tree.declarations.first().is_some_and(|first| first.span.file == file))
+    }
+
+    /// Checks that the source declares a file of this name, and that a memory begins with it.
+    ///
+    /// # Errors
+    /// When another path for it would change nothing.
+    pub fn declares_file(&self, name: &str) -> Result<(), Diagnostic> {
+        contents::declared_file(&self.program, name)
     }
 
     /// Whether there are errors.

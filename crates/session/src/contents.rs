@@ -1,10 +1,26 @@
 //! The first contents of memories: words from the files that a program declares.
 
 use crate::wording::{ScriptError, of_declared_file};
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{MemoryArray, Program};
-use nbc_base::source::SourceWorld;
+use nbc_base::source::{SourceWorld, without_mark};
 use nbc_circuit::elaborate::MemoryPorts;
+
+/// Checks that a file of this name is declared, and that a memory begins with it.
+///
+/// # Errors
+/// When another path for it would change nothing.
+pub(super) fn declared_file(program: &Program, name: &str) -> Result<(), Diagnostic> {
+    let place = program.files.iter().position(|file| file.name == name).ok_or_else(|| {
+        let meant = Suggestion::of(name, program.files.iter().map(|file| file.name.as_str()));
+        ScriptError::UnknownFile { name: name.to_owned(), meant }.without_place()
+    })?;
+    let mut memories = program.circuits.iter().flat_map(|circuit| &circuit.memories);
+    if memories.any(|memory| memory.contents == Some(place)) {
+        return Ok(());
+    }
+    Err(ScriptError::UnusedFile { name: name.to_owned() }.without_place())
+}
 
 /// The first words of a memory; `files` are the paths of files that replace declared ones, by name. A memory without a
 /// file begins with zeros.
@@ -51,6 +67,7 @@ fn words(path: &str, bytes: &[u8], width: usize) -> Result<Vec<u128>, usize> {
         return Ok(bytes.chunks(width.div_ceil(8).min(16)).map(word).collect());
     }
     let text = String::from_utf8_lossy(bytes);
+    let text = without_mark(&text);
     let is_table = path.ends_with(".csv");
     let mut words: Vec<u128> = Vec::new();
     let mut place = 0;

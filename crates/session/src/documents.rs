@@ -4,12 +4,17 @@ use std::cell::{Cell, RefCell};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use crate::buildable;
 use crate::checked::Checked;
+use crate::robots::{BuiltIn, RobotSources};
 use nbc_base::source::{FileError, OverlayWorld, SourceWorld, VerilogError, VerilogModules};
 
 /// The sources of a session.
 pub(super) struct Documents {
     world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
+    built_in: BuiltIn,
+    /// The paths of files that replace those that programs declare, by name.
+    files: Vec<(String, String)>,
     /// The revisions of the texts that were given, by the identities of their files.
     revisions: BTreeMap<String, u64>,
     /// The results that are still valid, by path.
@@ -34,10 +39,22 @@ impl Documents {
     pub(super) fn new(world: Box<dyn SourceWorld + Send + Sync>) -> Self {
         Self {
             world: OverlayWorld::new(world),
+            built_in: BuiltIn::default(),
+            files: Vec::new(),
             revisions: BTreeMap::new(),
             known: BTreeMap::new(),
             translations: Translations::new(),
         }
+    }
+
+    /// Lets these files replace those that programs declare, by name.
+    pub(super) fn replace_files(&mut self, files: Vec<(String, String)>) {
+        self.files = files;
+    }
+
+    /// The robots that come with the program.
+    pub(super) fn built_in(&self) -> &BuiltIn {
+        &self.built_in
     }
 
     /// The world that sources and robots are read from.
@@ -73,7 +90,13 @@ impl Documents {
             translations,
             is_cancelled: Cell::default(),
         };
-        let checked = Arc::new(Checked::read(&asking, path, revision));
+        let mut checked = Checked::read(&asking, path, revision);
+        if !checked.has_errors() {
+            let robots = RobotSources { world: &asking, built_in: &self.built_in, file: path };
+            checked.diagnostics.extend(buildable::faults(robots, &checked.program, &self.files));
+            checked.diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
+        }
+        let checked = Arc::new(checked);
         self.translations = asking.translations.into_inner();
         if asking.is_cancelled.get() {
             return checked;
@@ -273,8 +296,11 @@ mod tests {
     #[test]
     fn a_source_is_checked_again_when_a_robot_appears_in_the_folder_of_its_library() {
         let mut documents = documents(&[("a.nb", "library l { from: \"robots\" }")]);
-        assert!(documents.checked("a.nb").has_errors());
+        let missing = documents.checked("a.nb").diagnostics.clone();
         documents.update("robots/x.yaml", 1, "");
-        assert!(!documents.checked("a.nb").has_errors());
+        let empty = documents.checked("a.nb").diagnostics.clone();
+        documents.update("robots/x.yaml", 2, include_str!("../library/robots/nand_5x5.yaml"));
+        assert!(!missing.is_empty() && !empty.is_empty() && missing != empty);
+        assert_eq!(documents.checked("a.nb").diagnostics, []);
     }
 }

@@ -1,6 +1,7 @@
 //! The interface that every door calls: from source text to swarms, tests, files and reports. `compile.rs` has the
 //! stages in order.
 
+mod buildable;
 mod checked;
 mod choice;
 mod compile;

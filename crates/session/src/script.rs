@@ -60,6 +60,20 @@ pub(super) struct PerformedRow {
     pub(super) is_last: bool,
 }
 
+/// Builds the environment of a test, with the files of its memories, to find its errors.
+///
+/// # Errors
+/// When it cannot be built, or a file cannot be read.
+pub(super) fn environment(
+    world: &dyn SourceWorld,
+    program: &Program,
+    test: &CircuitTest,
+    script: &Script,
+    files: &[(String, String)],
+) -> Result<(), Vec<Diagnostic>> {
+    Beside::new(world, program, test, script, files).map(drop)
+}
+
 impl Performance {
     /// The performance of a test's script; `files` are the paths of files that replace declared ones.
     ///
@@ -118,6 +132,7 @@ impl Performance {
                 end.is_last = ends;
                 if ends && !is_met {
                     // The row fails: the output never had its value.
+                    end.row.given_up = Some(until.most);
                     end.row.expected[until.first..until.first + until.bits.len()].clone_from_slice(&until.bits);
                 }
                 if ends { (at + 1, 0) } else { (at, times + 1) }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
-use crate::robots::{BuiltIn, RobotSources};
+use crate::robots::RobotSources;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions, TestRun};
@@ -25,7 +25,6 @@ use nbc_swarm::{Level, LiveSwarm, Room};
 pub struct Session {
     documents: Documents,
     physics: Physics,
-    built_in: BuiltIn,
 }
 
 impl Session {
@@ -35,12 +34,19 @@ impl Session {
 
     /// A session over the sources of a world.
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
-        Self { documents: Documents::new(Box::new(world)), physics: Physics::default(), built_in: BuiltIn::default() }
+        Self { documents: Documents::new(Box::new(world)), physics: Physics::default() }
     }
 
     /// The same session, with its robots simulated by `simulator`.
     pub fn with_simulator(mut self, simulator: Simulator) -> Self {
         self.physics.simulator = simulator;
+        self
+    }
+
+    /// The same session, in which the files with these names are those at these paths, and not those that the programs
+    /// declare.
+    pub fn with_files(mut self, files: Vec<(String, String)>) -> Self {
+        self.documents.replace_files(files);
         self
     }
 
@@ -98,7 +104,7 @@ impl Session {
 
     /// The robots that come with the program.
     pub fn shipped(&self) -> &Library {
-        self.built_in.shipped()
+        self.documents.built_in().shipped()
     }
 
     /// The robots of a folder of the world, best first.
@@ -139,7 +145,7 @@ impl Session {
     }
 
     fn sources<'a>(&'a self, checked: &'a Checked) -> RobotSources<'a> {
-        RobotSources { world: self.documents.world(), built_in: &self.built_in, file: &checked.path }
+        RobotSources { world: self.documents.world(), built_in: self.documents.built_in(), file: &checked.path }
     }
 
     /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.

@@ -1,6 +1,7 @@
 //! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
 use crate::compile::{Compiled, compile};
+use crate::contents::declared_file;
 use crate::hold;
 use crate::observer::Observer;
 use crate::options::CompileOptions;
@@ -11,7 +12,7 @@ use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use crate::wording::ScriptError;
-use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
@@ -85,6 +86,9 @@ pub(super) fn cases<'a>(
     test: &'a CircuitTest,
     options: &TestOptions,
 ) -> Result<Vec<TestCase<'a>>, Vec<Diagnostic>> {
+    for (name, _) in &options.compile.files {
+        declared_file(program, name).map_err(|fault| vec![fault])?;
+    }
     let netlist = elaborate(program, &test.circuit)?;
     let level = options.level;
     let performance = performance(sources, program, test, &netlist, &options.compile)?;
@@ -119,7 +123,7 @@ pub(super) fn cases<'a>(
         let timing = match &compiled.mapping.waves {
             Some(machine) => {
                 let rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
-                one.rows = steps(test, &rows, machine)?;
+                one.rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
                 TestTiming::Waves
             }
             None => {
@@ -142,11 +146,6 @@ fn performance(
     options: &CompileOptions,
 ) -> Result<Option<Performance>, Vec<Diagnostic>> {
     let Stimulation::Script(script) = &test.stimulation else { return Ok(None) };
-    let unknown = options.files.iter().find(|(name, _)| program.files.iter().all(|file| file.name != *name));
-    if let Some((name, _)) = unknown {
-        let meant = Suggestion::of(name, program.files.iter().map(|file| file.name.as_str()));
-        return Err(vec![ScriptError::UnknownFile { name: name.clone(), meant }.without_place()]);
-    }
     Performance::new(sources.world, program, test, script, netlist, &options.files).map(Some)
 }
 
@@ -436,7 +435,8 @@ fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagn
             Err(_) => vec![None; test.output_bits().len()],
         };
         let (bases, span, line) = (bases.clone(), test.span, test.line);
-        TestRow { inputs, expected, bases, hold: None, span, line, row: pattern + 1 }
+        let (hold, is_half, given_up) = (None, false, None);
+        TestRow { inputs, expected, bases, hold, span, line, row: pattern + 1, is_half, given_up }
     };
     Ok((0..1 << bits).map(row).collect())
 }

@@ -46,23 +46,25 @@ pub(super) fn map_waves(
 }
 
 /// The steps of a wave machine that the rows of a test are: the first is before the first edge of the clock, and each
-/// other is one edge. A machine without state makes a step of each row.
+/// other is one edge. A machine without state makes a step of each row. `clock` is the input that is the clock, and
+/// whether it makes a step when it rises; `step` is the length of a step, if it is known.
 ///
 /// # Errors
 /// A diagnostic for each row that is no step.
 pub(super) fn steps(
     test: &CircuitTest,
     rows: &[TestRow],
-    machine: &WaveMachine,
+    clock: Option<(usize, bool)>,
+    step: Option<u32>,
 ) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let mut faults: Vec<Diagnostic> = Vec::new();
     for row in rows.iter().filter(|row| row.hold.is_some()) {
-        let fault = WaveRowError::Hold { step: machine.cycles_per_step() }.at(row.span);
+        let fault = WaveRowError::Hold { step }.at(row.span);
         if !faults.contains(&fault) {
             faults.push(fault);
         }
     }
-    let Some((clock, rises)) = machine.clock else {
+    let Some((clock, rises)) = clock else {
         return if faults.is_empty() { Ok(rows.to_vec()) } else { Err(faults) };
     };
     let name = || test.input_bits()[clock].clone();

@@ -127,8 +127,8 @@ impl RobotNameError {
 pub(super) enum WaveRowError {
     /// A row after the first in which the clock does not make a step.
     NoEdge { clock: String, rises: bool },
-    /// A row with a hold of its own, although a step has `step` cycles.
-    Hold { step: usize },
+    /// A row with a hold of its own, although a step has `step` cycles, or as many as the compiler chooses.
+    Hold { step: Option<u32> },
 }
 
 impl WaveRowError {
@@ -143,8 +143,11 @@ impl WaveRowError {
             }
             Self::Hold { step } => {
                 let message = "a row of a wave machine has no hold of its own";
-                Diagnostic::new(Code::NoWaves, message, span, format!("a step has {}", counted(step, "cycle")))
-                    .with_help("leave out `for`")
+                let label = match step {
+                    Some(step) => format!("a step has {}", counted(step as usize, "cycle")),
+                    None => "all steps have the same length".to_owned(),
+                };
+                Diagnostic::new(Code::NoWaves, message, span, label).with_help("leave out `for`")
             }
         }
     }
@@ -253,6 +256,8 @@ pub(super) enum ScriptError {
     TooLong { most: usize },
     /// A file that the program does not declare.
     UnknownFile { name: String, meant: Suggestion },
+    /// A file that no memory begins with.
+    UnusedFile { name: String },
 }
 
 impl ScriptError {
@@ -303,7 +308,17 @@ impl ScriptError {
                 format!("the test has more than {most} rows in physics"),
                 Some("test it at the level of logic: `nbc test --logic`".to_owned()),
             ),
-            Self::UnknownFile { name, .. } => (Code::Unknown, format!("the program declares no file `{name}`"), None),
+            Self::UnknownFile { name, meant } => {
+                let declare =
+                    || format!("declare it, `file {name} = \"…\"`, and let a memory begin with it: `init {name}`");
+                let help = (!matches!(meant, Suggestion::Near(_))).then(declare);
+                (Code::Unknown, format!("the program declares no file `{name}`"), help)
+            }
+            Self::UnusedFile { name } => (
+                Code::NoEffect,
+                format!("no memory begins with the file `{name}`"),
+                Some(format!("let one of an environment do so: `net words[256][8] init {name}`")),
+            ),
         }
     }
 }

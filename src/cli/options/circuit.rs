@@ -2,10 +2,13 @@
 
 use std::ffi::OsString;
 use std::fs;
+use std::sync::Arc;
 
 use clap::Args;
 
-use nbc_session::{Choice, CompileOptions, RUNS};
+use crate::cli::wording::UsageError;
+use nbc_base::diag::Diagnostic;
+use nbc_session::{Checked, Choice, CompileOptions, RUNS};
 
 /// The choice of a circuit in a file.
 #[derive(Args)]
@@ -47,8 +50,33 @@ pub(in crate::cli) struct FilesArguments {
 }
 
 impl FilesArguments {
-    pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
-        CompileOptions { files: self.named_files.clone(), ..options }
+    /// The files, each by its name and with its path.
+    pub(in crate::cli) fn files(&self) -> Vec<(String, String)> {
+        self.named_files.clone()
+    }
+
+    /// Checks that each file is one that a source declares.
+    ///
+    /// # Errors
+    /// When none of them does, or a file is named twice.
+    pub(in crate::cli) fn check(&self, sources: &[Arc<Checked>]) -> Result<(), Diagnostic> {
+        for (at, (name, _)) in self.named_files.iter().enumerate() {
+            if self.named_files[at + 1..].iter().any(|(other, _)| other == name) {
+                return Err(UsageError::TwoFiles { name: name.clone() }.into());
+            }
+            let declared: Vec<_> = sources.iter().map(|source| source.declares_file(name)).collect();
+            if declared.iter().all(Result::is_err) {
+                declared.into_iter().collect::<Result<(), _>>()?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The options with the files that a source declares.
+    pub(in crate::cli) fn of(&self, source: &Checked, options: CompileOptions) -> CompileOptions {
+        let mut files = self.files();
+        files.retain(|(name, _)| source.declares_file(name).is_ok());
+        CompileOptions { files, ..options }
     }
 }
 

@@ -90,7 +90,8 @@ impl TestArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let device = self.device(context)?;
-        let mut session = Session::new(interrupt.world()).with_simulator(device.simulator());
+        let mut session =
+            Session::new(interrupt.world()).with_simulator(device.simulator()).with_files(self.named.files());
         let files = match self.files.iter().map(|file| load(&mut session, file)).collect::<Result<Vec<_>, _>>() {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             files => files?,
@@ -106,6 +107,11 @@ impl TestArguments {
     /// When the user asked for one that cannot be used.
     pub(super) fn device(&self, context: &Context) -> Result<OpenDevice, Failure> {
         OpenDevice::open(self.device.choice(), LaneBackend::default(), context)
+    }
+
+    /// The files that replace those that the sources declare.
+    pub(super) fn named_files(&self) -> Vec<(String, String)> {
+        self.named.files()
     }
 
     /// The paths of the files.
@@ -175,11 +181,12 @@ impl TestArguments {
         files: &'a [Arc<Checked>],
         interrupt: &Interrupt,
     ) -> Result<Vec<Numbered<'a>>, Failure> {
-        let compile =
-            CompileOptions { cancel: interrupt.cancel(), ..self.named.with(self.goal.with(self.runs.options())) };
-        let options = TestOptions { level: self.level(), compile };
+        self.named.check(files).map_err(Failure::plain)?;
         let mut cases = Vec::new();
         for (number, file) in files.iter().enumerate() {
+            let compile = self.named.of(file, self.goal.with(self.runs.options()));
+            let compile = CompileOptions { cancel: interrupt.cancel(), ..compile };
+            let options = TestOptions { level: self.level(), compile };
             let chosen: Vec<_> = match &self.only {
                 Some(name) => file.tests(name).collect(),
                 None => file.program.tests.iter().collect(),
@@ -270,7 +277,7 @@ fn describe(verdict: &TestVerdict) -> String {
     let word = if verdict.passed { "pass" } else { "FAIL" };
     let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
     let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
-    let (rows, level) = (counted(verdict.rows.len(), "row"), verdict.level.word());
+    let (rows, level) = (counted(verdict.row_count(), "row"), verdict.level.word());
     let (printed, failures) = (report::describe_printed(verdict), report::describe_failures(verdict));
     format!("{word}  {}{swarm}{title} ({rows}, {level})\n{printed}{failures}", verdict.circuit)
 }

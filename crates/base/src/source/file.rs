@@ -71,11 +71,14 @@ pub struct Sources {
 impl Sources {
     /// Adds a file and returns its number.
     ///
+    /// A byte-order mark at its start, which some editors write, is no part of it.
+    ///
     /// # Panics
     /// When there are 2^32 files already.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
-        let text = text.into();
+        let mut text = text.into();
+        text.drain(..text.len() - without_mark(&text).len());
         self.files.push(SourceFile { id, name: name.into(), lines: LineStarts::of(&text), text });
         id
     }
@@ -94,4 +97,8 @@ impl Sources {
     pub fn iter(&self) -> impl Iterator<Item = &SourceFile> {
         self.files.iter()
     }
+}
+/// A text without the byte-order mark that some editors write at the start of a file.
+pub fn without_mark(text: &str) -> &str {
+    text.strip_prefix('\u{feff}').unwrap_or(text)
 }

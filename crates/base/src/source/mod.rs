@@ -7,7 +7,7 @@ mod span;
 mod verilog;
 mod world;
 
-pub use file::{LineColumn, LineStarts, SourceFile, Sources};
+pub use file::{LineColumn, LineStarts, SourceFile, Sources, without_mark};
 pub use file_error::FileError;
 pub use span::{FileId, Span};
 pub use verilog::{

@@ -30,11 +30,16 @@ const OPEN_HIGH: Function = Function::MUX;
 const OPEN_LOW: Function = Function::three(0xac);
 
 impl Held {
+    /// Whether a library has the multiplexers without glitches that latches of one cell need.
+    pub fn is_possible(library: &CellLibrary) -> bool {
+        let is_steady = |function| library.get(function).is_some_and(|kind| !kind.glitches);
+        [OPEN_HIGH, OPEN_LOW].into_iter().all(is_steady)
+    }
+
     /// A netlist of cells of a library with latches of one cell; `None` if the library has no multiplexer without
     /// glitches.
     pub fn of(netlist: &Netlist, library: &CellLibrary) -> Option<Self> {
-        let is_steady = |function| library.get(function).is_some_and(|kind| !kind.glitches);
-        if ![OPEN_HIGH, OPEN_LOW].into_iter().all(is_steady) {
+        if !Self::is_possible(library) {
             return None;
         }
         let storage = Storage::of(netlist, library.kinds_of(netlist));

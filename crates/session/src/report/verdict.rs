@@ -103,8 +103,11 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
     let bar = if inputs.is_empty() { "" } else { " | " };
     let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
     let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
+    let given_up = row.given_up.map_or(String::new(), |most| {
+        format!(" (repeated {most} {}, as often as its `until` permits)", if most == 1 { "time" } else { "times" })
+    });
     let blame: String = describe_wrong_outputs(row).concat();
-    format!("    {place}: {}{bar}{}\n{blame}", inputs.join(" "), wrong.join("; "))
+    format!("    {place}: {}{bar}{}{given_up}\n{blame}", inputs.join(" "), wrong.join("; "))
 }
 
 fn differs(expected: &Value, observed: &Value) -> bool {
@@ -239,6 +242,8 @@ mod tests {
                 passed,
                 wrong_outputs: if passed { vec![] } else { vec![wrong] },
                 late: vec![],
+                is_half: false,
+                given_up: None,
             }],
             passed,
         }

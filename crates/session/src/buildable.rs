@@ -1,0 +1,172 @@
+//! What a test, a build or a search would refuse before it simulates anything: libraries that lack robots, swarms that
+//! cannot be made, rows that are no steps, environments whose files do not fit. A check of a program says it, too.
+
+use crate::compile::map_onto;
+use crate::options::RUNS;
+use crate::robots::RobotSources;
+use crate::wording::{ChoiceError, for_circuit};
+use crate::{script, start_bodies, waves};
+use nbc_base::diag::{Code, Diagnostic, Severity};
+use nbc_base::model::{CircuitTest, Instance, Library, Origin, Program, RegisterStyle, Stimulation, Swarm, TestRow};
+use nbc_base::source::Span;
+use nbc_circuit::timing::Held;
+use nbc_circuit::waves::ClockStep;
+use nbc_circuit::{Effort, MapOptions, elaborate, is_same_instance};
+use nbc_lang::check::DEFAULT_LIBRARY;
+
+/// Circuits of more cells are not made into wave machines to find out whether they can be.
+const SMALL: usize = 200;
+
+/// The errors of a program that has no others; `files` are the paths of files that replace declared ones. Robots of
+/// evolution runs, which may not have run yet, are not looked at.
+pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(String, String)]) -> Vec<Diagnostic> {
+    let mut look = Look { sources, program, faults: Vec::new() };
+    for declared in &program.libraries {
+        // The libraries of the program itself are whole, and need not be read.
+        if declared.behaviors.is_some() || !declared.without.is_empty() || matches!(declared.from, Origin::Folder(_)) {
+            look.library(&declared.name);
+        }
+    }
+    for swarm in &program.swarms {
+        look.swarm(swarm);
+    }
+    let tested = program.tests.iter().map(|test| (&test.circuit, test.span));
+    let simulated = program.simulations.iter().map(|simulation| (&simulation.circuit, simulation.span));
+    for (circuit, place) in tested.chain(simulated) {
+        if program.swarms.iter().all(|swarm| !is_same_instance(program, &swarm.circuit, circuit)) {
+            look.circuit(circuit, DEFAULT_LIBRARY, place);
+        }
+    }
+    for test in &program.tests {
+        look.environment(test, files);
+    }
+    for evolution in program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name)) {
+        let library = evolution.start.as_ref().and_then(|start| program.library(&start.library));
+        if library.is_some_and(|library| !matches!(library.from, Origin::Evolution(_))) {
+            look.note(start_bodies::started(sources, program, evolution, RUNS).map(drop));
+        }
+    }
+    look.faults
+}
+
+struct Look<'a> {
+    sources: RobotSources<'a>,
+    program: &'a Program,
+    faults: Vec<Diagnostic>,
+}
+
+impl Look<'_> {
+    fn note(&mut self, result: Result<(), Vec<Diagnostic>>) {
+        for fault in result.err().into_iter().flatten() {
+            if !self.faults.contains(&fault) {
+                self.faults.push(fault);
+            }
+        }
+    }
+
+    /// The robots of a library; `None` after an error, and for those of an evolution run.
+    fn library(&mut self, name: &str) -> Option<Library> {
+        let declared = self.program.library(name)?;
+        if matches!(declared.from, Origin::Evolution(_)) {
+            return None;
+        }
+        match self.sources.library(declared, RUNS) {
+            Ok(library) => Some(library),
+            Err(faults) => {
+                self.note(Err(faults));
+                None
+            }
+        }
+    }
+
+    /// Whether a library has all that the built-in one of its name has, so that it can make any circuit.
+    fn is_whole(&self, library: &str) -> bool {
+        let declared = self.program.library(library);
+        declared.is_none_or(|declared| {
+            let is_built_in = matches!(declared.from, Origin::Shipped | Origin::Three);
+            is_built_in && declared.behaviors.is_none() && declared.without.is_empty()
+        })
+    }
+
+    /// Whether a circuit can be made of the robots of a library; only one that cannot make everything is tried.
+    fn circuit(&mut self, circuit: &Instance, library: &str, place: Span) {
+        if self.is_whole(library) {
+            return;
+        }
+        let Some(robots) = self.library(library) else { return };
+        let cells = nbc_swarm::cells(&robots);
+        if !cells.is_complete() {
+            let options = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
+            self.note(map_onto(self.program, circuit, &cells, &options, place).map(drop));
+        }
+    }
+
+    fn swarm(&mut self, swarm: &Swarm) {
+        match swarm.registers {
+            RegisterStyle::MasterSlave | RegisterStyle::Pulsed => {
+                self.circuit(&swarm.circuit, &swarm.library, swarm.span);
+            }
+            RegisterStyle::Mux => {
+                let Some(robots) = self.library(&swarm.library) else { return };
+                if Held::is_possible(&nbc_swarm::cells(&robots)) {
+                    self.circuit(&swarm.circuit, &swarm.library, swarm.span);
+                } else {
+                    self.note(Err(vec![for_circuit(ChoiceError::NoMultiplexer.into(), swarm.span)]));
+                }
+            }
+            RegisterStyle::Waves => self.waves(swarm),
+        }
+    }
+
+    /// Whether a swarm has the one clock of a wave machine, and the rows of its tests are its steps.
+    fn waves(&mut self, swarm: &Swarm) {
+        let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
+        let step = match ClockStep::of(&netlist) {
+            Ok(step) => step,
+            Err(error) => {
+                return self.note(Err(vec![for_circuit(ChoiceError::NoWaves(error).into(), swarm.span)]));
+            }
+        };
+        // Only a step that may be too short, or a library that may lack a robot, is worth the work.
+        if netlist.cells().count() > SMALL {
+            self.circuit(&swarm.circuit, &swarm.library, swarm.span);
+        } else if (swarm.waves.step.is_some() || !self.is_whole(&swarm.library))
+            && let Some(robots) = self.library(&swarm.library)
+        {
+            let made = waves::map_waves(netlist, &robots, swarm.waves, &MapOptions::default());
+            self.note(made.map(drop).map_err(|fault| vec![for_circuit(fault, swarm.span)]));
+        }
+        let clock = step.clock.map(|clock| (clock, step.rises));
+        for test in
+            self.program.tests.iter().filter(|test| is_same_instance(self.program, &test.circuit, &swarm.circuit))
+        {
+            let rows: Vec<TestRow> = match &test.stimulation {
+                Stimulation::Rows(rows) => rows.clone(),
+                // What such rows must show is found when they are performed.
+                Stimulation::Script(script) => {
+                    let rows = script.steps.iter().flat_map(|step| &step.rows);
+                    rows.map(|row| TestRow { expected: Vec::new(), ..row.clone() }).collect()
+                }
+                Stimulation::All { .. } => continue,
+            };
+            self.note(waves::steps(test, &rows, clock, swarm.waves.step).map(drop));
+        }
+    }
+
+    /// The environment of a test, with the files of its memories. A file that is not there may still come, or another
+    /// may take its place, so a warning is enough.
+    fn environment(&mut self, test: &CircuitTest, files: &[(String, String)]) {
+        if let Stimulation::Script(script) = &test.stimulation
+            && script.environment.is_some()
+        {
+            let built = script::environment(self.sources.world, self.program, test, script, files);
+            self.note(built.map_err(|faults| faults.into_iter().map(later).collect()));
+        }
+    }
+}
+
+/// A warning of what is an error only when a test begins: a file that cannot be read.
+fn later(fault: Diagnostic) -> Diagnostic {
+    let severity = if fault.code == Code::Unreadable { Severity::Warning } else { fault.severity };
+    Diagnostic { severity, ..fault }
+}
