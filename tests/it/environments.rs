@@ -76,7 +76,7 @@ fn rows_are_repeated_a_number_of_times_or_until_an_output_has_a_value() {
         assert_eq!(ran.status, i32::from(!passes), "{rows}\n{}{}", ran.out, ran.err);
         assert!(ran.out.contains(says), "{says:?} is not in\n{}", ran.out);
     };
-    check(" repeat 3 {\n ^ | - 0\n }\n ^ | 4 0", true, "pass  c (8 rows, logic)");
+    check(" repeat 3 {\n ^ | - 0\n }\n ^ | 4 0", true, "pass  c (4 rows, logic)");
     check(" repeat 2 {\n repeat 2 {\n ^ | - 0\n }\n ^ | - -\n }\n 0 | 6 0", true, "pass");
     check(" repeat 8 {\n ^ | - 0\n }", false, "top=1, expected 0");
     check(" ^ | - - until top, at most 7 rows", true, "pass  c (1 row, logic)");

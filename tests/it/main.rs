@@ -3,6 +3,7 @@
 mod adding;
 mod benchmarks;
 mod broken_circuits;
+mod cheap;
 mod circuit;
 mod cli;
 #[cfg(feature = "cluster")]

@@ -70,6 +70,8 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         span,
         line: 3 + at,
         row: 1 + at,
+        is_half: false,
+        given_up: None,
     };
     let rows: Vec<TestRow> = [false, true, true].into_iter().enumerate().map(row).collect();
     let row_holds = vec![RowHold { hold: 8, needed: 8, rests: vec![true; test.output_bits().len()] }; 3];

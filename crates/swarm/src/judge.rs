@@ -45,6 +45,8 @@ pub fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[
         passed: row.expected.iter().zip(outputs).zip(steady).all(meets),
         wrong_outputs: Vec::new(),
         late: Vec::new(),
+        is_half: row.is_half,
+        given_up: row.given_up,
     }
 }
 
@@ -222,7 +224,9 @@ mod tests {
     fn row(input: bool, expected: Option<bool>) -> TestRow {
         let span = Span::new(FileId(0), 0, 0);
         let bases = vec![Base::Bits; 2];
-        TestRow { inputs: vec![input], expected: vec![expected], bases, hold: None, span, line: 3, row: 1 }
+        let inputs = vec![input];
+        let (hold, is_half, given_up) = (None, false, None);
+        TestRow { inputs, expected: vec![expected], bases, hold, span, line: 3, row: 1, is_half, given_up }
     }
 
     fn judged(cycles: &[(bool, bool)], expected: Option<bool>, clock: u32) -> RowVerdict {

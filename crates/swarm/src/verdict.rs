@@ -55,6 +55,13 @@ pub struct TestVerdict {
     pub printed: Option<String>,
 }
 
+impl TestVerdict {
+    /// The number of rows: a pulse is one, and so is a step of all threads of a wave machine.
+    pub fn row_count(&self) -> usize {
+        self.rows.iter().filter(|row| !row.is_half && row.thread.unwrap_or(0) == 0).count()
+    }
+}
+
 /// The verdict of a test's row.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RowVerdict {
@@ -85,6 +92,12 @@ pub struct RowVerdict {
     /// If the row failed: robots that were wrong in its last cycle and whose stimuli had been stable for less than
     /// their clock.
     pub late: Vec<WrongOutput>,
+    /// Whether it is the first half of a pulse, which is not checked.
+    #[serde(skip)]
+    pub is_half: bool,
+    /// How often it was repeated, if that is as often as its `until` permits and it still waited for its value.
+    #[serde(rename = "until", skip_serializing_if = "Option::is_none")]
+    pub given_up: Option<usize>,
 }
 
 /// A robot whose output was not its function of its stimuli.
