@@ -168,6 +168,31 @@ test half for all inputs {
     }
 
     #[test]
+    fn members_and_outputs_are_used_in_the_rows_of_tests_and_simulations() {
+        let text = "\
+enum mood { calm, busy }
+circuit turn(m: mood) -> (n: mood, ready) {
+    n = if m == calm then busy else calm
+    ready = m == busy
+}
+swarm turners { circuit: turn }
+simulate turners with schedule (m) { calm for 4 cycles busy for 4 cycles }
+test turn {
+    m    | n
+    calm | busy
+    busy | -     until ready, at most 3 rows
+    repeat 2 {
+        calm | - until n = busy, at most 3 rows
+    }
+}
+";
+        let calm = ["!a.nb:1", "a.nb:3", "a.nb:3", "a.nb:7", "a.nb:10", "a.nb:13"];
+        assert_eq!(uses(text, "calm"), calm);
+        assert_eq!(uses(text, "ready)"), ["!a.nb:2", "a.nb:4", "a.nb:11"]);
+        assert_eq!(uses(text, "n: mood"), ["!a.nb:2", "a.nb:3", "a.nb:9", "a.nb:13"]);
+    }
+
+    #[test]
     fn fields_of_records_use_other_declarations() {
         let text = "\
 material skin { kind: soft }

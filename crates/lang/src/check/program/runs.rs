@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::collections::btree_map::Entry;
+use std::slice;
 
 use crate::check::against;
 use crate::check::circuit::circuit;
@@ -10,9 +11,10 @@ use crate::check::names::Home;
 use crate::check::program::Assembly;
 use crate::check::simulate::{Schedules, spells};
 use crate::check::test;
+use crate::check::uses::{NameKind, NameUse};
 use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EnvironmentError};
-use crate::syntax::tree::{self, DeclarationKind, NameSyntax};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax, TestItem, TestTable};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
     CircuitId, CircuitTest, Column, Instance, PhysicsWorld, Program, Script, Simulation, Stimulation,
@@ -28,8 +30,9 @@ impl<'a> Assembly<'a> {
             let DeclarationKind::Simulate(source) = &declaration.kind else { continue };
             let Some(simulated) = self.simulated(&source.swarm, program) else { continue };
             let Some((inputs, _)) = self.ports(&simulated, source.swarm.span, inspector) else { continue };
-            if let tree::With::Spells { columns, .. } = &source.with {
+            if let tree::With::Spells { columns, spells } = &source.with {
                 self.ports_named(&simulated.circuit, columns);
+                spells.iter().for_each(|spell| self.members_named(columns, &spell.cells, &inputs));
             }
             let schedules = Schedules { names: &self.names.schedules, declared: &program.schedules };
             let at = source.swarm.span;
@@ -93,6 +96,7 @@ impl<'a> Assembly<'a> {
             tree::TestKind::Table(table) => {
                 self.ports_named(&tested.circuit, &table.inputs);
                 self.ports_named(&tested.circuit, &table.outputs);
+                self.rows_named(&tested.circuit, table, &table.rows, ports);
                 let given = environment.as_ref().map_or(Vec::new(), |(_, given)| given.clone());
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs, given };
                 let steps = test::steps(table, &ports, self.declarations.sources, &mut self.faults);
@@ -120,6 +124,39 @@ impl<'a> Assembly<'a> {
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
         Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world: None })
+    }
+
+    /// Notes the members of enumerations in the rows of a test, and the outputs that end their repetition.
+    fn rows_named(
+        &mut self,
+        circuit: &str,
+        table: &TestTable,
+        items: &[TestItem],
+        (inputs, outputs): (&[Column], &[Column]),
+    ) {
+        for item in items {
+            match item {
+                TestItem::Repeat { rows, .. } => self.rows_named(circuit, table, rows, (inputs, outputs)),
+                TestItem::Row(row) => {
+                    self.members_named(&table.inputs, &row.inputs, inputs);
+                    self.members_named(&table.outputs, &row.outputs, outputs);
+                    let Some(until) = &row.until else { continue };
+                    let output = slice::from_ref(&until.output);
+                    self.ports_named(circuit, output);
+                    until.value.iter().for_each(|value| self.members_named(output, slice::from_ref(value), outputs));
+                }
+            }
+        }
+    }
+
+    /// Notes the values that are members of the enumerations of their ports.
+    fn members_named(&mut self, columns: &[NameSyntax], values: &[NameSyntax], ports: &[Column]) {
+        let used = |(column, value): (&NameSyntax, &NameSyntax)| {
+            let port = ports.iter().find(|port| port.name == column.text)?;
+            let declared = port.members.as_ref()?.member(&value.text)?.span;
+            Some(NameUse { place: value.span, declared, kind: NameKind::Member })
+        };
+        self.inner.extend(columns.iter().zip(values).filter_map(used));
     }
 
     /// The environment of a test, and the inputs of the circuit that it gives. Its inputs are outputs of the circuit,
