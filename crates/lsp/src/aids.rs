@@ -7,6 +7,7 @@ use lsp_server::{Message, RequestId, Response};
 
 use crate::compiler::FigureState;
 use crate::figures::{Figures, Subject};
+use crate::files::Files;
 use crate::later::WaitingHover;
 use crate::server::{Reply, Server};
 use crate::spot::Spot;
@@ -19,7 +20,8 @@ impl Server<'_> {
     pub(super) fn hover(&mut self, id: RequestId, asked: lsp::HoverParams) -> Option<Response> {
         let place = asked.text_document_position_params;
         let Some(checked) = self.checked(&place.text_document.uri) else { return Some(Response::new_ok(id, ())) };
-        let files = self.files(&checked);
+        let world = self.world.clone();
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
         let spot = Spot::of(files, place.position);
         let shown = spot.and_then(|spot| hover::show(&spot, &self.session, self.settings.pictures));
         let Some(shown) = shown else { return Some(Response::new_ok(id, ())) };
@@ -54,7 +56,8 @@ impl Server<'_> {
     pub(super) fn fixes(&mut self, asked: lsp::CodeActionParams) -> Reply<CodeActionRequest> {
         let checked = self.checked(&asked.text_document.uri);
         let Some(checked) = checked else { return Ok(None) };
-        let files = self.files(&checked);
+        let world = self.world.clone();
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
         let mut fixes = problems::fixes(&files, &files.own(), asked.range);
         for (diagnostic, found) in problems::unused(&files, &files.own(), asked.range) {
             let new = format!("_{}", checked.sources.text(found.declared));
@@ -68,7 +71,8 @@ impl Server<'_> {
     pub(super) fn hints(&mut self, asked: lsp::InlayHintParams) -> Reply<InlayHintRequest> {
         let Some(checked) = self.checked(&asked.text_document.uri) else { return Ok(None) };
         let Some(file) = checked.file else { return Ok(None) };
-        let files = self.files(&checked);
+        let world = self.world.clone();
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
         let bytes = files.lines(file).bytes(asked.range);
         let part = Span::new(file, bytes.start, bytes.end);
         let mut found = hints::of(&files, file, part, self.settings.inlay_hints);

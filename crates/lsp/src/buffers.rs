@@ -64,6 +64,11 @@ impl Buffers {
         self.open.get(&name(uri))
     }
 
+    /// The text that the session has under a path.
+    pub(super) fn at(&self, path: &str) -> Option<&Buffer> {
+        self.open.get(path)
+    }
+
     pub(super) fn iter(&self) -> impl Iterator<Item = &Buffer> {
         self.open.values()
     }

@@ -10,6 +10,7 @@ use lsp_server::{ErrorCode, Message, Notification, RequestId, Response};
 use serde_json::{Value, json};
 
 use crate::figures::Subject;
+use crate::files::{Files, temporary_folder};
 use crate::lenses;
 use crate::runs::{OrderError, RunEvent, RunOrder, RunOutcome};
 use crate::server::{Reply, Server};
@@ -19,7 +20,8 @@ impl Server<'_> {
     pub(super) fn lenses(&mut self, asked: lsp::CodeLensParams) -> Reply<CodeLensRequest> {
         let Some(checked) = self.checked(&asked.text_document.uri) else { return Ok(None) };
         let Some(file) = checked.file.filter(|_| self.settings.code_lenses) else { return Ok(None) };
-        let files = self.files(&checked);
+        let world = self.world.clone();
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
         let mut found = lenses::of_runs(&files, file);
         for (place, circuit, swarm) in lenses::subjects(&files, file) {
             let subject = Subject::Circuit(circuit, swarm);
@@ -44,6 +46,9 @@ impl Server<'_> {
 
     fn ordered(&mut self, asked: &lsp::ExecuteCommandParams) -> Result<(RunOrder, Arc<Checked>), OrderError> {
         let order = RunOrder::read(asked)?;
+        if temporary_folder(&*self.world).is_none() {
+            return Err(OrderError::NoPlace);
+        }
         let checked = self.checked(&order.uri).ok_or_else(|| OrderError::Closed(order.uri.0.clone()))?;
         Ok((order, checked))
     }

@@ -1,10 +1,12 @@
 //! The files of a checked source as the protocol names them.
 
+use std::path::PathBuf;
+
 use gen_lsp_types::{Location, Range, Uri};
 
 use crate::position::{Encoding, Lines};
 use crate::uri;
-use nbc_base::source::{FileId, Span};
+use nbc_base::source::{EntryKind, FileId, SourceWorld, Span};
 use nbc_lang::check::PRELUDE;
 use nbc_session::Checked;
 use nbc_session::store;
@@ -14,20 +16,39 @@ use nbc_session::store;
 pub(super) struct Files<'a> {
     pub(super) checked: &'a Checked,
     pub(super) encoding: Encoding,
+    /// The files that the client may see.
+    pub(super) world: &'a dyn SourceWorld,
 }
 
 impl Files<'_> {
     /// The URI of the source itself.
     pub(super) fn own(&self) -> Uri {
-        named(&self.checked.path)
+        self.named(&self.checked.path)
     }
 
     /// The URI of one of its files.
     pub(super) fn uri(&self, file: FileId) -> Uri {
+        let name = &self.checked.sources.file(file).name;
         match self.prelude(file) {
-            Some(text) => uri::uri(&readable(&self.checked.sources.file(file).name, text)),
-            None => named(&self.checked.sources.file(file).name),
+            Some(text) => self.readable(name, text).unwrap_or_else(|| Uri(format!("{}:{name}", nbc_base::PROGRAM))),
+            None => self.named(name),
         }
+    }
+
+    /// The URI of a path, or of a text without a file, whose name is its URI.
+    pub(super) fn named(&self, name: &str) -> Uri {
+        let is_uri = name.contains("://") || name.starts_with("untitled:");
+        if is_uri { Uri(name.to_owned()) } else { uri::uri(self.world, name) }
+    }
+
+    /// Writes a text of the program to a file that editors can open, and returns its URI. There is none if it cannot be
+    /// written, or the client does not see such files.
+    pub(super) fn readable(&self, name: &str, text: &str) -> Option<Uri> {
+        let path = temporary_folder(self.world)?.join(name);
+        if std::fs::read_to_string(&path).ok().as_deref() != Some(text) {
+            store::write(&path, text.as_bytes()).ok()?;
+        }
+        Some(uri::uri(self.world, &path.to_string_lossy()))
     }
 
     /// The text of a file, if it is one of the prelude.
@@ -54,18 +75,8 @@ impl Files<'_> {
     }
 }
 
-/// The URI of a path, or of a text without a file, whose name is its URI.
-fn named(name: &str) -> Uri {
-    if name.contains("://") || name.starts_with("untitled:") { Uri(name.to_owned()) } else { uri::uri(name) }
-}
-
-/// Writes a text of the program to a file that editors can open, and returns its path. If the file cannot be written,
-/// there is none at that path.
-pub(super) fn readable(name: &str, text: &str) -> String {
-    let Ok(folder) = store::temporary_folder() else { return name.to_owned() };
-    let path = folder.join(name);
-    if std::fs::read_to_string(&path).ok().as_deref() != Some(text) {
-        let _ = store::write(&path, text.as_bytes());
-    }
-    path.to_string_lossy().into_owned()
+/// The folder for texts and results of the program, if the client sees it. One that is served another folder does not.
+pub(super) fn temporary_folder(world: &dyn SourceWorld) -> Option<PathBuf> {
+    let folder = store::temporary_folder().ok()?;
+    (world.kind(&folder.to_string_lossy()) == Some(EntryKind::Folder)).then_some(folder)
 }

@@ -36,6 +36,7 @@ mod spot;
 mod texts;
 mod tokens;
 mod uri;
+mod used_files;
 mod wire;
 mod wording;
 mod workspace;
@@ -153,7 +154,7 @@ fn welcome(client: &Client) -> InitializeResult {
 
 /// The URI of a file or folder.
 pub fn file_uri(path: &str) -> String {
-    uri::uri(path).0
+    uri::uri(&DiskWorld, path).0
 }
 
 #[cfg(test)]

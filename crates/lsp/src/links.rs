@@ -1,11 +1,8 @@
 //! Files and folders that a source names, as links.
 
-use std::path::Path;
-
 use gen_lsp_types::DocumentLink;
 
 use crate::files::Files;
-use crate::uri;
 use nbc_base::source::{FileId, Span};
 use nbc_lang::check::beside;
 use nbc_lang::syntax::tree::{DeclarationKind, RecordKeyword, ValueKind};
@@ -31,9 +28,9 @@ fn link(files: &Files<'_>, path: &str, place: Span) -> Option<DocumentLink> {
     let path = beside(&files.checked.sources.file(place.file).name, path);
     // Without the quotes.
     let inner = Span { start: place.start + 1, end: place.end - 1, ..place };
-    Path::new(&path).exists().then(|| DocumentLink {
+    files.world.kind(&path).map(|_| DocumentLink {
         range: files.range(inner),
-        target: Some(uri::uri(&path)),
+        target: Some(files.named(&path)),
         tooltip: None,
         data: None,
     })

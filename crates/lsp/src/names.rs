@@ -11,7 +11,7 @@ use gen_lsp_types::{
 use crate::navigation;
 use crate::rename::Rename;
 use crate::server::{Reply, Server};
-use crate::uri;
+use crate::used_files::UsedFiles;
 use nbc_lang::check::NameUse;
 use nbc_session::Checked;
 
@@ -39,7 +39,7 @@ impl Server<'_> {
     fn uses(&mut self, checked: &Checked, found: NameUse, with_declaration: bool) -> Vec<lsp::Location> {
         let home = self.files(checked).uri(found.declared.file);
         let mut places: Vec<lsp::Location> = Vec::new();
-        for other in self.all_sources() {
+        for other in self.sources_of(checked, found) {
             places.extend(navigation::uses(&self.files(&other), &home, found.declared, with_declaration));
         }
         places.sort_by(|a, b| (&a.uri.0, a.range).cmp(&(&b.uri.0, b.range)));
@@ -47,21 +47,43 @@ impl Server<'_> {
         places
     }
 
-    /// Every open text and every file of the workspace, as it is now.
-    pub(super) fn all_sources(&mut self) -> Vec<Arc<Checked>> {
-        let open: BTreeSet<String> = self.buffers.iter().map(|buffer| buffer.path.clone()).collect();
-        let names: BTreeSet<String> = open.iter().map(|path| uri::uri(path).0).collect();
-        let closed = self.workspace.files().into_iter().filter(|path| !names.contains(&uri::uri(path).0));
-        let mut sources: Vec<_> = closed.map(|path| self.on_disk(&path)).collect();
-        sources.extend(open.iter().map(|path| self.session.checked(path)));
-        sources
+    /// The open texts and files of the workspace in which a declaration can be used: those that use its file, also
+    /// through others. Others need not be checked, which takes long.
+    fn sources_of(&mut self, checked: &Checked, found: NameUse) -> Vec<Arc<Checked>> {
+        let home = checked.sources.file(found.declared.file);
+        let mut paths = self.all_paths();
+        let used = UsedFiles::of(&*self.world, &self.buffers, paths.clone());
+        let homes = match self.files(checked).prelude(home.id) {
+            // Every source uses the prelude.
+            Some(_) => used.with(checked.sources.text(found.declared)),
+            None => vec![self.world.identity(&home.name)],
+        };
+        // The circuits of another tool's file have a text of their own, which nothing names.
+        if homes.iter().all(|home| used.has(home)) {
+            let users = used.users(homes);
+            paths.retain(|path| users.contains(&self.world.identity(path)));
+        }
+        paths.iter().map(|path| self.as_it_is(path)).collect()
     }
 
-    /// A file that is not open, read again if it has changed.
-    fn on_disk(&mut self, path: &str) -> Arc<Checked> {
+    /// Every open text and every file of the workspace, as it is now.
+    fn all_sources(&mut self) -> Vec<Arc<Checked>> {
+        self.all_paths().iter().map(|path| self.as_it_is(path)).collect()
+    }
+
+    /// The files of the workspace that are not open, and the open texts.
+    fn all_paths(&self) -> Vec<String> {
+        let open: BTreeSet<String> = self.buffers.iter().map(|buffer| buffer.path.clone()).collect();
+        let names: BTreeSet<String> = open.iter().map(|path| self.world.identity(path)).collect();
+        let closed = self.workspace.files(&*self.world).into_iter();
+        closed.filter(|path| !names.contains(&self.world.identity(path))).chain(open.iter().cloned()).collect()
+    }
+
+    /// A source. A file that is not open is read again if it has changed.
+    fn as_it_is(&mut self, path: &str) -> Arc<Checked> {
         let checked = self.session.checked(path);
         let known = checked.file.map(|file| checked.sources.file(file).text.as_str());
-        if std::fs::read_to_string(path).ok().as_deref() == known {
+        if self.buffers.at(path).is_some() || self.world.read(path).ok().as_deref() == known {
             return checked;
         }
         self.session.close(path);
@@ -97,9 +119,9 @@ impl Server<'_> {
 
     /// The edits that rename a declaration in all sources, or the reason why that is not possible.
     pub(super) fn renamed(&mut self, checked: &Checked, found: NameUse, new: &str) -> Result<WorkspaceEdit, String> {
-        let mut rename = Rename::new(&self.files(checked), found, new);
-        self.all_sources().into_iter().for_each(|source| rename.add(source));
-        rename.finish(&self.buffers, self.world.clone())
+        let mut rename = Rename::new(&self.files(checked), found, new, self.world.clone());
+        self.sources_of(checked, found).into_iter().for_each(|source| rename.add(source));
+        rename.finish(&self.buffers)
     }
 
     pub(super) fn rename(&mut self, asked: lsp::RenameParams) -> Reply<RenameRequest> {

@@ -7,8 +7,7 @@ use gen_lsp_types::{
     DiagnosticRelatedInformation, DiagnosticSeverity, DiagnosticTag, Range, TextEdit, Uri, WorkspaceEdit,
 };
 
-use crate::files::{Files, readable};
-use crate::uri;
+use crate::files::Files;
 use nbc_base::diag::{Code, Diagnostic, Fix, Severity};
 use nbc_lang::check::{NameKind, NameUse};
 
@@ -38,14 +37,14 @@ fn problem(files: &Files<'_>, diagnostic: &Diagnostic) -> Problem {
             message: if label.text.is_empty() { "here".to_owned() } else { label.text.clone() },
         })
         .collect();
-    let page = readable(&format!("{}.md", diagnostic.code.word()), nbc_session::error_page(diagnostic.code));
+    let page = files.readable(&format!("{}.md", diagnostic.code.word()), nbc_session::error_page(diagnostic.code));
     Problem {
         severity: Some(match diagnostic.severity {
             Severity::Error => DiagnosticSeverity::Error,
             Severity::Warning => DiagnosticSeverity::Warning,
         }),
         code: Some(diagnostic.code.word().to_owned().into()),
-        code_description: Some(CodeDescription { href: uri::uri(&page) }),
+        code_description: page.map(|href| CodeDescription { href }),
         source: Some("nbc".to_owned()),
         tags: (diagnostic.code == Code::Unused).then(|| vec![DiagnosticTag::Unnecessary]),
         related_information: Some(related),

@@ -23,6 +23,7 @@ pub(super) struct Rename<'a> {
     home: Uri,
     declared: Span,
     encoding: Encoding,
+    world: SharedWorld,
     /// The files that change, by URI.
     files: BTreeMap<String, RenamedFile>,
     /// The sources in which the name is used, with the number of its uses.
@@ -37,14 +38,15 @@ struct RenamedFile {
 }
 
 impl<'a> Rename<'a> {
-    pub(super) fn new(files: &Files<'_>, found: NameUse, new: &'a str) -> Self {
+    pub(super) fn new(files: &Files<'_>, found: NameUse, new: &'a str, world: SharedWorld) -> Self {
         let (home, declared) = (files.uri(found.declared.file), found.declared);
-        Self { new, home, declared, encoding: files.encoding, files: BTreeMap::new(), sources: Vec::new() }
+        Self { new, home, declared, encoding: files.encoding, world, files: BTreeMap::new(), sources: Vec::new() }
     }
 
     /// Adds the uses in a source and the files that it uses.
     pub(super) fn add(&mut self, checked: Arc<Checked>) {
-        let files = Files { checked: &checked, encoding: self.encoding };
+        let world = self.world.clone();
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
         let Some(declared) = self.declared_in(&files, self.declared) else { return };
         let mut count = 0;
         for found in checked.uses.of(declared) {
@@ -72,8 +74,8 @@ impl<'a> Rename<'a> {
 
     /// The edits, or the reason why the name cannot be used: the program would have a new error, or another name would
     /// get another meaning.
-    pub(super) fn finish(self, buffers: &Buffers, world: SharedWorld) -> Result<WorkspaceEdit, String> {
-        let mut session = Session::new(world);
+    pub(super) fn finish(self, buffers: &Buffers) -> Result<WorkspaceEdit, String> {
+        let mut session = Session::new(self.world.clone());
         for buffer in buffers.iter() {
             session.update(&buffer.path, 0, buffer.text.clone());
         }
@@ -86,7 +88,7 @@ impl<'a> Rename<'a> {
             if let Some(fault) = new_error(before, &after) {
                 return Err(format!("`{}` cannot be the new name: {}", self.new, fault.message));
             }
-            let files = Files { checked: &after, encoding: self.encoding };
+            let files = Files { checked: &after, encoding: self.encoding, world: &self.world };
             let declared = self.declared_in(&files, self.moved());
             if declared.map(|declared| after.uses.of(declared).count()) != Some(*count) {
                 return Err(format!("`{}` has another meaning where the name is used", self.new));

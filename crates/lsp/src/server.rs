@@ -256,7 +256,7 @@ impl<'c> Server<'c> {
             if !is_whole || known.is_some_and(|(known, _)| Arc::ptr_eq(known, &checked)) {
                 continue;
             }
-            let files = Files { checked: &checked, encoding: self.encoding };
+            let files = Files { checked: &checked, encoding: self.encoding, world: &*self.world };
             let mut found = problems::by_file(&files);
             let own = self.buffers.iter().find(|buffer| buffer.path == path).map(|buffer| buffer.uri.clone());
             let own = own.unwrap_or_else(|| files.own());
@@ -277,8 +277,8 @@ impl<'c> Server<'c> {
         Some(self.session.checked(&path))
     }
 
-    pub(super) fn files<'a>(&self, checked: &'a Checked) -> Files<'a> {
-        Files { checked, encoding: self.encoding }
+    pub(super) fn files<'a>(&'a self, checked: &'a Checked) -> Files<'a> {
+        Files { checked, encoding: self.encoding, world: &*self.world }
     }
 
     fn tell(&self, uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) {

@@ -1,8 +1,9 @@
 //! Files as URIs.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use gen_lsp_types::Uri;
+use nbc_base::source::SourceWorld;
 use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 
 /// All characters but those that are frequent in paths.
@@ -15,9 +16,9 @@ pub(super) fn path(uri: &Uri) -> Option<String> {
     Some(percent_decode_str(path).decode_utf8().ok()?.into_owned())
 }
 
-/// The URI of a file.
-pub(super) fn uri(path: &str) -> Uri {
-    let path = Path::new(path).canonicalize().unwrap_or_else(|_| absolute(path));
+/// The URI of a file of a world.
+pub(super) fn uri(world: &dyn SourceWorld, path: &str) -> Uri {
+    let path = absolute(&world.identity(path));
     Uri(format!("file://{}", utf8_percent_encode(&path.to_string_lossy(), ESCAPED)))
 }
 
@@ -28,12 +29,13 @@ fn absolute(path: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use nbc_session::store::DiskWorld;
 
     #[test]
     fn a_path_and_its_uri_are_the_same_file() {
         let place = "/tmp/a b/é%.nb";
-        assert_eq!(uri(place).as_ref(), "file:///tmp/a%20b/%C3%A9%25.nb");
-        assert_eq!(path(&uri(place)).as_deref(), Some(place));
+        assert_eq!(uri(&DiskWorld, place).as_ref(), "file:///tmp/a%20b/%C3%A9%25.nb");
+        assert_eq!(path(&uri(&DiskWorld, place)).as_deref(), Some(place));
         assert_eq!(path(&Uri("file://localhost/a.nb".to_owned())).as_deref(), Some("/a.nb"));
         assert_eq!(path(&Uri("untitled:Untitled-1".to_owned())), None);
     }

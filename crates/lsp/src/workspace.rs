@@ -6,6 +6,7 @@ use gen_lsp_types::Uri;
 use serde_json::Value;
 
 use crate::uri;
+use nbc_base::source::{EntryKind, SourceWorld};
 use nbc_session::store;
 
 /// The folders that are open.
@@ -36,9 +37,11 @@ impl Workspace {
         self.folders.retain(|known| Some(known) != path.as_ref());
     }
 
-    /// The paths of its source files, in order. Hidden folders and those of results and packages are left out.
-    pub(super) fn files(&self) -> Vec<String> {
-        store::source_files(self.folders.iter().map(PathBuf::from), |path| path.ends_with(".nb"))
+    /// The paths of its source files, in order. Hidden folders, those of results and packages, links, and folders that
+    /// the world does not have are left out.
+    pub(super) fn files(&self, world: &dyn SourceWorld) -> Vec<String> {
+        let folders = self.folders.iter().filter(|folder| world.kind(folder) == Some(EntryKind::Folder));
+        store::source_files(folders.map(PathBuf::from), |path| path.ends_with(".nb"))
     }
 }
 

@@ -134,13 +134,18 @@ impl Served {
 
     /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
     /// another site that points to this computer is not, and its `Origin`, if it has one, is the same.
+    /// Neither is there twice.
     pub(super) fn trusts(&self, headers: &HeaderMap) -> bool {
-        let text = |name| headers.get(name).map(|value: &axum::http::HeaderValue| value.to_str().unwrap_or(""));
-        let Some(host) = text(header::HOST).filter(|host| self.is_own(host)) else { return false };
-        text(header::ORIGIN).is_none_or(|origin| origin.strip_prefix("http://") == Some(host))
+        let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or("")).collect::<Vec<_>>();
+        // Of several values, a program before this one may have looked at another.
+        let (hosts, origins) = (all(header::HOST), all(header::ORIGIN));
+        let [host] = hosts[..] else { return false };
+        let is_same = |origin: &&str| origin.strip_prefix("http://") == Some(host);
+        self.is_own(host) && origins.len() <= 1 && origins.iter().all(is_same)
     }
 
-    fn is_own(&self, host: &str) -> bool {
+    /// Whether this is an address of this server.
+    pub(super) fn is_own(&self, host: &str) -> bool {
         let port = format!(":{}", self.port);
         let Some(name) = host.strip_suffix(&port) else { return false };
         let address = name.trim_start_matches('[').trim_end_matches(']').parse::<IpAddr>();
@@ -187,6 +192,16 @@ mod tests {
             assert!(!local.trusts(&headers(host, None)), "{host}");
         }
         assert!(!local.trusts(&HeaderMap::new()));
+        let own = "127.0.0.1:80";
+        for (name, values) in [(header::HOST, [own, "evil.example:80"]), (header::HOST, ["evil.example:80", own])] {
+            let mut twice = headers(own, None);
+            twice.remove(&name);
+            values.into_iter().for_each(|value| _ = twice.append(&name, value.parse().unwrap()));
+            assert!(!local.trusts(&twice), "{values:?}");
+        }
+        let mut twice = headers(own, Some("http://127.0.0.1:80"));
+        twice.append(header::ORIGIN, "http://127.0.0.1:80".parse().unwrap());
+        assert!(!local.trusts(&twice));
         let open = served("0.0.0.0");
         assert!(open.trusts(&headers("192.168.0.7:80", Some("http://192.168.0.7:80"))));
         assert!(!open.trusts(&headers("evil.example:80", None)));

@@ -56,7 +56,9 @@ async fn part(
 async fn guard(State(served): State<Arc<Served>>, request: Request, next: Next) -> Response {
     let token = request.uri().path().split('/').nth(1).unwrap_or_default();
     let (known, taught) = (served.knows(token), served.taught(token));
-    let mut response = match (known || taught.is_some(), served.trusts(request.headers())) {
+    // A target may name a host, too.
+    let is_here = request.uri().authority().is_none_or(|host| served.is_own(host.as_str()));
+    let mut response = match (known || taught.is_some(), is_here && served.trusts(request.headers())) {
         (true, true) => match taught {
             Some(class) => teacher::answer(&served, class, &request),
             None => next.run(request).await,

@@ -4,6 +4,7 @@ mod attacks;
 mod class;
 mod export;
 mod lessons;
+mod outside;
 mod page;
 mod robots;
 mod safety;

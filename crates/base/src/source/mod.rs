@@ -13,4 +13,4 @@ pub use span::{FileId, Span};
 pub use verilog::{
     VERILOG_SOURCE, VerilogError, VerilogFault, VerilogModules, VerilogName, VerilogPlace, verilog_line,
 };
-pub use world::{MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};
+pub use world::{EntryKind, MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};

@@ -6,6 +6,15 @@ use std::sync::Arc;
 
 use super::{FileError, VerilogError, VerilogModules};
 
+/// What can be at a path.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EntryKind {
+    /// A file.
+    File,
+    /// A folder.
+    Folder,
+}
+
 /// The source of everything that the core reads: programs and robot files.
 pub trait SourceWorld {
     /// The text of the file at `path`.
@@ -36,6 +45,14 @@ pub trait SourceWorld {
     /// When there is no such folder.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 
+    /// What is at `path`; `None` if there is nothing that this world has.
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        match self.list(path) {
+            Ok(_) => Some(EntryKind::Folder),
+            Err(_) => self.read_bytes(path).ok().map(|_| EntryKind::File),
+        }
+    }
+
     /// The unique name of the file at `path`, however many paths and links lead to it.
     fn identity(&self, path: &str) -> String {
         path.to_owned()
@@ -63,6 +80,10 @@ macro_rules! forward {
 
             fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
                 (**self).list(folder)
+            }
+
+            fn kind(&self, path: &str) -> Option<EntryKind> {
+                (**self).kind(path)
             }
 
             fn identity(&self, path: &str) -> String {
@@ -158,6 +179,11 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
         }
     }
 
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        let over = self.over.kind(&self.under.identity(path)).or_else(|| self.over.kind(path));
+        over.or_else(|| self.under.kind(path))
+    }
+
     fn identity(&self, path: &str) -> String {
         self.under.identity(path)
     }
@@ -178,6 +204,8 @@ mod tests {
         let world = files(&[("a/x.nb", ""), ("a/b/y.nb", ""), ("a/b/z.nb", ""), ("ab/w.nb", "")]);
         assert_eq!(world.list("a"), Ok(vec!["b".to_owned(), "x.nb".to_owned()]));
         assert_eq!(world.list("c"), Err(FileError::NotFound));
+        let kinds = ["a", "a/x.nb", "c"].map(|path| world.kind(path));
+        assert_eq!(kinds, [Some(EntryKind::Folder), Some(EntryKind::File), None]);
     }
 
     #[test]
@@ -187,6 +215,7 @@ mod tests {
         world.insert("a/new.nb", "new");
         assert_eq!(["a/x.nb", "a/y.nb", "a/new.nb"].map(|path| world.read(path).unwrap()), ["above", "other", "new"]);
         assert_eq!(world.list("a"), Ok(["new.nb", "x.nb", "y.nb"].map(str::to_owned).to_vec()));
+        assert!(["a/y.nb", "a/new.nb"].iter().all(|path| world.kind(path) == Some(EntryKind::File)));
         world.remove("a/x.nb");
         assert_eq!(world.read("a/x.nb").as_deref(), Ok("below"));
     }

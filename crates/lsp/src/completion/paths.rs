@@ -1,12 +1,10 @@
 //! Paths of files and folders, between quotes.
 
-use std::fs::{self, DirEntry};
-
 use gen_lsp_types::{CompletionItem, CompletionItemKind, TextEdit};
 
 use crate::completion::item::item;
 use crate::spot::Spot;
-use nbc_base::source::Span;
+use nbc_base::source::{EntryKind, Span};
 use nbc_lang::check::{beside, is_usable};
 
 /// The kind of file or folder that a path should name.
@@ -34,26 +32,21 @@ pub(super) fn items(spot: &Spot<'_>, start: usize, kind: PathKind) -> Vec<Comple
     };
     let is_own = |label: &str| beside(own, &format!("{folder}{label}")) == *own;
     let listed = match (beside(own, if folder.is_empty() { "." } else { folder }), own.starts_with('/')) {
-        (path, _) if !path.is_empty() => entries(&path, kind),
-        (_, true) => entries("/", kind),
-        (_, false) => entries(".", kind),
+        (path, _) if !path.is_empty() => entries(spot, &path, kind),
+        (_, true) => entries(spot, "/", kind),
+        (_, false) => entries(spot, ".", kind),
     };
     let shown = listed.into_iter().filter(|(label, _)| label.starts_with('.') <= name.starts_with('.'));
     shown.filter(|(label, _)| !is_own(label)).map(offer).collect()
 }
 
 /// The entries of a folder that are or contain what is wanted, in order.
-fn entries(folder: &str, kind: PathKind) -> Vec<(String, CompletionItemKind)> {
-    let entries = fs::read_dir(folder).into_iter().flatten().flatten().take(MOST);
-    let mut found: Vec<_> = entries.filter_map(|entry| labeled(&entry, kind)).collect();
-    found.sort_by(|(one, _), (other, _)| one.cmp(other));
-    found
-}
-
-fn labeled(entry: &DirEntry, kind: PathKind) -> Option<(String, CompletionItemKind)> {
-    let name = entry.file_name().into_string().ok().filter(|name| !name.contains('"'))?;
-    if entry.path().is_dir() {
-        return Some((name + "/", CompletionItemKind::Folder));
-    }
-    (kind == PathKind::Source && is_usable(&name)).then_some((name, CompletionItemKind::File))
+fn entries(spot: &Spot<'_>, folder: &str, kind: PathKind) -> Vec<(String, CompletionItemKind)> {
+    let world = spot.files.world;
+    let names = world.list(folder).unwrap_or_default().into_iter().take(MOST);
+    let named = |name: String| match world.kind(&format!("{folder}/{name}"))? {
+        EntryKind::Folder => Some((name + "/", CompletionItemKind::Folder)),
+        EntryKind::File => (kind == PathKind::Source && is_usable(&name)).then_some((name, CompletionItemKind::File)),
+    };
+    names.filter(|name| !name.contains(['"', char::REPLACEMENT_CHARACTER])).filter_map(named).collect()
 }

@@ -34,6 +34,8 @@ pub(crate) enum OrderError {
     Command(String),
     Arguments,
     Closed(String),
+    /// The client does not see the folder of the results.
+    NoPlace,
 }
 
 impl fmt::Display for OrderError {
@@ -43,6 +45,7 @@ impl fmt::Display for OrderError {
                 write!(f, "`{name}` is not a command of this server; expected one of {}", COMMANDS.join(", "))
             }
             Self::Arguments => f.write_str("expected an object with the `uri` of an open text"),
+            Self::NoPlace => f.write_str("commands write their results outside of the folder of this client"),
             Self::Closed(uri) => write!(f, "`{uri}` is not open"),
         }
     }

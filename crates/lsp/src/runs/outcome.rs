@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use serde::Serialize;
 
 use crate::uri;
+use nbc_session::store::DiskWorld;
 
 /// The result of a command.
 #[derive(Clone, Debug, Serialize)]
@@ -25,6 +26,6 @@ impl RunOutcome {
     /// A result with the file that shows it.
     pub(super) fn new(passed: Option<bool>, text: String, path: Option<PathBuf>) -> Self {
         let path = path.map(|path| path.to_string_lossy().into_owned());
-        Self { passed, text, page: path.as_deref().map(|path| uri::uri(path).0), path }
+        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&DiskWorld, path).0), path }
     }
 }

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::path::Path;
 
 use nbc_base::diag::io_words;
-use nbc_base::source::FileError;
+use nbc_base::source::{EntryKind, FileError};
 use nbc_lang::syntax::MAX_SOURCE_BYTES;
 
 /// The largest checkpoint of an evolution run, in bytes.
@@ -102,6 +102,12 @@ pub(super) fn list(folder: &Path) -> Result<Vec<String>, FileError> {
     let mut names: Vec<_> = entries.iter().map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
     names.sort();
     Ok(names)
+}
+
+/// What is at a path.
+pub(super) fn entry_kind(path: &Path) -> Option<EntryKind> {
+    let about = fs::metadata(path).ok()?;
+    Some(if about.is_dir() { EntryKind::Folder } else { EntryKind::File })
 }
 
 #[cfg(test)]

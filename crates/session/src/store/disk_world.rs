@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::store::disk;
 use crate::store::folder::FolderWorld;
 use crate::store::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{FileError, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// The files of this computer.
@@ -28,6 +28,10 @@ impl SourceWorld for DiskWorld {
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
         disk::list(Path::new(folder))
+    }
+
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        disk::entry_kind(Path::new(path))
     }
 
     fn identity(&self, path: &str) -> String {

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::store::disk;
 use crate::store::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{FileError, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
@@ -37,12 +37,15 @@ impl FolderWorld {
     /// # Errors
     /// When there is none, or it is outside of the folder.
     pub fn existing(&self, path: &str) -> Result<PathBuf, FileError> {
-        self.check(path)?;
-        let whole = fs::canonicalize(self.root.join(path)).map_err(|error| match error.kind() {
-            io::ErrorKind::NotFound => FileError::NotFound,
-            _ => FileError::Io(nbc_base::diag::io_words(&error)),
-        })?;
-        if whole.starts_with(&self.root) { Ok(whole) } else { Err(outside()) }
+        let mut place = self.root.clone();
+        // Part by part, because what is beyond a link that leads out must not even be looked for.
+        for part in self.inside(path)?.components() {
+            place = fs::canonicalize(place.join(part)).map_err(|error| disk::refusal(&error))?;
+            if !place.starts_with(&self.root) {
+                return Err(outside());
+            }
+        }
+        Ok(place)
     }
 
     /// The place of a file that may not exist yet, in a folder that does.
@@ -60,8 +63,9 @@ impl FolderWorld {
         Ok(self.existing(&folder)?.join(name))
     }
 
-    /// Refuses a path that leads out of the folder without reading the disk, so that answers reveal nothing about it.
-    fn check(&self, path: &str) -> Result<(), FileError> {
+    /// A path relative to the folder. One that leads out of it is refused without reading the disk, so that answers
+    /// reveal nothing about it.
+    fn inside<'p>(&self, path: &'p str) -> Result<&'p Path, FileError> {
         let path = Path::new(path);
         let inside = if path.is_absolute() { path.strip_prefix(&self.root).map_err(|_| outside())? } else { path };
         let mut depth = 0;
@@ -73,7 +77,7 @@ impl FolderWorld {
                 _ => return Err(outside()),
             }
         }
-        Ok(())
+        Ok(inside)
     }
 }
 
@@ -98,8 +102,13 @@ impl SourceWorld for FolderWorld {
         disk::list(&self.existing(folder)?)
     }
 
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        disk::entry_kind(&self.existing(path).ok()?)
+    }
+
     fn identity(&self, path: &str) -> String {
-        self.existing(path).map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
+        let place = self.existing(path).or_else(|_| self.inside(path).map(|inside| self.root.join(inside)));
+        place.map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
     }
 }
 
@@ -153,6 +162,11 @@ mod tests {
         fs::write(folder.path().join("secret.nb"), "s").unwrap();
         std::os::unix::fs::symlink(folder.path(), root.join("up")).unwrap();
         let world = FolderWorld::new(&root).unwrap();
-        assert!(refused(world.existing("up/secret.nb")) && refused(world.writable("up/new.nb")));
+        // What is there and what is not is refused alike.
+        for path in ["up", "up/secret.nb", "up/missing.nb", "up/missing/secret.nb", "up/served/a.nb/../../x"] {
+            assert!(refused(world.existing(path)), "{path}");
+        }
+        assert!(refused(world.writable("up/new.nb")));
+        assert_eq!((world.kind("up"), world.kind("up/secret.nb")), (None, None));
     }
 }

@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::store::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{FileError, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// Called before each translation. Returns the flag that ends it, or the reason why it is not permitted.
@@ -54,6 +54,10 @@ impl<W: VerilogFiles> SourceWorld for GuardedWorld<W> {
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
         self.world.list(folder)
+    }
+
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        self.world.kind(path)
     }
 
     fn identity(&self, path: &str) -> String {
