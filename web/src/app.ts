@@ -6,7 +6,7 @@ import { LanguageServer } from "./editor/server";
 import { Header } from "./header";
 import { Layout } from "./layout";
 import { ClassPanel } from "./learn/class";
-import { Lessons } from "./learn/lessons";
+import { lessonPath, Lessons } from "./learn/lessons";
 import { LearnPanel } from "./learn/panel";
 import { SwarmPanel } from "./live/panel";
 import { LiveSwarm } from "./live/swarm";
@@ -32,6 +32,7 @@ export class App {
   readonly #class = new ClassPanel(this.#connection);
   readonly #layout: Layout;
   #begun = false;
+  #lessonsRead: Promise<void> = Promise.resolve();
 
   constructor() {
     const take = new TakeAway(this.#connection, this.#program, this.#swarm, () => this.#layout.tab.value);
@@ -43,6 +44,7 @@ export class App {
     const robots = new RobotsPanel(this.#connection, this.#program, {
       declare: line => this.#edit.editor.insertAtTop(line),
       append: line => this.#edit.editor.append(line),
+      show: () => this.#layout.show("swarm"),
     });
     const learn = new LearnPanel(
       { program: this.#program, swarm: this.#swarm, tests, robots },
@@ -66,7 +68,7 @@ export class App {
       this.#watch();
     });
     document.addEventListener("visibilitychange", () => this.#watch());
-    addEventListener("hashchange", () => void this.#openFragment());
+    addEventListener("hashchange", () => void this.#follow());
     this.#program.plays = !prefersStillness();
     this.#bindKeys(swarm);
   }
@@ -86,7 +88,7 @@ export class App {
     this.#program.hello = hello;
     this.#header.showFolder(hello);
     this.#language.connect(hello.root);
-    void this.#lessons.load();
+    this.#lessonsRead = this.#lessons.load();
     void this.#class.open(hello.class);
     if (this.#begun) {
       this.#program.restore();
@@ -128,6 +130,20 @@ export class App {
     }
   }
 
+  /** Opens the program of an address to which the browser went back or forth. */
+  async #follow(): Promise<void> {
+    const named = decoded(location.hash.slice(1));
+    const { path } = this.#program;
+    if ((await this.#openFragment()) || named === "" || named === path.value || this.#program.hello === null) {
+      return;
+    }
+    if (await this.#edit.mayLeave()) {
+      await this.#openNamed(this.#program.hello, named);
+    } else {
+      window.history.pushState(null, "", `#${encodeURI(path.value)}`);
+    }
+  }
+
   /** The program of the address, else that of the command line, else the latch. */
   async #openFirst(hello: Greeting): Promise<void> {
     if (!(await this.#openFragment())) {
@@ -136,22 +152,33 @@ export class App {
   }
 
   async #openNamed(hello: Greeting, named: string): Promise<void> {
-    const drafted = named !== "" ? this.#program.draftAlone(named) : null;
-    const origins: Origin[] = [
-      ...(named === "" ? [] : [{ path: named }, { example: named }]),
-      ...(hello.file === null ? [] : [{ path: hello.file }]),
-      { example: exampleNamed(hello, LATCH) },
-    ];
-    for (const origin of origins) {
-      const isNamed = "path" in origin && origin.path === named;
-      if (isNamed && drafted !== null && !hello.files.some(file => file.path === named)) {
-        this.#edit.begin(named, drafted);
+    if (named !== "") {
+      const isFile = hello.files.some(file => file.path === named);
+      const text = isFile ? null : ((await this.#lessonAt(named)) ?? this.#program.draftAlone(named));
+      if (text !== null) {
+        this.#edit.begin(named, text);
         return;
       }
+      if ((await this.#edit.open({ path: named })) || (await this.#edit.open({ example: named }))) {
+        return;
+      }
+      // Back must not lead there again.
+      window.history.replaceState(null, "", location.pathname);
+    }
+    const example = exampleNamed(hello, LATCH);
+    const own = hello.files.some(file => file.path === example) ? { path: example } : { example };
+    const origins: Origin[] = hello.file === null ? [own] : [{ path: hello.file }, own];
+    for (const origin of origins) {
       if (await this.#edit.open(origin)) {
         return;
       }
     }
+  }
+
+  /** The program of the lesson that begins at a path, if there is one. */
+  async #lessonAt(path: string): Promise<string | null> {
+    await this.#lessonsRead;
+    return this.#lessons.list.value.find(lesson => lessonPath(lesson) === path)?.program ?? null;
   }
 
   /** Space plays and pauses, and a period is one cycle, wherever nothing else takes these keys. */

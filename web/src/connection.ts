@@ -114,8 +114,8 @@ export class Connection implements SwarmServer {
   }
 }
 
-function refused({ message, code, help, diagnostics }: Refusal): RequestError {
-  return new RequestError(message, code, help, diagnostics);
+function refused({ message, code, help, instead, diagnostics }: Refusal): RequestError {
+  return new RequestError(message, code, help, diagnostics, instead);
 }
 
 /** An address beside the page, as a socket's. */

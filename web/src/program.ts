@@ -39,6 +39,8 @@ export class Program {
   /** The text that `checked` is about. */
   #checkedText: string | null = null;
   #saved: string | null = null;
+  /** Whether neither a file nor an example has the program, so that a reload needs its draft. */
+  #alone = false;
   #compiled: { path: string; text: string; choice: string } | null = null;
   /** The path of the program whose swarm is shown. */
   shown: string | null = null;
@@ -72,12 +74,21 @@ export class Program {
     return this.hello?.root ?? "";
   }
 
-  /** Takes a file's text. The result is the draft that is shown in its place, if there is one. */
-  begin(file: FileText): ReturnType<typeof draftOf> {
+  /**
+   * Takes a file's text, or one that is `alone`: no file or example has it. The result is the draft that is shown in
+   * its place, if there is one.
+   */
+  begin(file: FileText, alone = false): ReturnType<typeof draftOf> {
     const draft = draftOf(this.folder, file.path);
-    const restored = draft !== null && draft.text !== file.text ? draft : null;
+    const isTouched = draft !== null && draft.untouched !== true;
+    const restored = isTouched && draft.text !== file.text ? draft : null;
+    this.#alone = alone;
+    if (alone && !isTouched) {
+      keepDraft(this.folder, file.path, { text: file.text, stamp: null, untouched: true });
+    }
     this.path.set(file.path);
-    this.stamp = file.stamp;
+    // A draft of an older file must not replace the present one.
+    this.stamp = restored === null || file.stamp === null ? file.stamp : restored.stamp;
     this.#saved = file.text;
     this.#text = restored?.text ?? file.text;
     this.unsaved.set(restored !== null);
@@ -90,7 +101,7 @@ export class Program {
   /** Takes a text that has no file, such as that of a link, as a draft, and the circuit to show if there is such a one. */
   beginDraft(path: string, text: string, choice: Choice | null): void {
     keepDraft(this.folder, path, { text, stamp: null });
-    this.begin({ path, text, stamp: null });
+    this.begin({ path, text, stamp: null }, true);
     this.#saved = null;
     this.unsaved.set(true);
     this.choice.set(choice);
@@ -106,6 +117,7 @@ export class Program {
     this.path.set(file.path);
     this.stamp = file.stamp;
     this.#saved = file.text;
+    this.#alone = false;
   }
 
   /** Takes the text after an edit. */
@@ -113,7 +125,9 @@ export class Program {
     this.#text = text;
     const unsaved = text !== this.#saved;
     this.unsaved.set(unsaved);
-    keepDraft(this.folder, this.path.value, unsaved ? { text, stamp: this.stamp } : null);
+    const untouched = unsaved ? {} : { untouched: true };
+    const draft = unsaved || this.#alone ? { text, stamp: this.stamp, ...untouched } : null;
+    keepDraft(this.folder, this.path.value, draft);
     clearTimeout(this.#timer);
     this.#edited = true;
     this.#timer = window.setTimeout(() => this.#check(), PAUSE);
@@ -142,6 +156,7 @@ export class Program {
     this.path.set(path);
     this.stamp = saved.stamp;
     this.#saved = text;
+    this.#alone = false;
     this.unsaved.set(this.#text !== text);
   }
 

@@ -391,6 +391,8 @@ export type Refusal = {
   help: string | null,
   /** A word for what a page reacts to. */
   code: string | null,
+  /** The path that could be saved at instead. */
+  instead: string | null,
   diagnostics: Array<Finding>,
 };
 

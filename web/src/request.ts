@@ -15,6 +15,8 @@ export class RequestError extends Error {
     readonly code: string | null,
     readonly help: string | null,
     readonly diagnostics: Finding[],
+    /** The path that could be saved at instead. */
+    readonly instead: string | null = null,
   ) {
     super(message);
   }

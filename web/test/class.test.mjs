@@ -1,9 +1,11 @@
 // A class: learners join with a name, the teacher's page shows where they are, and they can leave.
 
 import assert from "node:assert/strict";
+import { readFileSync, readdirSync } from "node:fs";
+import path from "node:path";
 import { test } from "node:test";
 
-import { setInput, visit, walking } from "./browser.mjs";
+import { setInput, typeProgram, visit, walking } from "./browser.mjs";
 import { done } from "./lessons.mjs";
 import { served } from "./opened.mjs";
 import { LATCH, play } from "./program.mjs";
@@ -53,6 +55,28 @@ test("the teacher sees who is at which step, and names are nothing but text", as
   await ada.leave();
   await twin.leave();
   await board.leave();
+});
+
+test("learners save beside each other, never over each other", async () => {
+  const [ada, ben] = [await learner("Ada"), await learner("Ben")];
+  for (const [page, name] of [
+    [ada, "Ada"],
+    [ben, "Ben"],
+  ]) {
+    await page.getByText(`You are in the class as ${name}`).waitFor();
+    await typeProgram(page, `${LATCH}\n// of ${name}\n`);
+    await page.locator("[data-do=save]").click();
+    await page.getByText("latch.nb is not a file of yours").waitFor();
+    await page.getByRole("button", { name: `Save as latch.${name}.nb` }).click();
+    await page.locator('.file[data-unsaved="false"]').waitFor();
+    assert.equal(await page.locator(".file").textContent(), `latch.${name}.nb`);
+  }
+  const onDisk = name => readFileSync(path.join(here.place.folder, name), "utf8");
+  assert.deepEqual(readdirSync(here.place.folder).sort(), ["latch.Ada.nb", "latch.Ben.nb", "latch.nb"]);
+  assert.equal(onDisk("latch.nb"), LATCH);
+  assert.match(onDisk("latch.Ada.nb"), /of Ada/);
+  await ada.leave();
+  await ben.leave();
 });
 
 test("the addresses of learners and teacher open nothing of each other", async () => {

@@ -42,6 +42,30 @@ test("hints are shown one after the other, and are those of the step", async () 
   assert.equal(await hint.textContent(), "Hint (1 of 3)");
 });
 
+test("a reload in a lesson that nobody has touched shows its program", async () => {
+  await begin("and");
+  await here.page.reload();
+  await here.page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_and.nb");
+  assert.equal(await here.page.locator('.file[data-unsaved="true"]').count(), 0);
+});
+
+test("a step that does not count says what it still needs", async () => {
+  await begin("and");
+  const missing = here.page.locator(".strip .missing");
+  assert.equal(await missing.count(), 0);
+  await typeProgram(
+    here.page,
+    'circuit both(a, b) -> (q) {\n    q = a and b\n}\ntest both "mine" {\n    a b | q\n    1 1 | 1\n}\n',
+  );
+  await compiled(here.page);
+  await here.page.locator("#tab-tests").click();
+  await here.page.locator("[data-do=all-logic]").click();
+  await missing.getByText("every line of the lesson’s tests is still there").waitFor();
+  await missing.getByText("all robots of the circuit are nand").waitFor();
+  assert.equal(await here.page.locator('.strip li[data-done="true"]').count(), 0);
+  await here.page.locator("#tab-learn").click();
+});
+
 test("a lesson begins again with its program and its swarm, and what was written can be had back", async () => {
   await begin("latch");
   const code = here.page.locator(".cm-content");
@@ -90,7 +114,7 @@ test("a circuit that is too large has fewer stars, until it is smaller", async (
   await here.page.locator("[data-do=all-logic]").click();
   const score = here.page.locator(".strip .score");
   await here.page.locator('.strip .score[data-size="4"][data-stars="1"]').waitFor();
-  assert.match(await score.textContent(), /Your circuit: 4 gates\. The smallest known has 2 gates\./);
+  assert.match(await score.textContent(), /Your circuit: 4 gates in the text\. The smallest known has 2\./);
   await typeProgram(here.page, and.steps[0].program);
   await here.page.locator("[data-do=all-logic]").click();
   await here.page.locator('.strip .score[data-size="2"][data-stars="3"]').waitFor();

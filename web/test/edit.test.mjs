@@ -27,8 +27,16 @@ test("a mistake is shown at its place, and the swarm follows its fix", async () 
   await typeProgram(here.page, GATE.replace("a and b", "a and c"));
   await here.page.locator(".cm-lintRange-error").waitFor();
   await here.page.locator('.swarm .status[data-state="errors"]').waitFor();
+  // The list below the editor says it without a pointer, and leads there.
+  const listed = here.page.locator('.problems [data-severity="error"] button');
+  assert.match(await listed.textContent(), /^line 2: no net is called `c`/);
+  await listed.click();
+  await here.page.waitForFunction(() =>
+    document.querySelector(".editor").shadowRoot.querySelector(".cm-activeLine").textContent.includes("a and c"),
+  );
   await typeProgram(here.page, GATE.replace("a and b", "a nor b"));
   await here.page.locator(".cm-lintRange-error").waitFor({ state: "detached" });
+  await here.page.locator(".problems").waitFor({ state: "hidden" });
   await here.page.waitForFunction(() => /^1 robot/.test(document.querySelector(".swarm .status").textContent));
   await here.page.waitForFunction(() =>
     document.querySelector('.schematic [data-id="cell-0"]')?.textContent.includes("NOR"),
@@ -71,6 +79,28 @@ test("one's own text can be kept, and is then saved over the other", async () =>
   await here.page.locator("[data-do=save]").click();
   await here.page.locator('.file[data-unsaved="false"]').waitFor();
   assert.match(onDisk("gate.nb"), /a xnor b/);
+});
+
+test("a draft of an older file is not saved over a newer one without a question", async () => {
+  await typeProgram(here.page, GATE.replace("a and b", "not a"));
+  await here.page.locator('.file[data-unsaved="true"]').waitFor();
+  const address = here.page.url();
+  await here.page.goto("about:blank");
+  const theirs = GATE.replace("a and b", "not b");
+  writeFileSync(path.join(here.place.folder, "gate.nb"), theirs);
+  await here.page.goto(address);
+  const notice = here.page.locator("[data-notice=changed]");
+  await notice.getByText("The file was changed since then").waitFor();
+  assert.match(await here.page.locator(".cm-content").textContent(), /q = not a/);
+  await here.page.locator("[data-do=save]").click();
+  await notice.getByText("was changed by another program since you opened it").waitFor();
+  assert.equal(onDisk("gate.nb"), theirs);
+  await notice.getByRole("button", { name: "Load theirs" }).click();
+  await here.page.locator('.file[data-unsaved="false"]').waitFor();
+  await typeProgram(here.page, GATE);
+  await here.page.locator("[data-do=save]").click();
+  await here.page.locator('.file[data-unsaved="false"]').waitFor();
+  assert.equal(onDisk("gate.nb"), GATE);
 });
 
 test("the language server explains, formats and renames", async () => {
@@ -152,6 +182,42 @@ test("other files, examples and new files can be opened", async () => {
   await here.page.locator('.file[data-unsaved="false"]').waitFor();
   await here.page.waitForFunction(() => document.querySelector("[data-do=save]").disabled);
   assert.match(onDisk("mine.nb"), /circuit mine/);
+});
+
+test("a new program stays where it is after a reload, and Back leads to the one before", async () => {
+  const shows = name => here.page.waitForFunction(file => document.querySelector(".file").textContent === file, name);
+  const open = async name => {
+    await here.page.locator("[data-do=open]").click();
+    await here.page.locator(`[data-open="${name}"]`).first().click();
+    await shows(name);
+  };
+  await open("gate.nb");
+  await here.page.locator("[data-do=open]").click();
+  await here.page.getByLabel("Name of the new file").fill("untouched");
+  await here.page.locator("[data-do=new]").click();
+  await shows("untouched.nb");
+  await here.page.reload();
+  await shows("untouched.nb");
+  assert.match(await here.page.locator(".cm-content").textContent(), /circuit mine/);
+  await open("latch.nb");
+  await here.page.goBack();
+  await shows("untouched.nb");
+  await here.page.goBack();
+  await shows("gate.nb");
+  await here.page.goForward();
+  await shows("untouched.nb");
+});
+
+test("a name that is taken is not replaced without a question", async () => {
+  await here.page.locator("[data-do=save]").click();
+  await here.page.getByLabel("Path within the folder").fill("latch.nb");
+  await here.page.locator("[data-do=save-as]").click();
+  const notice = here.page.locator("[data-notice=changed]");
+  await notice.getByText("latch.nb is there already").waitFor();
+  assert.equal(onDisk("latch.nb"), LATCH);
+  await notice.getByRole("button", { name: "Replace it" }).click();
+  await here.page.waitForFunction(() => document.querySelector(".file").textContent === "latch.nb");
+  assert.match(onDisk("latch.nb"), /circuit mine/);
 });
 
 test("Verilog is opened as a program with its modules as robots", async () => {

@@ -106,6 +106,9 @@ test("a circuit without a state has its truth table beside the robots, and they 
   await page.locator('.table [data-row="11"] button').click();
   await page.locator('.table [data-row="11"][aria-current]').waitFor();
   await page.locator('[data-input="a"][aria-checked="true"]').waitFor();
+  await page.locator('.table [data-row="10"] td').last().click();
+  await page.locator('.table [data-row="10"][aria-current]').waitFor();
+  await page.locator('[data-input="b"][aria-checked="false"]').waitFor();
   await page.locator("[data-do=full]").click();
   await page.waitForFunction(() => document.fullscreenElement?.classList.contains("swarm"));
   assert.ok((await page.locator(".stage").isVisible()) && (await page.locator("[data-input=a]").isVisible()));

@@ -80,6 +80,21 @@ test("the keyboard paints, too", async () => {
   assert.deepEqual(await body(), NAND);
 });
 
+test("a body that is no longer empty is not said to be", async () => {
+  await here.page.locator("[data-do=clear]").click();
+  const title = here.page.locator(".probe h3");
+  await title.getByText("the body is empty").waitFor();
+  // Before an answer can come.
+  const said = await here.page.evaluate(() => {
+    document.querySelector("[data-do=random]").click();
+    return document.querySelector(".probe h3").textContent;
+  });
+  assert.doesNotMatch(said, /empty/);
+  await here.page.locator("[data-do=undo]").click();
+  await here.page.locator("[data-do=undo]").click();
+  assert.deepEqual(await body(), NAND);
+});
+
 test("a stroke paints many voxels and is undone at once", async () => {
   await here.page.locator("[data-do=clear]").click();
   await here.page.locator('.palette [data-code="4"]').click();
@@ -114,9 +129,8 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await here.page.locator(".keeping input").fill("other");
   await here.page.locator("[data-do=keep]").click();
   await here.page.getByText("wrote robots/other.yaml").waitFor();
-  await here.page.locator("[data-do=build]").click();
-  await here.page.locator("#tab-swarm").click();
-  await here.page.locator(".circuit").selectOption({ label: "d_latch as d_latch_own" });
+  await here.page.getByRole("button", { name: "Build d_latch from your robots alone" }).click();
+  await here.page.locator('#tab-swarm[aria-selected="true"]').waitFor();
   await here.page.locator('.schematic [data-id="cell-0"] text', { hasText: "mine" }).waitFor();
   await here.page.waitForFunction(() => /^\d+ robots/.test(document.querySelector(".swarm .status").textContent));
   assert.equal(

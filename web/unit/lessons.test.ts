@@ -4,7 +4,9 @@ import { test } from "node:test";
 import type { LessonCheck, LessonEntry, NicheEntry } from "../src/protocol";
 import { holds } from "../src/learn/checks";
 import { Progress } from "../src/learn/progress";
-import { sizeOf, starsOf } from "../src/learn/score";
+import { isLessonPath } from "../src/learn/lessons";
+import { missing } from "../src/learn/missing";
+import { sizeOf, sizeText, starsOf } from "../src/learn/score";
 import type { Situation } from "../src/learn/situation";
 import { circuitsHave, gatesWritten, outputNames, testLines } from "../src/learn/source";
 
@@ -149,4 +151,38 @@ test("outputs are found in a text", () => {
     "z",
     "s",
   ]);
+});
+
+test("a step says what it still needs as soon as a part of it is done, or a test was run", () => {
+  const program = "test t {\n    a | q\n    0 | 1\n}\n";
+  const checks: LessonCheck[] = [{ is: "tests-pass" }, { is: "tests-kept" }];
+  const one = lesson([], { program, steps: [{ task: "", checks, hints: [] }] });
+  const needs = (given: Partial<Situation>): string[] => missing(one, 0, situation([], given));
+  assert.deepEqual(needs({ text: program, tests: 1, passed: 1 }), []);
+  assert.deepEqual(needs({ text: program, tests: 1, failed: 1 }), ["all tests have been run and pass"]);
+  const kept = "every line of the lesson’s tests is still there";
+  assert.deepEqual(needs({ text: program.replace("0 | 1", "0 | 0"), tests: 1, passed: 1 }), [kept]);
+  assert.deepEqual(needs({ text: program, tests: 1 }), [], "the task says enough");
+  const robots = lesson([{ is: "robots-only", gates: ["nand"] }]);
+  const built = situation([], { robots: ["nor"], tests: 1, passed: 1 });
+  assert.deepEqual(missing(robots, 0, built), ["all robots of the circuit are nand"]);
+});
+
+test("a lesson is open under its own path and that of a learner of a class", () => {
+  const one = lesson([]);
+  for (const [path, expected] of [
+    ["lesson_one.nb", true],
+    ["lesson_one.Ada.nb", true],
+    ["lesson_one_2.nb", false],
+    ["lesson_one..nb", false],
+    ["lesson_one.a/b.nb", false],
+    ["other.nb", false],
+  ] as const) {
+    assert.equal(isLessonPath(one, path), expected, path);
+  }
+});
+
+test("gates of the text are not taken for robots", () => {
+  assert.equal(sizeText(1, "gates"), "1 gate in the text");
+  assert.equal(sizeText(4, "robots"), "4 robots");
 });

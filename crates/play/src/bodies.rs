@@ -148,11 +148,12 @@ fn character(character: &Character) -> CharacterSketch {
     }
 }
 
-/// Measures a body and writes its robot file, into a folder beside the program that is to use it.
+/// Measures a body and writes its robot file, into a folder beside the program that is to use it. Where a class shares
+/// the folder, no robot is replaced.
 ///
 /// # Errors
 /// When the name is not that of a robot, there is one already, the body cannot be simulated, or nothing can be written.
-pub(super) fn keep(request: &KeepRequest, files: &PageFiles, job: &Job) -> JobEnd {
+pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, job: &Job) -> JobEnd {
     if !is_word(&request.name) {
         return Err(Refused::Name(request.name.clone()));
     }
@@ -161,9 +162,10 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, job: &Job) -> JobEn
     let folder = if beside.is_empty() { FOLDER.to_owned() } else { format!("{beside}/{FOLDER}") };
     let place = |name: &str| format!("{folder}/{name}.yaml");
     let path = place(&request.name);
-    if files.has(&path) && request.replace != Some(true) {
+    if files.has(&path) && (is_shared || request.replace != Some(true)) {
         let free = (2..).map(|number| format!("{}_{number}", request.name)).find(|name| !files.has(&place(name)));
-        return Err(Refused::RobotExists { path, free: free.expect("there are more numbers than files") });
+        let free = free.expect("there are more numbers than files");
+        return Err(Refused::RobotExists { path, free, is_replaceable: !is_shared });
     }
     // What can fail at once does so before the body is measured, which takes long.
     files.folder_of(&path)?;

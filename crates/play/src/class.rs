@@ -43,6 +43,8 @@ struct Member {
 pub(super) struct Membership {
     class: Arc<Class>,
     number: u64,
+    /// The end of the names of their files.
+    ending: String,
 }
 
 impl Class {
@@ -67,15 +69,15 @@ impl Class {
         if members.joined.len() >= MOST {
             return Err(Refused::ClassFull { most: MOST });
         }
-        let lower = name.to_lowercase();
-        if members.joined.values().any(|member| member.name.to_lowercase() == lower) {
+        let ending = ending(name);
+        if members.joined.values().any(|member| self::ending(&member.name).to_lowercase() == ending.to_lowercase()) {
             return Err(Refused::ClassNameTaken { name: name.to_owned() });
         }
         members.last += 1;
         let number = members.last;
         let member = Member { name: name.to_owned(), place: None, finished: 0, since: Instant::now() };
         members.joined.insert(number, member);
-        Ok(Membership { class: self.clone(), number })
+        Ok(Membership { class: self.clone(), number, ending })
     }
 
     /// The members, for the teacher.
@@ -92,7 +94,20 @@ impl Class {
     }
 }
 
+/// What the names of a learner's files end in, before `.nb`: no two learners have the same.
+fn ending(name: &str) -> String {
+    let letters = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' });
+    format!(".{}", letters.collect::<String>())
+}
+
 impl Membership {
+    /// The path at which the learner saves what is at `path`. The class shares a folder, in which each learner has
+    /// files of their own.
+    pub(super) fn own_path(&self, path: &str) -> String {
+        let stem = path.strip_suffix(".nb").unwrap_or(path);
+        format!("{}{}.nb", stem.strip_suffix(&self.ending).unwrap_or(stem), self.ending)
+    }
+
     /// Notes where the learner is. A lesson with a name that no lesson can have is none.
     pub(super) fn progress(&self, place: Option<ClassPlace>, finished: u32) {
         let is_name = |name: &str| name.len() <= LESSON && !name.contains(is_hidden);
@@ -138,6 +153,17 @@ mod tests {
         assert_eq!(class.roll().members[0].place, None);
         drop(ada);
         assert_eq!(names(&class), ["ben"]);
+    }
+
+    #[test]
+    fn each_learner_has_paths_of_their_own() {
+        let class = Arc::new(Class::new(String::new()));
+        let ada = class.join("Ada L.").unwrap();
+        for path in ["a/latch.nb", "a/latch.Ada_L_.nb"] {
+            assert_eq!(ada.own_path(path), "a/latch.Ada_L_.nb");
+        }
+        assert_eq!(class.join("A. b").unwrap().own_path("latch.Ada_L_.nb"), "latch.Ada_L_.A__b.nb");
+        assert!(matches!(class.join("ada/l?"), Err(Refused::ClassNameTaken { .. })), "their files would be the same");
     }
 
     #[test]

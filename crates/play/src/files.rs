@@ -9,6 +9,7 @@ use include_dir::{Dir, File, include_dir};
 
 use crate::message::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, PlayEvent};
 use crate::refusal::Refused;
+use nbc_base::diag::is_hidden;
 use nbc_base::model::Circuit;
 use nbc_base::source::SourceWorld;
 use nbc_circuit::formats::CircuitSource;
@@ -58,6 +59,9 @@ impl PageFiles {
     pub(super) fn save(&mut self, path: String, text: &str, known: Option<&str>) -> Result<FileStamp, Refused> {
         if !path.ends_with(".nb") {
             return Err(Refused::Ending { path, expected: ".nb" });
+        }
+        if path.contains(|c| c == '\n' || is_hidden(c)) {
+            return Err(Refused::HiddenInPath { path });
         }
         if self.stamp(&path).as_deref() != known {
             return Err(Refused::Changed { path });

@@ -6,7 +6,7 @@ use ts_rs::TS;
 
 use crate::message::finding::{Finding, findings};
 use crate::wording::PlayError;
-use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
+use nbc_base::diag::{Diagnostic, Diagnostics, io_words, visible};
 use nbc_base::model::{Fault, FaultKind};
 use nbc_base::source::FileError;
 
@@ -27,8 +27,8 @@ pub(super) enum Refused {
     TooManyRobots { robots: usize, most: usize },
     /// A request whose number a running one has.
     NumberInUse { id: u64 },
-    /// A robot file that is there already.
-    RobotExists { path: String, free: String },
+    /// A robot file that is there already, and whether the page may replace it.
+    RobotExists { path: String, free: String, is_replaceable: bool },
     /// Work of this page that already runs.
     Busy { most: usize },
     /// The work was stopped by the page.
@@ -43,6 +43,12 @@ pub(super) enum Refused {
     Changed { path: String },
     /// A path that does not end as a program's or a robot's must.
     Ending { path: String, expected: &'static str },
+    /// A path with characters that cannot be seen.
+    HiddenInPath { path: String },
+    /// A file in the folder of a class, which this learner shares with others.
+    NotOwn { path: String, own: String },
+    /// A file in the folder of a class, which the page has not joined.
+    NotJoined,
     /// An example of another name.
     NoExample(String),
     /// A name that cannot be that of a robot.
@@ -73,6 +79,8 @@ pub(super) struct Refusal {
     help: Option<String>,
     /// A word for what a page reacts to.
     code: Option<&'static str>,
+    /// The path that could be saved at instead.
+    instead: Option<String>,
     diagnostics: Vec<Finding>,
 }
 
@@ -111,6 +119,9 @@ impl Refused {
             Self::Unwritable { path, reason } => format!("cannot write `{path}`: {reason}"),
             Self::Changed { path } => format!("`{path}` has been changed on disk"),
             Self::Ending { path, expected } => format!("`{path}` does not end in `{expected}`"),
+            Self::HiddenInPath { path } => format!("`{}` has characters that cannot be seen", visible(path)),
+            Self::NotOwn { path, .. } => format!("`{path}` is not a file of yours: the class shares this folder"),
+            Self::NotJoined => "the class shares this folder: join it with a name, so that you have files".to_owned(),
             Self::NoExample(name) => format!("there is no example `{name}`"),
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
@@ -133,6 +144,8 @@ impl Refused {
             Self::Name(_) => Some("use letters, digits, `_` and `-`".to_owned()),
             Self::NumberInUse { .. } => Some("give each request a number of its own".to_owned()),
             Self::RobotExists { free, .. } => Some(format!("the name `{free}` is free")),
+            Self::HiddenInPath { .. } => Some("use letters, digits, `_`, `-`, `.` and `/`".to_owned()),
+            Self::NotOwn { own, .. } => Some(format!("save it as `{own}`")),
             Self::ClassNameTaken { .. } => Some("choose another name".to_owned()),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
@@ -148,7 +161,8 @@ impl Refused {
             Self::TimedOut { .. } => Some("timed-out"),
             Self::Changed { .. } => Some("changed"),
             Self::NumberInUse { .. } => Some("in-use"),
-            Self::RobotExists { .. } => Some("exists"),
+            Self::RobotExists { is_replaceable: true, .. } => Some("exists"),
+            Self::NotOwn { .. } => Some("not-own"),
             Self::Busy { .. } => Some("busy"),
             _ => None,
         }
@@ -161,7 +175,9 @@ impl From<Refused> for Refusal {
             Refused::Source(found) => findings(&found.list, &found.sources),
             _ => Vec::new(),
         };
-        Self { message: refused.message(), help: refused.help(), code: refused.code(), diagnostics }
+        let (message, help, code) = (refused.message(), refused.help(), refused.code());
+        let instead = if let Refused::NotOwn { own, .. } = refused { Some(own) } else { None };
+        Self { message, help, code, instead, diagnostics }
     }
 }
 

@@ -113,7 +113,10 @@ impl Visit {
             Verb::Files => Ok(RequestResult::Files(self.files.list())),
             Verb::Read { path: Some(path), .. } if !is_circuit(&path) => self.files.read(path).map(RequestResult::Read),
             Verb::Read { path: None, example: name } => example(&name.unwrap_or_default()).map(RequestResult::Read),
-            Verb::Save { path, text, stamp } => self.files.save(path, &text, stamp.as_deref()).map(RequestResult::Save),
+            Verb::Save { path, text, stamp } => self
+                .may_save(&path)
+                .and_then(|()| self.files.save(path, &text, stamp.as_deref()))
+                .map(RequestResult::Save),
             Verb::Program { path, text } => {
                 self.revision += 1;
                 self.session.update(&path, self.revision, text);
@@ -146,6 +149,15 @@ impl Visit {
         self.membership = None;
         self.membership = Some(class.join(name)?);
         Ok(())
+    }
+
+    /// Whether the page may save at a path: learners of a class only have files of their own.
+    fn may_save(&self, path: &str) -> Result<(), Refused> {
+        if self.served.class.is_none() {
+            return Ok(());
+        }
+        let own = self.membership.as_ref().ok_or(Refused::NotJoined)?.own_path(path);
+        if own == path { Ok(()) } else { Err(Refused::NotOwn { path: path.to_owned(), own }) }
     }
 
     /// Starts a long request.
@@ -200,7 +212,8 @@ impl Visit {
             Verb::Keep(request) => {
                 let served = self.served.clone();
                 let files = PageFiles::new(served.world.clone());
-                Ok(boxed(move |job| served.background.install(|| bodies::keep(&request, &files, job))))
+                let is_shared = served.class.is_some();
+                Ok(boxed(move |job| served.background.install(|| bodies::keep(&request, &files, is_shared, job))))
             }
             Verb::Export { path, circuit, swarm } => {
                 let (choice, served) = (Choice { circuit: Some(circuit), swarm }, self.served.clone());

@@ -6,6 +6,8 @@ export interface Draft {
   text: string;
   /** The stamp of the file that it was made from. */
   stamp: string | null;
+  /** Whether nobody has changed it: it is kept only because no file has it. */
+  untouched?: boolean;
 }
 
 function name(folder: string, path: string): string {

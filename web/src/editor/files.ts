@@ -241,7 +241,7 @@ export function askLeave(path: string): Promise<boolean> {
       "dialog",
       { class: "ask", "aria-label": "Leave the program" },
       element("h2", {}, `${path} is not saved`),
-      element("p", {}, "This browser does not keep drafts: opening the shared program loses your changes."),
+      element("p", {}, "This browser does not keep drafts: opening another program loses your changes."),
       element(
         "p",
         { class: "row" },

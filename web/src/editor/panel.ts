@@ -6,9 +6,10 @@ import { Notices } from "../notices";
 import type { Origin, Program } from "../program";
 import type { FileChange, FileText } from "../protocol";
 import { RequestError } from "../request";
-import { LinkError, decodeShare, type SharedProgram } from "../share/link";
+import { LinkError, decodeShare, isShare, type SharedProgram } from "../share/link";
 import { Editor } from "./editor";
 import { FilePicker, NEW_PROGRAM, askLeave, askPath, freePath } from "./files";
+import { problemList } from "./problems";
 import type { LanguageServer } from "./server";
 
 export class EditPanel {
@@ -42,6 +43,8 @@ export class EditPanel {
       this.notices.host,
       this.editor.host,
       element("p", { class: "leaving" }, "Tab indents. Esc, then Tab leaves the editor."),
+      // Below what a click on it hides, so that it stays under the pointer.
+      problemList(program, line => this.editor.reveal(line)),
       this.#picker.host,
     );
     server.client.on(client => this.editor.serve(client));
@@ -61,7 +64,15 @@ export class EditPanel {
 
   async open(origin: Origin): Promise<boolean> {
     try {
-      this.#show(await this.connection.request("read", origin));
+      const file = await this.connection.request("read", origin);
+      const isExample = "example" in origin;
+      const taken = new Set(this.program.hello?.files.map(({ path }) => path));
+      if (isExample && taken.has(file.path)) {
+        // The address and the draft would be those of the file.
+        this.#show({ ...file, path: freePath(file.path, path => taken.has(path)) }, true);
+      } else {
+        this.#show(file, !isExample && file.stamp === null);
+      }
       return true;
     } catch (error) {
       if (error instanceof RequestError) {
@@ -74,7 +85,12 @@ export class EditPanel {
 
   /** Begins a program that has no file yet. */
   begin(path: string, text: string): void {
-    this.#show({ path, text, stamp: null });
+    this.#show({ path, text, stamp: null }, true);
+  }
+
+  /** Whether the program may go: where the browser keeps no drafts, the user is asked. */
+  async mayLeave(): Promise<boolean> {
+    return this.program.isKept || (await askLeave(this.program.path.value));
   }
 
   /** Opens the program of a link. The result is what is wrong with the link, if it is. */
@@ -93,7 +109,7 @@ export class EditPanel {
   /** Opens a shared program under a name that no other program has. The program that is there stays as a draft. */
   async #openShared(shared: SharedProgram): Promise<void> {
     const { program } = this;
-    if (!program.isKept && !(await askLeave(program.path.value))) {
+    if (!(await this.mayLeave())) {
       return;
     }
     const before = program.path.value;
@@ -142,15 +158,19 @@ export class EditPanel {
   async save(): Promise<void> {
     const { program } = this;
     const path = program.stamp === null ? await askPath(program.path.value) : program.path.value;
-    if (path === null) {
-      return;
+    if (path !== null) {
+      await this.#saveAt(path);
     }
+  }
+
+  /** Saves at a path, over the file with this stamp if one is given. */
+  async #saveAt(path: string, stamp?: string | null): Promise<void> {
     try {
-      await program.save(path);
-      this.notices.hide("changed");
-      this.notices.hide("draft");
-      this.notices.hide("save");
-      this.#remember();
+      await this.program.save(path, stamp);
+      for (const name of ["changed", "draft", "save"]) {
+        this.notices.hide(name);
+      }
+      this.#remember(true);
       this.#showName();
     } catch (error) {
       this.#saveFailed(error, path);
@@ -161,22 +181,32 @@ export class EditPanel {
     if (!(error instanceof RequestError)) {
       throw error;
     }
-    if (error.code === "changed") {
-      this.#offerTheirs(path, `${path} is there already, or was changed by another program.`);
+    const { instead } = error;
+    if (error.code === "changed" && path === this.program.path.value && this.program.stamp !== null) {
+      this.#offerTheirs(path, `${path} was changed by another program since you opened it.`);
+    } else if (error.code === "changed") {
+      this.#offerReplace(path);
+    } else if (instead !== null) {
+      this.notices.show("save", `Cannot save ${path}: ${error.message}.`, [
+        { label: `Save as ${instead}`, run: () => void this.#saveAt(instead) },
+      ]);
     } else {
       this.notices.show("save", `Cannot save ${path}: ${error.message}`);
     }
   }
 
-  #show(file: FileText): void {
+  #show(file: FileText, alone = false): void {
     this.notices.clear();
-    const draft = this.program.begin(file);
+    const draft = this.program.begin(file, alone);
     this.#showText();
-    if (draft !== null) {
-      const changed = draft.stamp === file.stamp ? "" : " The file was changed since then.";
-      this.notices.show("draft", `Your unsaved changes of ${file.path} are shown again.${changed}`, [
-        { label: "Discard them", run: () => this.editor.replace(file.text) },
-      ]);
+    if (draft === null) {
+      return;
+    }
+    const text = `Your unsaved changes of ${file.path} are shown again.`;
+    if (file.stamp !== null && draft.stamp !== file.stamp) {
+      this.#offerTheirs(file.path, `${text} The file was changed since then, and is not replaced without a question.`);
+    } else {
+      this.notices.show("draft", text, [{ label: "Discard them", run: () => this.editor.replace(file.text) }]);
     }
   }
 
@@ -186,9 +216,14 @@ export class EditPanel {
     this.#remember();
   }
 
-  /** The address names the program, so that a reload shows it again. */
-  #remember(): void {
-    window.history.replaceState(null, "", `#${encodeURI(this.program.path.value)}`);
+  /** The address names the program, so that a reload shows it again, and Back the one before. */
+  #remember(isSame = false): void {
+    const before = location.hash.slice(1);
+    const after = encodeURI(this.program.path.value);
+    if (before !== after) {
+      const replaces = isSame || before === "" || isShare(before);
+      window.history[replaces ? "replaceState" : "pushState"](null, "", `#${after}`);
+    }
   }
 
   #showName(): void {
@@ -224,6 +259,15 @@ export class EditPanel {
           }),
       },
     ]);
+  }
+
+  /** Asks whether another file may be replaced. */
+  #offerReplace(path: string): void {
+    const replace = async (): Promise<void> => {
+      const { stamp } = await this.connection.request("read", { path });
+      await this.#saveAt(path, stamp);
+    };
+    this.notices.show("changed", `${path} is there already.`, [{ label: "Replace it", run: () => void replace() }]);
   }
 
   /** Takes the text of the file; undo brings the own one back. */

@@ -39,3 +39,10 @@ export class Lessons {
 export function lessonPath(lesson: LessonEntry): string {
   return `lesson_${lesson.name}.nb`;
 }
+
+/** Whether a lesson's program is at a path: its own, or that of a learner of a class, who is named before the ending. */
+export function isLessonPath(lesson: LessonEntry, path: string): boolean {
+  const own = lessonPath(lesson);
+  const start = own.replace(/nb$/, "");
+  return path === own || (path.startsWith(start) && /^[^./]+\.nb$/.test(path.slice(start.length)));
+}

@@ -11,8 +11,9 @@ import type { TestsPanel } from "../tests/panel";
 import { prefersStillness } from "../theme";
 import type { ClassPanel } from "./class";
 import { keepProgram } from "./kept";
-import { lessonPath, type Lessons } from "./lessons";
+import { isLessonPath, lessonPath, type Lessons } from "./lessons";
 import { Progress } from "./progress";
+import { missing } from "./missing";
 import { prose } from "./prose";
 import { sizeOf } from "./score";
 import { situationOf } from "./situation";
@@ -41,6 +42,8 @@ export class LearnPanel {
   #lesson: LessonEntry | null = null;
   /** The size of the present circuit, where the lesson asks for one. */
   #size: number | null = null;
+  /** What the present step still needs, once a part of it is done. */
+  #missing: string[] = [];
 
   constructor(
     private readonly parts: LearnParts,
@@ -72,12 +75,18 @@ export class LearnPanel {
 
   #check(): void {
     const lesson = this.#lesson;
+    if (lesson === null) {
+      return;
+    }
     // A lesson's program must be there, so that a chance agreement elsewhere does not count.
-    if (lesson === null || (lesson.program !== null && !this.#isOpen(lesson))) {
+    if (lesson.program !== null && !this.#isOpen(lesson)) {
+      const isNone = this.parts.program.path.value === "";
+      this.#note(isNone ? [] : [`the lesson’s program ${lessonPath(lesson)} is open in the editor`]);
       return;
     }
     const situation = situationOf(this.parts);
     const advanced = this.#progress.advance(lesson, situation);
+    this.#note(missing(lesson, this.#progress.done(lesson), situation));
     const size = this.#progress.isFinished(lesson) ? sizeOf(lesson, situation) : null;
     const better = size !== null && this.#progress.noteSize(lesson, size);
     if (advanced || better || size !== this.#size) {
@@ -87,7 +96,15 @@ export class LearnPanel {
   }
 
   #isOpen(lesson: LessonEntry): boolean {
-    return this.parts.program.path.value === lessonPath(lesson);
+    return isLessonPath(lesson, this.parts.program.path.value);
+  }
+
+  /** Notes what a step still needs. */
+  #note(needed: string[]): void {
+    if (needed.join() !== this.#missing.join()) {
+      this.#missing = needed;
+      this.#show();
+    }
   }
 
   #begin(lesson: LessonEntry): void {
@@ -180,6 +197,7 @@ export class LearnPanel {
     this.strip.show(lesson, {
       folder: this.parts.program.folder,
       size: this.#size,
+      missing: this.#missing,
       place: lesson === null ? "" : `${all.indexOf(lesson) + 1} of ${all.length}`,
       next: lesson === null ? null : this.lessons.after(lesson),
     });

@@ -27,6 +27,8 @@ export function starsOf(size: number, best: number): number {
   return size <= best ? STARS : size <= 1.5 * best ? 2 : 1;
 }
 
+/** A size in words. The compiler may build what is written of fewer robots, or of more. */
 export function sizeText(size: number, of: LessonGoal["of"]): string {
-  return `${size} ${size === 1 ? of.slice(0, -1) : of}`;
+  const noun = size === 1 ? of.slice(0, -1) : of;
+  return of === "gates" ? `${size} ${noun} in the text` : `${size} ${noun}`;
 }

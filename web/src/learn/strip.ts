@@ -21,6 +21,8 @@ interface Shown {
   folder: string;
   /** The size of the present circuit. */
   size: number | null;
+  /** What the present step still needs. */
+  missing: string[];
   /** Where the lesson is in the course. */
   place: string;
   next: LessonEntry | null;
@@ -62,6 +64,9 @@ export class Strip {
             { class: "steps", "aria-live": "polite" },
             ...lesson.steps.slice(0, done + 1).map((step, i) => stepElement(step.task, i < done)),
           ),
+          !finished &&
+            shown.missing.length > 0 &&
+            element("p", { class: "missing", role: "status" }, `Not yet: ${shown.missing.join("; ")}.`),
           finished && element("p", { class: "pass", role: "status" }, praise(shown.next)),
           finished && scoreElement(lesson, shown.size, "Your circuit:"),
           ...this.#hintElements(lesson, done, shown),
@@ -156,8 +161,7 @@ export function scoreElement(lesson: LessonEntry, size: number | null, words: st
     return null;
   }
   const stars = starsOf(size, best.number);
-  const known =
-    size <= best.number ? "No smaller one is known." : `The smallest known has ${sizeText(best.number, best.of)}.`;
+  const known = size <= best.number ? "No smaller one is known." : `The smallest known has ${best.number}.`;
   return element(
     "p",
     { class: "score", "data-size": size, "data-stars": stars },

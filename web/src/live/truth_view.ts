@@ -67,12 +67,19 @@ export class TruthView {
   #row({ inputs, outputs }: TruthRow): HTMLElement {
     const cells = (bits: string): HTMLElement[] =>
       [...bits].map((bit, i) => element("td", { "data-value": bit, class: i === 0 ? "first" : null }, bit));
-    const set = button("▸", () => this.swarm.setInputs(inputs), {
+    // The row does it, too; the button is for the keyboard.
+    const set = button("▸", () => {}, {
       class: "link",
       "aria-label": `set the inputs to ${inputs}`,
       title: "Set the inputs to this row",
     });
-    const made = element("tr", { "data-row": inputs }, element("td", {}, set), ...cells(inputs), ...cells(outputs));
+    const made = element(
+      "tr",
+      { "data-row": inputs, onclick: () => this.swarm.setInputs(inputs) },
+      element("td", {}, set),
+      ...cells(inputs),
+      ...cells(outputs),
+    );
     this.#rows.set(inputs, made);
     return made;
   }

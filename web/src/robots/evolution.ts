@@ -115,7 +115,8 @@ export class Evolution {
     const { niches, evaluations, generation } = this.#archive;
     const gates = new Set([...niches.values()].map(niche => niche.function).filter(name => name !== null)).size;
     this.#status.textContent =
-      problem || `generation ${generation}: ${niches.size} kinds, ${gates} gates, ${evaluations} bodies simulated`;
+      problem ||
+      `generation ${generation}: ${niches.size} kinds, ${gates} different gates, ${evaluations} bodies simulated`;
     this.#map.draw();
     this.search.set({ running, niches: [...niches.values()], chosen: this.search.value.chosen });
   }

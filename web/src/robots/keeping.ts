@@ -10,6 +10,8 @@ export interface KeepDoors {
   /** Puts a declaration at the start or at the end of the program. */
   declare: (line: string) => void;
   append: (line: string) => void;
+  /** Shows the swarm. */
+  show: () => void;
 }
 
 export class Keeping {
@@ -47,12 +49,23 @@ export class Keeping {
       return null;
     }
     const name = `${circuit.replace(/\W+/g, "_").replace(/_$/, "")}_${library}`;
-    const build = (): void => {
-      this.doors.append(`swarm ${name} { circuit: ${circuit}, library: ${library} }`);
-      const where = `choose “${circuit} as ${name}” in the tab Swarm`;
-      this.#status.textContent = `${where}; its robots come from this library alone`;
+    const build = async (): Promise<void> => {
+      const { program } = this;
+      const isDeclared = (): boolean => program.circuits().some(({ swarms }) => swarms.includes(name));
+      await program.settled();
+      if (!isDeclared()) {
+        this.doors.append(`swarm ${name} { circuit: ${circuit}, library: ${library} }`);
+        await program.settled();
+      }
+      if (isDeclared()) {
+        program.choose({ circuit, swarm: name });
+        this.doors.show();
+      }
     };
-    return button(`Build ${circuit} with it`, build, { "data-do": "build", title: "Declare a swarm of this library" });
+    return button(`Build ${circuit} from your robots alone`, () => void build(), {
+      "data-do": "build",
+      title: `Declares a swarm of the library ${library}, and shows it`,
+    });
   }
 
   async #keep(replace = false): Promise<void> {

@@ -29,6 +29,10 @@ export class ProbeView {
   show({ body, probe }: Design): void {
     this.host.toggleAttribute("data-waiting", probe === null);
     if (probe === null) {
+      // What was wrong with the body before says nothing about this one.
+      if (this.host.dataset["letters"] === "") {
+        this.#title.textContent = "simulating it …";
+      }
       return;
     }
     if ("fault" in probe) {
