@@ -45,6 +45,29 @@ fn a_learner_is_in_the_class_until_the_page_leaves() {
 }
 
 #[test]
+fn learners_save_files_of_their_own_in_the_shared_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("latch.nb"), "// of all\n").unwrap();
+    let server = Server::start(folder.path(), &["--class"]);
+    let mut page = server.page();
+    let stamp = page.done(json!({ "do": "read", "path": "latch.nb" }))["stamp"].clone();
+    let save = |path: &str, stamp: &Value| json!({ "do": "save", "path": path, "text": "// mine\n", "stamp": stamp });
+    let refused = page.ask(save("latch.nb", &stamp)).unwrap_err();
+    assert!(refused["message"].as_str().unwrap().contains("join it with a name"), "{refused}");
+    page.done(json!({ "do": "join", "name": "Ada L." }));
+    for path in ["latch.nb", "latch.Ben.nb", "new.nb"] {
+        let refused = page.ask(save(path, &stamp)).unwrap_err();
+        let own = path.replace(".nb", ".Ada_L_.nb");
+        assert_eq!((&refused["code"], &refused["instead"]), (&json!("not-own"), &json!(own)));
+    }
+    let saved = page.done(save("latch.Ada_L_.nb", &Value::Null));
+    page.done(save("latch.Ada_L_.nb", &saved["stamp"]));
+    let names = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+    assert_eq!(names.count(), 2);
+    assert_eq!(std::fs::read_to_string(folder.path().join("latch.nb")).unwrap(), "// of all\n");
+}
+
+#[test]
 fn the_teacher_s_address_leads_to_the_class_only_and_to_nobody_else() {
     let folder = tempfile::tempdir().unwrap();
     let server = Server::start(folder.path(), &["--class"]);

@@ -33,6 +33,9 @@ fn only_the_page_with_the_token_comes_in() {
         ("/wrong/", host.clone(), 404),
         (&own, "Host: evil.example\r\n".to_owned(), 403),
         (&own, format!("{host}Origin: http://evil.example\r\n"), 403),
+        (&own, format!("{host}Host: evil.example\r\n"), 403),
+        (&own, format!("Host: evil.example\r\n{host}"), 403),
+        (&format!("http://evil.example{own}"), host.clone(), 403),
         (&format!("{own}take/1/a.csv"), host.clone(), 404),
         (&format!("{own}../../etc/passwd"), host.clone(), 404),
         (&format!("{own}nothing"), host.clone(), 404),
@@ -57,6 +60,10 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
     let refused = page.ask(json!({ "do": "save", "path": "../new.nb", "text": "", "stamp": null })).unwrap_err();
     assert!(refused["message"].as_str().unwrap().contains("outside"), "{refused}");
     assert!(!folder.path().join("new.nb").exists());
+    for path in ["a\u{1b}[2J.nb", "a\n.nb", "\u{202e}a.nb", "\0.nb", "a\u{200b}.nb"] {
+        let refused = page.ask(json!({ "do": "save", "path": path, "text": "", "stamp": null })).unwrap_err();
+        assert!(refused["message"].as_str().unwrap().ends_with("has characters that cannot be seen"), "{refused}");
+    }
     let text = "use \"../secret.nb\"";
     let program = page.done(json!({ "do": "program", "path": "a.nb", "text": text }));
     assert!(program["diagnostics"][0]["message"].as_str().unwrap().contains("outside"), "{program}");
