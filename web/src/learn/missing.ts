@@ -36,7 +36,7 @@ export function wordsOf(check: LessonCheck): string {
     case "robots-only":
       return `all robots of the circuit are ${check.gates.join(" or ")}`;
     case "without":
-      return `the circuits are written without ${check.words.join(" ")}`;
+      return `the circuits are written without ${check.words.join(", ")}`;
     case "circuit":
       return `the circuit ${check.name} is chosen`;
     case "tests-pass":
