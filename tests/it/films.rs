@@ -217,6 +217,7 @@ fn a_strip_has_a_row_for_each_pattern_with_ghosts() {
     let texts: Vec<_> =
         document.descendants().filter(|node| node.has_tag_name("text")).filter_map(|node| node.text()).collect();
     assert_eq!([texts[0], texts[2], texts[4]], ["walker", "00", "11"]);
-    let walked = [texts[3], texts[5]].map(|text| text.parse::<f64>().unwrap());
+    assert!(texts[3].starts_with('\u{2212}'), "a true minus, as on axes: {}", texts[3]);
+    let walked = [texts[3], texts[5]].map(|text| text.replace('\u{2212}', "-").parse::<f64>().unwrap());
     assert!(walked[0] < -1.0 && walked[1] > 0.5, "voxels walked under each pattern: {walked:?}");
 }

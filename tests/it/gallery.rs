@@ -71,3 +71,15 @@ fn pictures_of_bodies_are_those_of_this_version() {
     }
     assert!(tried >= 4);
 }
+
+/// `cargo test --release --test it the_picture_of_the_processor -- --ignored` takes some ten seconds.
+#[test]
+#[ignore = "compiles the processor"]
+fn the_picture_of_the_processor_is_of_this_version() {
+    let bench = Bench::new();
+    let program = root().join("circuits/riscv.nb");
+    let ran = bench.run(&["draw", program.to_str().unwrap(), "--as", "schematic", "-o", "parts.png"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let [made, kept] = [bench.path().join("parts.png"), root().join("docs/riscv-parts.png")].map(fs::read);
+    assert!(made.unwrap() == kept.unwrap(), "docs/riscv-parts.png is of another version; docs/riscv.md makes it");
+}

@@ -1,5 +1,7 @@
 //! Pictures by their content: what is drawn and where, and that the same input gives the same bytes.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use crate::support::traces::{large, latch, latch_netlist};
 use nbc_base::model::{Body, Fault, FaultKind, Function, Pattern, Schedule, Spell, Trajectory, Trial};
 use nbc_circuit::Netlist;
@@ -40,6 +42,24 @@ fn the_swarm_diagram_has_a_panel_for_each_robot_and_each_output() {
     }
     // Seven panels, each with a dotted line for each of the four changes of the inputs.
     assert_eq!(count(&svg, "line", "stroke-dasharray"), 7 * 4);
+}
+
+#[test]
+fn a_signal_has_one_color_in_a_picture() {
+    let svg = report::draw_swarm(&paper_rows()).finish();
+    let document = roxmltree::Document::parse(&svg).unwrap();
+    let mut colors: BTreeMap<&str, BTreeSet<&str>> = BTreeMap::new();
+    let is_swatch = |node: &roxmltree::Node<'_, '_>| {
+        node.has_tag_name("rect") && node.attribute("width") == Some("8") && node.attribute("height") == Some("8")
+    };
+    for swatch in document.descendants().filter(is_swatch) {
+        let name = swatch.next_sibling_element().and_then(|label| label.text()).expect("a swatch has its name");
+        colors.entry(name).or_default().insert(swatch.attribute("fill").unwrap());
+    }
+    assert_eq!(colors.len(), 2 + 5, "two inputs and five robots: {colors:?}");
+    assert!(colors.values().all(|fills| fills.len() == 1), "{colors:?}");
+    assert_ne!(colors["d"], colors["e"]);
+    assert!(colors["d"] != colors["q"] && colors["e"] != colors["q"], "an input looks like no robot's output");
 }
 
 #[test]

@@ -94,6 +94,26 @@ fn progress_shows_every_seed_the_median_and_the_band() {
 }
 
 #[test]
+fn courses_of_one_unit_have_one_scale() {
+    let course = |unit: &str, high| Course {
+        title: String::new(),
+        unit: unit.to_owned(),
+        runs: vec![vec![(0.0, 0.0), (1.0, high)]],
+    };
+    let courses = [course("QD-score", 10.0), course("QD-score", 40.0), course("niches", 10.0)];
+    let svg = report::draw_progress("searches", "bodies", &courses).finish();
+    let document = Document::parse(&svg).unwrap();
+    // How high the line rises, in pixels.
+    let rise = |i: usize| {
+        let line = group(&document, &format!("course-{i}")).descendants().find(|n| n.has_tag_name("polyline")).unwrap();
+        let places = line.attribute("points").unwrap().split(' ').map(|pair| pair.split_once(',').unwrap().1);
+        let heights: Vec<f64> = places.map(|height| height.parse().unwrap()).collect();
+        heights[0] - heights[1]
+    };
+    assert!((rise(1) / rise(0) - 4.0).abs() < 0.01 && (rise(2) - rise(1)).abs() < 0.01);
+}
+
+#[test]
 fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
     // Ten runs: robots that depend on no stimulus walk farthest; those that depend on one and on two walk equally far.
     let run = |i: u32| {

@@ -61,7 +61,12 @@ pub fn tick_label(value: f64, ticks: &[f64]) -> String {
     let text = format!("{value:.decimals$}");
     let text =
         if text.trim_start_matches('-').chars().all(|c| c == '0' || c == '.') { text.replace('-', "") } else { text };
-    text.replace('-', "\u{2212}")
+    with_minus(&text)
+}
+
+/// The text of a number with a true minus, as all pictures have it.
+pub fn with_minus(number: &str) -> String {
+    number.replace('-', "\u{2212}")
 }
 
 /// The range of values, extended on each side by a fraction of its length.

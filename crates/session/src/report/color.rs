@@ -60,6 +60,13 @@ impl Color {
         Self::STIMULI[i % Self::STIMULI.len()]
     }
 
+    /// The color of an input of a swarm, counted from 0; it is never that of outputs or of faults.
+    pub fn input(i: usize) -> Self {
+        const INPUTS: [Color; 5] =
+            [Color::SERIES[0], Color::SERIES[4], Color::SERIES[3], Color::SERIES[5], Color::SERIES[6]];
+        INPUTS[i % INPUTS.len()]
+    }
+
     /// A mixture with another color: 0 is this one, 1 the other.
     pub fn mix(self, other: Self, share: f64) -> Self {
         let part = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * share.clamp(0.0, 1.0)).round() as u8;

@@ -2,7 +2,7 @@
 //! another difficulty differ, and below a table of all pairs.
 
 use crate::report::Color;
-use crate::report::chart::{Panel, range_of};
+use crate::report::chart::{Panel, range_of, with_minus};
 use crate::report::element::{Anchor, Paint, Type};
 use crate::report::groups::{BehaviorGroup, GroupComparison, describe_method, mark};
 use crate::report::svg::Svg;
@@ -118,5 +118,5 @@ fn draw_table(svg: &mut Svg, top: f64, groups: &[BehaviorGroup], comparisons: &[
 }
 
 fn p_value(p: f64) -> String {
-    if p < 0.001 { format!("{p:.1e}") } else { format!("{p:.3}") }
+    if p < 0.001 { with_minus(&format!("{p:.1e}")) } else { format!("{p:.3}") }
 }

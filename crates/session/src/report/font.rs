@@ -15,11 +15,12 @@ pub(super) struct Outline {
 }
 
 impl Outline {
-    /// A text in letters of that size. A character that the fonts lack is a question mark.
+    /// A text in letters of that size. An ellipsis that a font lacks is three dots, another character a question mark.
     pub(super) fn of(text: &str, size: f64, bold: bool) -> Self {
         let face = Face::parse(if bold { BOLD } else { PLAIN }, 0).expect("the built-in fonts are fonts");
         let mut pen = Pen { path: PathBuilder::new(), x: 0.0 };
-        for c in text.chars() {
+        let dots = if face.glyph_index('\u{2026}').is_some() { "\u{2026}" } else { "..." };
+        for c in text.replace('\u{2026}', dots).chars() {
             let glyph = face.glyph_index(c).or_else(|| face.glyph_index('?')).unwrap_or_default();
             face.outline_glyph(glyph, &mut pen);
             pen.x += f32::from(face.glyph_hor_advance(glyph).unwrap_or(0));
@@ -75,6 +76,14 @@ mod tests {
     fn letters_stand_on_the_base_line() {
         let bounds = Outline::of("H", 10.0, false).path.unwrap().bounds();
         assert!(bounds.bottom().abs() < 1e-3 && (-8.0..-6.0).contains(&bounds.top()), "{bounds:?}");
+    }
+
+    #[test]
+    fn an_ellipsis_is_no_question_mark() {
+        for bold in [false, true] {
+            let shape = |text| Outline::of(text, 10.0, bold).path.unwrap().bounds();
+            assert!(shape("\u{2026}").height() < shape("?").height() / 2.0);
+        }
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! The parts of a circuit, each small enough to be seen at once: the calls of the source, opened where they are small
 //! and divided where they are large.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::btree_map::Entry;
+use std::collections::{BTreeMap, BTreeSet, VecDeque};
 
 use nbc_circuit::{BlockId, NetId, Netlist, Node};
 
@@ -16,6 +17,8 @@ const ROOM: usize = 30;
 const MOST: usize = 40;
 /// How many of them there are in a division of a larger part.
 const DIVISION: usize = 24;
+/// The most letters of two names of a division, so that both are read in its box.
+const LETTERS: usize = 16;
 
 /// A part of a circuit.
 #[derive(Clone, Debug, Default)]
@@ -55,7 +58,7 @@ impl Hierarchy {
     pub fn of(netlist: &Netlist) -> Self {
         let mut tree = Tree::of(netlist);
         tree.dissolve_small();
-        tree.divide_large(&ranks(netlist));
+        tree.divide_large(&ranks(netlist), &named_nets(netlist));
         tree.finish()
     }
 
@@ -150,11 +153,11 @@ impl Tree {
     }
 
     /// Divides parts with too many cells and parts inside. What is connected stays together.
-    fn divide_large(&mut self, ranks: &BTreeMap<NetId, usize>) {
+    fn divide_large(&mut self, ranks: &BTreeMap<NetId, usize>, nets: &BTreeMap<NetId, String>) {
         let first: Vec<usize> = self.first_ranks(ranks);
         for at in 0..first.len() {
             while self.items(at) > MOST {
-                self.divide(at, ranks, &first);
+                self.divide(at, ranks, &first, nets);
             }
         }
     }
@@ -171,7 +174,7 @@ impl Tree {
         first
     }
 
-    fn divide(&mut self, at: usize, ranks: &BTreeMap<NetId, usize>, first: &[usize]) {
+    fn divide(&mut self, at: usize, ranks: &BTreeMap<NetId, usize>, first: &[usize], nets: &BTreeMap<NetId, String>) {
         let part = &mut self.parts[at];
         let cells = std::mem::take(&mut part.cells).into_iter().map(|cell| (ranks[&cell], Item::Cell(cell)));
         let inner = std::mem::take(&mut part.inner).into_iter();
@@ -181,8 +184,12 @@ impl Tree {
         items.sort_by_key(|(rank, _)| *rank);
         let count = items.len().div_ceil(DIVISION);
         let each = items.len().div_ceil(count);
+        let mut given = BTreeSet::new();
         for (number, items) in items.chunks(each).enumerate() {
-            let name = self.division_name(items, number);
+            let mut name = self.division_name(items, nets).unwrap_or_else(|| format!("part {}", number + 1));
+            if !given.insert(name.clone()) {
+                name += &format!(", part {}", number + 1);
+            }
             let division = self.add(CircuitPart { name, outer: Some(at), ..CircuitPart::default() });
             for &(_, item) in items {
                 match item {
@@ -198,16 +205,36 @@ impl Tree {
         }
     }
 
-    /// `part 2`, or the names of the first and the last part if it has parts only.
-    fn division_name(&self, items: &[(usize, Item)], number: usize) -> String {
-        let name = |item: Option<&(usize, Item)>| match item {
-            Some((_, Item::Part(inner))) => Some(self.parts[*inner].name.as_str()),
-            _ => None,
-        };
-        let has_parts_only = items.iter().all(|(_, item)| matches!(item, Item::Part(_)));
-        match (name(items.first()), name(items.last())) {
-            (Some(first), Some(last)) if has_parts_only && first != last => format!("{first} to {last}"),
-            _ => format!("part {}", number + 1),
+    /// The names of the first and the last part of a division that has parts only; else those of the parts and nets
+    /// that most of its robots are of. None has a name if all nets are nameless.
+    fn division_name(&self, items: &[(usize, Item)], nets: &BTreeMap<NetId, String>) -> Option<String> {
+        let parts: Vec<&str> = items.iter().filter_map(|(_, item)| self.part_name(*item)).collect();
+        if let [first, .., last] = parts[..]
+            && parts.len() == items.len()
+            && first != last
+        {
+            return Some(format!("{first} to {last}"));
+        }
+        let mut robots: BTreeMap<&str, usize> = BTreeMap::new();
+        for (_, item) in items {
+            match item {
+                Item::Part(inner) => *robots.entry(&self.parts[*inner].name).or_default() += self.parts[*inner].size,
+                Item::Cell(cell) => {
+                    nets.get(cell).into_iter().for_each(|net| *robots.entry(net).or_default() += 1);
+                }
+            }
+        }
+        let mut names: Vec<(&str, usize)> = robots.into_iter().collect();
+        names.sort_by_key(|&(name, robots)| (name.starts_with("to "), std::cmp::Reverse(robots)));
+        let (first, _) = names.first()?;
+        let both = names.get(1).map(|(second, _)| format!("{first}, {second}"));
+        Some(both.filter(|both| both.chars().count() <= LETTERS).unwrap_or_else(|| (*first).to_owned()))
+    }
+
+    fn part_name(&self, item: Item) -> Option<&str> {
+        match item {
+            Item::Part(inner) => Some(&self.parts[inner].name),
+            Item::Cell(_) => None,
         }
     }
 
@@ -238,6 +265,32 @@ impl Tree {
 /// Whether a node is in a part: it is no port and no constant.
 fn is_shown(netlist: &Netlist, id: NetId) -> bool {
     matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. })
+}
+
+/// The names that the source gives to nets of cells, or the outputs that show them, without the place of a bit in its
+/// bus. A net without one has that of a call, or `to` the first name that is reached from it.
+fn named_nets(netlist: &Netlist) -> BTreeMap<NetId, String> {
+    let named = netlist.cells().filter_map(|(id, cell)| Some((id, cell.name.clone()?)));
+    let shown = netlist.outputs().iter().flat_map(|&output| {
+        let name = netlist.net_name(output);
+        netlist.pins(output).into_iter().map(move |driver| (driver, name.clone()))
+    });
+    let called = netlist.cells().filter_map(|(id, _)| {
+        let call = *netlist.blocks().around(netlist.block(id)).first()?;
+        Some((id, netlist.blocks().name(call).to_owned()))
+    });
+    let bus = |(id, name): (NetId, String)| (id, name.split(['[', '/', '.']).next().unwrap_or(&name).to_owned());
+    let mut nets: BTreeMap<NetId, String> = called.chain(shown.chain(named).map(bus)).collect();
+    let mut open: VecDeque<(NetId, String)> = nets.iter().map(|(&id, name)| (id, format!("to {name}"))).collect();
+    while let Some((id, name)) = open.pop_front() {
+        for pin in netlist.pins(id).into_iter().filter(|&pin| netlist.cell(pin).is_some()) {
+            if let Entry::Vacant(place) = nets.entry(pin) {
+                place.insert(name.clone());
+                open.push_back((pin, name.clone()));
+            }
+        }
+    }
+    nets
 }
 
 /// The place of each cell and wire in an order in which each comes soon after those it reads: that of a search from the
@@ -313,11 +366,27 @@ mod tests {
     }
 
     #[test]
+    fn a_division_is_named_for_what_most_of_its_robots_are_of() {
+        let mut netlist = chains(10, 30);
+        let mut net = netlist.inputs()[0];
+        for place in 0..60 {
+            net = netlist.add_gate(Function::NOT, &[net]);
+            netlist.rename(net, &format!("carry[{place}]"));
+        }
+        netlist.add_output("last", net);
+        let hierarchy = Hierarchy::of(&netlist);
+        let names: Vec<&str> =
+            hierarchy.parts[0].inner.iter().map(|&inner| hierarchy.parts[inner].name.as_str()).collect();
+        assert_eq!(names, ["c[0], c[1]", "carry", "carry, part 3"]);
+    }
+
+    #[test]
     fn large_parts_are_divided_in_order() {
         let many = check(60, 30);
         assert_eq!(many.parts[0].inner.len(), 3);
         assert_eq!(many.path(1), ["c[0] to c[19]"]);
         let flat = check(1, 2_000);
+        assert!(flat.path(1)[0].starts_with("c[0]"), "{:?}", flat.path(1));
         assert!(flat.parts.len() > 80 && flat.parts[0].inner.len() <= MOST);
     }
 }

@@ -1,6 +1,7 @@
 //! A body as the physics bends it: its pose at one moment of a trial, over the outline it has at rest.
 
 use crate::report::Color;
+use crate::report::chart::with_minus;
 use crate::report::element::{Paint, Point, Type};
 use crate::report::looks::Looks;
 use crate::report::scheme::Scheme;
@@ -28,10 +29,10 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
     draw_rest(&mut svg, body, camera, to_pixel);
     moment.poses[0].draw(&mut svg, &looks, 1.0, to_pixel);
     let when = format!(
-        "after {:.2} cycles, stimuli {}, {:+.2} voxels along",
+        "after {:.2} cycles, stimuli {}, {} voxels along",
         f64::from(moment.step) / f64::from(CYCLE_STEPS),
         moment.patterns[0].digits(body.palette().stimuli()),
-        camera - start_of(body),
+        with_minus(&format!("{:+.2}", camera - start_of(body))),
     );
     svg.text((14.0, 46.0), &when, Type::new(11.0).colored(Color::GRAY));
     let note = if moment.faults[0] {

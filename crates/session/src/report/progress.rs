@@ -16,14 +16,16 @@ pub struct Course {
     pub runs: Vec<Vec<Point>>,
 }
 
-/// Draws quantities one below the other over one axis of time.
+/// Draws quantities one below the other over one axis of time. Those of one unit have one scale, so that they compare.
 pub fn draw_progress(title: &str, time: &str, courses: &[Course]) -> Svg {
     let mut svg = Svg::new(640.0, 40.0 + 240.0 * courses.len() as f64, title);
     svg.text((14.0, 28.0), title, Type::new(16.0).bold());
     let until = range_of(courses.iter().flat_map(|course| course.runs.iter().flatten().map(|at| at.0)), 0.0).1;
     for (i, course) in courses.iter().enumerate() {
-        let (_, high) = range_of(course.runs.iter().flatten().map(|at| at.1), 0.08);
-        let low = range_of(course.runs.iter().flatten().map(|at| at.1), 0.0).0.min(0.0);
+        let alike = courses.iter().filter(|other| other.unit == course.unit);
+        let values: Vec<f64> = alike.flat_map(|other| other.runs.iter().flatten().map(|at| at.1)).collect();
+        let (_, high) = range_of(values.iter().copied(), 0.08);
+        let low = range_of(values, 0.0).0.min(0.0);
         let panel = Panel::new((64.0, 62.0 + 240.0 * i as f64), 550.0, 170.0, (0.0, until), (low, high));
         svg.group(&format!("course-{i}"), &course.title, |svg| draw_course(svg, &panel, course));
         panel.x_label(&mut svg, time);

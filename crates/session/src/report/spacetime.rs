@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::report::Color;
-use crate::report::chart::{Panel, range_of};
+use crate::report::chart::{Panel, range_of, with_minus};
 use crate::report::element::{Anchor, Paint, Point, Type};
 use crate::report::svg::{Svg, shorten};
 use nbc_base::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory, Trial};
@@ -128,10 +128,8 @@ fn walked(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Strin
     for spell in &schedule.spells {
         let end = start + spell.steps as usize;
         let Some(place) = trajectory.com_x.get(end) else { break };
-        told.push(
-            format!("{} {:+.2}", spell.pattern.digits(stimuli), place - trajectory.com_x[start])
-                .replace('-', "\u{2212}"),
-        );
+        let voxels = with_minus(&format!("{:+.2}", place - trajectory.com_x[start]));
+        told.push(format!("{} {voxels}", spell.pattern.digits(stimuli)));
         start = end;
         if told.len() == MOST_WALKED && schedule.spells.len() > MOST_WALKED {
             told.push("\u{2026}".to_owned());
@@ -209,7 +207,7 @@ fn robot_track(trace: &SwarmTrace, k: usize) -> Track {
     let sensed = (0..robot.senses.len()).filter_map(|i| {
         let bits = trace.cycles.iter().map(|cycle| cycle.sensed[k].has(i));
         let wired = !matches!(robot.senses[i], StimulusSource::Constant(_));
-        wired.then(|| Strip::of_cycles(&robot.sensed_nets[i], Color::stimulus(i), bits))
+        wired.then(|| Strip::of_cycles(&robot.sensed_nets[i], signal_color(trace, robot.senses[i]), bits))
     });
     let bits = trace.cycles.iter().map(|cycle| cycle.bits[k]);
     Track {
@@ -238,8 +236,15 @@ fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
 
 /// The inputs of the swarm, as many as fit.
 fn input_strips(trace: &SwarmTrace) -> Vec<Strip> {
-    let color = |i: usize| Color::series(if i < 2 { [0, 4][i] } else { i + 3 });
-    (0..trace.inputs.len().min(8)).map(|port| Strip::of_input(trace, port, color(port))).collect()
+    (0..trace.inputs.len().min(8)).map(|port| Strip::of_input(trace, port, Color::input(port))).collect()
+}
+
+/// The color of a signal, which is the same wherever it is sensed: that of its port, or that of robots' outputs.
+fn signal_color(trace: &SwarmTrace, source: StimulusSource) -> Color {
+    let StimulusSource::Input(bit) = source else { return Color::OUTPUT };
+    let ports = trace.inputs.iter().enumerate();
+    let mut bits = ports.flat_map(|(port, column)| std::iter::repeat_n(port, column.width));
+    Color::input(bits.nth(bit).unwrap_or(0))
 }
 
 fn bare_track(trace: &SwarmTrace, robot: &RobotTrace) -> Track {
