@@ -225,16 +225,15 @@ fn execute(bench: &Bench, fence: &Fence) {
     }
 }
 
-#[test]
-fn every_step_of_the_tutorial_runs() {
-    let bench = Bench::new();
-    let fences = fences(&std::fs::read_to_string(root().join("docs/tutorial.md")).unwrap());
+/// Writes the files of a page and runs its commands, in their order; the number of commands.
+fn execute_page(bench: &Bench, page: &str) -> usize {
+    let fences = fences(&std::fs::read_to_string(root().join(page)).unwrap());
     let mut commands = 0;
     for fence in &fences {
         let file = fence.words.iter().find_map(|word| word.strip_prefix("file="));
         match (fence.words[0].as_str(), file) {
             ("console", None) => {
-                execute(&bench, fence);
+                execute(bench, fence);
                 commands += fence.text.matches("$ nbc ").count();
             }
             (_, Some(name)) => _ = bench.file(name, &fence.text),
@@ -244,8 +243,28 @@ fn every_step_of_the_tutorial_runs() {
             assert_eq!(bench.run(&["fmt", "--check", name]).status, 0, "{name} is in the canonical form");
         }
     }
+    commands
+}
+
+#[test]
+fn every_step_of_the_tutorial_runs() {
+    let bench = Bench::new();
+    let commands = execute_page(&bench, "docs/tutorial.md");
     assert!(commands > 12, "{commands} commands");
     assert!(bench.path().join("out/ring/report.html").exists());
+}
+
+#[test]
+#[cfg(feature = "play")]
+fn every_task_of_how_do_i_runs() {
+    let bench = Bench::new();
+    let commands = execute_page(&bench, "docs/how-do-i.md");
+    assert!(commands > 12, "{commands} commands");
+    for file in ["maj.nb", "vote.svg", "nand.png", "vote.html", "robots.csv"] {
+        assert!(bench.path().join(file).exists(), "{file}");
+    }
+    let page = std::fs::read_to_string(root().join("docs/how-do-i.md")).unwrap();
+    assert_eq!(page.lines().filter(|line| line.starts_with("## ")).count(), 10, "ten tasks");
 }
 
 /// A circuit of a program, with the places of its inputs in order of their names.
