@@ -8,7 +8,8 @@ use crate::cli::{Context, Failure, OutputFormat, Status};
 
 /// Print a completion script for a shell
 #[derive(Args)]
-#[command(after_help = "Example:\n  nbc completions bash > ~/.local/share/bash-completion/completions/nbc")]
+#[command(after_help = "Example:\n  mkdir -p ~/.local/share/bash-completion/completions\n  nbc completions bash > \
+                         ~/.local/share/bash-completion/completions/nbc")]
 pub struct CompletionsArguments {
     /// The shell
     #[arg(value_enum)]

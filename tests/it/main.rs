@@ -8,6 +8,7 @@ mod circuit;
 mod cli;
 #[cfg(feature = "cluster")]
 mod cluster;
+mod commands;
 mod declared;
 mod designs;
 mod determinism;

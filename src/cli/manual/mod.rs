@@ -1,4 +1,6 @@
-//! `nbc manual`: the pages for `man`.
+//! `nbc manual`: the pages for `man`, and the reference of commands in docs/commands.md.
+
+mod markdown;
 
 use std::path::PathBuf;
 
@@ -11,14 +13,17 @@ use nbc_session::store;
 
 /// Write the manual pages of all commands
 #[derive(Args)]
-#[command(after_help = "Example:\n  nbc manual ~/.local/share/man/man1 && man nbc-run")]
+#[command(after_help = "Examples:
+  nbc manual ~/.local/share/man/man1 && man nbc-run
+  nbc manual docs/commands.md               one page, as in the manual")]
 pub struct ManualArguments {
-    /// The folder of the pages; it is made if it does not exist
-    folder: PathBuf,
+    /// The folder of the pages, which is made if it does not exist; or a file that ends in .md, for one page in Markdown
+    #[arg(value_name = "FOLDER")]
+    place: PathBuf,
 }
 
 impl ManualArguments {
-    /// Writes a page for the program and one for each command.
+    /// Writes a page for the program and one for each command, or one of all in Markdown.
     ///
     /// # Errors
     /// When a page cannot be written.
@@ -28,16 +33,22 @@ impl ManualArguments {
         }
         let mut program = (context.command)();
         program.build();
-        store::create_folder(&self.folder).map_err(|error| Failure::unwritable(&self.folder, &error))?;
+        if self.place.extension().is_some_and(|extension| extension == "md") {
+            let page = markdown::page(&program);
+            store::write(&self.place, page.as_bytes()).map_err(|error| Failure::unwritable(&self.place, &error))?;
+            context.print(format_args!("wrote {}\n", self.place.display()))?;
+            return Ok(Status::Done);
+        }
+        store::create_folder(&self.place).map_err(|error| Failure::unwritable(&self.place, &error))?;
         let mut pages = Vec::new();
         collect(&program, &mut pages);
         for page in &pages {
             let name = page.get_display_name().unwrap_or(page.get_name());
-            let path = self.folder.join(format!("{name}.1"));
+            let path = self.place.join(format!("{name}.1"));
             let text = page_of(page).map_err(|error| Failure::unwritable(&path, &error))?;
             store::write(&path, &text).map_err(|error| Failure::unwritable(&path, &error))?;
         }
-        context.print(format_args!("wrote {} pages to {}\n", pages.len(), self.folder.display()))?;
+        context.print(format_args!("wrote {} pages to {}\n", pages.len(), self.place.display()))?;
         Ok(Status::Done)
     }
 }
