@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::MemoryWorld;
-use nbc_circuit::{CellLibrary, MapOptions, map_with, prove};
-use nbc_session::{Choice, CompileOptions, Session, store};
+use nbc_circuit::{CellLibrary, MapOptions, correspondence};
+use nbc_session::{Choice, CompileOptions, Session, store, synthesize};
 
 use aims::Aims;
 use designs::{files, read};
@@ -57,14 +57,13 @@ fn robots(file: &str, circuit: &str, fields: &str) -> Result<usize, String> {
     Ok(session.compile(&checked, &circuit, &options).map_err(told)?.assembly.members.len())
 }
 
-/// The cells of each benchmark circuit in two libraries.
+/// The cells of each benchmark circuit in two libraries, as `nbc synth --library` finds them.
 fn benchmarks(libraries: [&CellLibrary; 2]) -> Vec<(String, [usize; 2])> {
     let cells = |path: &std::path::PathBuf| {
-        let design = read(path);
+        let (design, _) = correspondence::reduce(&read(path));
         let mapped = libraries.map(|library| {
-            let mapped = map_with(&design.logic, library, &MapOptions::default()).expect("the library is complete");
-            prove(&design.logic, &mapped).expect("the mapped circuit equals its source");
-            mapped.cells().count()
+            let mapped = synthesize(design.logic.clone(), library, &MapOptions::default());
+            mapped.expect("the library is complete").netlist.cells().count()
         });
         (path.file_stem().unwrap().display().to_string(), mapped)
     };

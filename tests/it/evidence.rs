@@ -58,6 +58,15 @@ fn the_table_of_claims_is_that_of_the_list() {
 }
 
 #[test]
+fn what_takes_a_second_is_so() {
+    let list = root().join("docs/evidence.json");
+    let ran = Bench::new().run(&["evidence", list.to_str().unwrap(), "--most", "1"]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let same = ran.out.lines().filter(|line| line.starts_with("same ")).count();
+    assert!(same >= 2, "{}", ran.out);
+}
+
+#[test]
 fn each_claim_is_on_its_page_and_in_its_output() {
     let text = fs::read_to_string(root().join("docs/evidence.json")).unwrap();
     let claims: Vec<Value> = serde_json::from_str(&text).unwrap();

@@ -75,6 +75,34 @@ fn links_lead_to_what_is_there() {
 }
 
 #[test]
+fn sections_that_are_named_are_there() {
+    let named = Regex::new(r#"(?s)docs/([a-z-]+\.md), \\?"([^"\\]+)\\?"|\]\(([a-z-]+\.md)\)\)?,\s+"([^"]+)""#).unwrap();
+    let mut open: Vec<PathBuf> =
+        ["src", "crates", "tests/it", "benches", "examples", "docs"].map(|folder| root().join(folder)).to_vec();
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    while let Some(path) = open.pop() {
+        if path.is_dir() && !path.is_symlink() && !path.ends_with("target") {
+            open.extend(fs::read_dir(&path).unwrap().map(|entry| entry.unwrap().path()));
+            continue;
+        }
+        if !path.extension().is_some_and(|extension| extension == "rs" || extension == "md") {
+            continue;
+        }
+        for found in named.captures_iter(&fs::read_to_string(&path).unwrap()) {
+            let [page, section] = [1, 2].map(|n| found.get(n).or(found.get(n + 2)).unwrap().as_str());
+            let text = fs::read_to_string(root().join("docs").join(page)).unwrap_or_default();
+            let is_there =
+                text.lines().any(|line| line.starts_with('#') && line.trim_start_matches('#').trim() == section);
+            count += 1;
+            if !is_there {
+                wrong.push(format!("{}: docs/{page} has no section {section}", path.display()));
+            }
+        }
+    }
+    assert!(wrong.is_empty() && count > 10, "{count} sections are named\n{}", wrong.join("\n"));
+}
+
+#[test]
 fn the_book_has_every_page() {
     let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).unwrap();
     let listed: BTreeSet<&str> =

@@ -61,6 +61,7 @@ mod settling;
 mod support;
 mod swarms;
 mod synth;
+mod tables;
 mod terminal;
 mod testing;
 mod three;
