@@ -145,7 +145,7 @@ fn the_comparison_has_a_dot_for_each_run_and_gaps_where_groups_differ() {
     let (first, second) = (middle("XXYY") - middle("XXXX"), middle("XXXY") - middle("XYXY"));
     assert!((first - 1.5 * second).abs() < 0.1, "{first} is wider than {second}");
     let pairs = |text: &str| svg.matches(&format!(">{text}</text>")).count();
-    assert_eq!((pairs("1.00***"), pairs("3.2e-5"), pairs("0.50")), (2, 2, 1));
+    assert_eq!((pairs("1.00***"), pairs("3.2e\u{2212}5"), pairs("0.50")), (2, 2, 1));
 }
 
 #[test]

@@ -17,7 +17,8 @@ use nbc_session::store;
   nbc manual ~/.local/share/man/man1 && man nbc-run
   nbc manual docs/commands.md               one page, as in the manual")]
 pub struct ManualArguments {
-    /// The folder of the pages, which is made if it does not exist; or a file that ends in .md, for one page in Markdown
+    /// The folder of the pages, which is made if it does not exist; or a file that ends in .md, for one page in
+    /// Markdown
     #[arg(value_name = "FOLDER")]
     place: PathBuf,
 }
