@@ -13,8 +13,8 @@ use rand_chacha::ChaCha8Rng;
 use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::network::{Gate, Network, Signal, View};
 use crate::passes::{self, Pass, Sweep};
-use crate::proof::SatSweep;
-use crate::{NetId, Netlist, Node};
+use crate::proof::{self, Counterpart, Proof, SatSweep};
+use crate::{NetId, Netlist, Node, ProofError};
 
 /// Cycles of the simulation, of 64 runs at a time.
 const CYCLES: usize = 64;
@@ -46,6 +46,9 @@ impl Removed {
 /// The design without the registers that it does not need. A register without a start value starts at 0.
 ///
 /// Registers that clock others stay, and so does every register of a design whose logic has feedback.
+///
+/// # Panics
+/// When the result is not proved equal to the design, which would be a bug.
 pub fn reduce(design: &Design) -> (Design, Removed) {
     let is_wire = |id| matches!(design.logic.node(id), Node::Wire { .. });
     if design.registers.is_empty() || design.logic.ids().any(is_wire) {
@@ -62,7 +65,35 @@ pub fn reduce(design: &Design) -> (Design, Removed) {
         return (design.clone(), removed);
     }
     simplify(&mut reduced.logic);
-    (reduced, removed)
+    match prove(design, &reduced, &removed) {
+        Ok(_) => (reduced, removed),
+        Err(error) => panic!("`{}` without the registers that it does not need differs: {error}", design.logic.name),
+    }
+}
+
+/// Proves a design equal to the one that was read: by its logic, by induction over its states, and by their start.
+/// `removed` says what the registers are that it does without, which the proof checks.
+///
+/// # Errors
+/// The first difference that is found.
+pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, ProofError> {
+    let names = made.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
+    let places: BTreeMap<&str, usize> = names.collect();
+    let constant: BTreeMap<&str, bool> = removed.constant.iter().map(|(name, value)| (&**name, *value)).collect();
+    let leaders: BTreeMap<&str, &str> = removed.equal.iter().map(|(name, leader)| (&**name, &**leader)).collect();
+    let numbers = read.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
+    let numbers: BTreeMap<&str, usize> = numbers.collect();
+    let counterpart = |register: &Register| {
+        let name = register.name.as_str();
+        if let Some(&value) = constant.get(name) {
+            return Counterpart::Constant(value);
+        }
+        if let Some(&leader) = leaders.get(name).and_then(|leader| numbers.get(leader)) {
+            return Counterpart::Like(leader);
+        }
+        places.get(name).map_or(Counterpart::Unused, |&at| Counterpart::Same(at))
+    };
+    proof::prove_design(read, made, read.registers.iter().map(counterpart).collect())
 }
 
 /// Registers that agree.
@@ -334,7 +365,7 @@ mod tests {
             forcing: Forcing::Never,
         };
         nexts.iter().for_each(|&next| _ = logic.add_output("next", next));
-        Design { logic, registers: registers.iter().map(register).collect() }
+        Design::new(logic, registers.iter().map(register).collect())
     }
 
     #[test]
@@ -344,6 +375,28 @@ mod tests {
         let (reduced, removed) = reduce(&design);
         assert_eq!(removed.constant, [("a".to_owned(), false), ("b".to_owned(), false)]);
         assert!(reduced.registers.is_empty() && reduced.logic.inputs().len() == 1);
+    }
+
+    #[test]
+    fn registers_that_were_removed_wrongly_are_found() {
+        let design = machine(&[("a", Function::XOR, "a"), ("b", Function::XOR, "b"), ("q", Function::AND, "b")]);
+        let (reduced, removed) = reduce(&design);
+        assert_eq!(removed.equal, [("b".to_owned(), "a".to_owned())]);
+        assert!(prove(&design, &reduced, &removed).is_ok());
+        // What a faulty reduction could say.
+        let constant = Removed { constant: vec![("b".to_owned(), false)], ..Removed::default() };
+        let unused = Removed { unused: vec!["b".to_owned()], ..Removed::default() };
+        for wrong in [constant, unused] {
+            assert!(matches!(prove(&design, &reduced, &wrong), Err(ProofError::Different { .. })), "{wrong:?}");
+        }
+        let mut other = reduced.clone();
+        other.registers[0].start = Some(true);
+        assert_eq!(prove(&design, &other, &removed).unwrap_err(), ProofError::Start("a".to_owned()));
+        let mut other = reduced;
+        let next = other.logic.outputs()[1];
+        let opposite = other.logic.add_gate(Function::NOT, &[other.logic.pins(next)[0]]);
+        other.logic.drive(next, 0, opposite);
+        assert!(matches!(prove(&design, &other, &removed), Err(ProofError::Different { .. })));
     }
 
     #[test]

@@ -220,7 +220,7 @@ pub struct View {
 }
 
 impl View {
-    /// Cuts a netlist without wires open at `cuts`; fails with a net that still lies on a loop.
+    /// Cuts a netlist open at `cuts`; fails with a net that still lies on a loop.
     ///
     /// # Errors
     /// A net on a loop without a cut.
@@ -254,7 +254,8 @@ fn add(netlist: &Netlist, network: &mut Network, signal: &BTreeMap<NetId, Signal
             let pins: Vec<Signal> = netlist.operands(id).iter().map(|pin| signal[pin]).collect();
             Some(network.add_function(cell.function, &pins))
         }
-        Node::Input(_) | Node::Output(_) | Node::Wire { .. } => None,
+        Node::Wire { .. } => Some(signal[&netlist.pins(id)[0]]),
+        Node::Input(_) | Node::Output(_) => None,
     }
 }
 

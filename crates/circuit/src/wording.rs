@@ -102,6 +102,8 @@ pub enum ProofError {
     MissingCut(String),
     /// The mapped netlist has a loop that the source does not have.
     NewLoop(String),
+    /// A register or a cell of a loop that starts or changes otherwise.
+    Start(String),
     /// An output or a next state differs in a pattern of the inputs.
     Different {
         /// The output port, or the net on a loop whose next state differs.
@@ -123,6 +125,7 @@ impl fmt::Display for ProofError {
             Self::Netlist(error) => error.fmt(f),
             Self::Port(port) => write!(f, "`{port}` is a port of only one of the netlists"),
             Self::MissingCut(net) => write!(f, "the mapped netlist has no net `{net}`"),
+            Self::Start(net) => write!(f, "`{net}` starts or changes otherwise"),
             Self::NewLoop(net) => write!(f, "`{net}` is on a loop that the source does not have"),
             Self::Different { output, inputs } => {
                 let values = inputs.iter().map(|(name, value)| format!("{name}={}", u8::from(*value)));

@@ -40,7 +40,10 @@ impl DissolveWires {
 }
 
 /// Every pin that its node needs must have a driver.
-fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
+///
+/// # Errors
+/// A pin without one.
+pub fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
     for id in netlist.ids() {
         let wanted = match netlist.node(id) {
             Node::Input(_) | Node::Constant(_) => 0,

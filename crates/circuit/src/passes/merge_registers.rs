@@ -22,20 +22,21 @@ pub struct MergeRegisters;
 
 impl Pass for MergeRegisters {
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
+        self.merged(netlist).into_iter().for_each(|(id, first)| merge(netlist, id, first));
+        Ok(())
+    }
+
+    fn merged(&self, netlist: &Netlist) -> Vec<(NetId, NetId)> {
         const KIND: CellKind = CellKind::uniform(1, 1.0);
         let storage = Storage::of(netlist, |_| &KIND);
         if storage.latches.len() < 2 {
-            return Ok(());
+            return Vec::new();
         }
-        let Some(classes) = Classes::of(netlist, &storage) else { return Ok(()) };
+        let Some(classes) = Classes::of(netlist, &storage) else { return Vec::new() };
         let mut first_of: BTreeMap<usize, NetId> = BTreeMap::new();
-        for id in netlist.ids().filter(|&id| netlist.cell(id).is_some()).collect::<Vec<_>>() {
-            let first = *first_of.entry(classes.of_net[&id]).or_insert(id);
-            if first != id {
-                merge(netlist, id, first);
-            }
-        }
-        Ok(())
+        let cells = netlist.ids().filter(|&id| netlist.cell(id).is_some());
+        let firsts = cells.map(|id| (id, *first_of.entry(classes.of_net[&id]).or_insert(id)));
+        firsts.filter(|(id, first)| id != first).collect()
     }
 }
 

@@ -7,12 +7,13 @@ mod share;
 mod sweep;
 
 pub use dissolve_wires::DissolveWires;
+pub(crate) use dissolve_wires::check_drivers;
 pub use fold_constants::FoldConstants;
 pub use merge_registers::MergeRegisters;
 pub use share::Share;
 pub use sweep::Sweep;
 
-use crate::{Netlist, NetlistError};
+use crate::{NetId, Netlist, NetlistError};
 
 /// A transformation that preserves the function of a netlist.
 pub trait Pass: Sync {
@@ -21,6 +22,11 @@ pub trait Pass: Sync {
     /// # Errors
     /// When the netlist is not well formed.
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError>;
+
+    /// The cells of a netlist that it would merge with others, and those others.
+    fn merged(&self, _netlist: &Netlist) -> Vec<(NetId, NetId)> {
+        Vec::new()
+    }
 }
 
 /// The passes before technology mapping, in order.

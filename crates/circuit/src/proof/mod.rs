@@ -1,28 +1,32 @@
 //! Proof that a mapped netlist is equivalent to its source: exhaustively up to sixteen inputs, else gate by gate, else
 //! by SAT.
 //!
-//! Loops are cut open at the cells of their cores, which keep their names in mapping; so a state's next-state function
-//! is compared cell by cell.
+//! The source is taken as it was written, before any pass. Loops are cut open at the cells of their cores, which keep
+//! their names in mapping; so a state's next-state function is compared cell by cell.
 
+mod compare;
+mod cuts;
 mod exhaustive;
 mod method;
 mod patterns;
+mod relation;
 mod sat;
 mod structural;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
+pub(crate) use compare::equal;
+pub(crate) use cuts::core_names;
 pub use method::Method;
 pub use patterns::random_word;
+pub(crate) use relation::Counterpart;
 pub use sat::Comparison;
 pub(crate) use sat::SatSweep;
 
-use crate::loops::Loops;
-use crate::network::{Network, View};
-use crate::{NetId, Netlist, Node, ProofError, passes};
-
-/// The most inputs, cuts included, for which every pattern is simulated.
-pub(crate) const EXHAUSTIVE_INPUTS: usize = 16;
+use crate::formats::{Design, Register};
+use crate::passes::{self, Pass};
+use crate::proof::relation::{Side, StateRelation};
+use crate::{NetId, Netlist, ProofError};
 
 /// A netlist proved equal to its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -33,75 +37,92 @@ pub struct Proof {
     pub cuts: Vec<String>,
 }
 
-/// Proves a mapped netlist equal to its source.
+/// Proves a mapped netlist equal to its source as it was written, before any pass.
 ///
 /// # Errors
 /// The first difference that is found.
 pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
-    let mut source = source.clone();
-    passes::run(&mut source)?;
-    same_ports(&source, mapped)?;
-    let names = core_names(&source, &Loops::memory(&source));
-    let named: BTreeMap<_, _> = mapped.cells().filter_map(|(id, cell)| Some((cell.name.clone()?, id))).collect();
-    let namesake = |name: &String| named.get(name).copied().ok_or_else(|| ProofError::MissingCut(name.clone()));
-    let cuts: Vec<_> = names.keys().copied().collect();
-    let mapped_cuts = names.values().map(namesake).collect::<Result<Vec<_>, _>>()?;
-    let new_loop = |netlist: &Netlist, id| ProofError::NewLoop(netlist.net_name(id));
-    let one = View::of(&source, &cuts).map_err(|id| new_loop(&source, id))?.network;
-    let two = View::of(mapped, &mapped_cuts).map_err(|id| new_loop(mapped, id))?.network;
-    let method = equal(&one, &two).map_err(|(output, values)| {
-        let label = |ids: &[NetId]| ids.iter().map(|&id| source.net_name(id)).chain(names.values().cloned()).collect();
-        let (inputs, outputs): (Vec<String>, Vec<String>) = (label(source.inputs()), label(source.outputs()));
-        ProofError::Different { output: outputs[output].clone(), inputs: inputs.into_iter().zip(values).collect() }
-    })?;
-    Ok(Proof { method, cuts: names.into_values().collect() })
+    prove_through(source, mapped, passes::ORDER)
 }
 
-/// Compares two networks of the same inputs and outputs; fails with an output and the inputs at which it differs.
+/// As [`prove`]. These passes of the mapping only say which cell of a loop has become which.
+fn prove_through(source: &Netlist, mapped: &Netlist, passes: &[&dyn Pass]) -> Result<Proof, ProofError> {
+    same_ports(source, mapped)?;
+    prove_states([source, mapped], [&[], &[]], Vec::new(), passes)
+}
+
+/// Proves a design equal to the one that was read: outputs are equal in every state that belongs to one of the other's.
+/// `counterparts` says for each register that was read what it is in the other design. That need not be right: if it
+/// is not, the proof fails.
 ///
 /// # Errors
-/// The output and the pattern.
-pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
-    assert!(one.inputs == two.inputs && one.outputs.len() == two.outputs.len(), "networks of the same ports");
-    match one.inputs <= EXHAUSTIVE_INPUTS {
-        true => exhaustive::equal(one, two),
-        false if structural::equal(one, two) => Ok(Method::Structural),
-        false => sat::equal(one, two),
+/// The first difference that is found.
+pub(crate) fn prove_design(read: &Design, made: &Design, counterparts: Vec<Counterpart>) -> Result<Proof, ProofError> {
+    let ports = |design: &Design| {
+        let names = |ids: &[NetId]| ids.iter().map(|&id| design.logic.net_name(id)).collect::<Vec<_>>();
+        (names(&design.logic.inputs()[..design.inputs()]), names(&design.logic.outputs()[..design.outputs()]))
+    };
+    let ((inputs, outputs), (others, other_outputs)) = (ports(read), ports(made));
+    same_names(inputs.iter().chain(&outputs), others.iter().chain(&other_outputs))?;
+    prove_states([&read.logic, &made.logic], [&read.registers, &made.registers], counterparts, passes::ORDER)
+}
+
+/// Proves two circuits equal, with their registers and the cells of their loops as states.
+fn prove_states(
+    [source, mapped]: [&Netlist; 2],
+    registers: [&[Register]; 2],
+    counterparts: Vec<Counterpart>,
+    passes: &[&dyn Pass],
+) -> Result<Proof, ProofError> {
+    passes::check_drivers(source)?;
+    let found = cuts::cuts(source, passes)?;
+    let named: BTreeMap<_, _> = mapped.cells().filter_map(|(id, cell)| Some((cell.name.clone()?, id))).collect();
+    let mut names: Vec<String> = Vec::new();
+    let mut places: BTreeMap<&String, usize> = BTreeMap::new();
+    let mut cuts = Vec::new();
+    for name in found.iter().map(|(_, name)| name.as_ref()) {
+        let place = name.map(|name| {
+            *places.entry(name).or_insert_with(|| {
+                names.push(name.clone());
+                registers[1].len() + names.len() - 1
+            })
+        });
+        cuts.push(place.map_or(Counterpart::Unused, Counterpart::Same));
     }
+    let namesake = |name: &String| named.get(name).copied().ok_or_else(|| ProofError::MissingCut(name.clone()));
+    let mapped_cuts = names.iter().map(namesake).collect::<Result<Vec<_>, _>>()?;
+    let reference = Side { logic: source, registers: registers[0], cuts: found.iter().map(|(id, _)| *id).collect() };
+    let result = Side { logic: mapped, registers: registers[1], cuts: mapped_cuts };
+    let method = StateRelation { reference, result, registers: counterparts, cuts }.prove()?;
+    Ok(Proof { method, cuts: names })
 }
 
 fn same_ports(source: &Netlist, mapped: &Netlist) -> Result<(), ProofError> {
     for (one, two) in [(source.inputs(), mapped.inputs()), (source.outputs(), mapped.outputs())] {
-        for i in 0..one.len().max(two.len()) {
-            let name = |netlist: &Netlist, ids: &[NetId]| ids.get(i).map(|&id| netlist.net_name(id));
-            let (one, two) = (name(source, one), name(mapped, two));
-            if one != two {
-                return Err(ProofError::Port(one.or(two).expect("one of them has this port")));
-            }
-        }
+        let [one, two] = [(source, one), (mapped, two)]
+            .map(|(netlist, ids)| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<_>>());
+        same_names(one.iter(), two.iter())?;
     }
     Ok(())
 }
 
-/// A unique name for each cell of a loop core: that of its net, with a number if two cells share one.
-pub(crate) fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
-    let mut taken = BTreeSet::new();
-    let cells = netlist.ids().filter(|&id| loops.contains(id) && matches!(netlist.node(id), Node::Cell(_)));
-    cells
-        .map(|id| {
-            let name = netlist.net_name(id);
-            let numbered = (2..).map(|i| format!("{name}_{i}"));
-            let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
-            let free = free.expect("there are more numbers than cells");
-            taken.insert(free.clone());
-            (id, free)
-        })
-        .collect()
+fn same_names<'n>(
+    mut one: impl Iterator<Item = &'n String>,
+    mut two: impl Iterator<Item = &'n String>,
+) -> Result<(), ProofError> {
+    loop {
+        match (one.next(), two.next()) {
+            (None, None) => return Ok(()),
+            (one, two) if one != two => return Err(ProofError::Port(one.or(two).cloned().unwrap_or_default())),
+            _ => {}
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::Node;
     use crate::cells::CellLibrary;
     use crate::example::{full_adder, latch};
     use crate::map::map;
@@ -127,6 +148,36 @@ mod tests {
         }
         let error = prove(&full_adder(), &wrong).unwrap_err();
         assert_eq!(error.to_string(), "`carry` differs at a=0 b=0 cin=0");
+    }
+
+    /// A pass that makes its first cell another one.
+    struct Wrong;
+
+    impl Pass for Wrong {
+        fn run(&self, netlist: &mut Netlist) -> Result<(), crate::NetlistError> {
+            let found = netlist.cells().map(|(id, _)| id).next();
+            if let Some(id) = found
+                && let Node::Cell(cell) = netlist.node_mut(id)
+            {
+                cell.function = cell.function.inverted();
+            }
+            Ok(())
+        }
+    }
+
+    #[test]
+    fn a_wrong_pass_is_found_though_the_proof_knows_it() {
+        let passes: Vec<&dyn Pass> = passes::ORDER.iter().copied().chain([&Wrong as &dyn Pass]).collect();
+        for source in [full_adder(), latch()] {
+            let made = |passes: &[&dyn Pass]| {
+                let mut made = source.clone();
+                passes.iter().for_each(|pass| pass.run(&mut made).unwrap());
+                made
+            };
+            assert!(prove_through(&source, &made(passes::ORDER), &passes).is_ok());
+            let found = prove_through(&source, &made(&passes), &passes);
+            assert!(matches!(found, Err(ProofError::Different { .. })), "{found:?}");
+        }
     }
 
     #[test]

@@ -1,0 +1,57 @@
+//! Where the loops of a netlist as written are cut open, and the cells of its mapping that the cuts are.
+//!
+//! The passes that the mapping ran say it. Nothing depends on whether they are right: a cut with a wrong counterpart
+//! makes the proof fail.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::components::Components;
+use crate::loops::Loops;
+use crate::passes::Pass;
+use crate::{NetId, Netlist, NetlistError, Node};
+
+/// A cut, and the name of the cell that it is in the mapping; none if no output depends on it.
+pub(super) type NamedCut = (NetId, Option<String>);
+
+/// The cuts of a netlist; after these passes its memory has the names that the mapping keeps.
+///
+/// # Errors
+/// When the netlist is not well formed.
+pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<NamedCut>, NetlistError> {
+    if Loops::of(netlist).cores().is_empty() {
+        return Ok(Vec::new());
+    }
+    let mut reduced = netlist.clone();
+    let mut merged: BTreeMap<NetId, NetId> = BTreeMap::new();
+    for pass in passes {
+        merged.extend(pass.merged(&reduced));
+        pass.run(&mut reduced)?;
+    }
+    let names = core_names(&reduced, &Loops::memory(&reduced));
+    let named = |id: &NetId| names.get(merged.get(id).unwrap_or(id)).cloned();
+    let is_cell = |id: &NetId| matches!(netlist.node(*id), Node::Cell(_));
+    let mut cuts: Vec<NamedCut> =
+        netlist.ids().filter(is_cell).filter_map(|id| Some((id, Some(named(&id)?)))).collect();
+    let known: BTreeSet<NetId> = cuts.iter().map(|(id, _)| *id).collect();
+    // Loops that no output depends on.
+    let parts = Components::new(netlist.graph()).from(netlist.ids(), |id| !known.contains(&id));
+    let is_loop = |part: &Vec<NetId>| part.len() > 1 || netlist.graph().contains_edge(part[0], part[0]);
+    cuts.extend(parts.into_iter().filter(is_loop).flatten().filter(is_cell).map(|id| (id, None)));
+    Ok(cuts)
+}
+
+/// A unique name for each cell of a loop core: that of its net, with a number if two cells share one.
+pub(crate) fn core_names(netlist: &Netlist, loops: &Loops) -> BTreeMap<NetId, String> {
+    let mut taken = BTreeSet::new();
+    let cells = netlist.ids().filter(|&id| loops.contains(id) && matches!(netlist.node(id), Node::Cell(_)));
+    cells
+        .map(|id| {
+            let name = netlist.net_name(id);
+            let numbered = (2..).map(|i| format!("{name}_{i}"));
+            let free = std::iter::once(name.clone()).chain(numbered).find(|name| !taken.contains(name));
+            let free = free.expect("there are more numbers than cells");
+            taken.insert(free.clone());
+            (id, free)
+        })
+        .collect()
+}
