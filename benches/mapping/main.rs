@@ -48,7 +48,7 @@ fn reference(name: &str) -> Option<[[Option<u32>; 2]; 3]> {
 /// The circuits of `tests/benchmarks` and the generated ones, with their names.
 fn designs() -> Vec<(String, Design)> {
     let read = files().into_iter().map(|path| (path.file_stem().unwrap().display().to_string(), read(&path)));
-    let made = generated().into_iter().map(|logic| (logic.name.clone(), Design { logic, registers: Vec::new() }));
+    let made = generated().into_iter().map(|logic| (logic.name.clone(), Design::new(logic, Vec::new())));
     read.chain(made).collect()
 }
 

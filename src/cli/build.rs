@@ -108,8 +108,8 @@ impl BuildArguments {
 fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
     match emit {
         Emit::Netlist => mapping.netlist.to_string(),
-        Emit::Blif => blif::write(&Design { logic: mapping.netlist, registers: Vec::new() }),
-        Emit::Verilog => verilog::write(&Design { logic: mapping.netlist, registers: Vec::new() }),
+        Emit::Blif => blif::write(&Design::new(mapping.netlist, Vec::new())),
+        Emit::Verilog => verilog::write(&Design::new(mapping.netlist, Vec::new())),
         Emit::Dot => dot::write(&mapping.netlist),
         Emit::Timing => describe_timing(&mapping),
         Emit::Json => {

@@ -10,12 +10,13 @@ use serde::Serialize;
 use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
+use nbc_base::source::Simulated;
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
 use nbc_circuit::{CellLibrary, MapOptions, Netlist, levels, registers};
 use nbc_session::report::Schema;
-use nbc_session::store::{self, CircuitFile, TopModule};
+use nbc_session::store::{self, CircuitFile, CircuitRead, TopModule};
 use nbc_session::synthesize;
 
 const EXAMPLES: &str = "\
@@ -86,9 +87,58 @@ struct Report {
     #[serde(skip_serializing_if = "Option::is_none")]
     unreachable: Option<UnreachableReport>,
     proved: bool,
+    proof: ProofReport,
     seconds: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     what_if: BTreeMap<String, i64>,
+}
+
+/// What the proof begins with.
+#[derive(Serialize)]
+struct ProofReport {
+    /// `file`, or `yosys` for its netlist.
+    from: &'static str,
+    /// The simulator that compared the netlist with the file, and the steps that were equal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulator: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steps: Option<usize>,
+    /// Why it compared nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_simulated: Option<&'static str>,
+}
+
+impl From<Option<Simulated>> for ProofReport {
+    fn from(simulated: Option<Simulated>) -> Self {
+        let from = if simulated.is_some() { "yosys" } else { "file" };
+        let (steps, not_simulated) = match simulated {
+            None => (None, None),
+            Some(Simulated::Equal { steps }) => (Some(steps), None),
+            Some(Simulated::NoSimulator) => (None, Some("iverilog is not installed")),
+            Some(Simulated::NotRun) => (None, Some("iverilog cannot read it or takes too long")),
+            Some(Simulated::NotComparable) => {
+                (None, Some("it has feedback, registers that clock each other, or nothing defined"))
+            }
+        };
+        Self { from, simulator: steps.map(|_| "iverilog"), steps, not_simulated }
+    }
+}
+
+impl ProofReport {
+    fn words(&self) -> String {
+        match (self.from, self.steps, self.not_simulated) {
+            ("file", ..) => "the file".to_owned(),
+            (_, Some(steps), _) => format!("yosys' netlist, {} steps equal in iverilog", grouped(steps)),
+            (_, None, why) => format!("yosys' netlist, which was not simulated: {}", why.unwrap_or_default()),
+        }
+    }
+}
+
+/// A number with commas, such as 4,096.
+fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));
+    groups.collect::<Vec<_>>().join(",")
 }
 
 /// Registers that the circuit does not need.
@@ -192,7 +242,7 @@ impl SynthArguments {
         let what_if = functions(&self.what_if)?;
         let top = TopModule { name: self.top, parameters: self.param.into_iter().collect() };
         let file = CircuitFile { path: &self.input, clock: self.clock.as_deref(), top: &top };
-        let (read, warnings) = store::read_circuit(&file)?;
+        let CircuitRead { design: read, warnings, simulated } = store::read_circuit(&file)?;
         context.tell(&warnings.list, &warnings.sources);
         let (design, removed) = correspondence::reduce(&read);
         let expand = match self.registers {
@@ -201,6 +251,11 @@ impl SynthArguments {
         };
         let options = self.mapping.options();
         let whole = Made::of(design, expand, &library, &options)?;
+        // The result with its registers is proved to be what was read, too. For registers made of cells, the design
+        // without needless registers was proved, and then its cells.
+        if !expand {
+            whole.is_what_was_read(&read, &removed);
+        }
         let (made, unreachable) = match self.reachable_only {
             true => whole.within_reach(expand, &library, &options)?,
             false => (whole, None),
@@ -210,7 +265,8 @@ impl SynthArguments {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
             store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
         }
-        let mut report = Report { unreachable, ..Report::of(&design, removed, &result.logic, started) };
+        let proof = simulated.into();
+        let mut report = Report { unreachable, proof, ..Report::of(&design, removed, &result.logic, started) };
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, nbc_circuit::CellKind::uniform(1, 1.0));
@@ -236,7 +292,18 @@ impl Made {
         let source = if expand { registers::expand(&design) } else { design.logic.clone() };
         let logic = synthesize(source.clone(), library, options).map_err(Failure::plain)?.netlist;
         let registers = if expand { Vec::new() } else { design.registers.clone() };
-        Ok(Self { design, source, result: Design { logic, registers } })
+        let ascending = design.ascending.clone();
+        Ok(Self { design, source, result: Design { logic, registers, ascending } })
+    }
+
+    /// Proves the result equal to the design that was read, before any pass.
+    ///
+    /// # Panics
+    /// When they differ, which is a fault of the compiler.
+    fn is_what_was_read(&self, read: &Design, removed: &Removed) {
+        if let Err(error) = correspondence::prove(read, &self.result, removed) {
+            panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
+        }
     }
 
     fn cells(&self) -> usize {
@@ -274,6 +341,7 @@ impl Report {
             unreachable: None,
             // A circuit that is not proved is never reported.
             proved: true,
+            proof: None.into(),
             seconds: started.elapsed().as_secs_f64(),
             what_if: BTreeMap::new(),
         }
@@ -283,10 +351,11 @@ impl Report {
         let parts: Vec<_> = self.by_function.iter().map(|(name, count)| format!("{count} {name}")).collect();
         let latches = if self.latches > 0 { format!(", {} registers", self.latches) } else { String::new() };
         let mut text = format!(
-            "{} cells ({}), {} levels{latches}, proved, {:.2} s\n",
+            "{} cells ({}), {} levels{latches}, proved from {}, {:.2} s\n",
             self.cells,
             parts.join(", "),
             self.depth,
+            self.proof.words(),
             self.seconds
         );
         text.push_str(&self.removed.text());

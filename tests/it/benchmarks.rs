@@ -24,7 +24,7 @@ fn abc_proves_every_written_blif_of_the_benchmarks() {
             let logic = map_with(&design.logic, &library, &options).unwrap();
             prove(&design.logic, &logic).unwrap();
             let written = folder.path().join(format!("{}-{name}.blif", path.file_stem().unwrap().display()));
-            fs::write(&written, blif::write(&Design { logic, registers: design.registers.clone() })).unwrap();
+            fs::write(&written, blif::write(&Design::new(logic, design.registers.clone()))).unwrap();
             let command = if design.registers.is_empty() { "cec -n" } else { "dsec" };
             script.push_str(&format!("{command} {} {}; ", path.display(), written.display()));
             pairs += 1;

@@ -23,7 +23,6 @@ fn errors_in_blif_have_their_place() {
     };
     check("x\n", "2:1 `x`: `x` is not a directive; expected a directive such as `.names`, or a row after one");
     check(".foo\n", "2:1 `.foo`: unknown BLIF directive `.foo`; not supported");
-    check(".exdc\n", "2:1 `.exdc`: `.exdc` is not supported; external don't-cares");
     check(".names\n", "2:1 `.names`: `.names` is incomplete; expected the name of a net");
     check(".latch a\n", "2:1 `.latch`: `.latch` is incomplete; expected an input and an output");
     check(".subckt\n", "2:1 `.subckt`: `.subckt` is incomplete; expected the name of a model");

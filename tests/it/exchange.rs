@@ -1,6 +1,6 @@
 //! Files for other tools read back, and proved to be the circuit that was written.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::FileId;
@@ -43,7 +43,7 @@ fn by_memory() -> (Vec<Netlist>, Vec<Netlist>) {
 }
 
 fn alone(logic: Netlist) -> Design {
-    Design { logic, registers: Vec::new() }
+    Design::new(logic, Vec::new())
 }
 
 #[track_caller]
@@ -175,7 +175,7 @@ fn the_gallery_reads_back_from_blif_and_aiger() {
 fn low_bits_first(netlist: &Netlist) -> Netlist {
     let ordered = |line: &str| {
         let names: Vec<String> = line.split(' ').skip(1).map(str::to_owned).collect();
-        let places = buses::buses(&names).into_iter().flat_map(|bus| bus.bits);
+        let places = buses::buses(&names, &BTreeSet::new()).into_iter().flat_map(|bus| bus.bits);
         let names: String = places.map(|place| format!(" {}", names[place])).collect();
         format!("{}{names}", line.split(' ').next().unwrap())
     };
@@ -194,7 +194,7 @@ fn through_yosys(design: &Design) -> Design {
     std::fs::write(&path, CircuitFormat::Verilog.encode(design).unwrap()).unwrap();
     let (top, clock) = (&TopModule::default(), None);
     let read = store::read_circuit(&CircuitFile { path: &path, clock, top });
-    let (design, warnings) = read.unwrap_or_else(|faults| panic!("{:?}", faults.list));
+    let store::CircuitRead { design, warnings, .. } = read.unwrap_or_else(|faults| panic!("{:?}", faults.list));
     assert!(warnings.list.is_empty(), "{:?}", warnings.list);
     design
 }
@@ -289,7 +289,7 @@ fn registers(kinds: &[(u8, Option<bool>)]) -> Design {
         start: if kind / 4 == 1 { start.or(Some(false)) } else { start },
         forcing: forcing[usize::from(kind / 4)],
     };
-    Design { logic, registers: kinds.iter().enumerate().map(register).collect() }
+    Design::new(logic, kinds.iter().enumerate().map(register).collect())
 }
 
 fn kinds(most: u8) -> impl Strategy<Value = Vec<(u8, Option<bool>)>> {
@@ -332,7 +332,12 @@ fn registers_read_back_from_verilog() {
         let all = design.registers.iter().map(|register| (register.name.clone(), format!("{register:?}")));
         all.collect::<BTreeMap<_, _>>()
     };
-    assert_eq!(registers(&again), registers(&design));
+    // What starts anyhow starts at 0 in Verilog; BLIF has no start for a register with a set and a reset.
+    let mut written = design.clone();
+    for register in &mut written.registers {
+        register.start = (register.forcing != Forcing::SetReset).then_some(register.starts_at());
+    }
+    assert_eq!(registers(&again), registers(&written));
     let mut both = [Logic::new(&design.logic), Logic::new(&again.logic)];
     let names: Vec<_> = design.logic.inputs().iter().map(|&id| design.logic.net_name(id)).collect();
     for pattern in 0..1u32 << names.len() {

@@ -9,6 +9,7 @@ mod cli;
 #[cfg(feature = "cluster")]
 mod cluster;
 mod commands;
+mod comparing;
 mod declared;
 mod designs;
 mod determinism;

@@ -253,7 +253,7 @@ fn gallery(library: &CellLibrary) -> Vec<Netlist> {
 fn blif_of_a_swarm_with_memory_reads_back_equal() {
     let mut random = ChaCha8Rng::seed_from_u64(4);
     for netlist in libraries().iter().flat_map(gallery) {
-        let text = blif::write(&Design { logic: netlist.clone(), registers: Vec::new() });
+        let text = blif::write(&Design::new(netlist.clone(), Vec::new()));
         let read = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
         let mut again = read.logic;
         DissolveWires.run_on(&mut again).unwrap();

@@ -161,7 +161,7 @@ fn design(registers: &[(bool, bool, bool)], gates: &[(u8, usize, usize)]) -> Des
         start: start.then_some(true),
         forcing: Forcing::Never,
     };
-    Design { logic, registers: registers.iter().enumerate().map(register).collect() }
+    Design::new(logic, registers.iter().enumerate().map(register).collect())
 }
 
 fn options() -> MapOptions {

@@ -114,7 +114,7 @@ fn machine(recipe: &Recipe) -> Design {
         start,
         forcing: Forcing::Never,
     };
-    Design { logic, registers: recipe.iter().enumerate().map(register).collect() }
+    Design::new(logic, recipe.iter().enumerate().map(register).collect())
 }
 
 /// The outputs over time for these inputs in 64 runs; registers of both edges change in turns.

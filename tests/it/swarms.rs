@@ -34,7 +34,7 @@ fn program(truth: u8) -> String {
         .collect();
     format!(
         "{}\ntest f \"computes {truth:08b}\" {{\n    a b c | y\n{rows}}}\n",
-        nb::write(&Design { logic: netlist, registers: Vec::new() })
+        nb::write(&Design::new(netlist, Vec::new()))
     )
 }
 

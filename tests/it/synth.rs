@@ -269,11 +269,7 @@ fn errors_in_an_aiger_file_have_their_line() {
     let told = |text: &str, message: &str, line: usize| {
         refused("a.aag", text, &format!("{message}, line {line} of the AIGER file"));
     };
-    told(
-        "aag 1 1 0\n",
-        "expected five numbers in the header, found 3; properties and constraints are not supported",
-        1,
-    );
+    told("aag 1 1 0\n", "expected five to nine numbers in the header, found 3", 1);
     told("aag a 1 0 0 0\n", "expected a header such as `aag 3 2 0 1 1`, found `aag a 1 0 0 0`", 1);
     told("blif\n", "expected `aag` or `aig`, found `blif`", 1);
     told("aag 1 2 0 0 0\n2\n4\n", "2 inputs, 0 latches and 0 gates exceed the 1 variables of the header", 1);
@@ -299,4 +295,79 @@ fn an_incomplete_library_lists_functions_that_complete_it() {
 /// Lets ABC prove two files without registers equal.
 fn equivalent(bench: &Bench, one: &str, two: &str) {
     abc_agrees(bench, "cec", one, two);
+}
+
+/// What is written for a circuit.
+fn written(text: &str, file: &str, out: &str) -> String {
+    let bench = Bench::new();
+    bench.file(file, text);
+    let ran = bench.run(&["synth", file, "--cells", "nand,not,and", "-o", out]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    std::fs::read_to_string(bench.path().join(out)).unwrap()
+}
+
+#[test]
+fn an_output_that_is_an_input_keeps_its_name() {
+    let text = ".model io\n.inputs a b\n.outputs a y b\n.names a b y\n11 1\n.end\n";
+    let blif = written(text, "io.blif", "out.blif");
+    assert!(blif.contains(".outputs a y b\n") && !blif.contains(".names a a\n"), "{blif}");
+    let aiger = written(text, "io.blif", "out.aag");
+    assert!(aiger.contains("o0 a\no1 y\no2 b\n"), "{aiger}");
+    // A module has each name once.
+    let verilog = written(text, "io.blif", "out.v");
+    assert!(verilog.starts_with("module io(input a, input b, output a_1, output y, output b_1);\n"), "{verilog}");
+    // An output of that name which is another net is numbered.
+    let other = written(".model io\n.inputs a b\n.outputs a\n.end\n", "io.blif", "out.blif");
+    assert!(other.contains(".outputs a\n"), "{other}");
+}
+
+#[test]
+fn extra_counts_of_aiger_that_are_zero_are_read() {
+    for extra in ["", " 0", " 0 0", " 0 0 0", " 0 0 0 0"] {
+        let text = format!("aag 3 2 0 1 1{extra}\n2\n4\n6\n6 4 2\n");
+        assert!(written(&text, "a.aag", "out.blif").contains(".outputs o0\n"), "{extra}");
+    }
+    let head = |extra: &str| format!("aag 3 2 0 1 1{extra}\n2\n4\n6\n6 4 2\n");
+    refused("a.aag", &head(" 1"), "bad-state properties are not supported, and the header has 1, line 1");
+    refused("a.aag", &head(" 0 2"), "invariant constraints are not supported, and the header has 2");
+    refused("a.aag", &head(" 0 0 3"), "justice properties are not supported, and the header has 3");
+    refused("a.aag", &head(" 0 0 0 4"), "fairness constraints are not supported, and the header has 4");
+    refused("a.aag", &head(" 0 0 0 0 0"), "expected five to nine numbers in the header, found 10");
+}
+
+#[test]
+fn external_dont_cares_are_ignored_with_a_warning() {
+    let bench = Bench::new();
+    let text = ".model m\n.inputs a b\n.outputs y\n.names a b y\n11 1\n.exdc\n.inputs a b\n.outputs y\n\
+                .names a b y\n0- 1\n.end\n.model other\n.inputs x\n.outputs z\n.names x z\n0 1\n.end\n";
+    bench.file("m.blif", text);
+    for (top, cells) in [("m", "1 and"), ("other", "1 not")] {
+        let ran = bench.run(&["synth", "m.blif", "--top", top, "--cells", "nand,not,and"]);
+        assert!(ran.status == 0 && ran.out.contains(cells), "{}{}", ran.out, ran.err);
+        assert!(ran.err.contains("external don't-cares are ignored") && ran.err.contains("m.blif:6:1"), "{}", ran.err);
+    }
+    bench.file("m.nb", "use \"m.blif\"\n\ntest m {\n    a b | y\n    0 1 | 0\n    1 1 | 1\n}\n");
+    let ran = bench.run(&["test", "m.nb", "--logic"]);
+    assert!(ran.status == 0 && ran.err.contains("external don't-cares are ignored"), "{}{}", ran.out, ran.err);
+}
+
+#[test]
+fn a_clock_without_effect_is_refused() {
+    let bench = Bench::new();
+    let latch = |rest: &str| format!(".model m\n.inputs d clk\n.outputs q\n.latch d q{rest}\n.end\n");
+    for (file, text, is_refused) in [
+        ("m.blif", FULL_ADDER.to_owned(), true),
+        ("m.blif", latch(" re clk 0"), true),
+        ("m.blif", latch(" 0"), false),
+        ("m.aag", "aag 1 1 0 1 0\n2\n2\n".to_owned(), true),
+        ("m.aag", "aag 2 1 1 1 0\n2\n4 2\n4\n".to_owned(), false),
+        ("m.bench", "INPUT(a)\nOUTPUT(y)\ny = NOT(a)\n".to_owned(), true),
+        ("m.bench", "INPUT(a)\nOUTPUT(y)\ny = DFF(a)\n".to_owned(), false),
+        ("m.v", "module m(input clk, d, output reg q); always @(posedge clk) q <= d; endmodule\n".to_owned(), true),
+    ] {
+        bench.file(file, &text);
+        let ran = bench.run(&["synth", file, "--cells", "nand,not", "--clock", "tick"]);
+        let told = format!("`{file}` has no registers without a clock, which `--clock tick` is for");
+        assert_eq!((ran.status == 2, ran.err.contains(&told)), (is_refused, is_refused), "{text}{}", ran.err);
+    }
 }

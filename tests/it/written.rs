@@ -98,7 +98,10 @@ pub fn same_in_order(one: &Netlist, two: &Netlist, [ins, outs]: &[Vec<usize>; 2]
 /// The order of ports in a program, whose buses have their highest bit first.
 pub fn order(netlist: &Netlist, ports: &[NetId]) -> Vec<usize> {
     let names: Vec<String> = ports.iter().map(|&id| netlist.net_name(id)).collect();
-    buses::buses(&names).into_iter().flat_map(|bus| bus.bits.into_iter().rev()).collect()
+    buses::buses(&names, &std::collections::BTreeSet::new())
+        .into_iter()
+        .flat_map(|bus| bus.bits.into_iter().rev())
+        .collect()
 }
 
 /// The text of a design as a program, checked to be formatted, and its circuit.
@@ -121,7 +124,7 @@ proptest! {
 
     #[test]
     fn written_programs_are_formatted_and_equivalent(netlist in netlists()) {
-        let design = Design { logic: netlist, registers: Vec::new() };
+        let design = Design::new(netlist, Vec::new());
         let (text, again) = as_program(&design);
         let orders = [design.logic.inputs(), design.logic.outputs()].map(|ports| order(&design.logic, ports));
         same_in_order(&design.logic, &again, &orders, &text);
@@ -129,7 +132,7 @@ proptest! {
 
     #[test]
     fn blif_and_aiger_with_any_names_read_back_the_same(netlist in netlists()) {
-        let design = Design { logic: netlist, registers: Vec::new() };
+        let design = Design::new(netlist, Vec::new());
         let text = blif::write(&design);
         let again = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
         same(&design.logic, &again.logic, &text);
@@ -143,7 +146,7 @@ proptest! {
     #[test]
     fn verilog_names_are_legal_and_different(netlist in netlists()) {
         let ports = netlist.inputs().len() + netlist.outputs().len();
-        let design = Design { logic: netlist, registers: Vec::new() };
+        let design = Design::new(netlist, Vec::new());
         let text = String::from_utf8(CircuitFormat::Verilog.encode(&design).unwrap()).unwrap();
         assert!(text.chars().all(|c| c == '\n' || c == ' ' || c.is_ascii_graphic()), "{text}");
         let head = text.lines().next().unwrap();
@@ -165,7 +168,7 @@ proptest! {
 fn a_model_without_outputs_is_not_a_program() {
     let mut logic = Netlist::new("silent");
     logic.add_input("a");
-    let fault = store::encode_circuit(&Design { logic, registers: Vec::new() }, CircuitFormat::Nb).unwrap_err();
+    let fault = store::encode_circuit(&Design::new(logic, Vec::new()), CircuitFormat::Nb).unwrap_err();
     assert_eq!(fault.message, "`silent` has no outputs, but a circuit of a .nb file needs one");
 }
 
@@ -190,7 +193,7 @@ fn with_registers() -> Design {
         start: Some(at % 2 == 1),
         forcing: Forcing::Never,
     };
-    Design { registers: names.iter().enumerate().map(register).collect(), logic }
+    Design::new(logic, names.iter().enumerate().map(register).collect())
 }
 
 #[test]

@@ -256,7 +256,7 @@ mod tests {
         [data].iter().chain(&nets).for_each(|&net| _ = logic.add_output("next", net));
         let clock = Some("clk".to_owned());
         let register = Register { name: "q".to_owned(), kind, clock, start: Some(start), forcing };
-        let mut netlist = expand(&Design { logic, registers: vec![register] });
+        let mut netlist = expand(&Design::new(logic, vec![register]));
         DissolveWires.run_on(&mut netlist).unwrap();
         crate::passes::Share.run(&mut netlist).unwrap();
         Sweep.run(&mut netlist).unwrap();

@@ -3,7 +3,7 @@
 use super::file::file_error;
 use super::suggest::alternatives;
 use super::{Code, Diagnostic, Severity, Suggestion};
-use crate::source::{SourceFile, Span, VerilogError, VerilogFault, VerilogName, VerilogPlace};
+use crate::source::{SourceFile, Span, VerilogDifference, VerilogError, VerilogFault, VerilogName, VerilogPlace};
 
 impl Diagnostic {
     /// The error of translating a Verilog file, at its line if there is one.
@@ -83,6 +83,19 @@ impl Diagnostic {
             }
             VerilogError::Unclear { place, fault } => {
                 at_place(file, Some(place), format!("cannot read `{name}`"), &unclear(fault))
+            }
+            VerilogError::Different(difference) => {
+                let VerilogDifference { module, step, output, source, translation, inputs, place } = &**difference;
+                let message = format!("yosys misreads module `{module}` of `{name}`");
+                let label =
+                    format!("step {step}: `{output}` is {source} in iverilog, and {translation} in yosys' netlist");
+                let inputs: Vec<_> = inputs.iter().map(|(name, value)| format!("{name}={value}")).collect();
+                let fault = at_place(file, place.as_ref(), message, &label);
+                fault.with_help(format!(
+                    "the inputs are {} then, after random steps from the start; write it in another way, such as with \
+                     complete sensitivity lists and constants of plain widths, or try a newer version of Yosys",
+                    inputs.join(" ")
+                ))
             }
             VerilogError::Rejected { reason, place } => {
                 at_place(file, place.as_ref(), format!("yosys cannot read `{name}`"), reason)

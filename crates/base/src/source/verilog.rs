@@ -1,6 +1,6 @@
 //! Verilog through a [`SourceWorld`](super::SourceWorld): what its translator gives, and why there may be none.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::FileError;
 
@@ -20,8 +20,28 @@ pub struct VerilogModules {
     pub left_out: Vec<VerilogName>,
     /// The lines that declare nets, by module and name.
     pub nets: BTreeMap<(String, String), usize>,
+    /// The nets whose leftmost bit has the lowest number, such as `a` of `input [0:3] a`, by module and name.
+    pub ascending: BTreeSet<(String, String)>,
     /// The place of each line that Yosys read.
     pub lines: Vec<VerilogPlace>,
+    /// What a simulation of each module beside its source has shown.
+    pub simulated: BTreeMap<String, Simulated>,
+}
+
+/// What a simulation of a translated module beside its source has shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Simulated {
+    /// Every output that the source defines was equal in so many steps.
+    Equal {
+        /// The number of steps.
+        steps: usize,
+    },
+    /// There is no simulator.
+    NoSimulator,
+    /// The simulator cannot read the source, or took too long.
+    NotRun,
+    /// The module has feedback, or its registers clock each other, so that the order of events matters.
+    NotComparable,
 }
 
 impl VerilogModules {
@@ -154,6 +174,8 @@ pub enum VerilogError {
         /// The fault.
         fault: VerilogFault,
     },
+    /// An output that is another one in a simulation of the source.
+    Different(Box<VerilogDifference>),
     /// Yosys rejected the text.
     Rejected {
         /// The message of Yosys.
@@ -161,6 +183,25 @@ pub enum VerilogError {
         /// The place, if Yosys names one.
         place: Option<VerilogPlace>,
     },
+}
+
+/// A step of a simulation in which a translated module differs from its source. Values are bits, the leftmost first.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VerilogDifference {
+    /// The module.
+    pub module: String,
+    /// The step, from 1; 0 is the start.
+    pub step: usize,
+    /// The output port that differs.
+    pub output: String,
+    /// Its value in the simulation of the source.
+    pub source: String,
+    /// Its value in the translation.
+    pub translation: String,
+    /// The input ports with their values.
+    pub inputs: Vec<(String, String)>,
+    /// The place of the output's declaration, if it is known.
+    pub place: Option<VerilogPlace>,
 }
 
 /// A fault that shows before Yosys reads the text.

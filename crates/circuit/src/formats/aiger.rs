@@ -1,9 +1,10 @@
 //! AIGER, and-inverter graphs: ascii (`aag`) and binary (`aig`).
 
+use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
-use crate::formats::names::FileNames;
+use crate::formats::names::{FileNames, free};
 use crate::formats::wording::{AigerError, AigerPlace};
 use crate::network::{Gate, View};
 use crate::{NetId, Netlist};
@@ -15,6 +16,10 @@ pub(crate) const MOST_VARIABLES: usize = 4_000_000;
 
 /// The most inputs and latches. A binary file only states their number.
 pub(crate) const MOST_PORTS: usize = 1_000_000;
+
+/// What version 1.9 of the format adds to the header.
+const EXTRA: [&str; 4] =
+    ["bad-state properties", "invariant constraints", "justice properties", "fairness constraints"];
 
 /// Reads a file; `clock` names the clock of its latches.
 ///
@@ -115,9 +120,15 @@ impl<'b> Reader<'b> {
         let Ok(numbers) = words.map(str::parse).collect::<Result<Vec<usize>, _>>() else {
             return self.fault(AigerError::Header { found: excerpt(line) });
         };
-        let [variables, inputs, latches, outputs, ands] = numbers[..] else {
+        let [variables, inputs, latches, outputs, ands, ref extra @ ..] = numbers[..] else {
             return self.fault(AigerError::HeaderNumbers { found: numbers.len() });
         };
+        if extra.len() > EXTRA.len() {
+            return self.fault(AigerError::HeaderNumbers { found: numbers.len() });
+        }
+        if let Some((&number, what)) = extra.iter().zip(EXTRA).find(|(number, _)| **number > 0) {
+            return self.fault(AigerError::Property { what, number });
+        }
         if let Some(&number) = numbers.iter().find(|&&number| number > MOST_VARIABLES) {
             return self.fault(AigerError::TooLarge { number, most: MOST_VARIABLES });
         }
@@ -228,6 +239,15 @@ impl<'b> Reader<'b> {
             };
             design.logic.rename(id, name);
         }
+        // Registers are known by their names.
+        let mut taken = BTreeSet::new();
+        for (at, register) in design.registers.iter_mut().enumerate() {
+            let name = free(&mut taken, register.name.clone());
+            if name != register.name {
+                design.logic.rename(design.logic.inputs()[inputs + at], &name);
+                register.name = name;
+            }
+        }
         Ok(())
     }
 }
@@ -276,7 +296,7 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
         forcing: Forcing::Never,
     };
     let registers = latches.iter().enumerate().map(register).collect();
-    Ok(Design { logic, registers })
+    Ok(Design::new(logic, registers))
 }
 
 /// The gates with drivers first.
@@ -457,7 +477,7 @@ impl Ands {
         }
         let readable = |name: &str| name.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
         let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
-        let names = FileNames::new(&design.logic, &design.registers, &[], legal);
+        let names = FileNames::new(&design.logic, &design.registers, &[], true, legal);
         let label = |kind: &str, ids: &[NetId]| {
             let line = |(i, &id)| format!("{kind}{i} {}\n", names.net(id));
             ids.iter().enumerate().map(line).collect::<String>()

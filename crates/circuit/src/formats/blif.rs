@@ -11,7 +11,7 @@ use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, vis
 use crate::formats::starts::starts;
 use crate::formats::wording::{BlifError, ModelError, TextError};
 use crate::{NetId, Netlist, Node};
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, Severity};
 use nbc_base::model::Function;
 use nbc_base::source::{FileId, Span};
 
@@ -57,6 +57,17 @@ pub fn read_model(
     flat.instantiate(top, "", &BTreeMap::new());
     draft.finish()
 }
+
+/// Warnings about what is not read: external don't-cares, which permit more than the circuit does.
+pub fn ignored(text: &str, file: FileId) -> Vec<Diagnostic> {
+    let found = lines(text, file).filter(|words| words[0].0 == DONT_CARES);
+    found
+        .map(|words| Diagnostic { severity: Severity::Warning, ..TextError::from(BlifError::DontCares).at(words[0].1) })
+        .collect()
+}
+
+/// The directive after which a network says where the outputs may be anything, up to the end of the model.
+const DONT_CARES: &str = ".exdc";
 
 /// How deep models may instantiate models.
 const MOST_DEPTH: usize = 200;
@@ -194,8 +205,13 @@ impl<'t> Models<'t> {
     }
 
     fn read(&mut self, text: &'t str, file: FileId) {
+        let mut is_outside = false;
         for words in lines(text, file) {
-            let (first, span) = words[0];
+            let (first, _) = words[0];
+            is_outside = first == DONT_CARES || is_outside && !matches!(first, ".end" | ".model");
+            if is_outside {
+                continue;
+            }
             let row = !first.starts_with('.');
             if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && word.len() > MOST_NAME_BYTES) {
                 let start = Span { end: span.start + 20, ..span };
@@ -204,10 +220,6 @@ impl<'t> Models<'t> {
                 return;
             }
             if first.starts_with('.') {
-                if first == ".exdc" {
-                    self.fault(BlifError::DontCares, span);
-                    return;
-                }
                 self.directive(words);
             } else {
                 self.cube(&words);
@@ -512,7 +524,7 @@ pub fn is_register_cell(cell: &str) -> bool {
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);
-    let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], legal);
+    let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], true, legal);
     let starts = starts(netlist);
     let mut stand_ins = stand_ins(design);
     // A memory element keeps its own name, by which it is compared.
@@ -570,7 +582,8 @@ pub fn write(design: &Design) -> String {
     }
     for &output in outputs.iter().chain(&nexts[..states.len()]) {
         let driver = netlist.pins(output)[0];
-        if stand_ins.get(&driver) != Some(&output) {
+        // An output may be an input.
+        if stand_ins.get(&driver) != Some(&output) && name(driver) != names.net(output) {
             let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names.net(output));
         }
     }

@@ -2,24 +2,23 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use nbc_base::model::bit_parts;
-
 /// A port or a net of one bit or several, made of the bits of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bus {
     /// The name, without the number of a bit.
     pub name: String,
-    /// The places of its bits in the list, the lowest bit first.
+    /// The places of its bits in the list, the rightmost bit first.
     pub bits: Vec<usize>,
 }
 
 /// The buses of bits with these names, in the order of their first bits. Bits are one bus if their numbers have no gap;
-/// the lowest need not be 0. Every other name is a bus of one bit.
-pub fn buses(names: &[String]) -> Vec<Bus> {
-    let mut numbered: BTreeMap<&str, BTreeMap<usize, usize>> = BTreeMap::new();
+/// the lowest need not be 0. The rightmost bit of a bus is its lowest one, or the highest one if the bus is
+/// `ascending`. Every other name is a bus of one bit.
+pub fn buses(names: &[String], ascending: &BTreeSet<String>) -> Vec<Bus> {
+    let mut numbered: BTreeMap<&str, BTreeMap<i64, usize>> = BTreeMap::new();
     let mut apart: BTreeSet<&str> = BTreeSet::new();
     for (place, name) in names.iter().enumerate() {
-        let Some((base, bit)) = bit_parts(name) else { continue };
+        let Some((base, bit)) = bit_number(name) else { continue };
         if numbered.entry(base).or_default().insert(bit, place).is_some() {
             apart.insert(base);
         }
@@ -27,13 +26,15 @@ pub fn buses(names: &[String]) -> Vec<Bus> {
     let whole = |base: &str| {
         let bits = &numbered[base];
         let (first, last) = (bits.keys().next()?, bits.keys().last()?);
-        let is_bus = last - first + 1 == bits.len() && (bits.len() > 1 || *first == 0) && !apart.contains(base);
-        is_bus.then(|| bits.values().copied().collect::<Vec<_>>())
+        let is_whole = last.abs_diff(*first) + 1 == bits.len() as u64;
+        let is_bus = is_whole && (bits.len() > 1 || *first == 0) && !apart.contains(base);
+        let places = || bits.values().copied();
+        is_bus.then(|| if ascending.contains(base) { places().rev().collect() } else { places().collect::<Vec<_>>() })
     };
     let mut done = BTreeSet::new();
     let mut all = Vec::new();
     for (place, name) in names.iter().enumerate() {
-        let bus = bit_parts(name).and_then(|(base, _)| Some((base, whole(base)?)));
+        let bus = bit_number(name).and_then(|(base, _)| Some((base, whole(base)?)));
         match bus {
             Some((base, _)) if !done.insert(base) => {}
             Some((base, bits)) => all.push(Bus { name: base.to_owned(), bits }),
@@ -43,13 +44,22 @@ pub fn buses(names: &[String]) -> Vec<Bus> {
     all
 }
 
+/// The name of a bus and the number of its bit, from the name of the bit: `a` and -1 for `a[-1]`. `None` for other
+/// names.
+pub(super) fn bit_number(bit: &str) -> Option<(&str, i64)> {
+    let (name, number) = bit.strip_suffix(']')?.rsplit_once('[')?;
+    let digits = number.strip_prefix('-').unwrap_or(number);
+    let is_plain = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_digit());
+    Some((name, number.parse().ok().filter(|_| is_plain)?))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     fn check(names: &[&str], expected: &[(&str, &[usize])]) {
         let names: Vec<String> = names.iter().map(|&name| name.to_owned()).collect();
-        let found = buses(&names);
+        let found = buses(&names, &BTreeSet::from(["up".to_owned()]));
         let found: Vec<_> = found.iter().map(|bus| (bus.name.as_str(), &bus.bits[..])).collect();
         assert_eq!(found, expected, "{names:?}");
     }
@@ -59,6 +69,12 @@ mod tests {
         check(&["a[0]", "a[1]", "b"], &[("a", &[0, 1]), ("b", &[2])]);
         check(&["a[1]", "b[0]", "a[0]"], &[("a", &[2, 0]), ("b", &[1])]);
         check(&["a[5]", "a[4]"], &[("a", &[1, 0])]);
+        check(&["a[-1]", "a[0]", "a[1]"], &[("a", &[0, 1, 2])]);
+    }
+
+    #[test]
+    fn the_rightmost_bit_is_first() {
+        check(&["up[-1]", "up[0]", "down[0]", "down[1]"], &[("up", &[1, 0]), ("down", &[2, 3])]);
     }
 
     #[test]

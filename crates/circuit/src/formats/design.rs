@@ -1,5 +1,7 @@
 //! Designs, the contents of an exchange file: a circuit and the registers of its state.
 
+use std::collections::BTreeSet;
+
 use crate::{NetId, Netlist};
 
 /// When a register takes its next value.
@@ -81,9 +83,16 @@ pub struct Design {
     pub logic: Netlist,
     /// The registers in order.
     pub registers: Vec<Register>,
+    /// The buses whose leftmost bit has the lowest number, such as `a` of `input [0:3] a` in Verilog.
+    pub ascending: BTreeSet<String>,
 }
 
 impl Design {
+    /// A design whose buses have their highest number on the left.
+    pub fn new(logic: Netlist, registers: Vec<Register>) -> Self {
+        Self { logic, registers, ascending: BTreeSet::new() }
+    }
+
     /// The number of input ports.
     pub fn inputs(&self) -> usize {
         self.logic.inputs().len() - self.registers.len()

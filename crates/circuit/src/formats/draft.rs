@@ -208,7 +208,7 @@ impl Draft {
         for (&(name, _), label) in sinks.iter().zip(self.labels()) {
             logic.add_output(label, nets[name as usize].expect("every output was built"));
         }
-        Ok(Design { logic, registers: self.registers.into_iter().map(|register| register.register).collect() })
+        Ok(Design::new(logic, self.registers.into_iter().map(|register| register.register).collect()))
     }
 
     /// The names of the outputs of the logic: ports, next values, and nets that force registers.

@@ -136,7 +136,7 @@ mod tests {
             start: None,
             forcing: Forcing::Never,
         };
-        Design { logic, registers: registers.iter().enumerate().map(register).collect() }
+        Design::new(logic, registers.iter().enumerate().map(register).collect())
     }
 
     fn check(registers: &[(RegisterKind, &str)], expected: Option<&str>) {

@@ -23,4 +23,4 @@ mod wording;
 pub use design::{Design, Forcing, Register, RegisterKind};
 pub use format::{CircuitFormat, CircuitSource};
 pub use nb_names::is_word;
-pub use verilog_module::verilog_module;
+pub use verilog_module::{verilog_design, verilog_module};

@@ -28,14 +28,25 @@ impl FileNames {
     /// are reserved words.
     ///
     /// Names are assigned first to ports, then to clocks that are not ports, then to the values of registers and to the
-    /// outputs for them (the last inputs and outputs), then to cells.
-    pub fn new(netlist: &Netlist, registers: &[Register], kept: &[&str], legal: impl Fn(&str) -> String) -> Self {
+    /// outputs for them (the last inputs and outputs), then to cells. An output that is the input of its name gets
+    /// another name, unless the format has them `apart`.
+    pub fn new(
+        netlist: &Netlist,
+        registers: &[Register],
+        kept: &[&str],
+        apart: bool,
+        legal: impl Fn(&str) -> String,
+    ) -> Self {
         let mut taken: BTreeSet<String> = kept.iter().map(|&word| word.to_owned()).collect();
         let mut nets = BTreeMap::new();
         let (inputs, states) = netlist.inputs().split_at(netlist.inputs().len() - registers.len());
         let (outputs, nexts) = netlist.outputs().split_at(netlist.outputs().len() - Register::outputs(registers));
         for &id in inputs.iter().chain(outputs) {
-            nets.insert(id, free(&mut taken, legal(&netlist.net_name(id))));
+            let wish = netlist.net_name(id);
+            let driver = netlist.pins(id).first().copied().filter(|_| apart);
+            let known = driver.filter(|driver| inputs.contains(driver) && netlist.net_name(*driver) == wish);
+            let name = known.and_then(|input| nets.get(&input).cloned());
+            nets.insert(id, name.unwrap_or_else(|| free(&mut taken, legal(&wish))));
         }
         let wanted: BTreeSet<&String> = registers.iter().filter_map(|register| register.clock.as_ref()).collect();
         let sources = || inputs.iter().chain(states);
@@ -117,7 +128,18 @@ mod tests {
         let gate = netlist.add_gate(Function::AND, &[a, b]);
         netlist.rename(gate, "a\u{1b}b");
         let output = netlist.add_output("", gate);
-        let names = FileNames::new(&netlist, &[], &["_"], |name| visible(name, &[]));
+        let names = FileNames::new(&netlist, &[], &["_"], true, |name| visible(name, &[]));
         assert_eq!([a, b, gate, output].map(|id| names.net(id)), ["a_b", "a_b_1", "a_b_2", "__1"]);
+    }
+
+    #[test]
+    fn an_output_that_is_an_input_keeps_its_name_where_the_format_permits() {
+        let mut netlist = Netlist::new("m");
+        let [a, b] = ["a", "b"].map(|name| netlist.add_input(name));
+        let outputs = [("a", a), ("a", b), ("b", a)].map(|(name, net)| netlist.add_output(name, net));
+        for (apart, expected) in [(true, ["a", "a_1", "b_1"]), (false, ["a_1", "a_2", "b_1"])] {
+            let names = FileNames::new(&netlist, &[], &[], apart, str::to_owned);
+            assert_eq!(outputs.map(|id| names.net(id)), expected);
+        }
     }
 }

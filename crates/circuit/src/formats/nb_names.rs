@@ -69,6 +69,8 @@ pub(super) struct NbNames {
     pub(super) stand_ins: BTreeMap<NetId, NetId>,
     bits: BTreeMap<NetId, NamedBit>,
     taken: BTreeSet<String>,
+    /// The buses of the file whose leftmost bit has the lowest number.
+    ascending: BTreeSet<String>,
 }
 
 impl NbNames {
@@ -88,6 +90,7 @@ impl NbNames {
             stand_ins,
             bits: BTreeMap::new(),
             taken: BTreeSet::new(),
+            ascending: design.ascending.iter().flat_map(|bus| [bus.clone(), format!("{bus}_next")]).collect(),
         };
         names.inputs = names.nets(inputs, |id| logic.net_name(id));
         names.outputs = names.nets(outputs, |id| logic.net_name(id));
@@ -112,7 +115,7 @@ impl NbNames {
             }
             NamedNet { name, bits }
         };
-        buses(&names).into_iter().map(&mut net).collect()
+        buses(&names, &self.ascending).into_iter().map(&mut net).collect()
     }
 
     fn own_clocks(&mut self, design: &Design) {

@@ -6,7 +6,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
-use crate::formats::design::{Design, Register, RegisterKind};
+use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, visible};
 use crate::formats::starts::starts;
 use crate::formats::verilog_names::escaped;
@@ -55,8 +55,8 @@ impl<'d> Writer<'d> {
         let starts = starts(netlist);
         let ports = VerilogPorts::new(design, |driver| starts.contains_key(&driver));
         let kept: Vec<&str> = ports.names().into_iter().collect();
-        let names = FileNames::new(netlist, &design.registers, &kept, |name| visible(name, &[]));
-        let title = if netlist.name.is_empty() { "circuit".to_owned() } else { visible(&netlist.name, &[]) };
+        let names = FileNames::new(netlist, &design.registers, &kept, false, legal);
+        let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
         let mut taken: BTreeSet<String> = names.own_clocks().map(str::to_owned).collect();
         taken.extend(kept.into_iter().map(str::to_owned));
         taken.extend(netlist.ids().filter(|&id| !is_constant(netlist, id)).map(|id| names.net(id).to_owned()));
@@ -103,8 +103,13 @@ impl<'d> Writer<'d> {
         let logic = &self.design.logic;
         let states = &logic.inputs()[self.design.inputs()..];
         for (state, register) in states.iter().zip(&self.design.registers) {
-            let start = register.start.map_or(String::new(), |start| format!(" = 1'b{}", u8::from(start)));
-            let _ = writeln!(text, "    reg {}{start};", self.name(*state));
+            let _ = writeln!(text, "    reg {} = 1'b{};", self.name(*state), u8::from(register.starts_at()));
+        }
+        // An event needs a net.
+        for &output in self.design.forcing().into_iter().flatten() {
+            if *logic.node(logic.pins(output)[0]) == Node::Constant(true) {
+                let _ = writeln!(text, "    wire {} = 1'b1;", self.name(output));
+            }
         }
         let cells = cells_in_order(logic).into_iter().filter(|id| !self.stand_ins.contains_key(id));
         let nexts = &logic.outputs()[self.design.outputs()..][..self.design.registers.len()];
@@ -145,34 +150,50 @@ impl<'d> Writer<'d> {
         let logic = &self.design.logic;
         let states = &logic.inputs()[self.design.inputs()..];
         let nexts = &logic.outputs()[self.design.outputs()..];
-        let forcing = self.design.forcing_nets();
+        let forcing = self.design.forcing();
         for (((register, state), next), forcing) in self.design.registers.iter().zip(states).zip(nexts).zip(forcing) {
             let clock = self.clock(register);
             let (state, next) = (self.name(*state), self.name(*next));
-            let forcing: Vec<String> = forcing.into_iter().map(|net| self.name(net)).collect();
-            let start = u8::from(register.starts_at());
+            let forcing = self.forcing(register, forcing);
             let (assign, change) = match register.kind {
                 RegisterKind::Rising => ("<=", format!("posedge {clock}")),
                 RegisterKind::Falling => ("<=", format!("negedge {clock}")),
                 RegisterKind::High => ("=", format!("if ({clock}) ")),
                 RegisterKind::Low => ("=", format!("if (!{clock}) ")),
             };
-            let forced = match &forcing[..] {
-                [reset] => format!("if ({reset}) {state} {assign} 1'b{start}; else "),
-                [set, reset] => {
-                    format!("if ({reset}) {state} {assign} 1'b0; else if ({set}) {state} {assign} 1'b1; else ")
-                }
-                _ => String::new(),
-            };
+            let forced = |(net, value): &(String, u8)| format!("if ({net}) {state} {assign} 1'b{value}; else ");
+            let forced: String = forcing.iter().map(forced).collect();
             let (events, open) = match register.kind {
                 RegisterKind::Rising | RegisterKind::Falling => {
-                    let edges = forcing.iter().map(|net| format!(", posedge {net}")).collect::<String>();
+                    let edges = forcing.iter().map(|(net, _)| format!(", posedge {net}")).collect::<String>();
                     (format!("({change}{edges})"), String::new())
                 }
                 RegisterKind::High | RegisterKind::Low => ("*".to_owned(), change),
             };
             let _ = writeln!(text, "    always @{events} {forced}{open}{state} {assign} {next};");
         }
+    }
+
+    /// The nets that force a register and the values that it gets, the strongest first. Nets that are always 0 are not
+    /// among them: Yosys does not read them as events.
+    fn forcing(&self, register: &Register, outputs: &[NetId]) -> Vec<(String, u8)> {
+        let values = match register.forcing {
+            Forcing::SetReset => vec![1, 0],
+            Forcing::ToStart | Forcing::Never => vec![u8::from(register.starts_at())],
+        };
+        let mut forcing: Vec<(String, u8)> = Vec::new();
+        for (&output, value) in outputs.iter().zip(values).rev() {
+            let driver = self.design.logic.pins(output)[0];
+            let net = match self.design.logic.node(driver) {
+                Node::Constant(false) => continue,
+                Node::Constant(true) => self.name(output),
+                _ => self.name(driver),
+            };
+            if !forcing.iter().any(|(known, _)| *known == net) {
+                forcing.push((net, value));
+            }
+        }
+        forcing
     }
 
     fn clock(&self, register: &Register) -> String {
@@ -182,6 +203,12 @@ impl<'d> Writer<'d> {
             None => "clk".to_owned(),
         }
     }
+}
+
+/// A name that no reader takes for that of a system function.
+fn legal(name: &str) -> String {
+    let name = visible(name, &[]);
+    name.strip_prefix('$').map_or(name.clone(), |rest| format!("_{rest}"))
 }
 
 fn is_constant(netlist: &Netlist, id: NetId) -> bool {
@@ -231,7 +258,7 @@ mod tests {
 
     #[test]
     fn a_full_adder_is_readable() {
-        let text = write(&Design { logic: full_adder(), registers: Vec::new() });
+        let text = write(&Design::new(full_adder(), Vec::new()));
         assert!(
             text.starts_with("module full_adder(input a, input b, input cin, output sum, output carry);\n"),
             "{text}"
@@ -244,7 +271,7 @@ mod tests {
         let mut netlist = Netlist::new("one");
         let a = netlist.add_input("q[0]");
         netlist.add_output("q[0]", a);
-        let text = write(&Design { logic: netlist, registers: Vec::new() });
+        let text = write(&Design::new(netlist, Vec::new()));
         assert!(text.starts_with("module one(input \\q[0] , output \\q[0]_1 );\n"), "{text}");
     }
 
@@ -252,7 +279,7 @@ mod tests {
     fn cells_of_a_loop_are_instances_with_start_values() {
         let mut logic = latch();
         DissolveWires.run_on(&mut logic).unwrap();
-        let text = write(&Design { logic, registers: Vec::new() });
+        let text = write(&Design::new(logic, Vec::new()));
         let instances: Vec<_> = text.lines().filter(|line| line.contains("init")).collect();
         assert_eq!(instances.len(), 2, "{text}");
         assert!(instances[0].starts_with("    (* init = 1'b0 *) cell_nand "), "{text}");

@@ -3,7 +3,7 @@
 use crate::formats::blif;
 use crate::formats::design::Design;
 use nbc_base::diag::Diagnostic;
-use nbc_base::source::{SourceFile, VerilogModules};
+use nbc_base::source::{FileId, SourceFile, VerilogModules};
 
 /// Reads a translated module of a Verilog file.
 ///
@@ -20,6 +20,21 @@ pub fn verilog_module(
         let place = at.and_then(|at| modules.place(module, at));
         fault.of_verilog(source, place)
     };
-    let design = blif::read_model(&modules.blif, source.id, clock, Some(module));
+    let design = verilog_design(modules, module, source.id, clock);
     design.map_err(|faults| faults.into_iter().map(moved).collect())
+}
+
+/// The same with the errors at places of the translation, which is the text of `file`.
+///
+/// # Errors
+/// As [`verilog_module`].
+pub fn verilog_design(
+    modules: &VerilogModules,
+    module: &str,
+    file: FileId,
+    clock: Option<&str>,
+) -> Result<Design, Vec<Diagnostic>> {
+    let design = blif::read_model(&modules.blif, file, clock, Some(module))?;
+    let ascending = modules.ascending.iter().filter(|(of, _)| of == module).map(|(_, net)| net.clone()).collect();
+    Ok(Design { ascending, ..design })
 }

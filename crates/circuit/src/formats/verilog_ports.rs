@@ -3,15 +3,16 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::NetId;
-use crate::formats::buses::{Bus, buses};
+use crate::formats::buses::{Bus, bit_number, buses};
 use crate::formats::design::Design;
 use crate::formats::verilog_names::escaped;
-use nbc_base::model::bit_parts;
 
 /// The ports of several bits.
 pub(super) struct VerilogPorts {
     /// The port and the number of each bit.
-    bits: BTreeMap<NetId, (String, usize)>,
+    bits: BTreeMap<NetId, (String, i64)>,
+    /// The ports whose leftmost bit has the lowest number.
+    ascending: BTreeSet<String>,
 }
 
 impl VerilogPorts {
@@ -21,7 +22,7 @@ impl VerilogPorts {
         let logic = &design.logic;
         let (inputs, outputs) = (&logic.inputs()[..design.inputs()], &logic.outputs()[..design.outputs()]);
         let names = |ids: &[NetId]| ids.iter().map(|&id| logic.net_name(id)).collect::<Vec<_>>();
-        let found = [inputs, outputs].map(|ids| (ids, buses(&names(ids))));
+        let found = [inputs, outputs].map(|ids| (ids, buses(&names(ids), &design.ascending)));
         let of = |at: usize| found[at].1.iter().map(|bus| bus.name.as_str()).collect::<BTreeSet<_>>();
         let (first, second) = (of(0), of(1));
         let mut bits = BTreeMap::new();
@@ -30,18 +31,18 @@ impl VerilogPorts {
             let is_port = |Bus { name, bits }: &Bus| {
                 let is_alone = !(first.contains(name.as_str()) && second.contains(name.as_str()))
                     && buses.iter().filter(|other| other.name == *name).count() == 1;
-                is_alone && bit_parts(&whole[bits[0]]).is_some_and(|(base, _)| base == name) && is_visible(name)
+                is_alone && bit_number(&whole[bits[0]]).is_some_and(|(base, _)| base == name) && is_visible(name)
             };
             let is_looped = |&id: &NetId| outputs.contains(&id) && is_loop(logic.pins(id)[0]);
             let is_apart = |bus: &Bus| bus.bits.iter().any(|&place| is_looped(&ids[place]));
             for bus in buses.iter().filter(|bus| is_port(bus) && !is_apart(bus)) {
                 for &place in &bus.bits {
-                    let (_, number) = bit_parts(&whole[place]).expect("a bit of a bus has a number");
+                    let (_, number) = bit_number(&whole[place]).expect("a bit of a bus has a number");
                     bits.insert(ids[place], (bus.name.clone(), number));
                 }
             }
         }
-        Self { bits }
+        Self { bits, ascending: design.ascending.clone() }
     }
 
     /// The names of the ports of several bits.
@@ -64,7 +65,8 @@ impl VerilogPorts {
                 Some((port, _)) if done.insert(port) => {
                     let numbers = || self.bits.values().filter(|(known, _)| known == port).map(|(_, bit)| *bit);
                     let (low, high) = (numbers().min().unwrap_or(0), numbers().max().unwrap_or(0));
-                    declared.push(format!("{word} [{high}:{low}] {}", escaped(port)));
+                    let (left, right) = if self.ascending.contains(port) { (low, high) } else { (high, low) };
+                    declared.push(format!("{word} [{left}:{right}] {}", escaped(port)));
                 }
                 Some(_) => {}
             }
@@ -87,7 +89,7 @@ mod tests {
         let mut logic = Netlist::new("m");
         let nets: Vec<NetId> = inputs.iter().map(|&name| logic.add_input(name)).collect();
         outputs.iter().for_each(|&name| _ = logic.add_output(name, nets[0]));
-        let design = Design { logic, registers: Vec::new() };
+        let design = Design { ascending: BTreeSet::from(["up".to_owned()]), ..Design::new(logic, Vec::new()) };
         let (ports, logic) = (VerilogPorts::new(&design, |_| false), &design.logic);
         let name = |id| escaped(&logic.net_name(id));
         let mut declared = ports.declared("input", logic.inputs(), name);
@@ -102,6 +104,16 @@ mod tests {
             &["q[3]", "q[2]"],
             &["input [1:0] a", "input b", "input [0:0] c", "output [3:2] q"],
         );
+    }
+
+    #[test]
+    fn the_direction_and_the_numbers_are_those_of_the_file() {
+        check(
+            &["up[0]", "up[1]", "a[-1]", "a[0]"],
+            &["up[7]"],
+            &["input [0:1] up", "input [0:-1] a", "output \\up[7] "],
+        );
+        check(&["up[-1]", "up[0]", "up[1]"], &["q[0]"], &["input [-1:1] up", "output [0:0] q"]);
     }
 
     #[test]

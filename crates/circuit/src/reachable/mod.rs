@@ -96,5 +96,5 @@ fn with_logic(design: &Design, network: &Network) -> Design {
     }
     let mut registers = design.registers.clone();
     registers.iter_mut().for_each(|register| register.start = Some(register.starts_at()));
-    Design { logic, registers }
+    Design { logic, registers, ascending: design.ascending.clone() }
 }

@@ -21,9 +21,10 @@ impl Foreign<'_> {
         self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Register::CLOCK))?))
     }
 
-    /// The circuit of a BLIF file as source text of the language.
-    pub(super) fn blif(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
-        self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)
+    /// The circuit of a BLIF file as source text of the language, and warnings.
+    pub(super) fn blif(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let text = self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)?;
+        Ok((text, blif::ignored(&source.text, source.id)))
     }
 
     /// The circuits of a Verilog file as source text of the language, and warnings.

@@ -178,10 +178,11 @@ impl Loader<'_> {
         let text = match format {
             CircuitSource::Aiger => foreign.aiger(),
             CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
-            CircuitSource::Blif => self.text(sources, name, path).and_then(|file| foreign.blif(sources.file(file))),
-            CircuitSource::Verilog => {
+            CircuitSource::Blif | CircuitSource::Verilog => {
                 let file = self.text(sources, name, path)?;
-                let (text, warnings) = foreign.verilog(sources.file(file))?;
+                let source = sources.file(file);
+                let read = if format == CircuitSource::Blif { foreign.blif(source) } else { foreign.verilog(source) };
+                let (text, warnings) = read?;
                 self.loaded.faults.extend(warnings);
                 Ok(text)
             }

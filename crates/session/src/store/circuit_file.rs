@@ -6,7 +6,7 @@ use crate::store::verilog::{TopModule, Verilog};
 use crate::store::wording::StoreError;
 use crate::store::{DiskWorld, disk};
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, Sources, VerilogModules};
+use nbc_base::source::{FileError, FileId, Simulated, Sources, VerilogModules};
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
 use nbc_lang::syntax;
@@ -22,11 +22,28 @@ pub struct CircuitFile<'a> {
     pub top: &'a TopModule,
 }
 
-/// Reads a circuit, with warnings about it.
+/// A circuit that was read.
+#[derive(Clone, Debug)]
+pub struct CircuitRead {
+    /// The circuit.
+    pub design: Design,
+    /// Warnings about it.
+    pub warnings: Diagnostics,
+    /// If Yosys translated it, what a simulation beside the source has shown.
+    pub simulated: Option<Simulated>,
+}
+
+impl CircuitRead {
+    fn plain(design: Design, warnings: Diagnostics) -> Self {
+        Self { design, warnings, simulated: None }
+    }
+}
+
+/// Reads a circuit.
 ///
 /// # Errors
 /// A file that cannot be read, of an unknown format, or damaged; or a module that it does not have.
-pub fn read_circuit(from: &CircuitFile<'_>) -> Result<(Design, Diagnostics), Diagnostics> {
+pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let &CircuitFile { path, clock, top } = from;
     let name = path.display().to_string();
     let format = CircuitSource::of_path(&name);
@@ -42,19 +59,40 @@ pub fn read_circuit(from: &CircuitFile<'_>) -> Result<(Design, Diagnostics), Dia
             let bytes = disk::read(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))?;
             aiger::read(&bytes, clock)?
         }
-        Some(CircuitSource::Bench) => parse(name, text(path)?, |text, file| bench::read(text, file, clock))?,
-        Some(CircuitSource::Blif) => {
-            let model = top.name.as_deref();
-            parse(name, text(path)?, |text, file| blif::read_model(text, file, clock, model))?
+        Some(CircuitSource::Bench) => parse(name.clone(), text(path)?, |text, file| bench::read(text, file, clock))?.0,
+        Some(CircuitSource::Blif) => return blif(name, text(path)?, from),
+        Some(CircuitSource::Verilog) => {
+            without_effect(&name, clock)?;
+            return verilog(name, text(path)?, from);
         }
-        Some(CircuitSource::Verilog) => return verilog(name, text(path)?, from),
         None => return Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
     };
-    Ok((design, Diagnostics::default()))
+    if design.registers.is_empty() {
+        without_effect(&name, clock)?;
+    }
+    Ok(CircuitRead::plain(design, Diagnostics::default()))
+}
+
+/// A model of a BLIF text, with a warning about what is not read of it.
+fn blif(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+    let model = from.top.name.as_deref();
+    let (design, sources) = parse(name.clone(), text, |text, file| blif::read_model(text, file, from.clock, model))?;
+    let file = sources.iter().next().expect("the text was added");
+    if from.clock.is_some() && blif::read_model(&file.text, file.id, None, model).is_ok() {
+        without_effect(&name, from.clock)?;
+    }
+    let list = blif::ignored(&file.text, file.id);
+    Ok(CircuitRead::plain(design, Diagnostics { list, sources }))
+}
+
+/// Rejects a clock that no register of a file is for.
+fn without_effect(file: &str, clock: Option<&str>) -> Result<(), Diagnostics> {
+    let unused = |clock: &str| StoreError::NoUnclocked { file: file.to_owned(), clock: clock.to_owned() };
+    clock.map_or(Ok(()), |clock| Err(Diagnostic::from(unused(clock)).into()))
 }
 
 /// The top module of a Verilog text.
-fn verilog(name: String, text: String, from: &CircuitFile<'_>) -> Result<(Design, Diagnostics), Diagnostics> {
+fn verilog(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
     let (source, cancel) = (sources.file(file), &CancelFlag::default());
@@ -63,10 +101,14 @@ fn verilog(name: String, text: String, from: &CircuitFile<'_>) -> Result<(Design
         let VerilogModules { undriven, left_out, .. } = &modules;
         let left_out = left_out.iter().map(|module| Diagnostic::left_out(source, module));
         let warnings = left_out.chain(undriven.iter().map(|wire| Diagnostic::undriven_wire(source, wire))).collect();
-        Ok((verilog_module(&modules, &modules.tops[0], source, from.clock)?, warnings))
+        let module = &modules.tops[0];
+        Ok((verilog_module(&modules, module, source, from.clock)?, warnings, modules.simulated.get(module).copied()))
     });
     match read {
-        Ok((design, list)) => Ok((design, Diagnostics { list, sources })),
+        Ok((design, list, simulated)) => {
+            let simulated = Some(simulated.unwrap_or(Simulated::NotComparable));
+            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, simulated })
+        }
         Err(list) => Err(Diagnostics { list, sources }),
     }
 }
@@ -108,9 +150,12 @@ fn parse(
     name: String,
     text: String,
     read: impl FnOnce(&str, FileId) -> Result<Design, Vec<Diagnostic>>,
-) -> Result<Design, Diagnostics> {
+) -> Result<(Design, Sources), Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
     let read = read(&sources.file(file).text, file);
-    read.map_err(|diagnostics| Diagnostics { list: diagnostics, sources })
+    match read {
+        Ok(design) => Ok((design, sources)),
+        Err(list) => Err(Diagnostics { list, sources }),
+    }
 }

@@ -35,6 +35,8 @@ pub enum AigerError {
     Header { found: String },
     /// A header with a wrong number of numbers.
     HeaderNumbers { found: usize },
+    /// Something of the header that is not part of a circuit.
+    Property { what: &'static str, number: usize },
     /// A number of the header above the limit.
     TooLarge { number: usize, most: usize },
     /// Too many ports or latches.
@@ -83,9 +85,8 @@ impl AigerError {
             Self::NotText => "expected text".to_owned(),
             Self::NotAiger { found } => format!("expected `aag` or `aig`, found `{found}`"),
             Self::Header { found } => format!("expected a header such as `aag 3 2 0 1 1`, found `{found}`"),
-            Self::HeaderNumbers { found } => format!(
-                "expected five numbers in the header, found {found}; properties and constraints are not supported"
-            ),
+            Self::HeaderNumbers { found } => format!("expected five to nine numbers in the header, found {found}"),
+            Self::Property { what, number } => format!("{what} are not supported, and the header has {number}"),
             Self::TooLarge { number, most } => format!("expected at most {most} variables, found {number}"),
             Self::TooManyPorts { most } => format!("expected at most {most} inputs and {most} latches"),
             Self::Sum { inputs, latches, ands, variables, binary } => {

@@ -40,7 +40,7 @@ impl BlifError {
         let fixed = |message: &str, label: &str| (message.to_owned(), label.to_owned());
         match self {
             Self::NoModel => fixed("no `.model` in this BLIF file", "expected `.model`"),
-            Self::DontCares => fixed("`.exdc` is not supported", "external don't-cares"),
+            Self::DontCares => fixed("external don't-cares are ignored", "up to the end of the model"),
             Self::ModelTwice { model } => fixed(&format!("model `{model}` is defined twice"), "defined again here"),
             Self::BeforeModel { directive } => {
                 fixed(&format!("`{directive}` before `.model`"), "expected `.model` first")

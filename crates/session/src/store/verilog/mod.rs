@@ -6,9 +6,11 @@
 
 mod checker;
 mod conditions;
+mod icarus;
 mod listing;
 mod macros;
 mod modules;
+mod open_values;
 mod process;
 mod rtlil;
 mod source;

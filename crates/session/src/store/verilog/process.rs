@@ -1,8 +1,8 @@
-//! Yosys as a process with few rights, which always ends when its caller ends.
+//! Yosys and Icarus Verilog as processes with few rights, which always end when their caller ends.
 //!
-//! A shell starts it, sets its limits, and waits for it. The shell also reads from a pipe whose other end only the
-//! caller has. When the pipe closes, because the call was cancelled or the caller was killed, the shell ends Yosys and
-//! removes its folder.
+//! A shell starts a program, sets its limits, and waits for it. The shell also reads from a pipe whose other end only
+//! the caller has. When the pipe closes, because the call was cancelled or the caller was killed, the shell ends the
+//! program and removes its folder.
 
 use std::ffi::OsString;
 use std::fs;
@@ -18,7 +18,7 @@ use nbc_base::diag::io_words;
 use nbc_base::source::VerilogError;
 use nbc_circuit::CancelFlag;
 
-/// What Yosys may use.
+/// What a program may use.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limits {
     /// Seconds of a processor.
@@ -41,8 +41,8 @@ const LOOK: Duration = Duration::from_millis(10);
 /// The most bytes of messages that are kept.
 const MESSAGES: u64 = 1 << 20;
 
-/// Starts Yosys with the script `$1`, for `$2` seconds, with `$3` kilobytes. Signal 15 is for the whole group, and
-/// makes the shell remove the folder, where it is.
+/// Starts the program `$3` with the other arguments, for `$1` seconds, with `$2` kilobytes. Signal 15 is for the whole
+/// group, and makes the shell remove the folder, where it is.
 #[cfg(unix)]
 const SHELL: &str = r#"
 folder=$(pwd)
@@ -50,21 +50,22 @@ folder=$(pwd)
     ulimit -c 0
     ulimit -n 64
     ulimit -f 524288
-    ulimit -H -t $(($2 + 1))
-    ulimit -S -t "$2"
-    ulimit -v "$3"
+    ulimit -H -t $(($1 + 1))
+    ulimit -S -t "$1"
+    ulimit -v "$2"
 } 2>/dev/null
-command -v yosys >/dev/null || exit 127
+shift 2
+command -v "$1" >/dev/null || exit 127
 trap : TERM
 exec 3<&0 </dev/null
-yosys -q -p "$1" 3<&- &
-yosys=$!
+"$@" 3<&- &
+program=$!
 # The shell would name signals among the messages, and end early if nobody reads these any more.
 exec 2>/dev/null
 { read -r _ <&3; kill -TERM 0; } &
 watch=$!
 exec 3<&-
-wait $yosys
+wait $program
 status=$?
 if [ $status -eq 143 ]; then
     cd /
@@ -100,28 +101,28 @@ fn remove_stale(parent: &Path) {
     }
 }
 
-/// Runs Yosys in a folder; its messages if it failed.
+/// Runs a program with its arguments in a folder; its messages if it failed.
 ///
 /// # Errors
 /// When it is not installed, reached a limit, or is not waited for any more.
 pub(super) fn run(
     folder: &Path,
-    script: &str,
+    words: &[&str],
     limits: Limits,
     cancel: &CancelFlag,
 ) -> Result<Result<(), String>, VerilogError> {
-    run_found(std::env::var_os("PATH"), folder, script, limits, cancel)
+    run_found(std::env::var_os("PATH"), folder, words, limits, cancel)
 }
 
-/// The same with the Yosys that is found in the folders of `path`.
+/// The same with the program that is found in the folders of `path`.
 fn run_found(
     path: Option<OsString>,
     folder: &Path,
-    script: &str,
+    words: &[&str],
     limits: Limits,
     cancel: &CancelFlag,
 ) -> Result<Result<(), String>, VerilogError> {
-    let mut command = command(script, limits);
+    let mut command = command(words, limits);
     command.env_clear().envs(path.map(|path| ("PATH", path)));
     command.envs(["HOME", "TMPDIR"].map(|name| (name, folder))).env("LC_ALL", "C").current_dir(folder);
     let child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
@@ -148,18 +149,18 @@ fn outcome(status: ExitStatus, said: String, limits: Limits) -> Result<Result<()
 }
 
 #[cfg(unix)]
-fn command(script: &str, limits: Limits) -> Command {
+fn command(words: &[&str], limits: Limits) -> Command {
     use std::os::unix::process::CommandExt;
     let mut command = Command::new("/bin/sh");
     let (seconds, kilobytes) = (limits.seconds.to_string(), (limits.megabytes * 1024).to_string());
-    command.args(["-c", SHELL, "nbc-verilog", script, &seconds, &kilobytes]).process_group(0);
+    command.args(["-c", SHELL, "nbc-verilog", &seconds, &kilobytes]).args(words).process_group(0);
     command
 }
 
 #[cfg(not(unix))]
-fn command(script: &str, _limits: Limits) -> Command {
-    let mut command = Command::new("yosys");
-    command.args(["-q", "-p", script]);
+fn command(words: &[&str], _limits: Limits) -> Command {
+    let mut command = Command::new(words[0]);
+    command.args(&words[1..]);
     command
 }
 
@@ -213,7 +214,7 @@ mod tests {
         let others = std::env::var_os("PATH").unwrap_or_default();
         let folders = [programs.path().to_owned()].into_iter().chain(std::env::split_paths(&others));
         let path = std::env::join_paths(folders).unwrap();
-        run_found(Some(path), work.path(), "", limits, cancel)
+        run_found(Some(path), work.path(), &["yosys"], limits, cancel)
     }
 
     #[test]
@@ -241,7 +242,7 @@ mod tests {
     fn without_yosys_nothing_is_run() {
         let work = folder().unwrap();
         let nowhere = Some(work.path().as_os_str().to_owned());
-        let ended = run_found(nowhere, work.path(), "", Limits::default(), &CancelFlag::default());
+        let ended = run_found(nowhere, work.path(), &["yosys"], Limits::default(), &CancelFlag::default());
         assert_eq!(ended, Err(VerilogError::NoYosys));
     }
 }

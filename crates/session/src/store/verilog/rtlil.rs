@@ -9,6 +9,8 @@ use nbc_base::source::{VERILOG_SOURCE, verilog_line};
 pub(super) struct RtlilLines {
     /// The nets of some modules, by module and name.
     pub(super) nets: BTreeMap<(String, String), usize>,
+    /// Those whose leftmost bit has the lowest number.
+    pub(super) ascending: BTreeSet<(String, String)>,
     /// The cells of each kind.
     pub(super) cells: BTreeMap<String, BTreeSet<usize>>,
 }
@@ -24,7 +26,13 @@ impl RtlilLines {
             } else if let Some(name) = line.strip_prefix("module \\") {
                 (module, source) = (name, None);
             } else if let Some(wire) = line.strip_prefix("wire ") {
-                let name = wire.rsplit_once(" \\").map(|(_, name)| name).or_else(|| wire.strip_prefix('\\'));
+                let parts = wire.rsplit_once(" \\").map(|(about, name)| (about, Some(name)));
+                let (about, name) = parts.unwrap_or_else(|| ("", wire.strip_prefix('\\')));
+                if let Some(name) = name.filter(|_| about.split(' ').any(|word| word == "upto"))
+                    && modules.iter().any(|known| known == module)
+                {
+                    lines.ascending.insert((module.to_owned(), name.to_owned()));
+                }
                 if let (Some(name), Some(line)) = (name, source.take())
                     && modules.iter().any(|known| known == module)
                 {
@@ -77,9 +85,17 @@ mod tests {
     fn nets_and_cells_have_the_lines_of_the_text() {
         let rtlil = "module \\m\n  attribute \\src \"source.v:3.8-3.9\"\n  wire width 2 input 1 \\a\n  wire \\b\n\
                      attribute \\src \"source.v:5.1-5.2\"\n  cell $pow $1\nend\n";
-        let RtlilLines { nets, cells } = RtlilLines::of(rtlil, &["m".to_owned()]);
+        let RtlilLines { nets, cells, .. } = RtlilLines::of(rtlil, &["m".to_owned()]);
         assert_eq!(nets.into_iter().collect::<Vec<_>>(), [(("m".to_owned(), "a".to_owned()), 3)]);
         assert_eq!(cells.into_iter().collect::<Vec<_>>(), [("$pow".to_owned(), BTreeSet::from([5]))]);
+    }
+
+    #[test]
+    fn ranges_that_count_upwards_are_known() {
+        let rtlil = "module \\m\n  wire width 4 upto input 1 \\a\n  wire width 4 upto offset -1 \\s\n  \
+                     wire width 4 \\b\nend\nmodule \\n\n  wire width 4 upto \\c\nend\n";
+        let names = ["a", "s"].map(|name| ("m".to_owned(), name.to_owned()));
+        assert_eq!(RtlilLines::of(rtlil, &["m".to_owned()]).ascending, BTreeSet::from(names));
     }
 
     #[test]

@@ -8,6 +8,7 @@ use std::fmt::Write;
 use std::fs;
 
 use crate::store::disk;
+use crate::store::verilog::icarus;
 use crate::store::verilog::listing::VerilogListing;
 use crate::store::verilog::process::{self, Limits};
 use crate::store::verilog::rtlil::{RtlilLines, tops, undriven};
@@ -86,7 +87,9 @@ impl<W: VerilogFiles> Verilog<'_, W> {
         let blif = result(&folder, BLIF)?;
         // Yosys writes the top module first.
         let model = blif.lines().find_map(|line| line.strip_prefix(".model ")).ok_or(VerilogError::NoResult)?;
-        translated(&folder, vec![model.trim().to_owned()], blif, listing)
+        let written = listing.text.clone();
+        let modules = translated(&folder, vec![model.trim().to_owned()], blif, listing)?;
+        icarus::simulated(folder.path(), &written, modules, &top.parameters, self.cancel)
     }
 
     /// All modules that no other module contains.
@@ -97,7 +100,9 @@ impl<W: VerilogFiles> Verilog<'_, W> {
         let listing = self.listing(None)?;
         let folder = self.run(&listing, ALL)?;
         let tops = tops(&result(&folder, WRITTEN)?);
-        translated(&folder, tops, result(&folder, BLIF)?, listing)
+        let written = listing.text.clone();
+        let modules = translated(&folder, tops, result(&folder, BLIF)?, listing)?;
+        icarus::simulated(folder.path(), &written, modules, &BTreeMap::new(), self.cancel)
     }
 
     fn listing(&self, top: Option<&str>) -> Result<VerilogListing, VerilogError> {
@@ -111,7 +116,7 @@ impl<W: VerilogFiles> Verilog<'_, W> {
             let written = fs::write(folder.path().join(name), text);
             written.map_err(|error| VerilogError::NoFolder(io_words(&error)))?;
         }
-        match process::run(folder.path(), &script(modules), Limits::default(), self.cancel)? {
+        match process::run(folder.path(), &["yosys", "-q", "-p", &script(modules)], Limits::default(), self.cancel)? {
             Ok(()) => Ok(folder),
             Err(said) => Err(rejected(&said, listing)),
         }
@@ -149,7 +154,7 @@ fn translated(
     listing: VerilogListing,
 ) -> Result<VerilogModules, VerilogError> {
     let flat = result(folder, FLAT)?;
-    let RtlilLines { nets, cells } = RtlilLines::of(&flat, &tops);
+    let RtlilLines { nets, ascending, cells } = RtlilLines::of(&flat, &tops);
     let place = |line: Option<usize>| listing.place(line?);
     let models: BTreeSet<&str> = blif.lines().filter_map(|line| line.strip_prefix(".model ")).collect();
     let mut kinds = blif.lines().filter_map(|line| line.strip_prefix(".subckt ")?.split(' ').next());
@@ -167,7 +172,16 @@ fn translated(
         tops.contains(&module).then(|| VerilogName { name: net, place: place(line) })
     };
     let undriven = undriven(&result(folder, UNDRIVEN)?).into_iter().filter_map(of_top).collect();
-    Ok(VerilogModules { undriven, blif, tops, nets, left_out: listing.left_out, lines: listing.lines })
+    Ok(VerilogModules {
+        undriven,
+        blif,
+        tops,
+        nets,
+        ascending,
+        left_out: listing.left_out,
+        lines: listing.lines,
+        simulated: BTreeMap::new(),
+    })
 }
 
 /// The error message of Yosys, with its place in the user's file.

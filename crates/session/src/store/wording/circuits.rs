@@ -11,6 +11,8 @@ pub(in crate::store) enum StoreError {
     NoModules { file: String },
     /// Parameters of a file that has none.
     NoParameters { file: String },
+    /// A clock for registers without one, in a file that has none.
+    NoUnclocked { file: String, clock: String },
     /// A circuit whose text would be too large to be read again.
     NbTooLarge { bytes: usize, most: u64 },
 }
@@ -30,6 +32,10 @@ impl From<StoreError> for Diagnostic {
             StoreError::NoParameters { file } => {
                 Self::without_place(Code::BadValue, format!("`{file}` has no parameters"))
                     .with_help("leave out `--param`: only modules of Verilog have parameters")
+            }
+            StoreError::NoUnclocked { file, clock } => {
+                let message = format!("`{file}` has no registers without a clock, which `--clock {clock}` is for");
+                Self::without_place(Code::BadValue, message).with_help("leave out `--clock`")
             }
             StoreError::NbTooLarge { bytes, most } => {
                 Self::without_place(Code::TooLarge, format!("the circuit takes {bytes} bytes as a .nb file"))
