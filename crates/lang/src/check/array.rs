@@ -336,10 +336,14 @@ impl CircuitChecker<'_> {
         }
     }
 
-    /// The number of bits that select one of so many words.
+    /// The number of bits that select one of so many words: `log2(words + 1 / words)`, which is one bit for one word.
     fn log2(&mut self, words: SizeId, span: Span) -> SizeId {
-        let words = self.copy_of_size(words);
-        self.push_size(SizeKind::Log2(words), span)
+        let first = self.copy_of_size(words);
+        let one = self.one(span);
+        let again = self.copy_of_size(words);
+        let extra = self.push_size(SizeKind::Binary(SizeOperator::Divide, one, again), span);
+        let places = self.push_size(SizeKind::Binary(SizeOperator::Add, first, extra), span);
+        self.push_size(SizeKind::Log2(places), span)
     }
 
     /// The net with the word of a memory that a value selects.
