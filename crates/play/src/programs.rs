@@ -46,7 +46,7 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
 
 fn test(index: usize, test: &CircuitTest) -> TestEntry {
     let rows = match &test.stimulation {
-        Stimulation::Rows(rows) => rows.iter().map(|one| row(test, one)).collect(),
+        Stimulation::Rows(rows) => rows.iter().filter(|row| !row.is_half).map(|one| row(test, one)).collect(),
         Stimulation::Script(_) | Stimulation::All { .. } => Vec::new(),
     };
     TestEntry {
