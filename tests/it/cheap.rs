@@ -44,6 +44,12 @@ fn a_check_refuses_libraries_without_the_robots_that_are_needed() {
         missing,
     );
     refused(
+        &format!(
+            "library few {{ from: shipped, behaviors: [nand, maj] }}\nswarm s {{ circuit: g, library: few }}\n{gate}"
+        ),
+        "`few` has no robot of `maj`",
+    );
+    refused(
         &format!("library few {{ from: shipped, without: [nobody] }}\nswarm s {{ circuit: g, library: few }}\n{gate}"),
         "the library has no robot `nobody`",
     );
@@ -139,6 +145,13 @@ test h \"memory\" with e {
 }
 ";
     let bench = Bench::new();
+    bench.file(
+        "one.nb",
+        "circuit f(d, at, clk) -> (q, r) {\n net m[1][1]\n m[at] = register(d, clk)\n q = m\n r = m[at]\n}\n\
+         test f {\n d at clk | q r\n 1 1 ^ | 0 0\n 1 0 ^ | 1 1\n 0 1 ^ | 1 0\n}\n",
+    );
+    let ran = bench.run(&["test", "one.nb", "--logic"]);
+    assert!(ran.status == 0 && ran.out.contains("1 passed"), "{}{}", ran.out, ran.err);
     bench.file("a.nb", text);
     let ran = bench.run(&["test", "a.nb", "--logic"]);
     assert!(ran.status == 0 && ran.out.contains("2 passed"), "{}{}", ran.out, ran.err);

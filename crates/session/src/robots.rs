@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 use crate::store;
 use crate::wording::{RobotNameError, of_library};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::model::{Library, LibrarySource, Origin};
+use nbc_base::model::{Behavior, Library, LibrarySource, Origin};
 use nbc_base::source::SourceWorld;
 
 /// The libraries in the program, each read at its first use.
@@ -55,6 +55,13 @@ impl<'a> RobotSources<'a> {
             }
         };
         if let Some(behaviors) = &declared.behaviors {
+            // What an evolution will find is not known.
+            let absent = |behavior: &&Behavior| library.robots.iter().all(|robot| robot.behavior != **behavior);
+            let absent: Vec<Behavior> = behaviors.iter().filter(absent).copied().collect();
+            if !absent.is_empty() && !matches!(declared.from, Origin::Evolution(_)) {
+                let library = declared.name.clone();
+                return Err(vec![RobotNameError::NoBehavior { library, absent }.at(declared.span)]);
+            }
             library.robots.retain(|robot| behaviors.contains(&robot.behavior));
         }
         let robots = &library.robots;

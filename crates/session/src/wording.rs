@@ -1,7 +1,8 @@
 //! Errors and warnings of compiling and running a program that has no errors itself, and their messages.
 
 use crate::report;
-use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};
+use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, suggest};
+use nbc_base::model::Behavior;
 use nbc_base::source::Span;
 use nbc_circuit::waves::WaveError;
 use nbc_circuit::{EnvironmentFault, MapError};
@@ -111,14 +112,25 @@ impl StartError {
 pub(super) enum RobotNameError {
     /// No robot has the name, perhaps a similar one.
     Unknown { name: String, meant: Suggestion },
+    /// No robot has one of the behaviors to which a library is restricted.
+    NoBehavior { library: String, absent: Vec<Behavior> },
 }
 
 impl RobotNameError {
-    /// The error at the name.
+    /// The error at the name of the robot, or of the library.
     pub(super) fn at(self, span: Span) -> Diagnostic {
-        let Self::Unknown { name, meant } = self;
-        let message = format!("the library has no robot `{name}`");
-        Diagnostic::new(Code::Unknown, message, span, "not in the library").with_suggestion(Some(span), &meant)
+        match self {
+            Self::Unknown { name, meant } => {
+                let message = format!("the library has no robot `{name}`");
+                Diagnostic::new(Code::Unknown, message, span, "not in the library").with_suggestion(Some(span), &meant)
+            }
+            Self::NoBehavior { library, absent } => {
+                let names: Vec<&str> = absent.iter().map(|behavior| behavior.function().name()).collect();
+                let message = format!("`{library}` has no robot of {}", suggest::alternatives(&names, "or"));
+                Diagnostic::new(Code::NoEffect, message, span, "its `behaviors` name what no robot does")
+                    .with_help("remove them from `behaviors`; `from: three` has robots of three stimuli")
+            }
+        }
     }
 }
 
