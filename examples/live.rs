@@ -33,7 +33,7 @@ pub fn converse(input: impl BufRead, output: &mut impl Write) -> Result<(), Box<
             continue;
         };
         for _ in 0..cycles {
-            swarm.step(&bits);
+            swarm.step(&bits)?;
         }
         if let Some(cycle) = swarm.trace().cycles.len().checked_sub(1) {
             let values = swarm.trace().output_values(cycle);

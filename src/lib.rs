@@ -221,7 +221,7 @@ pub use nbc_session::report::{Scheme, Svg, draw_portrait};
 /// let timing: nbc::SwarmTiming = compiled.swarm_timing();
 /// assert_eq!(timing.robots[0].slack, 0);
 /// let mut swarm = session.swarm(&compiled);
-/// swarm.step(&[true]);
+/// swarm.step(&[true]).unwrap();
 /// assert!(nbc::draw_swarm(swarm.trace()).finish().starts_with("<svg"));
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
@@ -427,12 +427,25 @@ pub use nbc_session::store::{Checkpoint, write_file};
 /// let compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
 /// let mut swarm: nbc::LiveSwarm = session.swarm(&compiled);
 /// for _ in 0..compiled.timing.hold + 3 {
-///     swarm.step(&[true]);
+///     swarm.step(&[true]).unwrap();
 /// }
-/// assert_eq!(swarm.step(&[true]).outputs, [false]);
+/// assert_eq!(swarm.step(&[true]).unwrap().outputs, [false]);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use nbc_swarm::LiveSwarm;
+
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// let text = "world stiff { stiffness: 10 }\ncircuit f(a) -> (q) { q = not a }\nswarm s { circuit: f, world: stiff }";
+/// session.update("a.nb", 1, text);
+/// let checked = session.open("a.nb")?;
+/// let compiled = session.compile(&checked, &"f".into(), &nbc::CompileOptions::default())?;
+/// let mut swarm = session.swarm(&compiled);
+/// let fault: nbc::RobotFault = (0..100).find_map(|_| swarm.step(&[true]).err()).unwrap();
+/// assert_eq!(fault.kind, nbc::FaultKind::Unstable);
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use nbc_swarm::RobotFault;
 
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());

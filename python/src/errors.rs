@@ -30,6 +30,11 @@ pub fn internal(py: Python<'_>, panic: &(dyn Any + Send)) -> PyErr {
     exception(py, "InternalError", (format!("a fault of nbc itself: {text}"),))
 }
 
+/// The exception for a swarm in which a robot failed.
+pub fn robot_fault(py: Python<'_>, fault: &nbc::RobotFault) -> PyErr {
+    exception(py, "RobotFault", (fault.to_string(),))
+}
+
 /// The exception for an interrupted call with a partial result.
 pub fn interrupted(py: Python<'_>, partial: Bound<'_, PyAny>) -> PyErr {
     exception(py, "Interrupted", (partial,))

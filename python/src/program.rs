@@ -142,14 +142,14 @@ impl Program {
         runs.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>().map(|records| records.to_string())
     }
 
-    /// Runs every test and simulation in physics: the page, and the results as JSON.
+    /// Runs every test and simulation in physics: the page, the results as JSON, and whether all passed.
     fn run(
         &self,
         py: Python<'_>,
         compiling: Compiling,
         safe_colors: bool,
         progress: Option<Bound<'_, PyAny>>,
-    ) -> PyResult<(String, String)> {
+    ) -> PyResult<(String, String, bool)> {
         let watch = Watch::over(0);
         let options = compiling.options(py, &self.session, &watch)?;
         let (session, checked) = (self.session.clone(), self.checked.clone());
@@ -161,7 +161,7 @@ impl Program {
         })?;
         let records = |(page, report): (String, RunReport)| {
             let tests = report.tests.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>()?;
-            Ok((page, tests.to_string()))
+            Ok((page, tests.to_string(), report.passed()))
         };
         ran.or_partial(py, |ran| records(ran.map_err(|found| diagnosed(py, &found))?))
     }

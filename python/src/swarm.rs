@@ -4,7 +4,7 @@ use nbc::LiveSwarm;
 use numpy::{IntoPyArray, PyArray2, PyArrayMethods};
 use pyo3::prelude::*;
 
-use crate::errors::bad_value;
+use crate::errors::{bad_value, robot_fault};
 use crate::slot::Slot;
 use crate::work::Watch;
 
@@ -26,7 +26,7 @@ impl Swarm {
 #[pymethods]
 impl Swarm {
     /// Simulates cycles with these bits on the input ports; the bits of the output ports after each. A cycle that is
-    /// interrupted is completed.
+    /// interrupted is completed. A cycle in which a robot fails has no outputs and ends the swarm.
     fn step(
         &self,
         py: Python<'_>,
@@ -45,12 +45,12 @@ impl Swarm {
                 if watch.is_stopped() {
                     break;
                 }
-                outputs.push(live.step(row).outputs.clone());
+                outputs.push(live.step(row)?.outputs.clone());
                 nbc::Observer::progress(&mut observer, cycle, all);
             }
-            outputs
+            Ok::<_, nbc::RobotFault>(outputs)
         })?;
-        done.finished()
+        done.finished()?.map_err(|fault| robot_fault(py, &fault))
     }
 
     /// Cycles done.

@@ -193,3 +193,15 @@ def test_a_swarm_takes_the_arrays_that_it_returns(latch):
     assert adder.inputs.tolist() == [[False, True, True, False]]
     adder.step(adder.inputs[0])
     assert adder.inputs.tolist() == [[False, True, True, False]] * 2
+
+
+def test_a_robot_that_fails_has_no_output():
+    swarm = "world w { stiffness: 10 }\ncircuit f(a) -> (q) { q = not a }\nswarm s { circuit: f, world: w }\n"
+    program = nbc.loads(swarm + "test f {\n a | q\n 1 | 0\n}\nsimulate s with schedule (a) { 1 for 3 cycles }")
+    (result,) = program.test()
+    assert not result.passed and result.world == "w" and "became unstable in cycle" in result.text
+    assert not program.run().passed
+    with program.compile().swarm() as live:
+        with pytest.raises(nbc.RobotFault, match="became unstable in cycle"):
+            live.step(a=1, cycles=50)
+        assert live.cycles == len(live.outputs) < 50

@@ -28,10 +28,11 @@ Examples:
   nbc run circuits/latch.nb --out /tmp/latch --format json
   nbc run circuits/latch.nb --only d_latch      a test's title, a circuit or a swarm
 
-Every robot is simulated voxel by voxel. A test runs once for each swarm that is declared for its circuit. \
-Pictures, waveforms, a table of the cycles, a report page and result.json are written to a folder in `out/` with \
-the file's name.
-Exit status: 0 every test passed, 1 a test failed, 2 the file has errors, 4 interrupted.")]
+Every robot is simulated voxel by voxel. A test runs once for each swarm that is declared for its circuit, in each \
+world that the test names. Pictures, waveforms, a table of the cycles, a report page and result.json are written to a \
+folder in `out/` with the file's name. Of several tests, each that passed is a line; one that failed, or the only one, \
+has its table, too.
+Exit status: 0 every test passed, 1 a test or a robot failed, 2 the file has errors, 4 interrupted.")]
 pub struct RunArguments {
     /// The source file
     file: PathBuf,
@@ -44,6 +45,9 @@ pub struct RunArguments {
     /// Do not write the report page
     #[arg(long)]
     no_report: bool,
+    /// Print the table, the files and the hold of every test, also of those that passed
+    #[arg(long)]
+    tables: bool,
     #[command(flatten)]
     runs: RunsArguments,
     #[command(flatten)]
@@ -142,39 +146,42 @@ impl RunArguments {
         match context.format {
             OutputFormat::Json => context.print_json(Schema::Run, &result)?,
             OutputFormat::Text => {
+                let is_alone = drawn.len() == 1;
                 for drawn in &drawn {
-                    context.print_verdicts(&describe(drawn))?;
+                    let is_whole = self.tables || is_alone || !drawn.ran.passed();
+                    context.print_verdicts(&if is_whole { describe(drawn) } else { summarize(drawn) })?;
                 }
+                let files = if is_alone { String::new() } else { format!("files    {}\n", folder.display()) };
                 let page = if self.no_report { String::new() } else { format!("report   {}\n", page.display()) };
                 let verdict = match (result.tests.len(), result.passed) {
-                    (0, _) => "",
+                    (0, true) => "",
                     (_, true) => "pass\n",
                     (_, false) => "FAIL\n",
                 };
                 let results = folder.join("result.json");
-                context.print_verdicts(&format!("{page}results  {}\n{verdict}", results.display()))?;
+                context.print_verdicts(&format!("{files}{page}results  {}\n{verdict}", results.display()))?;
             }
         }
         Ok(if result.passed { Status::Done } else { Status::TestFailed })
     }
 }
 
-/// The names of the runs' files: the circuit's, with the swarm's if a test has several, and a number for repeated
-/// names.
+/// The names of the runs' files: the circuit's, with those of the swarm and the world if a test has several, and a
+/// number for repeated names.
 fn stems(runs: &[CompleteRun]) -> Vec<String> {
-    let mut swarms: BTreeMap<(&str, usize), usize> = BTreeMap::new();
+    let mut cases: BTreeMap<(&str, usize), usize> = BTreeMap::new();
     for run in runs {
         if let CompleteRun::Test(TestRun { verdict, .. }) = run {
-            *swarms.entry((&verdict.circuit, verdict.line)).or_default() += 1;
+            *cases.entry((&verdict.circuit, verdict.line)).or_default() += 1;
         }
     }
     let name = |run: &CompleteRun| match run {
-        CompleteRun::Test(TestRun { verdict, .. }) => match &verdict.swarm {
-            Some(swarm) if swarms[&(verdict.circuit.as_str(), verdict.line)] > 1 => {
-                format!("{}-{swarm}", verdict.circuit)
-            }
-            _ => verdict.circuit.clone(),
-        },
+        CompleteRun::Test(TestRun { verdict, .. }) => {
+            let is_one_of_several = cases[&(verdict.circuit.as_str(), verdict.line)] > 1;
+            let world = verdict.world.as_ref().filter(|_| verdict.is_world_named);
+            let others = [verdict.swarm.as_ref(), world].into_iter().flatten().filter(|_| is_one_of_several);
+            others.fold(verdict.circuit.clone(), |name, other| format!("{name}-{other}"))
+        }
         CompleteRun::Simulation(run) => format!("simulate-{}", run.result.swarm),
     };
     let names: Vec<String> = runs.iter().map(name).collect();
@@ -233,6 +240,14 @@ fn describe(drawn: &Drawn<'_>) -> String {
     };
     let (swarm, hold) = (report::describe_swarm(trace), timing(drawn.ran).describe_hold(hold));
     format!("{}: {swarm}\n\n{outcome}\n{files}{hold}", trace.circuit)
+}
+
+/// What is said of one of several that passed: the line of a test, the table of a simulation.
+fn summarize(drawn: &Drawn<'_>) -> String {
+    match drawn.ran {
+        CompleteRun::Test(run) => report::describe_verdict(&run.verdict),
+        CompleteRun::Simulation(run) => report::describe_simulation(&run.result),
+    }
 }
 
 /// The label of a file in the summary.

@@ -9,7 +9,7 @@ use crate::cli::robots::read_body;
 use crate::cli::wording::{GroundEnds, UsageError};
 use crate::cli::{Context, Failure, Status};
 use nbc_base::diag::{Diagnostic, counted};
-use nbc_base::model::{CYCLE_STEPS, Direction, Schedule, Setting, Trajectory, Trial};
+use nbc_base::model::{CYCLE_STEPS, Direction, Fault, Schedule, Setting, Trajectory, Trial};
 use nbc_base::source::Sources;
 use nbc_session::read_schedule;
 use nbc_session::report::{Align, Schema, TextTable};
@@ -110,6 +110,6 @@ fn describe(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Str
     }
     match trajectory.fault {
         None => format!("{table}voxels walked\n"),
-        Some(fault) => format!("{table}the simulation went unstable at env step {}\n", fault.env_step),
+        Some(Fault { kind, env_step }) => format!("{table}the robot {kind} in env step {env_step}\n"),
     }
 }

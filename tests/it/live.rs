@@ -46,7 +46,7 @@ fn a_live_swarm_does_what_a_test_does() {
     let tested = run.swarm.unwrap();
     let mut live = session().swarm(&tested.compiled);
     for cycle in &tested.trace.cycles {
-        assert_eq!(live.step(&cycle.inputs), cycle);
+        assert_eq!(live.step(&cycle.inputs), Ok(cycle));
     }
     assert_eq!(*live.trace(), tested.trace);
 }
@@ -61,7 +61,7 @@ fn a_restored_swarm_does_the_same_again() {
         [[true, true], [true, false], [false, true]].iter().for_each(|inputs| _ = swarm.step(inputs));
         swarm.trace().clone()
     };
-    swarm.step(&[false, true]);
+    swarm.step(&[false, true]).unwrap();
     let snapshot = swarm.snapshot();
     let first = walk(&mut swarm);
     swarm.restore(&snapshot);

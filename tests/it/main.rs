@@ -68,6 +68,7 @@ mod testing;
 mod three;
 mod tidy;
 mod ui;
+mod unstable;
 mod using;
 mod verilog;
 mod wave_machines;

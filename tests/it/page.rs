@@ -60,7 +60,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         inputs: trace.inputs.clone(),
         outputs: trace.outputs.clone(),
         stimulation: Stimulation::Rows(Vec::new()),
-        world: None,
+        worlds: Vec::new(),
     };
     let row = |(at, q): (usize, bool)| TestRow {
         inputs: trace.cycles[8 * at].inputs.clone(),
@@ -82,6 +82,8 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         circuit: trace.circuit.clone(),
         title: test.title,
         swarm: None,
+        world: Some("paper".to_owned()),
+        is_world_named: false,
         level: Level::Physics,
         printed: None,
         passed: rows.iter().all(|row| row.passed),

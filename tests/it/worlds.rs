@@ -86,7 +86,7 @@ simulate s with schedule (a, b) {{ 0 0 for 2 cycles }}"
     let friction = |name: &str| program.evolution(name).unwrap().world.factors.friction;
     assert_eq!(["own", "named", "taken"].map(friction), [1.0, 2.0, 2.0]);
     let run = session.simulate(&checked, &program.simulations[0], &CompileOptions::default(), &mut ()).unwrap();
-    assert_eq!(run.swarm.compiled.plan.world.factors.gravity, 1.2);
+    assert_eq!(run.swarm.compiled.plan.world.world.factors.gravity, 1.2);
 }
 
 /// A file of Evolution Gym has the same ground as heights, around the place where robots start.
@@ -404,4 +404,85 @@ fn a_robot_that_a_library_leaves_out_must_be_in_it() {
     let ran = bench.run(&["test", "gate.nb"]);
     assert_eq!(ran.status, 2);
     assert!(ran.err.contains("the library has no robot `nand_5x6`") && ran.err.contains("`nand_5x5`"), "{}", ran.err);
+}
+
+/// A circuit with three swarms, and tests that name no world and three.
+const MANY: &str = "\
+world low { friction: 0.2 }
+world w1  { gravity: 1.05 }
+
+circuit inv(a) -> (q) {
+    q = not a
+}
+
+swarm one   { circuit: inv }
+swarm two   { circuit: inv, world: low }
+swarm three { circuit: inv, hold: 1 cycles }
+
+test inv \"plain\" {
+    a | q
+    0 | 1
+}
+
+test inv \"in\" in [paper, w1, low] {
+    a | q
+    0 | 1
+}
+";
+
+#[test]
+fn every_result_names_its_world_and_logic_counts_a_test_once() {
+    let bench = Bench::new();
+    bench.file("many.nb", MANY);
+    let ran = bench.run(&["test", "many.nb", "--physics"]);
+    let of = |title: &str, says: &str| {
+        let lines = ran.out.lines().filter(|line| line.contains(title) && line.contains(says));
+        lines.count()
+    };
+    assert_eq!(
+        [of("\"plain\"", ""), of("\"plain\" in low", ""), of("\"plain\"", " as two ")],
+        [3, 1, 1],
+        "{}",
+        ran.out
+    );
+    for world in ["paper", "w1", "low"] {
+        assert_eq!(of(&format!("\"in\" in {world} "), ""), 3, "{}", ran.out);
+    }
+    let told = bench.run(&["test", "many.nb", "--physics", "--format", "json"]);
+    let tests = validate("test", &told.out)["tests"].clone();
+    let worlds: Vec<(&str, &str)> = tests.as_array().unwrap().iter().map(named).collect();
+    let swarms = ["one", "two", "three"];
+    let plain = swarms.map(|swarm| (swarm, if swarm == "two" { "low" } else { "paper" }));
+    let each = swarms.iter().flat_map(|&swarm| ["paper", "w1", "low"].map(|world| (swarm, world)));
+    assert_eq!(worlds, plain.into_iter().chain(each).collect::<Vec<_>>());
+    let logic = bench.run(&["test", "many.nb", "--logic"]);
+    assert_eq!(logic.out, "pass  inv \"plain\" (1 row, logic)\npass  inv \"in\" (1 row, logic)\n2 passed, 0 failed\n");
+    let told = bench.run(&["test", "many.nb", "--logic", "--format", "json"]);
+    assert!(validate("test", &told.out)["tests"][1]["world"].is_null());
+}
+
+fn named(test: &serde_json::Value) -> (&str, &str) {
+    (test["swarm"].as_str().unwrap(), test["world"].as_str().unwrap())
+}
+
+#[test]
+fn a_run_of_several_tests_is_a_line_each_and_the_folder() {
+    let bench = Bench::new();
+    bench.file("many.nb", MANY);
+    let ran = bench.run(&["run", "many.nb", "--swarm", "one"]);
+    let lines: Vec<&str> = ran.out.lines().collect();
+    let expected = [
+        "pass  inv as one \"plain\" (1 row, physics)",
+        "pass  inv as one \"in\" in paper (1 row, physics)",
+        "pass  inv as one \"in\" in w1 (1 row, physics)",
+    ];
+    assert_eq!(lines[..3], expected, "{}", ran.out);
+    assert!(ran.out.contains("\nfiles    out/many\nreport   out/many/report.html\nresults  out/many/result.json\n"));
+    for world in ["paper", "w1", "low"] {
+        assert!(bench.path().join(format!("out/many/inv-one-{world}-spacetime.svg")).is_file(), "{world}");
+    }
+    let whole = bench.run(&["run", "many.nb", "--swarm", "one", "--only", "in", "--tables"]);
+    assert_eq!(whole.out.matches("expected").count(), 3, "{}", whole.out);
+    let one = bench.run(&["run", "many.nb", "--swarm", "one", "--only", "plain"]);
+    assert!(one.out.contains("test inv as one \"plain\": pass\n    inputs  expected"), "{}", one.out);
 }

@@ -405,7 +405,7 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "program", path: string, text: string, }
   | { "do": "compile", path: string, circuit: string, swarm: string | null, }
   | { "do": "test", path: string, test: number, level: TestLevel, }
-  | { "do": "replay", path: string, test: number, swarm: string | null, row: number, }
+  | { "do": "replay", path: string, test: number, swarm: string | null, world?: string, row: number, }
   | { "do": "inputs", bits: string, }
   | { "do": "clock", bit: number, half: number | null, }
   | { "do": "run", speed: number | null, }
@@ -596,7 +596,7 @@ export type TakenFile = {
   name: string,
 };
 
-/** The answer to `test`: a result for each swarm of its circuit. */
+/** The answer to `test`: a result for each swarm of its circuit in each world of the test. */
 export type TestAnswer = {
   results: Array<TestResult>,
 };
@@ -621,6 +621,10 @@ export type TestResult = {
   circuit: string,
   title: string,
   swarm: string | null,
+  /** The world of the swarm; none at the level of logic. */
+  world: string | null,
+  /** The robot that failed, if one did, and when. */
+  fault: string | null,
   level: TestLevel,
   passed: boolean,
   line: number,

@@ -28,7 +28,7 @@ enum ResultRecord {
     Evaluation { outcome: OutcomeRecord, env_steps: u64, left_out: u64 },
     Screening(Result<Option<(u32, f64)>, FaultRecord>),
     Measurement(Result<(Displacements, CharacterRecord), FaultRecord>),
-    Swarm { cycles: u32, robots: u32, bits: Vec<u8> },
+    Swarm { cycles: u32, robots: u32, bits: Vec<u8>, fault: Option<(u32, FaultRecord)> },
 }
 
 #[derive(Serialize, Deserialize)]
@@ -67,10 +67,14 @@ impl AnswerMessage {
                 ResultRecord::Measurement(Ok((*displacement, CharacterRecord::of(character))))
             }
             TaskResult::Measurement(Err(fault)) => ResultRecord::Measurement(Err(FaultRecord::of(*fault)?)),
-            TaskResult::Swarm(SwarmBits { cycles }) => ResultRecord::Swarm {
+            TaskResult::Swarm(SwarmBits { cycles, fault }) => ResultRecord::Swarm {
                 cycles: cycles.len() as u32,
                 robots: cycles.first().map_or(0, Vec::len) as u32,
                 bits: pack(cycles.iter().flatten().copied()),
+                fault: match *fault {
+                    Some((robot, fault)) => Some((robot as u32, FaultRecord::of(fault)?)),
+                    None => None,
+                },
             },
         };
         Some(encode(&AnswerRecord { key: self.key, result }))
@@ -95,11 +99,12 @@ impl AnswerMessage {
                 };
                 TaskResult::Measurement(measured.map(measurement).map_err(FaultRecord::fault))
             }
-            ResultRecord::Swarm { cycles, robots, bits } => {
+            ResultRecord::Swarm { cycles, robots, bits, fault } => {
                 // Rows without bits would cost nothing on the way.
                 let rows = if robots == 0 { 0 } else { cycles as usize };
                 let cycles = unpack(&bits, rows, robots as usize).ok_or(MessageFault::Values)?;
-                TaskResult::Swarm(SwarmBits { cycles })
+                let fault = fault.map(|(robot, fault)| (robot as usize, fault.fault()));
+                TaskResult::Swarm(SwarmBits { cycles, fault })
             }
         };
         Ok(Self { key, result })
@@ -192,7 +197,9 @@ mod tests {
             let fault = Fault { env_step: 300, kind };
             let evaluated = Evaluated { outcome: CandidateOutcome::Faulty(fault), work: Work::default() };
             let screened = TaskResult::Screening(Err(fault));
-            for result in [TaskResult::Evaluation(evaluated), screened, TaskResult::Measurement(Err(fault))] {
+            let bits = SwarmBits { cycles: vec![vec![true, false]; 3], fault: Some((1, fault)) };
+            let measured = TaskResult::Measurement(Err(fault));
+            for result in [TaskResult::Evaluation(evaluated), screened, measured, TaskResult::Swarm(bits)] {
                 let answer = AnswerMessage { key, result };
                 let again = answer.encode().map(|bytes| AnswerMessage::decode(&bytes).unwrap());
                 assert_eq!(again, (kind != FaultKind::Stopped).then_some(answer));

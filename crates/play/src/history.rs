@@ -161,7 +161,7 @@ mod tests {
     }
 
     fn step(swarm: &mut LiveSwarm, history: &mut SwarmHistory, input: bool) {
-        swarm.step(&[input]);
+        swarm.step(&[input]).unwrap();
         let logged = LoggedCycle::last_of(swarm);
         swarm.forget();
         history.push(swarm.cycles() as u32, logged, swarm);

@@ -16,7 +16,7 @@ use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow
 use nbc_circuit::Effort;
 use nbc_circuit::waves::WaveMachine;
 use nbc_session::report::{self, Looks};
-use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestCase, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, SwarmTrace};
 
 /// The most robots of a live swarm.
@@ -180,14 +180,14 @@ pub(super) fn run_test(session: &Session, checked: &Checked, test: usize, level:
     Ok(Some(RequestResult::Test(TestAnswer { results })))
 }
 
-/// The circuit of a test, and the inputs of each cycle up to the end of a row.
+/// The circuit of a test in the swarm and the world, and the inputs of each cycle up to the end of a row.
 ///
 /// # Errors
 /// When there is no such test or row, or its circuit cannot be compiled.
 pub(super) fn until_row(
     session: &Session,
     checked: &Checked,
-    (test, swarm, row): (usize, Option<&str>, usize),
+    (test, swarm, world, row): (usize, Option<&str>, Option<&str>, usize),
     job: &Job,
 ) -> Result<(Compiled, Vec<Vec<bool>>), Refused> {
     let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;

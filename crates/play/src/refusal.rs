@@ -7,7 +7,7 @@ use ts_rs::TS;
 use crate::message::finding::{Finding, findings};
 use crate::wording::PlayError;
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words, visible};
-use nbc_base::model::{Fault, FaultKind};
+use nbc_base::model::Fault;
 use nbc_base::source::FileError;
 
 /// The reason for which a request is refused.
@@ -92,12 +92,7 @@ impl Refused {
 
     /// A body whose simulation fails.
     pub(super) fn fault(fault: Fault) -> Self {
-        let kind = match fault.kind {
-            FaultKind::Unstable => "becomes unstable",
-            FaultKind::NonFinite => "leaves the range of numbers",
-            FaultKind::Stopped => "was stopped",
-        };
-        Self::Body(format!("its simulation {kind} in env step {}", fault.env_step))
+        Self::Body(format!("its simulation {} in env step {}", fault.kind, fault.env_step))
     }
 
     fn message(&self) -> String {

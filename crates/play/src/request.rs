@@ -54,6 +54,8 @@ pub(super) enum Verb {
         path: String,
         test: usize,
         swarm: Option<String>,
+        #[cfg_attr(test, ts(optional))]
+        world: Option<String>,
         row: usize,
     },
     Inputs {

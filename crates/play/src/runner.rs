@@ -152,12 +152,16 @@ impl Runner {
         let LoadedSwarm { number, compiled, swarm, inputs, request, answer, stop } = loaded;
         let mut shown = Shown::new(number, compiled, swarm);
         let all = inputs.len();
+        let mut fault = None;
         for (done, bits) in inputs.into_iter().enumerate() {
             if stop.is_raised() {
                 return self.outbox.answer(request, Err(Refused::Cancelled));
             }
             shown.inputs = bits;
-            shown.cycle();
+            fault = shown.cycle();
+            if fault.is_some() {
+                break;
+            }
             if done % 8 == 7 {
                 self.outbox.progress(request, [done as u64 + 1, all as u64]);
             }
@@ -165,6 +169,9 @@ impl Runner {
         // A frame of the swarm before would come after the answer.
         self.outbox.clear();
         self.outbox.answer(request, Ok(answer));
+        if let Some(reason) = fault {
+            self.outbox.event(PlayEvent::Stopped { reason });
+        }
         self.shown = Some(shown);
     }
 }
@@ -239,7 +246,7 @@ impl Shown {
         None
     }
 
-    /// Simulates a cycle with the inputs. Returns the reason if a robot became unstable in it.
+    /// Simulates a cycle with the inputs. Returns the reason if a robot failed, so that there is no such cycle.
     fn cycle(&mut self) -> Option<String> {
         let now = self.now();
         if let Some((bit, half, last)) = &mut self.clock
@@ -248,9 +255,10 @@ impl Shown {
             self.inputs[*bit] = !self.inputs[*bit];
             *last = now;
         }
-        let faults = |swarm: &LiveSwarm| swarm.trace().robots.iter().filter(|robot| robot.fault.is_some()).count();
-        let before = faults(&self.swarm);
-        self.swarm.step(&self.inputs);
+        if let Err(fault) = self.swarm.step(&self.inputs) {
+            self.is_new = true;
+            return Some(fault.to_string());
+        }
         let logged = LoggedCycle::last_of(&self.swarm);
         self.poses = Poses::of(&self.swarm);
         self.swarm.forget();
@@ -261,7 +269,7 @@ impl Shown {
         if self.times.len() > PACE_CYCLES {
             self.times.pop_front();
         }
-        (faults(&self.swarm) > before).then(|| "a robot became unstable".to_owned())
+        None
     }
 
     fn ground_ends(&self) -> Option<String> {
@@ -342,7 +350,8 @@ impl Shown {
         self.swarm.restore(mark);
         for bits in &inputs {
             self.swarm.forget();
-            self.swarm.step(bits);
+            // A cycle of the log has no fault.
+            let _ = self.swarm.step(bits);
         }
         self.poses = Poses::of(&self.swarm);
         if from > 0 || !inputs.is_empty() {

@@ -170,9 +170,9 @@ impl Visit {
                     Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
                 });
             }
-            Verb::Replay { path, test, swarm, row } => {
+            Verb::Replay { path, test, swarm, world, row } => {
                 return self.run_swarm(id, &path, RequestResult::Replay, move |session, checked, job| {
-                    programs::until_row(session, checked, (test, swarm.as_deref(), row), job)
+                    programs::until_row(session, checked, (test, swarm.as_deref(), world.as_deref(), row), job)
                 });
             }
             Verb::Read { path: Some(path), .. } => {

@@ -7,7 +7,7 @@ use crate::plan::Plan;
 use crate::waves::map_waves;
 use crate::wording::{ChoiceError, SwarmWarning, for_circuit};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Instance, PhysicsWorld, Program, RegisterStyle};
+use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::{Pass, Sweep};
 use nbc_circuit::{CellLibrary, MapError, MapOptions, Netlist, Timing, elaborate, elaborate_net, map_with, prove};
@@ -37,14 +37,15 @@ impl Compiled {
     }
 
     /// The same swarm in another world.
-    pub(super) fn in_world(&self, world: PhysicsWorld) -> Self {
+    pub(super) fn in_world(&self, world: NamedWorld) -> Self {
         let mut moved = self.clone();
         for member in &mut moved.assembly.members {
             let own = self.plan.library.robots.iter().find(|robot| robot.name == member.robot.name);
             member.robot.body.clone_from(&own.expect("a member is of the library").body);
         }
+        let assembly = moved.assembly.in_world(world.world);
         moved.plan.world = world;
-        Self { assembly: moved.assembly.in_world(world), ..moved }
+        Self { assembly, ..moved }
     }
 }
 
@@ -137,7 +138,7 @@ pub(super) fn compile(
             nbc_swarm::assemble_waves(machine, &library)
         }
     };
-    let mut assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world);
+    let mut assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world.world);
     name_values(program, &plan.circuit, &mut assembly);
     let weak_robots = nbc_swarm::weak_robots(&assembly);
     let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();

@@ -5,7 +5,7 @@ use crate::options::CompileOptions;
 use crate::robots::RobotSources;
 use crate::wording::ChoiceError;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Hold, Instance, Library, PhysicsWorld, Program, RegisterStyle, Swarm, WaveTimes};
+use nbc_base::model::{Hold, Instance, Library, NamedWorld, Program, RegisterStyle, Swarm, WaveTimes};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 /// A circuit with everything that its swarm declares.
@@ -26,7 +26,7 @@ pub struct Plan {
     /// The times of a wave machine, if it is to be one.
     pub waves: WaveTimes,
     /// The world of the swarm.
-    pub world: PhysicsWorld,
+    pub world: NamedWorld,
 }
 
 /// The plans of a circuit: one for each swarm that is declared for it, or that of the default library if there is none;
@@ -87,7 +87,7 @@ pub(super) fn of_swarm(
         window: declaration.map_or(1, |swarm| swarm.window),
         registers: declaration.map_or(RegisterStyle::default(), |swarm| swarm.registers),
         waves: declaration.map_or(WaveTimes::default(), |swarm| swarm.waves),
-        world: declaration.map_or_else(|| program.default_world(), |swarm| swarm.world),
+        world: declaration.map_or_else(|| program.default_world(), |swarm| swarm.world.clone()),
     })
 }
 

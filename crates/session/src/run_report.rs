@@ -1,6 +1,7 @@
 //! A list of tests and simulations, and the results of running it.
 
 use nbc_base::model::{CircuitTest, Program, Simulation};
+use nbc_swarm::RobotFault;
 
 use crate::report;
 use crate::simulation::SimulationRun;
@@ -45,18 +46,26 @@ pub struct RunReport {
 }
 
 impl RunReport {
-    /// Whether every test passed.
+    /// Whether every test passed, and no robot of a simulation failed.
     pub fn passed(&self) -> bool {
-        self.tests.iter().all(|test| test.verdict.passed)
+        self.tests.iter().all(|test| test.verdict.passed) && self.simulations.iter().all(SimulationRun::passed)
     }
 
-    /// Asserts that every test passed.
+    /// The fault of a test or a simulation, if a robot failed.
+    pub fn fault(&self) -> Option<&RobotFault> {
+        let tests = self.tests.iter().find_map(|test| test.verdict.fault());
+        tests.or_else(|| self.simulations.iter().find_map(|simulation| simulation.result.fault.as_ref()))
+    }
+
+    /// Asserts that every test passed, and that no robot of a simulation failed.
     ///
     /// # Panics
-    /// With the truth tables of the tests that failed.
+    /// With the tables of those that failed.
     pub fn assert_passed(&self) {
-        let failed = self.tests.iter().filter(|test| !test.verdict.passed);
-        let tables: String = failed.map(|test| report::describe_test(&test.verdict)).collect();
+        let tests = self.tests.iter().filter(|test| !test.verdict.passed);
+        let simulations = self.simulations.iter().filter(|run| !run.passed());
+        let tables = tests.map(|test| report::describe_test(&test.verdict));
+        let tables: String = tables.chain(simulations.map(|run| report::describe_simulation(&run.result))).collect();
         assert!(tables.is_empty(), "tests of the swarm failed\n{tables}");
     }
 }

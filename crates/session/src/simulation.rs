@@ -23,6 +23,13 @@ pub struct SimulationRun {
     pub warnings: Vec<Diagnostic>,
 }
 
+impl SimulationRun {
+    /// Whether every robot could be simulated.
+    pub fn passed(&self) -> bool {
+        self.result.fault.is_none()
+    }
+}
+
 /// The swarm of a simulation, compiled.
 ///
 /// # Errors
@@ -35,7 +42,7 @@ pub(super) fn compiled(
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let swarm = program.swarm(&simulation.swarm);
     let mut plan = plan::of_swarm(sources, program, &simulation.circuit, swarm, options)?;
-    plan.world = simulation.world.unwrap_or(plan.world);
+    plan.world = simulation.world.clone().unwrap_or(plan.world);
     compile::compile(program, plan, &options.mapping(), simulation.span)
 }
 
@@ -58,10 +65,12 @@ pub(super) fn finish(simulation: &Simulation, compiled: Compiled, trace: SwarmTr
         line: simulation.line,
         circuit: compiled.plan.circuit.to_string(),
         swarm: simulation.swarm.clone(),
+        world: compiled.plan.world.name.clone(),
         inputs: trace.inputs.clone(),
         outputs: trace.outputs.clone(),
         weak_robots: compiled.weak_robots.clone(),
         rows: nbc_swarm::activity(simulation, &trace),
+        fault: trace.fault(),
     };
     let warnings = compiled.warnings.clone();
     SimulationRun { result, end, swarm: SwarmRun { compiled, trace }, warnings }

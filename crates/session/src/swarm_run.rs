@@ -69,8 +69,7 @@ pub(super) fn run_until(
 ) -> (SwarmTrace, RunEnd) {
     let all = inputs.len() as u64;
     for (cycle, inputs) in (1..).zip(inputs).skip(done) {
-        swarm.step(inputs);
-        if is_enough(swarm.trace()) {
+        if swarm.step(inputs).is_err() || is_enough(swarm.trace()) {
             observer.progress(all, all);
             break;
         }

@@ -13,7 +13,7 @@ use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use crate::wording::ScriptError;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Base, CircuitTest, PhysicsWorld, Program, Stimulation, TestRow};
+use nbc_base::model::{Base, CircuitTest, NamedWorld, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
 use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
@@ -76,7 +76,8 @@ enum Subject {
     Robots(Box<Compiled>, TestTiming),
 }
 
-/// The cases of a test: one for each swarm that is declared for its circuit, or one at the level of logic.
+/// The cases of a test: one for each swarm that is declared for its circuit in each world that the test names, or one
+/// at the level of logic, which has no worlds.
 ///
 /// # Errors
 /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
@@ -109,7 +110,8 @@ pub(super) fn cases<'a>(
     let mut rows_of_test = None;
     let mut cases = Vec::new();
     for mut plan in plans {
-        plan.world = test.world.unwrap_or(plan.world);
+        let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
+        plan.world.clone_from(&worlds[0]);
         let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return logic(netlist);
@@ -132,7 +134,10 @@ pub(super) fn cases<'a>(
                 TestTiming::Holds(row_holds)
             }
         };
-        cases.push(TestCase { subject: Subject::Robots(Box::new(compiled), timing), ..one });
+        for world in worlds {
+            let there = compiled.in_world(world);
+            cases.push(TestCase { subject: Subject::Robots(Box::new(there), timing.clone()), ..one.clone() });
+        }
     }
     Ok(cases)
 }
@@ -213,7 +218,7 @@ impl TestRun {
     pub fn world_trial(&self) -> Option<WorldTrial> {
         let SwarmRun { compiled, trace } = self.swarm.as_ref()?;
         let window = compiled.plan.window as usize;
-        Some(WorldTrial::new(compiled.plan.world, &self.verdict, trace, &compiled.clocks(), window))
+        Some(WorldTrial::new(compiled.plan.world.world, &self.verdict, trace, &compiled.clocks(), window))
     }
 }
 
@@ -254,6 +259,11 @@ impl TestCase<'_> {
         self.compiled()?.plan.swarm.as_deref()
     }
 
+    /// The name of the world of its swarm; `None` at the level of logic.
+    pub fn world_name(&self) -> Option<&str> {
+        Some(&self.compiled()?.plan.world.name)
+    }
+
     /// The swarm, and the input bits of each of its cycles through the first `rows` rows; `None` at the level of logic.
     pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
         let inputs = self.timed()?.inputs(rows);
@@ -265,7 +275,7 @@ impl TestCase<'_> {
 
     /// The world of its swarm; the paper's at the level of logic, which has none.
     pub fn world(&self) -> PhysicsWorld {
-        self.compiled().map_or_else(PhysicsWorld::default, |compiled| compiled.plan.world)
+        self.compiled().map_or_else(PhysicsWorld::default, |compiled| compiled.plan.world.world)
     }
 
     /// The same test in another world, where it ends with the first row that fails.
@@ -273,7 +283,10 @@ impl TestCase<'_> {
         let subject = match &self.subject {
             Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
             Subject::Script(performance) => Subject::Script(performance.clone()),
-            Subject::Robots(compiled, timing) => Subject::Robots(Box::new(compiled.in_world(world)), timing.clone()),
+            Subject::Robots(compiled, timing) => {
+                let world = NamedWorld { name: compiled.plan.world.name.clone(), world };
+                Subject::Robots(Box::new(compiled.in_world(world)), timing.clone())
+            }
         };
         let printed = self.printed.clone();
         Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true, printed }
@@ -303,7 +316,8 @@ impl TestCase<'_> {
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
         let timed = self.timed().expect("a test in physics");
         let inputs = timed.inputs(self.rows.len());
-        let end = if bits.cycles.len() < inputs.len() { RunEnd::Cancelled } else { RunEnd::Complete };
+        let is_short = bits.cycles.len() < inputs.len() && bits.fault.is_none();
+        let end = if is_short { RunEnd::Cancelled } else { RunEnd::Complete };
         let trace = bits.trace(&timed.compiled.assembly, &inputs);
         let (verdict, warnings) = judged(timed, &self.printed, &trace, end);
         TestRun { verdict, end, swarm: None, hold: None, warnings }
@@ -404,6 +418,8 @@ fn verdict(
         circuit: test.circuit.to_string(),
         title: test.title.clone(),
         swarm: compiled.and_then(|compiled| compiled.plan.swarm.clone()),
+        world: compiled.map(|compiled| compiled.plan.world.name.clone()),
+        is_world_named: !test.worlds.is_empty(),
         level,
         passed: rows.iter().all(|row| row.passed),
         inputs: test.inputs.clone(),

@@ -56,12 +56,17 @@ impl<'a> TimedTest<'a> {
 
     /// The verdict on each row of which a trace has the results.
     pub fn judge(self, trace: &SwarmTrace) -> Vec<RowVerdict> {
-        match self.timing {
+        let mut verdicts = match self.timing {
             TestTiming::Holds(row_holds) => {
                 nbc_swarm::judge_swarm(self.test, self.rows, row_holds, trace, &self.compiled.clocks())
             }
             TestTiming::Waves => self.waves(self.rows).judge(trace),
+        };
+        // Rows that show start values need no cycle, but a swarm in which a robot failed passes no test.
+        if let (Some(last), Some(fault)) = (verdicts.last_mut(), trace.fault()) {
+            (last.passed, last.fault) = (false, Some(fault));
         }
+        verdicts
     }
 
     /// Whether a row has failed whose last result is that of a trace's last cycle; to be asked after each cycle.

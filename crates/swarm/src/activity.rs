@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::{SwarmTrace, WeakRobot};
+use crate::{RobotFault, SwarmTrace, WeakRobot};
 use nbc_base::model::{Column, Simulation, Value};
 
 /// The result of a simulation.
@@ -16,14 +16,19 @@ pub struct SimulationResult {
     pub circuit: String,
     /// The declared swarm.
     pub swarm: String,
+    /// The world of the swarm.
+    pub world: String,
     /// The input ports.
     pub inputs: Vec<Column>,
     /// The output ports.
     pub outputs: Vec<Column>,
     /// Robots of the swarm with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
-    /// The rows of the schedule in order.
+    /// The rows of the schedule in order, as far as they were completed.
     pub rows: Vec<RowActivity>,
+    /// The robot that failed, so that the swarm had no outputs from then on.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<RobotFault>,
 }
 
 /// The activity during one row of a schedule.

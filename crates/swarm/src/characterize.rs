@@ -301,6 +301,22 @@ mod tests {
     }
 
     #[test]
+    fn every_switch_is_wrong_in_a_world_in_which_the_robot_fails() {
+        // The `and_5x5` of the library.
+        let rows = ["55573", "55777", "26520", "36200", "33333"];
+        let body = Body::parse(&rows, &nbc_base::model::Palette::paper()).unwrap();
+        let factors = nbc_base::model::WorldFactors { stiffness: 10.0, ..Default::default() };
+        let stiff = PhysicsWorld { factors, ..PhysicsWorld::default() };
+        let simulator = Simulator::default();
+        let probe = Probe { world: stiff, ..Probe::new(&simulator, &body, nand()) };
+        assert!(probe.random(1, FIRST_SWITCHES, u32::MAX).is_err());
+        let (senses, held) = (vec![crate::StimulusSource::Constant(false); 2], vec![Vec::new(); 2]);
+        let member = crate::PlainMember { body: body.clone(), clock: 1, senses, start: false, held };
+        let robot = Robot { behavior: nand(), ..member.nameless().robot };
+        assert_eq!(errors_in(&simulator, &robot, &stiff), 1.0);
+    }
+
+    #[test]
     fn glitches_are_wrong_cycles_where_the_output_should_not_change() {
         let stays = hold(1, 2, &[-0.2, 0.1, 0.1]);
         let changes = hold(2, 3, &[0.2, 0.1, -0.1]);

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::assemble::start_cycles;
-use crate::{RowVerdict, SwarmTrace, WrongOutput};
+use crate::{RobotFault, RowVerdict, SwarmTrace, WrongOutput};
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_circuit::{Logic, Netlist};
 
@@ -47,6 +47,18 @@ pub fn judge_row(test: &CircuitTest, row: &TestRow, outputs: &[bool], steady: &[
         late: Vec::new(),
         is_half: row.is_half,
         given_up: row.given_up,
+        fault: None,
+    }
+}
+
+/// The verdict on a row at whose end a swarm has no outputs, because a robot failed in it or before.
+pub(super) fn without_outputs(test: &CircuitTest, row: &TestRow, fault: RobotFault) -> RowVerdict {
+    let none = vec![false; row.expected.len()];
+    RowVerdict {
+        observed: row.output_values(&test.inputs, &test.outputs, none.iter().map(|_| None)),
+        passed: false,
+        fault: Some(fault),
+        ..judge_row(test, row, &none, &none)
     }
 }
 
@@ -87,7 +99,8 @@ pub fn passes(test: &CircuitTest, row: &TestRow, row_hold: &RowHold, trace: &Swa
 }
 
 /// Judges a trace whose cycles are the rows of a test one after another, with the given holds; `clocks[k]` is the clock
-/// of robot `k` in cycles. If the trace ends early, only complete rows are judged.
+/// of robot `k` in cycles. If the trace ends early, only complete rows are judged; if a robot failed, the others have
+/// failed with it.
 ///
 /// # Panics
 /// When a row has no cycle.
@@ -103,7 +116,8 @@ pub fn judge_swarm(
         let cycles = start..start + row_hold.hold;
         start = cycles.end;
         if cycles.end > trace.cycles.len() {
-            return None;
+            let verdict = without_outputs(test, row, trace.fault()?);
+            return Some(RowVerdict { cycles: Some(row_hold.hold), needed: Some(row_hold.needed), ..verdict });
         }
         let last = &trace.cycles[cycles.end - 1];
         let steady = steady_outputs(trace, &cycles, row_hold);
@@ -217,7 +231,7 @@ mod tests {
             inputs: vec![port("a")],
             outputs: vec![port("y")],
             stimulation: Stimulation::Rows(Vec::new()),
-            world: None,
+            worlds: Vec::new(),
         }
     }
 

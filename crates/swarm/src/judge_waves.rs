@@ -1,6 +1,6 @@
 //! Judges whether a wave machine passes a test: each row in each of its threads.
 
-use crate::judge::judge_row;
+use crate::judge::{judge_row, without_outputs};
 use crate::{RowVerdict, SwarmTrace, WrongOutput};
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_circuit::NetId;
@@ -18,11 +18,20 @@ pub struct WaveTest<'a> {
 }
 
 impl WaveTest<'_> {
-    /// Judges a trace, thread by thread. If it ends early, only complete rows are judged.
+    /// Judges a trace, thread by thread. If it ends early, only complete rows are judged; if a robot failed, the others
+    /// have failed with it.
     pub fn judge(&self, trace: &SwarmTrace) -> Vec<RowVerdict> {
         let threads = 0..self.machine.period as usize;
-        let rows = |thread| (0..self.rows.len()).map_while(move |row| self.row(trace, row, thread));
+        let verdict = |row, thread| self.row(trace, row, thread).or_else(|| self.failed(trace, row, thread));
+        let rows = |thread| (0..self.rows.len()).map_while(move |row| verdict(row, thread));
         threads.flat_map(rows).collect()
+    }
+
+    /// The verdict of a row in a thread of which a trace has no results, because a robot failed.
+    fn failed(&self, trace: &SwarmTrace, row: usize, thread: usize) -> Option<RowVerdict> {
+        let verdict = without_outputs(self.test, &self.rows[row], trace.fault()?);
+        let cycles = Some(self.machine.cycles_per_step());
+        Some(RowVerdict { thread: Some(thread), cycles, needed: cycles, ..verdict })
     }
 
     /// The verdict of a row in a thread; `None` if the trace does not have its results.

@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use crate::sensing::Sensing;
-use crate::{Assembly, CycleTrace, KeptSwarm, Recording, RobotTrace, Room, SwarmTrace};
+use crate::{Assembly, CycleTrace, KeptSwarm, Recording, RobotFault, RobotTrace, Room, SwarmTrace};
 use nbc_base::model::{CYCLE_STEPS, Pattern};
 use nbc_sim::{Flock, Simulator, Snapshot};
 
@@ -88,21 +88,31 @@ impl LiveSwarm {
     /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper,
     /// section 4).
     ///
+    /// # Errors
+    /// When the simulation of a robot fails in this cycle, or has failed before: the swarm has come to its end.
+    ///
     /// # Panics
     /// When there are not as many bits as the input ports have.
-    pub fn step(&mut self, inputs: &[bool]) -> &CycleTrace {
+    pub fn step(&mut self, inputs: &[bool]) -> Result<&CycleTrace, RobotFault> {
         let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
+        if let Some(fault) = self.trace.fault() {
+            return Err(fault);
+        }
         let sensed = self.sensing.sense(&self.trace, self.cycles(), inputs);
         self.advance(&sensed);
-        let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
-        let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
-        self.sensing.take(self.cycles(), &bits);
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {
             robot.fault = self.flock.fault(i);
         }
+        if let Some(fault) = self.trace.fault() {
+            self.trace.forget_unfinished();
+            return Err(fault);
+        }
+        let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
+        let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
+        self.sensing.take(self.cycles(), &bits);
         self.trace.cycles.push(CycleTrace { inputs: inputs.to_vec(), sensed, bits, outputs });
-        &self.trace.cycles[self.trace.cycles.len() - 1]
+        Ok(&self.trace.cycles[self.trace.cycles.len() - 1])
     }
 
     /// The trace so far.

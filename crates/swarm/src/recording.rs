@@ -76,6 +76,14 @@ impl Recording {
         }
     }
 
+    /// Forgets the frames of the last cycle.
+    pub(super) fn forget_cycle(&mut self) {
+        for recorded in &mut self.robots {
+            let length = 2 * recorded.points * self.frames_per_cycle as usize;
+            recorded.frames.truncate(recorded.frames.len() - length);
+        }
+    }
+
     /// Adds a frame with the current positions of the robots.
     pub fn record(&mut self, flock: &dyn Flock) {
         for recorded in &mut self.robots {

@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 
 use crate::judge::settled_margins;
-use crate::{Proportion, SwarmTrace, TestVerdict};
+use crate::{Proportion, RobotFault, SwarmTrace, TestVerdict};
 use nbc_base::model::{PhysicsWorld, Variation};
 
 /// A robot's displacement in the correct direction over a cycle in which its output should be correct; negative if
@@ -30,8 +30,10 @@ pub struct WorldTrial {
     pub world: PhysicsWorld,
     /// The row that failed first, and its line in the source; `None` if the test passed.
     pub failed: Option<(usize, usize)>,
-    /// The robot that failed first; `None` if the test passed, or if each robot did what its stimuli require, but some
-    /// had missed theirs or had no time.
+    /// The robot whose simulation failed, if one did.
+    pub fault: Option<RobotFault>,
+    /// The robot that was wrong first; `None` if the test passed or a robot failed, or if each robot did what its
+    /// stimuli require, but some had missed theirs or had no time.
     pub first_failing: Option<RobotMargin>,
     /// The smallest margin.
     pub least: Option<RobotMargin>,
@@ -57,8 +59,9 @@ impl WorldTrial {
         let wrong = || margins.iter().filter(|(cycle, _, margin)| *margin <= 0.0 && *cycle < end);
         // An error in an earlier row may show up late, as a wrong bit that was stored.
         let first = wrong().find(|(cycle, ..)| *cycle >= start).or_else(|| wrong().next_back());
-        let first_failing = failed.and(first).map(named);
-        Self { world, failed: failed.map(|row| (row.row, row.line)), first_failing, least }
+        let fault = failed.and_then(|row| row.fault.clone());
+        let first_failing = failed.filter(|row| row.fault.is_none()).and(first).map(named);
+        Self { world, failed: failed.map(|row| (row.row, row.line)), fault, first_failing, least }
     }
 }
 
@@ -75,6 +78,8 @@ pub struct Robustness {
     pub title: String,
     /// The declared swarm, if it is one.
     pub swarm: Option<String>,
+    /// The world around which the worlds vary.
+    pub world: String,
     /// The number of its robots.
     pub robots: usize,
     /// How much the worlds vary.
@@ -124,8 +129,23 @@ pub struct WorldFailure {
     pub row: usize,
     /// The line of the failing row in its file, from 1.
     pub line: usize,
-    /// The robot that failed first, if one did.
+    /// The robot that was wrong first, if one was.
     pub first: Option<RobotMargin>,
+    /// The robot whose simulation failed, if one did.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<RobotFault>,
+}
+
+impl WorldFailure {
+    /// The net and the name of the robot that failed or was wrong first, if one did.
+    fn robot(&self) -> Option<(&str, &str)> {
+        match (&self.fault, &self.first) {
+            (Some(RobotFault { net, robot, .. }), _) | (None, Some(RobotMargin { net, robot, .. })) => {
+                Some((net, robot))
+            }
+            (None, None) => None,
+        }
+    }
 }
 
 impl Robustness {
@@ -139,7 +159,8 @@ impl Robustness {
         let numbered = || trials.iter().enumerate();
         let failure = |(world, trial): (usize, &WorldTrial)| {
             let (row, line) = trial.failed?;
-            Some(WorldFailure { world, physics: trial.world, row, line, first: trial.first_failing.clone() })
+            let (first, fault) = (trial.first_failing.clone(), trial.fault.clone());
+            Some(WorldFailure { world, physics: trial.world, row, line, first, fault })
         };
         let margin = |(world, trial): (usize, &WorldTrial)| {
             let margin = trial.least.clone().filter(|_| trial.failed.is_none())?;
@@ -152,6 +173,7 @@ impl Robustness {
             circuit: verdict.circuit.clone(),
             title: verdict.title.clone(),
             swarm: verdict.swarm.clone(),
+            world: verdict.world.clone().unwrap_or_default(),
             robots,
             variation,
             scale,
@@ -165,8 +187,8 @@ impl Robustness {
 
 fn failing_robots(failures: &[WorldFailure]) -> Vec<FailingRobot> {
     let mut counts: BTreeMap<(&str, &str), usize> = BTreeMap::new();
-    for first in failures.iter().filter_map(|failure| failure.first.as_ref()) {
-        *counts.entry((&first.net, &first.robot)).or_default() += 1;
+    for failing in failures.iter().filter_map(WorldFailure::robot) {
+        *counts.entry(failing).or_default() += 1;
     }
     let failing = |((net, robot), worlds): ((&str, &str), usize)| FailingRobot {
         net: net.to_owned(),

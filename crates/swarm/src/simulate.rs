@@ -14,8 +14,8 @@ pub struct SwarmConditions {
     pub poses: Option<Room>,
 }
 
-/// Simulates a swarm in its world under these conditions, calling `observe` with the number of finished cycles after
-/// each cycle.
+/// Simulates a swarm in its world under these conditions until a robot fails, calling `observe` with the number of
+/// finished cycles after each cycle.
 ///
 /// # Panics
 /// When a cycle's inputs are not as many as the assembly's, or the window is empty.
@@ -28,7 +28,9 @@ pub fn simulate(
     let SwarmConditions { inputs, window, poses } = conditions;
     let mut swarm = LiveSwarm::new(simulator, assembly, inputs.len(), *window, *poses);
     for (cycle, inputs) in inputs.iter().enumerate() {
-        swarm.step(inputs);
+        if swarm.step(inputs).is_err() {
+            break;
+        }
         observe(cycle + 1);
     }
     swarm.into_trace()

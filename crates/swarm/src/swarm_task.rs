@@ -2,7 +2,7 @@
 
 use crate::sensing::Sensing;
 use crate::{Assembly, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
-use nbc_base::model::{Body, Character, Column, Displacements, PhysicsWorld, Provenance, Robot};
+use nbc_base::model::{Body, Character, Column, Displacements, Fault, PhysicsWorld, Provenance, Robot};
 use nbc_sim::Simulator;
 
 /// The simulation of a swarm, without names: all that the resulting bits depend on.
@@ -17,8 +17,10 @@ pub struct SwarmTask {
 /// The output of each robot at the end of each cycle.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SwarmBits {
-    /// The cycles in order; fewer than those of the task if it was stopped.
+    /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
     pub cycles: Vec<Vec<bool>>,
+    /// The robot whose simulation failed after these cycles, and its fault.
+    pub fault: Option<(usize, Fault)>,
 }
 
 /// The part of a robot that the bits of its swarm depend on.
@@ -106,7 +108,7 @@ impl SwarmBits {
     /// Simulates a swarm.
     pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
         let trace = simulate(simulator, &task.assembly, &task.conditions, &mut |_| ());
-        Self { cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
+        Self { fault: trace.first_fault(), cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
     /// The trace of the swarm through these inputs, without the paths of its robots.
@@ -114,7 +116,11 @@ impl SwarmBits {
     /// # Panics
     /// When the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
-        Sensing::replayed(assembly, &self.cycles, inputs).1
+        let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
+        if let Some((robot, fault)) = self.fault {
+            trace.robots[robot].fault = Some(fault);
+        }
+        trace
     }
 }
 

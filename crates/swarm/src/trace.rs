@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use crate::{Assembly, Member, Recording, StimulusSource};
-use nbc_base::model::{Column, Fault, Function, Pattern, Value};
+use crate::{Assembly, Member, Recording, RobotFault, StimulusSource};
+use nbc_base::model::{CYCLE_STEPS, Column, Fault, Function, Pattern, Value};
 
-/// A swarm's run from its start to the end of its stimulation.
+/// A swarm's run from its start to the end of its stimulation, or to the cycle in which a robot failed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SwarmTrace {
     /// The circuit's name.
@@ -20,7 +20,7 @@ pub struct SwarmTrace {
     pub samples_per_cycle: usize,
     /// The robots, in order of the assembly's members.
     pub robots: Vec<RobotTrace>,
-    /// The cycles, first to last.
+    /// The cycles, first to last. One in which a robot failed has no outputs and is not among them.
     pub cycles: Vec<CycleTrace>,
     /// The recorded poses of its robots, if requested.
     #[serde(skip)]
@@ -46,7 +46,7 @@ pub struct RobotTrace {
     pub sensed_nets: Vec<String>,
     /// Horizontal place of the center of mass in voxels: the start, then `samples_per_cycle` samples a cycle.
     pub com_x: Vec<f64>,
-    /// The fault that stopped it, if any; from then on it stands still.
+    /// The fault that ended its simulation, and the swarm with it.
     pub fault: Option<Fault>,
 }
 
@@ -102,6 +102,28 @@ impl SwarmTrace {
         for robot in &mut self.robots {
             robot.com_x.drain(..cycles * self.samples_per_cycle);
         }
+    }
+
+    /// The robot whose simulation failed first, and its fault.
+    pub(super) fn first_fault(&self) -> Option<(usize, Fault)> {
+        let faults = self.robots.iter().enumerate().filter_map(|(k, robot)| Some((k, robot.fault?)));
+        faults.min_by_key(|(_, fault)| fault.env_step)
+    }
+
+    /// The fault that ended the swarm, if one did.
+    pub fn fault(&self) -> Option<RobotFault> {
+        let (k, Fault { env_step, kind }) = self.first_fault()?;
+        let RobotTrace { net, robot, .. } = &self.robots[k];
+        let cycle = (env_step.saturating_sub(1) / CYCLE_STEPS) as usize;
+        Some(RobotFault { net: net.clone(), robot: robot.clone(), cycle, env_step, kind })
+    }
+
+    /// Forgets how the robots moved in a cycle that has no outputs.
+    pub(super) fn forget_unfinished(&mut self) {
+        for robot in &mut self.robots {
+            robot.com_x.truncate(robot.com_x.len() - self.samples_per_cycle);
+        }
+        self.recording.forget_cycle();
     }
 
     /// Voxels that robot `k` walked in a cycle.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::WeakRobot;
+use crate::{RobotFault, WeakRobot};
 use nbc_base::model::{Column, Value};
 
 /// The level of a test.
@@ -38,6 +38,11 @@ pub struct TestVerdict {
     pub title: String,
     /// The declared swarm, if it is one.
     pub swarm: Option<String>,
+    /// The world of the swarm; none at the level of logic, which has no worlds.
+    pub world: Option<String>,
+    /// Whether the test names its world, so that texts name it, too.
+    #[serde(skip)]
+    pub is_world_named: bool,
     /// Whether robots were simulated or only logic.
     pub level: Level,
     /// Whether all rows passed.
@@ -60,6 +65,11 @@ impl TestVerdict {
     pub fn row_count(&self) -> usize {
         self.rows.iter().filter(|row| !row.is_half && row.thread.unwrap_or(0) == 0).count()
     }
+
+    /// The fault that ended the swarm, if one did.
+    pub fn fault(&self) -> Option<&RobotFault> {
+        self.rows.iter().find_map(|row| row.fault.as_ref())
+    }
 }
 
 /// The verdict of a test's row.
@@ -76,7 +86,7 @@ pub struct RowVerdict {
     pub inputs: Vec<Value>,
     /// The expected values of the output ports.
     pub expected: Vec<Value>,
-    /// The values of the output ports at the end of the row.
+    /// The values of the output ports at the end of the row; none where a robot failed.
     pub observed: Vec<Value>,
     /// For each output port, whether it was steady: over the last two cycles in physics, forever at the level of logic.
     pub steady: Vec<bool>,
@@ -98,6 +108,9 @@ pub struct RowVerdict {
     /// How often it was repeated, if that is as often as its `until` permits and it still waited for its value.
     #[serde(rename = "until", skip_serializing_if = "Option::is_none")]
     pub given_up: Option<usize>,
+    /// The robot that failed in the row or before it, so that the swarm had no outputs at its end.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub fault: Option<RobotFault>,
 }
 
 /// A robot whose output was not its function of its stimuli.

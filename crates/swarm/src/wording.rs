@@ -1,8 +1,9 @@
-//! Errors of the assembly of swarms, and their messages.
+//! Errors of the assembly of swarms, faults of their robots, and their messages.
 
 use std::error::Error;
 use std::fmt;
 
+use crate::RobotFault;
 use nbc_base::model::Function;
 
 /// A netlist for which a library lacks robots.
@@ -24,3 +25,13 @@ impl fmt::Display for AssembleError {
 }
 
 impl Error for AssembleError {}
+
+impl fmt::Display for RobotFault {
+    /// `robot nand_5x5 on net q became unstable in cycle 3`
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { net, robot, cycle, kind, .. } = self;
+        write!(f, "robot {robot} on net {net} {kind} in cycle {}", cycle + 1)
+    }
+}
+
+impl Error for RobotFault {}

@@ -21,7 +21,7 @@ from . import evogym
 from ._nbc import __version__
 from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows
 from .circuits import Circuit, Compiled, Port, Program, Report, Swarm, TestResult, load, loads
-from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, Span
+from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, RobotFault, Span
 from .evolution import Evaluation, Evolution, evaluate
 from .physics import CYCLE_STEPS, Flock, Trajectories, simulate
 from .search import Archive, Candidates, Search, evolve, read_archive
@@ -46,6 +46,7 @@ __all__ = [
     "Program",
     "Report",
     "Robot",
+    "RobotFault",
     "Search",
     "Span",
     "Swarm",

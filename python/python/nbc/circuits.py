@@ -56,7 +56,7 @@ class Port:
 
 @dataclass(frozen=True)
 class TestResult:
-    """The verdict of a test, for one swarm or at the level of logic."""
+    """The verdict of a test, for one swarm in one world or at the level of logic."""
 
     __test__ = False  # pytest would collect the class for its name.
 
@@ -67,6 +67,8 @@ class TestResult:
     """``logic`` or ``physics``."""
     swarm: Optional[str]
     """The declared swarm that was tested, if there is one."""
+    world: Optional[str]
+    """The world of the swarm; None at the level of logic."""
     file: str
     line: int
     text: str = field(repr=False)
@@ -90,11 +92,8 @@ class Report:
     results: Tuple[TestResult, ...]
     page: str = field(repr=False)
     """The page, one self-contained HTML text."""
-
-    @property
-    def passed(self) -> bool:
-        """Whether all tests passed."""
-        return all(result.passed for result in self.results)
+    passed: bool
+    """Whether all tests passed, and no robot of a simulation failed."""
 
     def save(self, path: Path) -> None:
         """Writes the page, whole or not at all."""
@@ -408,6 +407,7 @@ class Swarm:
 
         Raises:
             ValueError: for missing or unknown ports, and values that do not fit.
+            RobotFault: when the simulation of a robot fails.
         """
         if values is not None and ports:
             raise TypeError("the values are given twice; name the ports, or give one mapping or sequence")
@@ -424,6 +424,9 @@ class Swarm:
             rows: the values of the input ports; see `step`.
             hold: cycles of each row; by default those of static timing, and two more.
             progress: whether to show a tqdm bar, or a function of the cycles done and all cycles.
+
+        Raises:
+            RobotFault: when the simulation of a robot fails.
         """
         held = int(self.compiled.timing["hold"]) + self.compiled._window + 1 if hold is None else hold
         each = count(held, "hold", least=1)
@@ -571,8 +574,8 @@ def _check_path(path: Path) -> None:
         _nbc.write_file(where, "")
 
 
-def _report(page: str, records: str) -> Report:
-    return Report(tuple(_result(record) for record in json.loads(records)), page)
+def _report(page: str, records: str, passed: bool) -> Report:
+    return Report(tuple(_result(record) for record in json.loads(records)), page, passed)
 
 
 def _result(record: Mapping[str, Any]) -> TestResult:
@@ -583,6 +586,7 @@ def _result(record: Mapping[str, Any]) -> TestResult:
         passed=verdict["passed"],
         level=verdict["level"],
         swarm=verdict["swarm"],
+        world=verdict["world"],
         file=verdict["file"],
         line=verdict["line"],
         text=record["text"],

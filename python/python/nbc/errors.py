@@ -7,7 +7,7 @@ import warnings
 from dataclasses import dataclass
 from typing import Any, Dict, Iterable, Mapping, Optional, Sequence, Tuple
 
-__all__ = ["Diagnostic", "InternalError", "Interrupted", "InvalidBodyWarning", "NbcError", "Span"]
+__all__ = ["Diagnostic", "InternalError", "Interrupted", "InvalidBodyWarning", "NbcError", "RobotFault", "Span"]
 
 
 @dataclass(frozen=True)
@@ -71,6 +71,10 @@ class InternalError(NbcError):
 
     A `Flock`, `Search` or `Swarm` that was in use is lost: its later calls raise RuntimeError. All others work on.
     """
+
+
+class RobotFault(NbcError):
+    """The simulation of a robot of a `Swarm` failed, so that the swarm has no more outputs. Its cycles before stay."""
 
 
 class Interrupted(KeyboardInterrupt):

@@ -89,7 +89,7 @@ fn speed(assembly: &Assembly, kernel: Kernel, clock: fn() -> Option<f64>) -> f64
     let mut cycles = 0;
     per_second(PATIENCE, clock, || {
         let inputs: Vec<bool> = (0..bits).map(|bit| (cycles / HOLD) >> bit & 1 == 1).collect();
-        swarm.step(&inputs);
+        swarm.step(&inputs).expect("a counter of robots in the paper's world is stable");
         cycles += 1;
         work
     })

@@ -10,7 +10,7 @@ use crate::cli::options::queue::QueueArguments;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
-use nbc_base::model::{Character, Library, Robot};
+use nbc_base::model::{Character, Fault, Library, Robot};
 use nbc_session::report::Schema;
 use nbc_swarm::{Executor, Measurement, Task};
 
@@ -20,7 +20,7 @@ struct Finding<'a> {
     name: &'a str,
     verified: bool,
     /// The differences from the file.
-    differs: Vec<&'static str>,
+    differs: Vec<String>,
 }
 
 impl<'a> Finding<'a> {
@@ -77,16 +77,17 @@ pub fn verify(
 }
 
 /// The differences between a new measurement and the file; `None` if the work was stopped.
-fn differences(executor: &dyn Executor, place: usize, robot: &Robot) -> Option<Vec<&'static str>> {
+fn differences(executor: &dyn Executor, place: usize, robot: &Robot) -> Option<Vec<String>> {
     let task = Task::Measurement(robot.body.clone());
     let measured = executor.perform(place, &[task], &|| ())?.remove(0).measured();
-    let Ok(Measurement { displacement, behavior, character }) = measured else {
-        return Some(vec!["the simulation has a fault"]);
+    let Measurement { displacement, behavior, character } = match measured {
+        Ok(measurement) => measurement,
+        Err(Fault { env_step, kind }) => return Some(vec![format!("the robot {kind} in env step {env_step}")]),
     };
     let same = [
         ("displacement", displacement == robot.displacement),
         ("behavior", behavior == robot.behavior),
         ("character", character == Character { radius: None, ..robot.character.clone() }),
     ];
-    Some(same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name).collect())
+    Some(same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name.to_owned()).collect())
 }

@@ -29,6 +29,14 @@ impl CompleteRun {
         }
     }
 
+    /// Whether the test passed, or no robot of the simulation failed.
+    pub(in crate::cli) fn passed(&self) -> bool {
+        match self {
+            Self::Test(run) => run.verdict.passed,
+            Self::Simulation(run) => run.passed(),
+        }
+    }
+
     pub(in crate::cli) fn outcome(&self) -> SwarmOutcome<'_> {
         match self {
             Self::Test(run) => SwarmOutcome::Test(&run.verdict),

@@ -20,7 +20,7 @@ use crate::cli::runs::unknown_run;
 use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::task_executor::threads;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
-use nbc_base::diag::{Diagnostic, counted};
+use nbc_base::diag::Diagnostic;
 use nbc_session::report::{self, Schema};
 use nbc_session::store;
 use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
@@ -40,7 +40,8 @@ pub(super) use worlds::share;
   nbc test circuits/latch.nb --worlds 200 --vary friction=10%,gravity=5%,stiffness=5%
 
 At the level of logic, every cell takes one time step, and a row is held until nothing changes. In physics, every \
-robot is simulated voxel by voxel, and a test runs once for each swarm that is declared for its circuit. By default, \
+robot is simulated voxel by voxel, and a test runs once for each swarm that is declared for its circuit, in each \
+world that the test names. A robot whose simulation fails fails its row and all that follow. By default, \
 circuits of fewer than 40 robots are tested in physics and larger ones at the level of logic.
 
 With --vary, each test runs in physics in a sample of worlds. Each factor (friction, gravity, stiffness, drag, \
@@ -259,7 +260,7 @@ fn run_cases(
         warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
         context.warn(&files[file], &warnings);
         if context.format == OutputFormat::Text {
-            context.print_verdicts(&describe(&verdict))?;
+            context.print_verdicts(&report::describe_verdict(&verdict))?;
             context.flush()?;
         }
         verdicts.push(verdict);
@@ -270,14 +271,4 @@ fn run_cases(
         workers.end()?;
     }
     Ok(verdicts)
-}
-
-/// A line for a test that passed; a failed test has its rows below the line.
-fn describe(verdict: &TestVerdict) -> String {
-    let word = if verdict.passed { "pass" } else { "FAIL" };
-    let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
-    let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
-    let (rows, level) = (counted(verdict.row_count(), "row"), verdict.level.word());
-    let (printed, failures) = (report::describe_printed(verdict), report::describe_failures(verdict));
-    format!("{word}  {}{swarm}{title} ({rows}, {level})\n{printed}{failures}", verdict.circuit)
 }

@@ -64,8 +64,8 @@ fn issue_credentials(folder: &Path) {
     let granted = token(&operator, &account.public_key(), "account", jetstream);
     let rights = json!({
         "type": "user", "version": 2, "subs": -1, "data": -1, "payload": -1,
-        "pub": { "allow": ["nbc.v4.>", "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
-        "sub": { "allow": ["nbc.v4.>", "_INBOX.>"] },
+        "pub": { "allow": ["nbc.v5.>", "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
+        "sub": { "allow": ["nbc.v5.>", "_INBOX.>"] },
     });
     let user_token = token(&account, &user.public_key(), "user", rights);
     let accounts = format!("{}: {granted}\n{}: {watching}", account.public_key(), system.public_key());

@@ -167,7 +167,7 @@ fn a_queue_is_opened_as_soon_as_its_subjects_are_free() {
     let Some(server) = Server::start(&[]) else { return };
     let (bench, mut wire) = (bench(), Wire::open(&server));
     // What a program is told while another one makes the queue.
-    wire.request("$JS.API.STREAM.CREATE.other", r#"{"name":"other","subjects":["nbc.v4.task.>"]}"#);
+    wire.request("$JS.API.STREAM.CREATE.other", r#"{"name":"other","subjects":["nbc.v5.task.>"]}"#);
     wire.subscribe("$JS.API.STREAM.CREATE.>");
     let worker = worker(&bench, &server, "early");
     (0..2).for_each(|_| _ = wire.wait_for(|message| message.subject.ends_with(".nbc-tasks")));

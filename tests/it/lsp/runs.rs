@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use crate::lsp::client::{Client, file, opened};
 use crate::support::bench::Bench;
+use crate::unstable::{BOOM, SIMULATED, names};
 
 const TESTED: &str = "\
 circuit f(a, b) -> (q) {
@@ -183,5 +184,18 @@ fn results_end_with_their_server_and_those_of_dead_servers_are_removed() {
         assert_eq!(path.exists(), is_killed);
         client_with_temporary_files(&temporary).goodbye();
         assert!(!path.exists());
+    }
+}
+
+#[test]
+fn a_robot_that_fails_is_named() {
+    for (text, says) in [(BOOM, "FAIL: 0 of 1 passed; "), (SIMULATED, "FAIL: ")] {
+        let (_bench, mut client, uri, _) = opened("a.nb", text);
+        let order = json!({ "command": "nbc.run", "arguments": [{ "uri": uri }] });
+        let ran = client.ask("workspace/executeCommand", order).unwrap();
+        assert_eq!(ran["passed"], false);
+        let told = ran["text"].as_str().unwrap();
+        assert!(told.starts_with(says) && names(told), "{told}");
+        client.goodbye();
     }
 }

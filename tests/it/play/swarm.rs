@@ -6,6 +6,7 @@ use serde_json::{Value, json};
 
 use super::LATCH;
 use super::page::{Frame, Page, Server};
+use crate::unstable::{BOOM, names};
 
 fn latch() -> (tempfile::TempDir, Server, Page) {
     let folder = tempfile::tempdir().unwrap();
@@ -237,4 +238,21 @@ fn a_page_that_does_not_read_does_not_hold_up_its_swarm() {
     page.wait(last).unwrap();
     let cycles = page.frame(|frame| frame.now >= 40).now;
     assert!(cycles >= 40);
+}
+
+#[test]
+fn a_robot_that_fails_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("boom.nb"), BOOM).unwrap();
+    let server = Server::start(folder.path(), &[]);
+    let mut page = server.page();
+    page.done(json!({ "do": "program", "path": "boom.nb", "text": BOOM }));
+    let answer = page.done(json!({ "do": "test", "path": "boom.nb", "test": 0, "level": "physics" }));
+    let verdict = &answer["results"][0];
+    assert_eq!((&verdict["passed"], &verdict["world"]), (&json!(false), &json!("w")));
+    assert!(names(verdict["fault"].as_str().unwrap()));
+    page.done(json!({ "do": "replay", "path": "boom.nb", "test": 0, "swarm": null, "world": "w", "row": 1 }));
+    assert!(names(page.event(|event| event["event"] == "stopped")["reason"].as_str().unwrap()));
+    page.done(json!({ "do": "step", "cycles": 3 }));
+    assert!(names(page.event(|event| event["event"] == "stopped")["reason"].as_str().unwrap()));
 }

@@ -121,10 +121,11 @@ export class TestsPanel {
 
   async #replay(test: TestEntry, verdict: TestResult, row: number): Promise<void> {
     this.#status.textContent = "running the test up to this row …";
+    const world = verdict.world === null ? {} : { world: verdict.world };
     try {
       const { swarm } = await this.connection.request(
         "replay",
-        { path: this.program.path.value, test: test.index, swarm: verdict.swarm, row },
+        { path: this.program.path.value, test: test.index, swarm: verdict.swarm, ...world, row },
         { progress: (done, all) => (this.#status.textContent = `running the test up to this row: ${done} of ${all}`) },
       );
       this.program.forgetCompiled({ circuit: test.circuit, swarm: verdict.swarm });

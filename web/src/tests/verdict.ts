@@ -12,13 +12,20 @@ export interface Leads {
 /** More rows than this are long to read, so passing ones are left out. */
 const MANY = 64;
 
+/** The world of tests and swarms that name none. */
+const PAPER = "paper";
+
 export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
   const rows = verdict.rows.length > MANY ? verdict.rows.filter(row => !row.passed).slice(0, MANY) : verdict.rows;
   const left = verdict.rows.length - rows.length;
+  const swarm = verdict.swarm === null ? [] : [`swarm ${verdict.swarm}`];
+  const world = verdict.world === null || verdict.world === PAPER ? [] : [`in ${verdict.world}`];
+  const heading = [...swarm, ...world].join(" ");
   return element(
     "div",
     { class: "scroll" },
-    verdict.swarm === null ? null : element("h4", {}, `swarm ${verdict.swarm}`),
+    heading === "" ? null : element("h4", {}, heading),
+    verdict.fault === null ? null : element("p", { class: "verdict fail" }, verdict.fault),
     element(
       "table",
       { class: "rows" },

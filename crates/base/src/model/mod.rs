@@ -44,8 +44,8 @@ pub use ground::{GroundProfile, GroundShape};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use palette::Palette;
 pub use program::{
-    Hold, InputSpell, LibrarySource, NamedFile, NamedSchedule, NamedWorld, Origin, Program, RegisterStyle, Simulation,
-    Swarm, WaveTimes,
+    Hold, InputSpell, LibrarySource, NamedFile, NamedSchedule, Origin, Program, RegisterStyle, Simulation, Swarm,
+    WaveTimes,
 };
 pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
 pub use rules::{Matter, Rules};
@@ -53,14 +53,14 @@ pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;
 pub use table::{OutputValue, Table, TableOutput, TablePattern, TableRow};
 pub use test::{CircuitTest, Script, ScriptStep, Stimulation, TestRow, Until};
-pub use trial::{Fault, FaultKind, Setting, Trajectory, Trial};
+pub use trial::{Fault, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
 pub use wording::{
-    BehaviorError, BodyError, DisplacementsError, GroundFileError, MaterialError, MaterialNumber, PaletteError,
-    PatternError, SettingError, VariationError,
+    BehaviorError, BodyError, DisplacementsError, FaultKind, GroundFileError, MaterialError, MaterialNumber,
+    PaletteError, PatternError, SettingError, VariationError,
 };
-pub use world::{PhysicsWorld, WorldFactors, WorldNoise};
+pub use world::{NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).
 pub const CYCLE_STEPS: u32 = 84;

@@ -1,7 +1,7 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
 use super::{
-    Base, Behavior, Circuit, CircuitId, CircuitTest, Column, Enumeration, Evolution, Instance, Material, PhysicsWorld,
+    Base, Behavior, Circuit, CircuitId, CircuitTest, Column, Enumeration, Evolution, Instance, Material, NamedWorld,
     Schedule,
 };
 use crate::source::Span;
@@ -61,15 +61,6 @@ pub struct NamedFile {
     pub span: Span,
 }
 
-/// A world with its name.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NamedWorld {
-    /// What `world:` and `in` call it.
-    pub name: String,
-    /// How its physics differs from the paper's.
-    pub world: PhysicsWorld,
-}
-
 /// A declared library: the source of its robots, and the behaviors it is restricted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibrarySource {
@@ -118,7 +109,7 @@ pub struct Swarm {
     /// The times of a wave machine, if it is one.
     pub waves: WaveTimes,
     /// The world in which it runs, unless a test or a simulation names another.
-    pub world: PhysicsWorld,
+    pub world: NamedWorld,
 }
 
 /// What registers are made of.
@@ -172,7 +163,7 @@ pub struct Simulation {
     /// The spells in order of time.
     pub spells: Vec<InputSpell>,
     /// The world, if it is not the swarm's.
-    pub world: Option<PhysicsWorld>,
+    pub world: Option<NamedWorld>,
 }
 
 /// Inputs held for a while.
@@ -188,16 +179,11 @@ pub struct InputSpell {
     pub line: usize,
 }
 
-impl NamedWorld {
-    /// The name of the world of all that names none. The prelude declares it, and a file may declare it again.
-    pub const DEFAULT: &str = "paper";
-}
-
 impl Program {
     /// The world of swarms that name none.
-    pub fn default_world(&self) -> PhysicsWorld {
+    pub fn default_world(&self) -> NamedWorld {
         let declared = self.worlds.iter().find(|named| named.name == NamedWorld::DEFAULT);
-        declared.map_or(PhysicsWorld::default(), |named| named.world)
+        declared.cloned().unwrap_or_default()
     }
 
     /// The circuit of that name.

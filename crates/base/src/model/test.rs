@@ -1,6 +1,6 @@
 //! Tests of circuits: sequences of input rows with the outputs expected after each.
 
-use super::{Base, Circuit, CircuitId, Column, Instance, PhysicsWorld, Value};
+use super::{Base, Circuit, CircuitId, Column, Instance, NamedWorld, Value};
 use crate::source::Span;
 
 /// A declared test, as bits. The source is needed for messages only.
@@ -22,8 +22,8 @@ pub struct CircuitTest {
     pub outputs: Vec<Column>,
     /// The method of the test.
     pub stimulation: Stimulation,
-    /// The world of its swarm, if the test names one.
-    pub world: Option<PhysicsWorld>,
+    /// The worlds that the test names: its swarms run in each of them. If there are none, each runs in its own.
+    pub worlds: Vec<NamedWorld>,
 }
 
 /// The methods of a test.

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{Body, GroundProfile, Schedule, SettingError, WorldFactors};
+use super::{Body, FaultKind, GroundProfile, Schedule, SettingError, WorldFactors};
 
 /// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1), and its physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -117,16 +117,4 @@ pub struct Fault {
     pub env_step: u32,
     /// What went wrong.
     pub kind: FaultKind,
-}
-
-/// The reason why a simulation failed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "snake_case")]
-pub enum FaultKind {
-    /// Too many of the body's voxels overlap (docs/physics.md 9).
-    Unstable,
-    /// A position was no finite number.
-    NonFinite,
-    /// It was ended from outside.
-    Stopped,
 }

@@ -1,7 +1,9 @@
-//! What can be wrong with bodies, materials and patterns, as data, and how it is worded.
+//! What can be wrong with bodies, materials, patterns and simulations, as data, and how it is worded.
 
 use std::error::Error;
 use std::fmt;
+
+use serde::Serialize;
 
 /// The reason why rows of text are not a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -392,3 +394,26 @@ impl fmt::Display for VariationError {
 }
 
 impl Error for VariationError {}
+
+/// The reason why a simulation failed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum FaultKind {
+    /// Too many of the body's voxels overlap (docs/physics.md 9).
+    Unstable,
+    /// A position was no finite number.
+    NonFinite,
+    /// It was ended from outside.
+    Stopped,
+}
+
+impl fmt::Display for FaultKind {
+    /// What became of the robot.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Unstable => "became unstable",
+            Self::NonFinite => "left the range of numbers",
+            Self::Stopped => "was stopped",
+        })
+    }
+}

@@ -84,6 +84,27 @@ impl PhysicsWorld {
     }
 }
 
+/// A world with its name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedWorld {
+    /// What `world:` and `in` call it.
+    pub name: String,
+    /// How its physics differs from the paper's.
+    pub world: PhysicsWorld,
+}
+
+impl NamedWorld {
+    /// The name of the world of everything that names none.
+    pub const DEFAULT: &str = "paper";
+}
+
+impl Default for NamedWorld {
+    /// The paper's.
+    fn default() -> Self {
+        Self { name: Self::DEFAULT.to_owned(), world: PhysicsWorld::default() }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

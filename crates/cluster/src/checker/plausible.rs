@@ -1,6 +1,6 @@
 //! Checks of a result without simulating.
 
-use nbc_base::model::SearchObjective;
+use nbc_base::model::{CYCLE_STEPS, SearchObjective};
 use nbc_swarm::evolve::{CandidateOutcome, Scores};
 use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, Task, TaskResult, full_steps};
 
@@ -14,7 +14,14 @@ pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
         (TaskResult::Measurement(Ok(measurement)), Task::Measurement(_)) => is_possible(measurement),
         (TaskResult::Screening(_), Task::Screening { .. }) | (TaskResult::Measurement(_), Task::Measurement(_)) => true,
         (TaskResult::Swarm(bits), Task::Swarm(swarm)) => {
-            bits.cycles.len() == swarm.cycles() && bits.cycles.iter().all(|cycle| cycle.len() == swarm.robots())
+            // A swarm ends before the cycle in which a robot fails.
+            let whole = match bits.fault {
+                None => swarm.cycles(),
+                Some((robot, _)) if robot >= swarm.robots() => return false,
+                Some((_, fault)) => (fault.env_step.saturating_sub(1) / CYCLE_STEPS) as usize,
+            };
+            let is_whole = bits.cycles.len() == whole && (bits.fault.is_none() || whole < swarm.cycles());
+            is_whole && bits.cycles.iter().all(|cycle| cycle.len() == swarm.robots())
         }
         _ => false,
     }

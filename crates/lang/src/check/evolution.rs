@@ -104,7 +104,7 @@ pub(crate) fn evolution(
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
     let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
     let objective = fields.choose("objective", base.objective, &OBJECTIVES);
-    let world = fields.read("world", world, |value| known.worlds.of(value, home).map(Some));
+    let world = fields.read("world", world, |value| known.worlds.of(value, home).map(|named| Some(named.world)));
     let evolution = Evolution {
         name: source.name.text.clone(),
         width,
@@ -128,7 +128,7 @@ pub(crate) fn evolution(
             fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
         }),
         niche: fields.read("niche", base.niche, niche),
-        world: world.unwrap_or_else(|| known.worlds.default(home)),
+        world: world.unwrap_or_else(|| known.worlds.default(home).world),
         sample: sample(&mut fields, base.sample, objective),
     };
     let found = fields.finish();

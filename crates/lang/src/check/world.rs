@@ -22,20 +22,20 @@ pub(crate) struct Worlds<'a> {
 
 impl Worlds<'_> {
     /// The world that a field names.
-    pub(crate) fn of(self, value: &ValueSyntax, home: Home) -> Result<PhysicsWorld, Diagnostic> {
+    pub(crate) fn of(self, value: &ValueSyntax, home: Home) -> Result<NamedWorld, Diagnostic> {
         self.named(fields::word(value, Expected::Name("world"))?, home)
     }
 
     /// The world of a declaration that names none.
-    pub(crate) fn default(self, home: Home) -> PhysicsWorld {
+    pub(crate) fn default(self, home: Home) -> NamedWorld {
         let declared = self.names.find(NamedWorld::DEFAULT, home).map(|place| &self.checked[place]);
-        if let Some(CheckState::Sound(named)) = declared { named.world } else { PhysicsWorld::default() }
+        if let Some(CheckState::Sound(named)) = declared { NamedWorld::clone(named) } else { NamedWorld::default() }
     }
 
     /// The world of that name. For one with errors, which are already reported, it is the paper's.
-    pub(crate) fn named(self, name: &NameSyntax, home: Home) -> Result<PhysicsWorld, Diagnostic> {
+    pub(crate) fn named(self, name: &NameSyntax, home: Home) -> Result<NamedWorld, Diagnostic> {
         let found = &self.checked[self.names.resolve(name, home)?];
-        Ok(if let CheckState::Sound(named) = found { named.world } else { PhysicsWorld::default() })
+        Ok(if let CheckState::Sound(named) = found { NamedWorld::clone(named) } else { NamedWorld::default() })
     }
 }
 
@@ -60,7 +60,7 @@ pub(crate) fn world(
         Some(CheckState::Sound(base)) => (base.world, true),
         Some(_) => (PhysicsWorld::default(), false),
         None if source.name.text == NamedWorld::DEFAULT => (PhysicsWorld::default(), true),
-        None => (Worlds { names, checked }.default(home), true),
+        None => (Worlds { names, checked }.default(home).world, true),
     };
     let mut factor = |field, of: f64| fields.read(field, of, factor);
     let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = base.factors;

@@ -10,7 +10,7 @@ use nbc_session::store::DiskWorld;
 /// The result of a command.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct RunOutcome {
-    /// Whether every test passed; none if there was no test.
+    /// Whether every test passed and no robot failed; none if there was no test and no robot failed.
     pub(super) passed: Option<bool>,
     /// A line for people.
     pub(crate) text: String,

@@ -97,11 +97,15 @@ fn finish(checked: &Checked, level: Level, report: &RunReport, results: &Path) -
     };
     let path = written(checked, results, "report.html", &page)?;
     let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
-    let text = match verdicts.len() {
-        0 => "simulated".to_owned(),
-        all => format!("{}: {passed} of {all} passed", if passed == all { "pass" } else { "FAIL" }),
+    let word = if report.passed() { "pass" } else { "FAIL" };
+    let text = match (verdicts.len(), report.fault()) {
+        (0, None) => "simulated".to_owned(),
+        (0, Some(fault)) => format!("{word}: {fault}"),
+        (all, None) => format!("{word}: {passed} of {all} passed"),
+        (all, Some(fault)) => format!("{word}: {passed} of {all} passed; {fault}"),
     };
-    Ok(RunOutcome::new((!verdicts.is_empty()).then_some(passed == verdicts.len()), text, Some(path)))
+    let has_verdict = !verdicts.is_empty() || report.fault().is_some();
+    Ok(RunOutcome::new(has_verdict.then(|| report.passed()), text, Some(path)))
 }
 
 /// Writes a result among those of the server, in the folder of its source.

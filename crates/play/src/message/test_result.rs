@@ -9,7 +9,7 @@ use crate::request::TestLevel;
 use nbc_base::model::Value;
 use nbc_swarm::{RowVerdict, TestVerdict};
 
-/// The answer to `test`: a result for each swarm of its circuit.
+/// The answer to `test`: a result for each swarm of its circuit in each world of the test.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct TestAnswer {
@@ -23,6 +23,10 @@ pub(crate) struct TestResult {
     circuit: String,
     title: String,
     swarm: Option<String>,
+    /// The world of the swarm; none at the level of logic.
+    world: Option<String>,
+    /// The robot that failed, if one did, and when.
+    fault: Option<String>,
     level: TestLevel,
     passed: bool,
     line: usize,
@@ -64,6 +68,8 @@ impl From<&TestVerdict> for TestResult {
             circuit: verdict.circuit.clone(),
             title: verdict.title.clone(),
             swarm: verdict.swarm.clone(),
+            world: verdict.world.clone(),
+            fault: verdict.fault().map(ToString::to_string),
             level: verdict.level.into(),
             passed: verdict.passed,
             line: verdict.line,

@@ -49,7 +49,7 @@ impl Answer {
                 (Outcome::LeftOut, Some(reason), None)
             }
             Selected::Faulty(fault) => {
-                let reason = format!("its best elite is unstable at env step {}", fault.env_step);
+                let reason = format!("its best elite {} in env step {}", fault.kind, fault.env_step);
                 (Outcome::LeftOut, Some(reason), None)
             }
             Selected::Missing => (Outcome::Missing, Some("no elite of this behavior".to_owned()), None),

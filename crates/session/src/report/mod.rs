@@ -107,5 +107,5 @@ pub use svg::Svg;
 pub use table::{Align, TextTable};
 pub use timing::{MemoryTimes, SwarmTiming, describe_fan_out, describe_path, describe_settling};
 pub use vcd::vcd;
-pub use verdict::{describe_failures, describe_printed, describe_simulation, describe_swarm, describe_test};
+pub use verdict::{describe_simulation, describe_swarm, describe_test, describe_verdict};
 pub use waves::WaveTiming;

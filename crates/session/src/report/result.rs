@@ -14,7 +14,7 @@ pub struct RunResult<'a> {
     pub version: &'static str,
     /// The source file's path as the user wrote it.
     pub source: &'a str,
-    /// Whether every test passed.
+    /// Whether every test passed, and no robot of a simulation failed.
     pub passed: bool,
     /// The tests in order, each once for each swarm of its circuit.
     pub tests: Vec<SwarmResult<'a, TestVerdict>>,
@@ -47,8 +47,8 @@ pub struct RobotResult<'a> {
     pub robot: &'a str,
     /// The nets it senses as stimulus 1, stimulus 2 and perhaps stimulus 3.
     pub senses: &'a [String],
-    /// Voxels between its start and its end.
-    pub displacement: f64,
+    /// Voxels between its start and the end of the last cycle; null if its simulation was given up.
+    pub displacement: Option<f64>,
     /// The env step at which its simulation was given up.
     pub unstable_at: Option<u32>,
 }
@@ -60,7 +60,8 @@ impl<'a> RunResult<'a> {
         tests: Vec<SwarmResult<'a, TestVerdict>>,
         simulations: Vec<SwarmResult<'a, SimulationResult>>,
     ) -> Self {
-        let passed = tests.iter().all(|test| test.outcome.passed);
+        let passed = tests.iter().all(|test| test.outcome.passed)
+            && simulations.iter().all(|simulation| simulation.outcome.fault.is_none());
         Self { program: nbc_base::PROGRAM, version: nbc_base::VERSION, source, passed, tests, simulations }
     }
 }
@@ -68,12 +69,13 @@ impl<'a> RunResult<'a> {
 impl<'a, T> SwarmResult<'a, T> {
     /// The results of one test or simulation, with the paths of its files.
     pub fn new(outcome: &'a T, trace: &'a SwarmTrace, timing: SwarmTiming, files: Vec<String>) -> Self {
+        let walked = |(end, start): (&f64, &f64)| end - start;
         let robots = trace.robots.iter().map(|robot| RobotResult {
             net: &robot.net,
             function: robot.function.name(),
             robot: &robot.robot,
             senses: &robot.sensed_nets,
-            displacement: robot.com_x.last().zip(robot.com_x.first()).map_or(0.0, |(end, start)| end - start),
+            displacement: robot.com_x.last().zip(robot.com_x.first()).filter(|_| robot.fault.is_none()).map(walked),
             unstable_at: robot.fault.map(|fault| fault.env_step),
         });
         Self { outcome, robots: robots.collect(), timing, files }

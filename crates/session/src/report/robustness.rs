@@ -6,6 +6,7 @@ use crate::report::Color;
 use crate::report::chart::Panel;
 use crate::report::element::{Paint, Point, Type};
 use crate::report::svg::Svg;
+use crate::report::verdict::in_world;
 use nbc_base::diag::counted;
 use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_swarm::{Proportion, RobotMargin, Robustness};
@@ -17,7 +18,8 @@ const MOST_FAILING: usize = 5;
 pub fn describe_robustness(found: &Robustness) -> String {
     let swarm = found.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
     let title = if found.title.is_empty() { String::new() } else { format!(" \"{}\"", found.title) };
-    let mut text = format!("{}{swarm}{title}: {}\n", found.circuit, yield_of(found.passed));
+    let world = in_world(&found.world);
+    let mut text = format!("{}{swarm}{title}{world}: {}\n", found.circuit, yield_of(found.passed));
     let _ = writeln!(text, "  worlds          {}", found.variation);
     for failing in found.fails_first.iter().take(MOST_FAILING) {
         let (robot, net, worlds) = (&failing.robot, &failing.net, counted(failing.worlds, "world"));
@@ -25,7 +27,11 @@ pub fn describe_robustness(found: &Robustness) -> String {
     }
     if let Some(failure) = found.failures.first() {
         let (world, line) = (failure.world, failure.line);
-        let first = failure.first.as_ref().map_or("no robot erred after its clock".to_owned(), margin);
+        let first = match (&failure.fault, &failure.first) {
+            (Some(fault), _) => fault.to_string(),
+            (None, Some(first)) => margin(first),
+            (None, None) => "no robot erred after its clock".to_owned(),
+        };
         let _ = writeln!(text, "  for example     world {world}, line {line}: {first}");
         let _ = writeln!(text, "                  world w{world} {}", declaration(&failure.physics));
     }
@@ -137,13 +143,21 @@ mod tests {
             circuit: "latch".to_owned(),
             title: "remembers".to_owned(),
             swarm: None,
+            world: "paper".to_owned(),
             robots: 5,
             variation: "friction=10%".parse().unwrap(),
             scale: 1.0,
             passed: Proportion { successes: 19, attempts: 20 },
             fails_first: vec![FailingRobot { net: "q".to_owned(), robot: "nand_5x5".to_owned(), worlds: 1 }],
             least: Some(WorldMargin { world: 7, margin: margin(0.0123) }),
-            failures: vec![WorldFailure { world: 4, physics, row: 2, line: 6, first: Some(margin(-0.02)) }],
+            failures: vec![WorldFailure {
+                world: 4,
+                physics,
+                row: 2,
+                line: 6,
+                first: Some(margin(-0.02)),
+                fault: None,
+            }],
         }
     }
 

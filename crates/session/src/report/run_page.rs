@@ -10,6 +10,7 @@ use crate::report::schematic::SchematicPages;
 use crate::report::schematic_page::explorer;
 use crate::report::scheme::Scheme;
 use crate::report::svg::Svg;
+use crate::report::verdict::{in_world, named_world};
 use nbc_base::diag::counted;
 use nbc_base::model::{CYCLE_STEPS, Column, Value};
 use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
@@ -90,19 +91,23 @@ impl SwarmOutcome<'_> {
                 let swarm = verdict.swarm.as_deref().map_or(String::new(), of_swarm);
                 let word = if verdict.passed { "pass" } else { "fail" };
                 let (circuit, title) = (escape(&verdict.circuit), escape(&verdict.title));
-                format!("{circuit}{swarm}: {title} <span class=\"{word}\">{word}</span>")
+                let world = escape(&named_world(verdict));
+                format!("{circuit}{swarm}{world}: {title} <span class=\"{word}\">{word}</span>")
             }
             Self::Simulation(result) => {
-                format!("{}{}, simulated", escape(&result.circuit), of_swarm(&result.swarm))
+                let world = escape(&in_world(&result.world));
+                format!("{}{}{world}, simulated", escape(&result.circuit), of_swarm(&result.swarm))
             }
         }
     }
 
     fn table(self) -> String {
-        match self {
-            Self::Test(verdict) => truth_table(verdict),
-            Self::Simulation(result) => activity_table(result),
-        }
+        let (table, fault) = match self {
+            Self::Test(verdict) => (truth_table(verdict), verdict.fault()),
+            Self::Simulation(result) => (activity_table(result), result.fault.as_ref()),
+        };
+        let fault = fault.map(|fault| format!("<p class=\"fail\">{}</p>\n", escape(&fault.to_string())));
+        table + &fault.unwrap_or_default()
     }
 }
 

@@ -166,7 +166,7 @@ pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
         let heading = (i == 0).then(|| "outputs against the inputs of the swarm".to_owned());
         rows.push(Row { heading, tracks: tracks.to_vec(), changes: &changes, panel: PANEL_WIDTH });
     }
-    draw_rows(&format!("{} in space and time", trace.circuit), trace.cycles.len() as f64, &rows)
+    draw_rows(&format!("{} in space and time", trace.circuit), length(trace), &rows)
 }
 
 /// The diagram of some of a swarm's robots, each with the inputs of the swarm (paper, figure 5).
@@ -193,7 +193,12 @@ pub fn draw_chosen(trace: &SwarmTrace, robots: &[usize]) -> Svg {
             panel: PANEL_WIDTH,
         })
         .collect();
-    draw_rows(&format!("{} in space and time", trace.circuit), trace.cycles.len() as f64, &rows)
+    draw_rows(&format!("{} in space and time", trace.circuit), length(trace), &rows)
+}
+
+/// The cycles of a swarm, with that in which a robot failed, so that its fault is in the picture.
+fn length(trace: &SwarmTrace) -> f64 {
+    (trace.cycles.len() + usize::from(trace.fault().is_some())) as f64
 }
 
 /// The cycles at which an input changes.

@@ -32,7 +32,9 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
     for (r, WalkedSpell { pattern, walked, moments }) in rows.iter().enumerate() {
         let ground = 54.0 + (r as f64 + 1.0) * height - 18.0;
         svg.text((14.0, ground - 18.0), pattern, Type::new(15.0).bold());
-        svg.text((14.0, ground - 4.0), &with_minus(&format!("{walked:+.2}")), Type::new(10.0).colored(Color::GRAY));
+        let is_faulty = moments.last().is_some_and(|moment| moment.faults[0]);
+        let walked = if is_faulty { "none".to_owned() } else { with_minus(&format!("{walked:+.2}")) };
+        svg.text((14.0, ground - 4.0), &walked, Type::new(10.0).colored(Color::GRAY));
         svg.line((60.0, ground), (svg.width() - 12.0, ground), Paint::stroke(Color::GRAY, 1.5));
         for shot in GHOSTS..moments.len() {
             let left = 66.0 + (shot - GHOSTS) as f64 * pitch + pitch / 2.0;

@@ -2,7 +2,7 @@
 
 use crate::report::{Align, TextTable};
 use nbc_base::diag::counted;
-use nbc_base::model::{Column, Value};
+use nbc_base::model::{Column, NamedWorld, Value};
 use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict, WrongOutput};
 
 /// The most failing rows of a test that are described.
@@ -31,18 +31,44 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
             pass_word(passed).to_owned(),
         ]);
     }
-    let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
-    let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
     let threads = verdict.rows.iter().filter_map(|row| row.thread).max().map_or(0, |last| last + 1);
     let threads = if threads > 1 { format!(" in {threads} threads") } else { String::new() };
-    let heading = format!("test {}{swarm}{title}{threads}: {}\n", verdict.circuit, pass_word(verdict.passed));
+    let heading = format!("test {}{threads}: {}\n", name_test(verdict), pass_word(verdict.passed));
     let robots = describe_weak_robots(verdict);
     let printed = describe_printed(verdict);
     format!("{heading}{printed}{robots}{}{}", indented(&table), describe_rows(verdict))
 }
 
+/// A test with its swarm and its world: `inverter as sliders "inverts" in worn`.
+fn name_test(verdict: &TestVerdict) -> String {
+    let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
+    let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
+    format!("{}{swarm}{title}{}", verdict.circuit, named_world(verdict))
+}
+
+/// ` in worn`; nothing for the world of the paper unless the test names it, and at the level of logic.
+pub(super) fn named_world(verdict: &TestVerdict) -> String {
+    match &verdict.world {
+        Some(world) if verdict.is_world_named => format!(" in {world}"),
+        Some(world) => in_world(world),
+        None => String::new(),
+    }
+}
+
+/// ` in worn`; nothing for the world of the paper.
+pub(super) fn in_world(world: &str) -> String {
+    if world == NamedWorld::DEFAULT { String::new() } else { format!(" in {world}") }
+}
+
+/// The line of a test, with the failures below it: `pass  inverter "inverts" in worn (2 rows, physics)`.
+pub fn describe_verdict(verdict: &TestVerdict) -> String {
+    let (name, rows, level) = (name_test(verdict), counted(verdict.row_count(), "row"), verdict.level.word());
+    let (printed, failures) = (describe_printed(verdict), describe_failures(verdict));
+    format!("{}  {name} ({rows}, {level})\n{printed}{failures}", pass_word(verdict.passed))
+}
+
 /// What the environment of a test wrote, line by line.
-pub fn describe_printed(verdict: &TestVerdict) -> String {
+fn describe_printed(verdict: &TestVerdict) -> String {
     let Some(printed) = &verdict.printed else { return String::new() };
     let lines = printed.lines().map(|line| format!("    > {}\n", line.escape_debug()));
     lines.collect()
@@ -50,7 +76,7 @@ pub fn describe_printed(verdict: &TestVerdict) -> String {
 
 /// The failures of a test; empty if it passed. First the unreliable robots, then each failing row with its place, the
 /// names of its columns, and the wrong robots.
-pub fn describe_failures(verdict: &TestVerdict) -> String {
+fn describe_failures(verdict: &TestVerdict) -> String {
     describe_weak_robots(verdict) + &describe_rows(verdict)
 }
 
@@ -66,7 +92,9 @@ pub fn describe_simulation(result: &SimulationResult) -> String {
         let cycles = row.cycles.to_string();
         table.push(vec![inputs.values(&row.inputs), cycles, observed.values(&row.observed), observed.words(&changes)]);
     }
-    format!("simulate {}, of {}\n{}", result.swarm, result.circuit, indented(&table))
+    let fault = result.fault.as_ref().map_or(String::new(), |fault| format!("    {fault}\n"));
+    let world = in_world(&result.world);
+    format!("simulate {}, of {}{world}\n{}{fault}", result.swarm, result.circuit, indented(&table))
 }
 
 fn indented(table: &TextTable) -> String {
@@ -81,8 +109,10 @@ fn describe_weak_robots(verdict: &TestVerdict) -> String {
 
 fn describe_rows(verdict: &TestVerdict) -> String {
     let failed = || verdict.rows.iter().filter(|row| !row.passed);
-    let rows: String = failed().take(MOST_ROWS).map(|row| describe_row(verdict, row)).collect();
-    match failed().count().saturating_sub(MOST_ROWS) {
+    // After the row in which a robot failed there is nothing to say of the others.
+    let told = failed().position(|row| row.fault.is_some()).map_or(usize::MAX, |first| first + 1).min(MOST_ROWS);
+    let rows: String = failed().take(told).map(|row| describe_row(verdict, row)).collect();
+    match failed().count().saturating_sub(told) {
         0 => rows,
         more => format!("{rows}    {} more failed\n", counted(more, "row")),
     }
@@ -92,6 +122,12 @@ fn describe_rows(verdict: &TestVerdict) -> String {
 fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
     let inputs: Vec<String> =
         verdict.inputs.iter().zip(&row.inputs).map(|(port, value)| format!("{}={value}", port.name)).collect();
+    let bar = if inputs.is_empty() { "" } else { " | " };
+    let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
+    let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
+    if let Some(fault) = &row.fault {
+        return format!("    {place}: {}{bar}{fault}\n", inputs.join(" "));
+    }
     let outputs = verdict.outputs.iter().zip(&row.expected).zip(&row.observed).zip(&row.steady);
     let wrong = outputs.filter_map(|(((port, expected), observed), &steady)| match steady {
         _ if expected.is_open() => None,
@@ -100,9 +136,6 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
         true => None,
     });
     let wrong: Vec<String> = wrong.collect();
-    let bar = if inputs.is_empty() { "" } else { " | " };
-    let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
-    let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
     let given_up = row.given_up.map_or(String::new(), |most| {
         format!(" (repeated {most} {}, as often as its `until` permits)", if most == 1 { "time" } else { "times" })
     });
@@ -224,6 +257,8 @@ mod tests {
             title: "holds".to_owned(),
             circuit: "latch".to_owned(),
             swarm: None,
+            world: Some("paper".to_owned()),
+            is_world_named: false,
             level: Level::Physics,
             inputs: vec![port("d", 1), port("en", 1)],
             outputs: vec![port("q", 1), port("nq", 1)],
@@ -244,6 +279,7 @@ mod tests {
                 late: vec![],
                 is_half: false,
                 given_up: None,
+                fault: None,
             }],
             passed,
         }

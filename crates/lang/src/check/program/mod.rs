@@ -24,7 +24,7 @@ use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
-    CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, PhysicsWorld, Program, Stimulation,
+    CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation,
 };
 use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -172,7 +172,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// The world that a test or simulation of the file names.
-    fn world(&mut self, name: Option<&NameSyntax>) -> Option<PhysicsWorld> {
+    fn world(&mut self, name: Option<&NameSyntax>) -> Option<NamedWorld> {
         let worlds = Worlds { names: &self.names.worlds, checked: &self.worlds };
         let named = worlds.named(name?, Home::Own);
         named.map_err(|fault| self.faults.push(fault)).ok()

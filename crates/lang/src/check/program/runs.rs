@@ -16,9 +16,7 @@ use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EnvironmentError};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, TestItem, TestTable};
 use nbc_base::diag::{Code, Diagnostic};
-use nbc_base::model::{
-    CircuitId, CircuitTest, Column, Instance, PhysicsWorld, Program, Script, Simulation, Stimulation,
-};
+use nbc_base::model::{CircuitId, CircuitTest, Column, Instance, Program, Script, Simulation, Stimulation};
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
 
@@ -62,29 +60,15 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// The test in each of its worlds.
+    /// A test of the program's own file.
     pub(super) fn test(
         &mut self,
         span: Span,
         source: &'a tree::Test,
         program: &Program,
         inspector: &mut Inspector<'_>,
-    ) -> Vec<CircuitTest> {
-        let worlds: Vec<Option<PhysicsWorld>> = match &source.worlds[..] {
-            [] => vec![None],
-            worlds => worlds.iter().map(|world| self.world(Some(world))).collect(),
-        };
-        let Some(test) = self.test_in(span, source, program, inspector) else { return Vec::new() };
-        worlds.into_iter().map(|world| CircuitTest { world, ..test.clone() }).collect()
-    }
-
-    fn test_in(
-        &mut self,
-        span: Span,
-        source: &'a tree::Test,
-        program: &Program,
-        inspector: &mut Inspector<'_>,
     ) -> Option<CircuitTest> {
+        let worlds = source.worlds.iter().filter_map(|world| self.world(Some(world))).collect();
         let tested = self.instance(&source.circuit, program)?;
         let (inputs, outputs) = self.ports(&tested, source.circuit.name.span, inspector)?;
         let ports = (&inputs[..], &outputs[..]);
@@ -123,7 +107,7 @@ impl<'a> Assembly<'a> {
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
-        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, world: None })
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, worlds })
     }
 
     /// Notes the members of enumerations in the rows of a test, and the outputs that end their repetition.
