@@ -7,8 +7,8 @@ use clap::{Args, ValueEnum};
 use serde_json::json;
 
 use crate::cli::harden::{HardenArguments, Hardened};
-use crate::cli::options::circuit::{CircuitArguments, RunsArguments};
-use crate::cli::options::mapping::MappingArguments;
+use crate::cli::options::making::MakingArguments;
+use crate::cli::options::mapping::CellsArguments;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::model::Column;
@@ -33,8 +33,6 @@ Examples:
 pub struct BuildArguments {
     /// The .nb file
     file: PathBuf,
-    #[command(flatten)]
-    circuit: CircuitArguments,
     /// The output [default: netlist, with `--format json` json]
     #[arg(long, value_enum)]
     emit: Option<Emit>,
@@ -42,9 +40,9 @@ pub struct BuildArguments {
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
     #[command(flatten)]
-    mapping: MappingArguments,
+    making: MakingArguments,
     #[command(flatten)]
-    runs: RunsArguments,
+    cells: CellsArguments,
     #[command(flatten)]
     harden: HardenArguments,
 }
@@ -72,12 +70,11 @@ impl BuildArguments {
     /// # Errors
     /// When the file has errors, the library lacks a function, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let (kind, chosen) = (self.emit(context.format)?, self.mapping.chosen()?);
+        let (kind, chosen) = (self.emit(context.format)?, self.cells.chosen()?);
         let mut session = Session::new(DiskWorld);
         let checked = session.open(&self.file.to_string_lossy())?;
-        let choice = self.circuit.choice();
-        let circuit = checked.circuit(&choice)?;
-        let options = self.mapping.with(CompileOptions { swarm: choice.swarm, ..self.runs.options() });
+        let circuit = checked.circuit(&self.making.choice())?;
+        let options = self.making.options()?;
         let Some(hardened) = self.harden.find(&session, &checked, &circuit, &options, context)? else {
             return Ok(Status::Interrupted);
         };

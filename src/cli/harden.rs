@@ -18,7 +18,7 @@ use nbc_swarm::{Level, Proportion, Robustness};
 pub(super) struct HardenArguments {
     /// Leave out the robots that fail first in worlds that differ by so much, such as `20%` or `friction=30%`, until
     /// the tests of the circuit pass in enough of them
-    #[arg(long, value_name = "CHANGES", conflicts_with_all = ["cells", "library"], value_parser = changes)]
+    #[arg(long, value_name = "CHANGES", conflicts_with = "cells", value_parser = changes)]
     harden: Option<Variation>,
     /// The number of worlds
     #[arg(long, value_name = "N", requires = "harden", default_value_t = 40)]

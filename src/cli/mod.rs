@@ -173,3 +173,41 @@ fn tell(told: &clap::Error) -> Status {
         _ => Status::Done,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use super::*;
+
+    /// The options that choose how a circuit becomes a swarm.
+    const MAKING: [&str; 6] = ["circuit", "effort", "library", "objective", "runs", "swarm"];
+
+    #[test]
+    fn options_that_choose_how_a_circuit_is_made_are_the_same_in_every_command() {
+        let mut makers = BTreeSet::new();
+        for command in Cli::command().get_subcommands() {
+            let options: BTreeSet<&str> = command.get_arguments().filter_map(clap::Arg::get_long).collect();
+            let found: Vec<&str> = MAKING.into_iter().filter(|option| options.contains(option)).collect();
+            let expected: &[&str] = match command.get_name() {
+                // It evolves robots, or lists those of a run: a run is all that it knows.
+                "evolve" | "library" | "export" => &found,
+                // One robot, by its name in a library.
+                "simulate" => &["library"],
+                // A circuit without a program, whose cells need not be robots.
+                "synth" => &["effort", "library", "objective"],
+                _ if found.is_empty() => continue,
+                name => {
+                    makers.insert(name.to_owned());
+                    &MAKING
+                }
+            };
+            assert_eq!(found, expected, "{}", command.get_name());
+        }
+        let mut all = BTreeSet::from(["build", "draw", "run", "test", "watch"].map(str::to_owned));
+        if cfg!(feature = "play") {
+            all.insert("play".to_owned());
+        }
+        assert_eq!(makers, all);
+    }
+}

@@ -7,10 +7,12 @@ use clap::builder::RangedU64ValueParser;
 use nbc_play::{LessonSource, PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
-use nbc_session::{Choice, CompileOptions, Session};
+use nbc_session::{Choice, Session};
 use nbc_swarm::Room;
 use serde_json::json;
 
+use crate::cli::options::making::MakingArguments;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 
@@ -56,12 +58,8 @@ pub struct PlayArguments {
     #[arg(long, value_name = "OUT", requires = "file")]
     #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages"])]
     export: Option<PathBuf>,
-    /// The circuit to export, with parameters such as `adder[8]` [default: the last one in the file]
-    #[arg(long, value_name = "NAME", requires = "export")]
-    circuit: Option<String>,
-    /// The swarm to export, if several are declared for the circuit
-    #[arg(long, value_name = "NAME", requires = "export")]
-    swarm: Option<String>,
+    #[command(flatten)]
+    making: MakingArguments,
     /// Show the lessons of this folder instead of those that come with the program, which are `shipped`. May be
     /// repeated: `--lessons shipped --lessons DIR` shows both
     #[arg(long, value_name = "DIR")]
@@ -80,14 +78,18 @@ impl PlayArguments {
     /// # Errors
     /// When the file cannot be found, the address cannot be listened at, or the circuit cannot be exported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let Self { file, port, host, no_open, page, token, export, circuit, swarm, lessons, class, pages } = self;
+        let Self { file, port, host, no_open, page, token, export, making, lessons, class, pages } = self;
         if let (Some(output), Some(file)) = (export, &file) {
-            return write_page(file, &output, &Choice { circuit, swarm }, context);
+            return write_page(file, &output, &making, context);
         }
+        if making.choice() != Choice::default() {
+            return Err(UsageError::OnlyExported.into());
+        }
+        let making = making.options()?;
         let interrupt = Interrupt::watch()?;
         let lessons = lessons.into_iter().map(source).collect();
         let pages = Some(pages);
-        let server = PlayServer::bind(&PlayOptions { file, host, port, page, token, lessons, class, pages })?;
+        let server = PlayServer::bind(&PlayOptions { file, making, host, port, page, token, lessons, class, pages })?;
         let faults = server.faults_of_lessons();
         context.tell(&faults.list, &faults.sources);
         tell(&server, context)?;
@@ -102,12 +104,11 @@ impl PlayArguments {
 }
 
 /// Writes a circuit as a page of its own.
-fn write_page(file: &Path, output: &Path, choice: &Choice, context: &mut Context) -> Result<Status, Failure> {
+fn write_page(file: &Path, output: &Path, making: &MakingArguments, context: &mut Context) -> Result<Status, Failure> {
     let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
     let checked = session.open(&file.to_string_lossy())?;
-    let circuit = checked.circuit(choice)?;
-    let options = CompileOptions { swarm: choice.swarm.clone(), ..CompileOptions::default() };
-    let compiled = session.compile(&checked, &circuit, &options)?;
+    let circuit = checked.circuit(&making.choice())?;
+    let compiled = session.compile(&checked, &circuit, &making.options()?)?;
     context.tell(&compiled.warnings, &checked.sources);
     let page = nbc_play::export(&session, &checked, &compiled)?;
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
+use crate::cli::options::robots::RobotsArguments;
 use crate::cli::wording::UsageError;
 use nbc_base::diag::suggest::nearest;
 use nbc_base::diag::{Diagnostic, Suggestion};
@@ -32,8 +33,13 @@ pub(super) fn behavior(word: &str) -> Result<Behavior, String> {
     word.parse().ok().or_else(function).ok_or_else(expected)
 }
 
+/// The robots that the user named, else the built-in ones.
+pub(super) fn named_library(arguments: &RobotsArguments) -> Result<Library, Failure> {
+    arguments.library.as_deref().map_or_else(|| Ok(store::shipped_library()), robots_of)
+}
+
 /// The body in a file or, if there is no such file, that of a robot of the library.
-pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
+pub(super) fn read_body(robot: &str, library: &RobotsArguments) -> Result<Body, Failure> {
     let mut sources = Sources::default();
     match store::read_text(Path::new(robot), store::MAX_ROBOT_BYTES) {
         Ok(text) => {
@@ -41,7 +47,7 @@ pub(super) fn read_body(robot: &str) -> Result<Body, Failure> {
             store::read_body(sources.file(id)).map_err(|fault| Failure::input(vec![fault], sources))
         }
         Err(FileError::NotFound) if !robot.contains(['/', '.']) => {
-            find(&store::shipped_library(), robot).map(|robot| robot.body.clone())
+            find(&named_library(library)?, robot).map(|robot| robot.body.clone())
         }
         Err(error) => Err(Failure::plain(Diagnostic::unreadable_in(&DiskWorld, robot, &error))),
     }

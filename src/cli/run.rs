@@ -6,12 +6,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::gpu::OpenDevice;
-use crate::cli::options::circuit::{FilesArguments, RunsArguments};
+use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
-use crate::cli::options::mapping::GoalArguments;
+use crate::cli::options::making::MakingArguments;
 use crate::cli::options::timings::{TimedStage, Timings};
 use crate::cli::runs::wording::RunChoiceError;
-use crate::cli::runs::{CompleteRun, run_list, unknown_run};
+use crate::cli::runs::{CompleteRun, chosen_runs, run_list, unknown_run};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_session::report::{
     self, Document, PageSwarm, RunResult, Schema, SchematicPages, Scheme, Svg, SwarmResult, SwarmTiming,
@@ -49,9 +49,7 @@ pub struct RunArguments {
     #[arg(long)]
     tables: bool,
     #[command(flatten)]
-    runs: RunsArguments,
-    #[command(flatten)]
-    goal: GoalArguments,
+    making: MakingArguments,
     #[command(flatten)]
     named: FilesArguments,
     #[command(flatten)]
@@ -89,8 +87,7 @@ impl RunArguments {
         let list = self.chosen(&file)?;
         let folder = self.folder();
         folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
-        let compile =
-            CompileOptions { cancel: interrupt.cancel(), ..self.named.of(&file, self.goal.with(self.runs.options())) };
+        let compile = CompileOptions { cancel: interrupt.cancel(), ..self.named.of(&file, self.making.options()?) };
         let report = run_list(&session, &file, &list, compile, &interrupt)?;
         device.end(context)?;
         let (all, left) = (list.len(), report.left);
@@ -110,16 +107,14 @@ impl RunArguments {
 
     /// The requested tests and simulations.
     fn chosen<'f>(&'f self, file: &'f Checked) -> Result<RunList<'f>, Failure> {
-        let only = self.only.as_deref();
-        let list = match only {
-            Some(name) => RunList { tests: file.tests(name).collect(), simulations: file.simulations(name).collect() },
-            None => RunList::all(&file.program),
-        };
+        let choice = self.making.choice();
+        let list = chosen_runs(file, self.only.as_deref(), &choice)?;
         if !list.is_empty() {
             return Ok(list);
         }
         let nothing = || RunChoiceError::NothingToRun { file: file.path.clone() };
-        Err(only.map_or_else(nothing, |name| unknown_run(file, name)).into())
+        let named = self.only.as_ref().or(choice.swarm.as_ref()).or(choice.circuit.as_ref());
+        Err(named.map_or_else(nothing, |name| unknown_run(file, name)).into())
     }
 
     fn folder(&self) -> ResultPlace {

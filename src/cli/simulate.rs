@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::robots::RobotsArguments;
 use crate::cli::robots::read_body;
 use crate::cli::wording::{GroundEnds, UsageError};
 use crate::cli::{Context, Failure, Status};
@@ -38,6 +39,8 @@ pub struct SimulateArguments {
     #[arg(long, value_name = "VOXELS", default_value_t = Setting::default().world_width)]
     world_width: usize,
     #[command(flatten)]
+    library: RobotsArguments,
+    #[command(flatten)]
     device: DeviceArguments,
 }
 
@@ -59,7 +62,7 @@ impl SimulateArguments {
     /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::default() };
-        let body = read_body(&self.robot)?;
+        let body = read_body(&self.robot, &self.library)?;
         let stimuli = body.palette().stimuli();
         let schedule = read_schedule("--schedule", &self.schedule, stimuli)?;
         setting.check(&body).map_err(UsageError::Setting)?;
@@ -110,6 +113,6 @@ fn describe(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Str
     }
     match trajectory.fault {
         None => format!("{table}voxels walked\n"),
-        Some(Fault { kind, env_step }) => format!("{table}the robot {kind} in env step {env_step}\n"),
+        Some(Fault { kind, env_step }) => format!("{table}the robot {kind} at env step {env_step}\n"),
     }
 }

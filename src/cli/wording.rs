@@ -35,6 +35,8 @@ pub(in crate::cli) enum UsageError {
     NothingToExport { path: String },
     /// A folder without runs that should be described.
     NoRuns { path: String },
+    /// A choice of a circuit for a page that has all of them.
+    OnlyExported,
     /// A license of what no license is written to.
     UnusedLicense,
     /// A file for a new program that is there already.
@@ -94,6 +96,8 @@ impl From<UsageError> for Diagnostic {
             }
             UsageError::NoRuns { path } => Self::without_place(Code::Empty, format!("no runs in `{path}` or below it"))
                 .with_help("name a folder that `nbc evolve` wrote, such as `out`"),
+            UsageError::OnlyExported => bad("`--circuit` and `--swarm` choose what `--export` writes".to_owned())
+                .with_help("add `--export FILE`, or leave them out: the page shows every circuit of the file"),
             UsageError::UnusedLicense => bad("only RO-Crates name a license".to_owned())
                 .with_help("add `--to ro-crate`, or leave out `--license`"),
             UsageError::Exists { file } => Self::without_place(Code::Unwritable, format!("`{file}` exists already"))

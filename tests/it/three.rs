@@ -183,3 +183,47 @@ test detector {
     let tested = bench.run(&["test", "detector.nb", "--logic"]);
     assert_eq!(tested.status, 0, "{}{}", tested.out, tested.err);
 }
+
+#[test]
+fn every_command_that_makes_a_circuit_takes_its_robots_from_the_library_of_the_option() {
+    let bench = Bench::new();
+    let text =
+        "circuit both(a, b, c) -> (q) {\n    q = a and b and c\n}\n\ntest both {\n    a b c | q\n    1 1 1 | 1\n}\n";
+    bench.file("both.nb", text);
+    let robots = |library: &[&str]| {
+        let with = |arguments: &[&str]| bench.run(&[arguments, library].concat());
+        let built = with(&["build", "both.nb", "--format", "json"]).expect_json()["cells"].as_array().unwrap().len();
+        let ran = with(&["run", "both.nb", "--no-report", "--format", "json"]).expect_json();
+        let drawn = with(&["draw", "both.nb", "--as", "dot", "-o", "both.dot"]);
+        assert_eq!(drawn.status, 0, "{}", drawn.err);
+        let drawn = std::fs::read_to_string(bench.path().join("both.dot")).unwrap();
+        let hardened =
+            with(&["build", "both.nb", "--format", "json", "--harden", "friction=1%", "--worlds", "1"]).expect_json();
+        assert_eq!(with(&["test", "both.nb", "--physics"]).status, 0);
+        let found = [
+            built,
+            ran["tests"][0]["robots"].as_array().unwrap().len(),
+            drawn.matches("and").count(),
+            hardened["hardened"]["tried"][0]["robots"].as_u64().unwrap() as usize,
+        ];
+        #[cfg(feature = "play")]
+        {
+            let exported = with(&["play", "both.nb", "--export", "both.html", "--format", "json"]).expect_json();
+            assert_eq!(exported["robots"], built);
+        }
+        found
+    };
+    assert_eq!(robots(&[])[..2], [2, 2]);
+    assert_eq!(robots(&["--library", "three"]), [1; 4]);
+    let walked = bench.run(&["simulate", "and3", "--library", "three", "--schedule", "111*1"]);
+    assert_eq!(walked.status, 0, "{}", walked.err);
+    bench.run(&["simulate", "and3", "--schedule", "111*1"]).expect_fault(&["no robot of the library is called `and3`"]);
+    let pose = ["draw", "and3_5x5", "--library", "three", "--as", "sprite", "-o", "a.svg"];
+    assert_eq!(bench.run(&pose).status, 0);
+    bench
+        .run(&["draw", "shipped", "--library", "three", "--as", "sprite", "-o", "a.svg"])
+        .expect_fault(&["`--library`"]);
+    bench
+        .run(&["draw", "and", "--objective", "delay", "--as", "sprite", "-o", "a.svg"])
+        .expect_fault(&["`--objective`"]);
+}

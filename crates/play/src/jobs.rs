@@ -10,7 +10,7 @@ use crate::message::RequestResult;
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use nbc_circuit::CancelFlag;
-use nbc_session::Observer;
+use nbc_session::{CompileOptions, Observer};
 use nbc_sim::{Monitor, Simulator};
 
 /// The most requests of a page that run at once.
@@ -21,6 +21,7 @@ const TIME: Duration = Duration::from_secs(600);
 /// The requests of a page that run.
 pub(super) struct Jobs {
     running: Arc<Mutex<BTreeMap<u64, Running>>>,
+    making: CompileOptions,
     outbox: Outbox,
 }
 
@@ -43,6 +44,7 @@ pub(super) struct Job {
     pub(super) id: u64,
     pub(super) outbox: Outbox,
     pub(super) stop: CancelFlag,
+    making: CompileOptions,
     monitor: Arc<Monitor>,
     end: Instant,
     /// The percentage that was reported last.
@@ -53,8 +55,9 @@ pub(super) struct Job {
 pub(super) type JobEnd = Result<Option<RequestResult>, Refused>;
 
 impl Jobs {
-    pub(super) fn new(outbox: Outbox) -> Self {
-        Self { running: Arc::default(), outbox }
+    /// No requests. Those that come make swarms with these options.
+    pub(super) fn new(outbox: Outbox, making: CompileOptions) -> Self {
+        Self { running: Arc::default(), making, outbox }
     }
 
     /// Starts a request.
@@ -72,7 +75,7 @@ impl Jobs {
             running.insert(id, Running { stop: stop.clone(), monitor: monitor.clone(), end });
         }
         let (running, outbox) = (self.running.clone(), self.outbox.clone());
-        let mut job = Job { id, outbox, stop, monitor, end, told: 0 };
+        let mut job = Job { id, outbox, stop, making: self.making.clone(), monitor, end, told: 0 };
         thread::spawn(move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
             lock(&running).remove(&id);
@@ -116,6 +119,11 @@ impl Job {
     /// A simulator whose simulations end when it is stopped.
     pub(super) fn simulator(&self) -> Simulator {
         Simulator::monitored(self.monitor.clone())
+    }
+
+    /// How circuits are compiled; that ends early when the request is stopped.
+    pub(super) fn options(&self) -> CompileOptions {
+        CompileOptions { cancel: self.stop.clone(), ..self.making.clone() }
     }
 
     /// Must be called now and then, so that the request can be stopped.

@@ -37,6 +37,7 @@ use std::time::Duration;
 
 use nbc_base::diag::{Diagnostics, io_words};
 use nbc_circuit::CancelFlag;
+use nbc_session::CompileOptions;
 use nbc_session::store::{FolderWorld, PrivateFile};
 use tokio::net::TcpListener;
 use tokio::runtime::{Builder, Runtime};
@@ -64,6 +65,8 @@ pub struct PlayOptions {
     /// The program to open first. The page can read and write only below the current folder, or the file's folder if
     /// that is elsewhere.
     pub file: Option<PathBuf>,
+    /// How its circuits become swarms.
+    pub making: CompileOptions,
     /// The address to listen at, such as `127.0.0.1`.
     pub host: String,
     /// The port; 0 is any free one.
@@ -114,7 +117,8 @@ impl PlayServer {
         let bound = runtime.block_on(TcpListener::bind((options.host.as_str(), options.port)));
         let listener = bound.map_err(refused)?;
         let port = listener.local_addr().map_err(system)?.port();
-        let mut served = Served { page, host: options.host.clone(), port, ..Served::new(folder, root, file, token) };
+        let (host, making) = (options.host.clone(), options.making.clone());
+        let mut served = Served { page, making, host, port, ..Served::new(folder, root, file, token) };
         if !options.lessons.is_empty() {
             served.lessons.clone_from(&options.lessons);
         }

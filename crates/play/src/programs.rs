@@ -13,7 +13,6 @@ use crate::refusal::Refused;
 use crate::runner::LoadedSwarm;
 use crate::served::SCHEME;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
-use nbc_circuit::Effort;
 use nbc_circuit::waves::WaveMachine;
 use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestCase, TestOptions};
@@ -79,7 +78,7 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     let circuit = checked.circuit(choice)?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
     let swarm = choice.swarm.clone().or_else(first);
-    let options = CompileOptions { swarm, effort: Effort::Normal, cancel: job.stop.clone(), ..Default::default() };
+    let options = CompileOptions { swarm, ..job.options() };
     Ok((circuit, options))
 }
 
@@ -171,8 +170,8 @@ fn robot(recorded: &Recorded, trace: &SwarmTrace, assembly: &Assembly, looks: &L
 /// When its circuit cannot be compiled, or it was stopped.
 pub(super) fn run_test(session: &Session, checked: &Checked, test: usize, level: Level, job: &mut Job) -> JobEnd {
     let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
-    let compile = CompileOptions { cancel: job.stop.clone(), ..CompileOptions::default() };
-    let runs = session.test(checked, test, &TestOptions { level: Some(level), compile }, job)?;
+    let options = TestOptions { level: Some(level), compile: job.options() };
+    let runs = session.test(checked, test, &options, job)?;
     if job.stop.is_raised() {
         return Err(Refused::Cancelled);
     }
@@ -191,9 +190,12 @@ pub(super) fn until_row(
     job: &Job,
 ) -> Result<(Compiled, Vec<Vec<bool>>), Refused> {
     let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
-    let compile = CompileOptions { cancel: job.stop.clone(), ..CompileOptions::default() };
-    let cases = session.cases(checked, test, &TestOptions { level: Some(Level::Physics), compile })?;
-    let meant = cases.into_iter().find(|case| swarm.is_none() || case.swarm() == swarm).ok_or(Refused::NoTest)?;
+    let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
+    let cases = session.cases(checked, test, &options)?;
+    let is_meant = |case: &TestCase<'_>| {
+        (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world)
+    };
+    let meant = cases.into_iter().find(is_meant).ok_or(Refused::NoTest)?;
     let rows = meant.rows().iter().take_while(|one| one.row <= row).count();
     meant.into_physics(rows).filter(|_| rows > 0).ok_or(Refused::NoTest)
 }

@@ -12,6 +12,7 @@ use crate::class::Class;
 use crate::lessons::LessonSource;
 use crate::page::Page;
 use crate::takes::Takes;
+use nbc_session::CompileOptions;
 use nbc_session::report::Scheme;
 use nbc_session::store::FolderWorld;
 
@@ -38,6 +39,8 @@ pub(super) struct Served {
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) page: Page,
+    /// How pages make swarms.
+    pub(super) making: CompileOptions,
     pub(super) lessons: Vec<LessonSource>,
     /// The class that pages can join.
     pub(super) class: Option<Arc<Class>>,
@@ -64,6 +67,7 @@ impl Served {
             host: String::new(),
             port: 0,
             page: Page::default(),
+            making: CompileOptions::default(),
             lessons: vec![LessonSource::Shipped],
             class: None,
             takes: Takes::default(),

@@ -52,7 +52,7 @@ impl Visit {
             session: Session::new(GuardedWorld::until(world.clone(), gone)),
             revision: 0,
             files: PageFiles::new(world),
-            jobs: Jobs::new(outbox.clone()),
+            jobs: Jobs::new(outbox.clone(), served.making.clone()),
             runner: runner::start(outbox.clone()),
             outbox,
             served,

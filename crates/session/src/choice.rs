@@ -7,7 +7,7 @@ use nbc_base::model::{Circuit, CircuitTest, Instance, Program, Simulation, Swarm
 use nbc_circuit::is_same_instance;
 
 /// A choice of a circuit. For what is `None`, the source decides.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Choice {
     /// A circuit, such as `adder` or `adder[8]`.
     pub circuit: Option<String>,

@@ -15,6 +15,7 @@ pub(super) mod wording;
 
 use std::path::Path;
 
+use crate::cli::options::robots::RobotsArguments;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use nbc_session::report::Schema;
 use nbc_session::store;
@@ -73,7 +74,7 @@ fn draw(
             kind.of_robot(&robot, request)
         }
         SubjectKind::Library => draw_library(kind, request),
-        SubjectKind::Robot => kind.of_robot(&robot(&request.what)?, request),
+        SubjectKind::Robot => kind.of_robot(&robot(&request.what, request.making.library())?, request),
     }
 }
 
@@ -87,9 +88,9 @@ fn draw_library(kind: &dyn PictureKind, request: &DrawRequest) -> Result<Drawing
     kind.of_robot(&TitledBody::of(robot.ok_or_else(|| request.none_of(behavior))?), request)
 }
 
-fn robot(what: &str) -> Result<TitledBody, Failure> {
-    let body = robots::read_body(what)?;
-    match robots::find(&store::shipped_library(), what) {
+fn robot(what: &str, library: &RobotsArguments) -> Result<TitledBody, Failure> {
+    let (body, library) = (robots::read_body(what, library)?, robots::named_library(library)?);
+    match robots::find(&library, what) {
         Ok(robot) => Ok(TitledBody::of(robot)),
         Err(_) => {
             let title = Path::new(what).file_stem().map(|stem| stem.to_string_lossy().into_owned());

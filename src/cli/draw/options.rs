@@ -16,13 +16,18 @@ pub(super) fn check_options(
     let is_program = subject == SubjectKind::Program;
     let has_robots = matches!(subject, SubjectKind::Library | SubjectKind::Run);
     let takes = |option| kind.description().options.contains(&option);
-    let choice = request.circuit.choice();
+    let choice = request.making.choice();
+    let has_library = request.making.library().library.is_some();
+    let goal = request.making.goal().given();
     let options = [
         ("--at", request.at.is_some(), takes("--at"), "a pose"),
         ("--axes", !request.axes.is_empty(), takes("--axes"), "a heat map"),
         ("--behavior", request.behavior.is_some(), has_robots, "a library or a run"),
         ("--circuit", choice.circuit.is_some(), is_program, "a source file (.nb)"),
+        (goal.unwrap_or_default(), goal.is_some(), is_program, "a source file (.nb)"),
+        ("--file", request.named.is_given(), is_program, "a source file (.nb)"),
         ("--frames", request.frames.is_some(), takes("--frames"), "a film"),
+        ("--library", has_library, is_program || subject == SubjectKind::Robot, "a source file (.nb) or a robot"),
         ("--robots", !request.robots.is_empty(), takes("--robots") && is_program, "a swarm in space and time"),
         ("--safe-colors", request.safe_colors, takes("--safe-colors"), "a picture of bodies"),
         ("--schedule", request.schedule.is_some(), takes("--schedule") && !is_program, "robots that move"),

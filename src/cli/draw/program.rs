@@ -2,10 +2,9 @@
 
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording::DrawError;
-use crate::cli::runs::{CompleteRun, names_of_tests, run_list};
+use crate::cli::runs::{CompleteRun, chosen_runs, names_of_tests, run_list};
 use crate::cli::{Failure, Interrupt};
-use nbc_base::model::{CircuitTest, Instance};
-use nbc_circuit::is_same_instance;
+use nbc_base::model::CircuitTest;
 use nbc_session::store::DiskWorld;
 use nbc_session::{Checked, CompileOptions, Compiled, RunList, Session};
 use nbc_swarm::Room;
@@ -15,52 +14,42 @@ impl DrawRequest {
     pub(super) fn compiled(&self) -> Result<Compiled, Failure> {
         let mut session = Session::new(DiskWorld);
         let file = session.open(&self.what)?;
-        let mut choice = self.circuit.choice();
+        let mut choice = self.making.choice();
         if let Some(name) = &self.test {
             choice.circuit = Some(test_called(&file, name)?.circuit.to_string());
         }
         let circuit = file.circuit(&choice)?;
-        let options = CompileOptions { swarm: choice.swarm, ..self.runs.options() };
-        Ok(session.compile(&file, &circuit, &options)?)
+        Ok(session.compile(&file, &circuit, &self.making.options()?)?)
     }
 
     /// The chosen test, run in physics: the first one, or the first simulation if the file has no test. Poses are
     /// recorded if there is room for them.
     pub(super) fn ran(&self, poses: Option<Room>) -> Result<CompleteRun, Failure> {
-        let session = Session::new(DiskWorld);
+        let session = Session::new(DiskWorld).with_files(self.named.files());
         let mut session = match poses {
             Some(room) => session.with_poses(room),
             None => session,
         };
         let file = session.open(&self.what)?;
-        let choice = self.circuit.choice();
-        let is_choice = choice.circuit.is_some() || choice.swarm.is_some();
-        let chosen = if is_choice { Some(file.circuit(&choice)?) } else { None };
-        let program = &file.program;
-        let is_chosen =
-            |circuit: &Instance| chosen.as_ref().is_none_or(|chosen| is_same_instance(program, chosen, circuit));
+        self.named.check(std::slice::from_ref(&file)).map_err(Failure::plain)?;
+        let choice = self.making.choice();
+        let chosen = chosen_runs(&file, None, &choice)?;
         let test = match &self.test {
             Some(name) => Some(test_called(&file, name)?),
-            None => program.tests.iter().find(|test| is_chosen(&test.circuit)),
+            None => chosen.tests.first().copied(),
         };
-        let options = CompileOptions { swarm: choice.swarm.clone(), ..self.runs.options() };
+        let options = self.named.of(&file, self.making.options()?);
         if let Some(test) = test {
-            let clear = nbc_session::check_swarm_is_clear(program, &test.circuit, options.swarm.as_deref());
+            let clear = nbc_session::check_swarm_is_clear(&file.program, &test.circuit, options.swarm.as_deref());
             clear.map_err(Failure::plain)?;
             return run_one(&session, &file, &RunList { tests: vec![test], ..RunList::default() }, options);
         }
-        let simulation = program.simulations.iter().find(|simulation| {
-            is_chosen(&simulation.circuit) && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
-        });
-        match simulation {
+        match chosen.simulations.first() {
             Some(simulation) => {
                 let list = RunList { simulations: vec![simulation], ..RunList::default() };
                 run_one(&session, &file, &list, options)
             }
-            None => {
-                let what = chosen.map_or_else(|| self.what.clone(), |circuit| circuit.to_string());
-                Err(DrawError::NoRun { what }.into())
-            }
+            None => Err(DrawError::NoRun { what: choice.circuit.or(choice.swarm).unwrap_or(self.what.clone()) }.into()),
         }
     }
 }

@@ -5,7 +5,8 @@ use clap::builder::PossibleValuesParser;
 
 use crate::cli::Failure;
 use crate::cli::draw::wording::DrawError;
-use crate::cli::options::circuit::{CircuitArguments, RunsArguments};
+use crate::cli::options::circuit::FilesArguments;
+use crate::cli::options::making::MakingArguments;
 use crate::cli::robots::behavior;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Spell};
 use nbc_session::read_schedule;
@@ -39,12 +40,12 @@ pub struct DrawRequest {
     #[arg(long, value_name = "NET,…", value_delimiter = ',')]
     pub(super) robots: Vec<String>,
     #[command(flatten)]
-    pub(super) circuit: CircuitArguments,
+    pub(super) making: MakingArguments,
     /// A test of a source file, by its title or its circuit [default: the first]
     #[arg(long, value_name = "NAME")]
     pub(super) test: Option<String>,
     #[command(flatten)]
-    pub(super) runs: RunsArguments,
+    pub(super) named: FilesArguments,
     /// Frames of a film for each cycle; fewer show a long run in a short time [default: 12]
     #[arg(long, value_name = "N", value_parser = PossibleValuesParser::new(["1", "2", "3", "4", "6", "12"]))]
     pub(super) frames: Option<String>,

@@ -13,10 +13,11 @@ use nbc_session::{Checked, Choice, CompileOptions, RUNS};
 /// The choice of a circuit in a file.
 #[derive(Args)]
 pub(in crate::cli) struct CircuitArguments {
-    /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one in the file]
+    /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one in the file, or all
+    /// that are tested]
     #[arg(long, value_name = "NAME")]
     circuit: Option<String>,
-    /// The swarm, if several are declared for the circuit
+    /// The swarm, if several are declared for the circuit; tests run once for each unless one is named
     #[arg(long, value_name = "NAME")]
     swarm: Option<String>,
 }
@@ -50,6 +51,11 @@ pub(in crate::cli) struct FilesArguments {
 }
 
 impl FilesArguments {
+    /// Whether the user replaced one.
+    pub(in crate::cli) fn is_given(&self) -> bool {
+        !self.named_files.is_empty()
+    }
+
     /// The files, each by its name and with its path.
     pub(in crate::cli) fn files(&self) -> Vec<(String, String)> {
         self.named_files.clone()

@@ -1,45 +1,57 @@
-//! How a circuit is mapped: the arguments that `nbc build` and `nbc synth` share.
-
-use std::path::PathBuf;
+//! How a circuit is mapped: the goal, and the cells of `nbc build` and `nbc synth`, which need not be robots.
 
 use clap::{Args, ValueEnum};
 
+use crate::cli::options::robots::RobotsArguments;
 use crate::cli::wording::UsageError;
 use crate::cli::{Failure, robots};
-use nbc_base::model::{Function, Library};
+use nbc_base::model::Function;
 use nbc_circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
 use nbc_session::CompileOptions;
 use nbc_session::store;
 
-/// The available cells and the options of mapping.
+/// The available cells and the goal of mapping, for circuits that no program declares.
 #[derive(Args)]
 pub(in crate::cli) struct MappingArguments {
-    /// The functions of the cells, such as `nand,not` or `xor,maj`, or `all` of two inputs, or `all3` of two and three;
-    /// by default those of the built-in robots
-    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
-    cells: Vec<String>,
-    /// A robot file, a folder of them, or `three`, whose functions are the cells
-    #[arg(long, value_name = "FILE")]
-    library: Option<PathBuf>,
+    #[command(flatten)]
+    cells: CellsArguments,
+    #[command(flatten)]
+    library: RobotsArguments,
     #[command(flatten)]
     goal: GoalArguments,
+}
+
+/// Cells that need not be robots.
+#[derive(Args)]
+pub(in crate::cli) struct CellsArguments {
+    /// The functions of the cells, such as `nand,not` or `xor,maj`, or `all` of two inputs, or `all3` of two and three;
+    /// by default those of the robots
+    #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',', conflicts_with = "library")]
+    cells: Vec<String>,
 }
 
 /// The goal of mapping.
 #[derive(Args)]
 pub(in crate::cli) struct GoalArguments {
-    /// What to optimize; of several robots for a function, the one that suits it best is used
-    #[arg(long, value_enum, default_value_t)]
-    objective: ObjectiveWord,
-    /// The amount of search
-    #[arg(long, value_enum, default_value_t)]
-    effort: EffortWord,
+    /// What to optimize; of several robots for a function, the one that suits it best is used [default: area]
+    #[arg(long, value_enum)]
+    objective: Option<ObjectiveWord>,
+    /// The amount of search [default: normal]
+    #[arg(long, value_enum)]
+    effort: Option<EffortWord>,
 }
 
 impl GoalArguments {
     /// How to map.
     pub(in crate::cli) fn options(&self) -> MapOptions {
-        MapOptions { objective: self.objective.into(), effort: self.effort.into(), ..MapOptions::default() }
+        let (objective, effort) = (self.objective.unwrap_or_default(), self.effort.unwrap_or_default());
+        MapOptions { objective: objective.into(), effort: effort.into(), ..MapOptions::default() }
+    }
+
+    /// The first of its options that the user gave.
+    pub(in crate::cli) fn given(&self) -> Option<&'static str> {
+        let objective = self.objective.map(|_| "--objective");
+        objective.or_else(|| self.effort.map(|_| "--effort"))
     }
 
     /// These options with the goal.
@@ -49,41 +61,44 @@ impl GoalArguments {
     }
 }
 
-impl MappingArguments {
-    /// The library that the user chose, else that of the built-in robots.
-    pub(in crate::cli) fn library(&self) -> Result<CellLibrary, Failure> {
-        Ok(self.chosen()?.unwrap_or_else(|| self.cells_of(store::shipped_library())))
-    }
-
-    fn cells_of(&self, robots: Library) -> CellLibrary {
-        nbc_swarm::cells(&nbc_swarm::prefer(robots, self.goal.options().objective))
-    }
-
-    /// The library that the user chose.
+impl CellsArguments {
+    /// The cells that the user chose.
+    ///
+    /// # Errors
+    /// When a function is unknown.
     pub(in crate::cli) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
-        Ok(Some(match (&self.library, &self.cells[..]) {
-            (Some(path), _) => self.cells_of(robots::robots_of(path)?),
-            (None, []) => return Ok(None),
-            (None, [all]) if all == "all" => CellLibrary::uniform(every_gate()),
-            (None, [all]) if all == "all3" => {
+        Ok(Some(match &self.cells[..] {
+            [] => return Ok(None),
+            [all] if all == "all" => CellLibrary::uniform(every_gate()),
+            [all] if all == "all3" => {
                 CellLibrary::uniform(every_gate().chain(Function::all_of(3).filter(|function| function.arity() == 3)))
             }
             // A robot of three stimuli can be wired in any order.
-            (None, names) => {
+            names => {
                 let arranged = |one: Function| if one.inputs() == 3 { one.arrangements() } else { vec![one] };
                 CellLibrary::uniform(functions(names)?.into_iter().flat_map(arranged))
             }
         }))
     }
+}
+
+impl MappingArguments {
+    /// The cells that the user chose, else those of the robots.
+    ///
+    /// # Errors
+    /// When a function is unknown, or the robots cannot be read.
+    pub(in crate::cli) fn library(&self) -> Result<CellLibrary, Failure> {
+        if let Some(cells) = self.cells.chosen()? {
+            return Ok(cells);
+        }
+        let robots = self.library.library.as_deref().map(robots::robots_of).transpose()?;
+        let robots = robots.unwrap_or_else(store::shipped_library);
+        Ok(nbc_swarm::cells(&nbc_swarm::prefer(robots, self.options().objective)))
+    }
 
     /// How to map.
     pub(in crate::cli) fn options(&self) -> MapOptions {
         self.goal.options()
-    }
-
-    /// These options with the goal.
-    pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
-        self.goal.with(options)
     }
 }
 

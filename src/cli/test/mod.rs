@@ -12,12 +12,12 @@ use clap::Args;
 use crate::cli::cluster::open_queue;
 use crate::cli::gpu::OpenDevice;
 use crate::cli::in_order::in_order;
-use crate::cli::options::circuit::{FilesArguments, RunsArguments};
+use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
-use crate::cli::options::mapping::GoalArguments;
+use crate::cli::options::making::MakingArguments;
 use crate::cli::options::queue::QueueArguments;
-use crate::cli::runs::unknown_run;
 use crate::cli::runs::wording::RunChoiceError;
+use crate::cli::runs::{chosen_runs, unknown_run};
 use crate::cli::task_executor::threads;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::Diagnostic;
@@ -69,9 +69,7 @@ pub struct TestArguments {
     #[command(flatten)]
     worlds: WorldsArguments,
     #[command(flatten)]
-    runs: RunsArguments,
-    #[command(flatten)]
-    goal: GoalArguments,
+    making: MakingArguments,
     #[command(flatten)]
     named: FilesArguments,
     #[command(flatten)]
@@ -183,20 +181,17 @@ impl TestArguments {
         interrupt: &Interrupt,
     ) -> Result<Vec<Numbered<'a>>, Failure> {
         self.named.check(files).map_err(Failure::plain)?;
-        let mut cases = Vec::new();
+        let (mut cases, choice, making) = (Vec::new(), self.making.choice(), self.making.options()?);
         for (number, file) in files.iter().enumerate() {
-            let compile = self.named.of(file, self.goal.with(self.runs.options()));
+            let compile = self.named.of(file, making.clone());
             let compile = CompileOptions { cancel: interrupt.cancel(), ..compile };
             let options = TestOptions { level: self.level(), compile };
-            let chosen: Vec<_> = match &self.only {
-                Some(name) => file.tests(name).collect(),
-                None => file.program.tests.iter().collect(),
-            };
-            for test in chosen {
+            for test in chosen_runs(file, self.only.as_deref(), &choice)?.tests {
                 cases.extend(session.cases(file, test, &options)?.into_iter().map(|case| (number, case)));
             }
         }
-        match (&self.only, files) {
+        let named = self.only.as_ref().or(choice.swarm.as_ref()).or(choice.circuit.as_ref());
+        match (named, files) {
             (Some(name), [first, ..]) if cases.is_empty() => Err(unknown_run(first, name).into()),
             _ => Ok(cases),
         }

@@ -23,9 +23,7 @@ use crate::check::wording::{CircuitError, EvolutionError};
 use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{
-    CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation,
-};
+use nbc_base::model::{CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation};
 use nbc_base::source::{SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
