@@ -10,20 +10,21 @@ use serde::Serialize;
 use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
+use nbc_base::diag::Diagnostic;
 use nbc_base::source::Simulated;
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
 use nbc_circuit::{CellLibrary, MapOptions, Netlist, levels, registers};
 use nbc_session::report::Schema;
-use nbc_session::store::{self, CircuitFile, CircuitRead, TopModule};
+use nbc_session::store::{self, CircuitFile, CircuitRead, ParameterValue, TopModule};
 use nbc_session::synthesize;
 
 const EXAMPLES: &str = "\
 Examples:
   nbc synth adder.blif -o adder_nand.blif --cells nand,not
   nbc synth c880.aig -o c880.nb --effort high
-  nbc synth fifo.v --top fifo --param WIDTH=4 -o fifo.nb
+  nbc synth fifo.v ram.v --top fifo --param WIDTH=4 -o fifo.nb
   nbc synth adder.blif --cells nand,not --what-if xor,and";
 
 /// Map another tool's circuit to few robots, and prove the result
@@ -33,8 +34,9 @@ Examples:
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SynthArguments {
-    /// The circuit: .blif, .aig, .aag, .bench, .v or .sv
-    input: PathBuf,
+    /// The circuit: .blif, .aig, .aag, .bench, or one or more files of Verilog, .v or .sv
+    #[arg(required = true)]
+    input: Vec<PathBuf>,
     /// The file to write: .blif, .aig, .aag, .v, .dot or .nb
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
@@ -44,8 +46,10 @@ pub struct SynthArguments {
     #[arg(long, value_name = "NAME")]
     top: Option<String>,
     /// A parameter of the Verilog module, such as `N=8`; may be repeated
+    ///
+    /// The value stands in the place of the default: `N=-2` has a sign and 32 bits, `N=4'b0101` is as it is written.
     #[arg(long, value_name = "NAME=NUMBER", value_parser = parameter)]
-    param: Vec<(String, u32)>,
+    param: Vec<(String, ParameterValue)>,
     /// The clock of latches without a clock in the file
     #[arg(long, value_name = "NAME")]
     clock: Option<String>,
@@ -88,6 +92,9 @@ struct Report {
     unreachable: Option<UnreachableReport>,
     proved: bool,
     proof: ProofReport,
+    /// The version of the Yosys that read the file, in the text only.
+    #[serde(skip)]
+    yosys: Option<String>,
     seconds: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     what_if: BTreeMap<String, i64>,
@@ -241,8 +248,10 @@ impl SynthArguments {
         let library = self.mapping.library()?;
         let what_if = functions(&self.what_if)?;
         let top = TopModule { name: self.top, parameters: self.param.into_iter().collect() };
-        let file = CircuitFile { path: &self.input, clock: self.clock.as_deref(), top: &top };
-        let CircuitRead { design: read, warnings, simulated } = store::read_circuit(&file)?;
+        let (path, others) = self.input.split_first().expect("a file is required");
+        let file = CircuitFile { path, others, clock: self.clock.as_deref(), top: &top };
+        let CircuitRead { design: read, mut warnings, simulated, yosys } = store::read_circuit(&file)?;
+        warnings.list.extend(yosys.as_deref().and_then(Diagnostic::old_yosys));
         context.tell(&warnings.list, &warnings.sources);
         let (design, removed) = correspondence::reduce(&read);
         let expand = match self.registers {
@@ -266,7 +275,7 @@ impl SynthArguments {
             store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
         }
         let proof = simulated.into();
-        let mut report = Report { unreachable, proof, ..Report::of(&design, removed, &result.logic, started) };
+        let mut report = Report { unreachable, proof, yosys, ..Report::of(&design, removed, &result.logic, started) };
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, nbc_circuit::CellKind::uniform(1, 1.0));
@@ -342,6 +351,7 @@ impl Report {
             // A circuit that is not proved is never reported.
             proved: true,
             proof: None.into(),
+            yosys: None,
             seconds: started.elapsed().as_secs_f64(),
             what_if: BTreeMap::new(),
         }
@@ -358,6 +368,7 @@ impl Report {
             self.proof.words(),
             self.seconds
         );
+        text.extend(self.yosys.iter().map(|version| format!("read by Yosys {version}\n")));
         text.push_str(&self.removed.text());
         text.extend(self.unreachable.iter().map(UnreachableReport::text));
         for (name, saved) in &self.what_if {
@@ -368,10 +379,10 @@ impl Report {
 }
 
 /// A parameter with its value.
-fn parameter(text: &str) -> Result<(String, u32), String> {
-    let parts = text.split_once('=').and_then(|(name, value)| Some((name.to_owned(), value.parse::<u32>().ok()?)));
-    let expected = "expected a name and a number below 2147483648, such as `N=8`";
-    parts.filter(|(_, value)| *value <= i32::MAX as u32).ok_or_else(|| expected.to_owned())
+fn parameter(text: &str) -> Result<(String, ParameterValue), String> {
+    let (name, value) = text.split_once('=').unwrap_or((text, ""));
+    let value = value.parse().map_err(|expected| format!("expected a name and a number: {expected}"))?;
+    Ok((name.to_owned(), value))
 }
 
 /// The format for a file's extension.

@@ -193,7 +193,7 @@ fn through_yosys(design: &Design) -> Design {
     let path = folder.path().join("x.v");
     std::fs::write(&path, CircuitFormat::Verilog.encode(design).unwrap()).unwrap();
     let (top, clock) = (&TopModule::default(), None);
-    let read = store::read_circuit(&CircuitFile { path: &path, clock, top });
+    let read = store::read_circuit(&CircuitFile { path: &path, others: &[], clock, top });
     let store::CircuitRead { design, warnings, .. } = read.unwrap_or_else(|faults| panic!("{:?}", faults.list));
     assert!(warnings.list.is_empty(), "{:?}", warnings.list);
     design

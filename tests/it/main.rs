@@ -39,6 +39,7 @@ mod long_program;
 mod lsp;
 mod manual;
 mod memory;
+mod misread;
 mod modules;
 mod notices;
 mod optima;

@@ -146,7 +146,7 @@ const FAKE_YOSYS: &str = "#!/bin/sh
 here=$(dirname \"$0\")
 echo \"$@\" >> \"$here/given\"
 cp \"$here/flat.blif\" flat.blif
-touch flat.il undriven.txt
+touch chosen.il flat.il undriven.txt
 ";
 
 #[cfg(unix)]

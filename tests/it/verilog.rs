@@ -219,7 +219,10 @@ fn errors_of_the_translation_are_at_lines_of_verilog() {
             "wire g;\nassign g = c & d;\nreg s;\nalways @(posedge g) s <= d;\nassign q = s;",
             ["driven by logic", "m.v:4:1"],
         ),
-        ("wire w;\nassign w = ~c;\nassign w = ~d;\nassign q = w;", ["defined twice", "m.v:1:1"]),
+        (
+            "wire w;\nassign w = ~c;\nassign w = ~d;\nassign q = w;",
+            ["`w` is driven twice: by logic (line 3) and by logic (line 4)", "m.v:4:1"],
+        ),
         ("wire [31:0] e = {31'd0, c};\nassign q = d ** (e * 3);\n", ["wide exponent", "m.v:3:1"]),
     ] {
         bench.file("m.v", format!("module m(input c, d, output q);\n{body}\nendmodule\n"));

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::buildable;
 use crate::checked::Checked;
 use crate::robots::{BuiltIn, RobotSources};
-use nbc_base::source::{FileError, OverlayWorld, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFile, VerilogModules};
 
 /// The sources of a session.
 pub(super) struct Documents {
@@ -22,8 +22,8 @@ pub(super) struct Documents {
     translations: Translations,
 }
 
-/// The last translation of each Verilog file with its text, by path. One that reads other files is not kept.
-type Translations = BTreeMap<String, (String, VerilogModules)>;
+/// The last translations of Verilog with their texts, by the paths of the files. One that reads others is not kept.
+type Translations = BTreeMap<Vec<String>, (Vec<String>, VerilogModules)>;
 
 /// What makes a Verilog text read other files.
 const READING: &str = "`include";
@@ -150,16 +150,18 @@ impl SourceWorld for RecordingWorld<'_> {
         self.world.read_bytes(path)
     }
 
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        let known = self.translations.borrow().get(path).filter(|(known, _)| known == text).cloned();
+    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+        let paths: Vec<String> = files.iter().map(|file| file.path.to_owned()).collect();
+        let texts: Vec<String> = files.iter().map(|file| file.text.to_owned()).collect();
+        let known = self.translations.borrow().get(&paths).filter(|(known, _)| *known == texts).cloned();
         if let Some((_, modules)) = known {
             return Ok(modules);
         }
-        let modules = self.world.translate_verilog(path, text);
+        let modules = self.world.translate_verilog(files);
         self.is_cancelled.set(self.is_cancelled.get() || modules == Err(VerilogError::Cancelled));
         let modules = modules?;
-        if !text.contains(READING) {
-            self.translations.borrow_mut().insert(path.to_owned(), (text.to_owned(), modules.clone()));
+        if !texts.iter().any(|text| text.contains(READING)) {
+            self.translations.borrow_mut().insert(paths, (texts, modules.clone()));
         }
         Ok(modules)
     }
@@ -232,7 +234,7 @@ mod tests {
             self.0.read(path)
         }
 
-        fn translate_verilog(&self, _: &str, _: &str) -> Result<VerilogModules, VerilogError> {
+        fn translate_verilog(&self, _: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
             self.1.fetch_add(1, Ordering::Relaxed);
             let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
             Ok(VerilogModules { blif, tops: vec!["f".to_owned()], ..VerilogModules::default() })
@@ -271,8 +273,8 @@ mod tests {
             self.0.read(path)
         }
 
-        fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-            let modules = self.0.translate_verilog(path, text);
+        fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+            let modules = self.0.translate_verilog(files);
             if self.0.1.load(Ordering::Relaxed) == 1 { Err(VerilogError::Cancelled) } else { modules }
         }
 

@@ -11,7 +11,7 @@ pub use file::{LineColumn, LineStarts, SourceFile, Sources, without_mark};
 pub use file_error::FileError;
 pub use span::{FileId, Span};
 pub use verilog::{
-    Simulated, VERILOG_SOURCE, VerilogDifference, VerilogError, VerilogFault, VerilogModules, VerilogName,
-    VerilogPlace, verilog_line,
+    Simulated, VERILOG_SOURCE, VerilogDifference, VerilogDrivers, VerilogError, VerilogFault, VerilogFile,
+    VerilogModules, VerilogName, VerilogPlace, verilog_line,
 };
 pub use world::{EntryKind, MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};

@@ -1,6 +1,7 @@
 //! Verilog through a [`SourceWorld`](super::SourceWorld): what its translator gives, and why there may be none.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use super::FileError;
 
@@ -10,6 +11,8 @@ pub const VERILOG_SOURCE: &str = "source.v";
 /// The modules of a Verilog file as BLIF.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VerilogModules {
+    /// The version of the Yosys that translated them, such as `0.23`.
+    pub yosys: String,
     /// A flat model for each module.
     pub blif: String,
     /// The names of the modules that no other module of the file contains, in order.
@@ -18,6 +21,8 @@ pub struct VerilogModules {
     pub undriven: Vec<VerilogName>,
     /// The modules that were left out, because they have no outputs.
     pub left_out: Vec<VerilogName>,
+    /// Hints for synthesizers that a simulator ignores, each kind once.
+    pub hints: Vec<VerilogName>,
     /// The lines that declare nets, by module and name.
     pub nets: BTreeMap<(String, String), usize>,
     /// The nets whose leftmost bit has the lowest number, such as `a` of `input [0:3] a`, by module and name.
@@ -79,11 +84,29 @@ pub struct VerilogName {
     pub place: Option<VerilogPlace>,
 }
 
+/// A net with two drivers.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct VerilogDrivers {
+    /// The net.
+    pub net: String,
+    /// What drives it, each with its place, if it is known.
+    pub drivers: [(String, Option<VerilogPlace>); 2],
+}
+
+/// A Verilog file that was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VerilogFile<'a> {
+    /// Its path.
+    pub path: &'a str,
+    /// Its text.
+    pub text: &'a str,
+}
+
 /// A line of a Verilog file or of a file that it includes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VerilogPlace {
-    /// The path of the file.
-    pub file: String,
+    /// The path of the file, which many places share.
+    pub file: Arc<str>,
     /// The line, from 1.
     pub line: usize,
 }
@@ -134,6 +157,18 @@ pub enum VerilogError {
     },
     /// A power whose exponent has too many bits that can change.
     WideExponent {
+        /// Its place, if it is known.
+        place: Option<VerilogPlace>,
+    },
+    /// Nets with two drivers.
+    DrivenTwice {
+        /// The nets.
+        nets: Vec<VerilogDrivers>,
+    },
+    /// A label of a `case` that has an unknown bit, and so never matches.
+    UnknownLabel {
+        /// The label.
+        label: String,
         /// Its place, if it is known.
         place: Option<VerilogPlace>,
     },
@@ -249,6 +284,13 @@ pub enum VerilogFault {
     },
     /// Macros or files that contain each other.
     TooDeep,
+    /// An argument of a task that goes in and out.
+    InOutArgument,
+    /// Too many included files.
+    TooManyFiles {
+        /// The limit.
+        most: usize,
+    },
     /// Macros and included files that become too much text.
     TooMuch {
         /// The limit, in megabytes.

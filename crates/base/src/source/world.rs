@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{FileError, VerilogError, VerilogModules};
+use super::{FileError, VerilogError, VerilogFile, VerilogModules};
 
 /// What can be at a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,11 +31,11 @@ pub trait SourceWorld {
         self.read(path).map(String::into_bytes)
     }
 
-    /// The modules of a Verilog text that was read from `path`.
+    /// The modules of Verilog files that were read, as one design.
     ///
     /// # Errors
     /// When the text has faults, or the world cannot translate Verilog.
-    fn translate_verilog(&self, _path: &str, _text: &str) -> Result<VerilogModules, VerilogError> {
+    fn translate_verilog(&self, _files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
         Err(VerilogError::NoTranslator)
     }
 
@@ -74,8 +74,8 @@ macro_rules! forward {
                 (**self).read_bytes(path)
             }
 
-            fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-                (**self).translate_verilog(path, text)
+            fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+                (**self).translate_verilog(files)
             }
 
             fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -167,8 +167,8 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
         over.map(String::into_bytes).or_else(|_| self.under.read_bytes(path))
     }
 
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        self.under.translate_verilog(path, text)
+    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+        self.under.translate_verilog(files)
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

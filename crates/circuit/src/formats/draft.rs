@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use crate::formats::design::{Design, Register};
+use crate::formats::design::{Design, Register, RegisterKind};
 use crate::formats::wording::TextError;
+use crate::proof::prove;
 use crate::{NetId, Netlist};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::Function;
@@ -146,19 +147,60 @@ impl Draft {
         at
     }
 
-    /// Registers must be clocked by inputs or registers: logic between them would be lost when registers are kept.
+    /// Registers must be clocked by inputs or registers: logic between them would be lost when registers are kept. A
+    /// latch that is always open is a wire.
     fn resolve_clocks(&mut self) {
+        let mut wires = Vec::new();
+        let mut known = BTreeMap::new();
         for at in 0..self.registers.len() {
-            let DraftRegister { register, span, .. } = self.registers[at].clone();
+            let DraftRegister { register, span, output, next, forcing } = self.registers[at].clone();
             let Some(&number) = register.clock.as_ref().and_then(|clock| self.numbers.get(clock)) else { continue };
             let source = self.source(number);
             if self.definitions[source as usize].is_some() {
-                let clock = self.text(number).to_owned();
-                self.fault(TextError::LogicClock { clock, register: register.name }, span);
+                let open = match register.kind {
+                    RegisterKind::High => Some(true),
+                    RegisterKind::Low => Some(false),
+                    RegisterKind::Rising | RegisterKind::Falling => None,
+                };
+                match open {
+                    Some(open)
+                        if forcing.is_empty()
+                            && *known.entry((source, open)).or_insert_with(|| self.is_always(source, open, span)) =>
+                    {
+                        wires.push((at, output, next, span));
+                    }
+                    Some(_) => self.fault(TextError::LogicEnable { latch: register.name }, span),
+                    None => {
+                        let clock = self.text(number).to_owned();
+                        self.fault(TextError::LogicClock { clock, register: register.name }, span);
+                    }
+                }
             } else {
                 self.registers[at].register.clock = Some(self.text(source).to_owned());
             }
         }
+        for &(at, output, next, span) in wires.iter().rev() {
+            self.registers.remove(at);
+            self.define(output, Definition::Cover { pins: vec![next], cubes: vec![b"1".to_vec()], value: true }, span);
+        }
+    }
+
+    /// Whether a net has this value for all inputs and states.
+    fn is_always(&self, net: NetName, value: bool, span: Span) -> bool {
+        let states = self.registers.iter().map(|register| (register.output, register.span));
+        let inputs = self.inputs.iter().copied().chain(states).collect();
+        let (errors, registers) = (Vec::new(), Vec::new());
+        let Ok(probe) = (Self { inputs, outputs: vec![(net, span)], registers, errors, ..self.clone() }).finish()
+        else {
+            return false;
+        };
+        let mut constant = Netlist::new(self.title.clone());
+        for &input in probe.logic.inputs() {
+            constant.add_input(probe.logic.net_name(input));
+        }
+        let driver = constant.add_constant(value);
+        constant.add_output(probe.logic.net_name(probe.logic.outputs()[0]), driver);
+        prove(&probe.logic, &constant).is_ok()
     }
 
     /// The design, if the draft is sound.

@@ -5,22 +5,22 @@ use crate::formats::design::Design;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, SourceFile, VerilogModules};
 
-/// Reads a translated module of a Verilog file.
+/// Reads a translated module of Verilog files.
 ///
 /// # Errors
 /// The errors of the translation, at the lines of the Verilog file.
 pub fn verilog_module(
     modules: &VerilogModules,
     module: &str,
-    source: &SourceFile,
+    files: &[&SourceFile],
     clock: Option<&str>,
 ) -> Result<Design, Vec<Diagnostic>> {
     let moved = |fault: Diagnostic| {
         let at = fault.labels.first().map(|label| label.span.start as usize);
         let place = at.and_then(|at| modules.place(module, at));
-        fault.of_verilog(source, place)
+        fault.of_verilog(files, place)
     };
-    let design = verilog_design(modules, module, source.id, clock);
+    let design = verilog_design(modules, module, files[0].id, clock);
     design.map_err(|faults| faults.into_iter().map(moved).collect())
 }
 

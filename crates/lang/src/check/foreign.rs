@@ -2,7 +2,7 @@
 
 use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::source::{SourceFile, SourceWorld, Span, VerilogModules};
+use nbc_base::source::{SourceFile, SourceWorld, Span, VerilogFile, VerilogModules};
 use nbc_circuit::correspondence;
 use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, verilog_module};
 
@@ -27,17 +27,19 @@ impl Foreign<'_> {
         Ok((text, blif::ignored(&source.text, source.id)))
     }
 
-    /// The circuits of a Verilog file as source text of the language, and warnings.
-    pub(super) fn verilog(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
-        let modules = self.world.translate_verilog(self.name, &source.text);
-        let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(source, &error), self.place)])?;
+    /// The circuits of Verilog files as source text of the language, and warnings.
+    pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
+        let modules = self.world.translate_verilog(&given);
+        let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(files, &error), self.place)])?;
         if modules.tops.is_empty() {
             return Err(self.fault(LoadError::NoModules { file: self.name.to_owned() }));
         }
-        let circuit = |name: &String| self.circuit(&self.module(&modules, source, name)?);
+        let circuit = |name: &String| self.circuit(&self.module(&modules, files, name)?);
         let texts: Result<Vec<String>, _> = modules.tops.iter().map(circuit).collect();
-        let warning = |wire| at_use(Diagnostic::undriven_wire(source, wire), self.place);
-        Ok((texts?.join("\n"), modules.undriven.iter().map(warning).collect()))
+        let undriven = modules.undriven.iter().map(|wire| Diagnostic::undriven_wire(files, wire));
+        let warnings = modules.hints.iter().map(|hint| Diagnostic::hint(files, hint)).chain(undriven);
+        Ok((texts?.join("\n"), warnings.map(|warning| at_use(warning, self.place)).collect()))
     }
 
     /// The circuit of an AIGER file as source text of the language.
@@ -57,9 +59,9 @@ impl Foreign<'_> {
         design
     }
 
-    fn module(&self, modules: &VerilogModules, source: &SourceFile, name: &str) -> Result<Design, Vec<Diagnostic>> {
+    fn module(&self, modules: &VerilogModules, files: &[&SourceFile], name: &str) -> Result<Design, Vec<Diagnostic>> {
         self.legal(name)?;
-        let design = verilog_module(modules, name, source, Some(Register::CLOCK));
+        let design = verilog_module(modules, name, files, Some(Register::CLOCK));
         design.map_err(|faults| faults.into_iter().map(|fault| at_use(fault, self.place)).collect())
     }
 

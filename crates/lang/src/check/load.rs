@@ -134,7 +134,10 @@ impl Loader<'_> {
         let result = match kind {
             Some(UsedKind::Program) => self.text(sources, &name, path).map(|file| self.file(sources, file, Home::Used)),
             Some(UsedKind::Circuit(format)) => self.circuits(sources, format, &name, path),
-            None => Err(vec![LoadError::NotUsable { file: name }.at(path.span)]),
+            None => match self.verilog_of(&name) {
+                files if files.is_empty() => Err(vec![LoadError::NotUsable { file: name }.at(path.span)]),
+                files => self.verilog(sources, &name, &files, path),
+            },
         };
         self.done.push(identity);
         if result.is_err() {
@@ -178,15 +181,47 @@ impl Loader<'_> {
         let text = match format {
             CircuitSource::Aiger => foreign.aiger(),
             CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
-            CircuitSource::Blif | CircuitSource::Verilog => {
+            CircuitSource::Blif => {
                 let file = self.text(sources, name, path)?;
-                let source = sources.file(file);
-                let read = if format == CircuitSource::Blif { foreign.blif(source) } else { foreign.verilog(source) };
-                let (text, warnings) = read?;
+                let (text, warnings) = foreign.blif(sources.file(file))?;
                 self.loaded.faults.extend(warnings);
                 Ok(text)
             }
+            CircuitSource::Verilog => return self.verilog(sources, name, &[name.to_owned()], path),
         }?;
+        self.add_circuits(sources, name, text, path)
+    }
+
+    /// The Verilog files in a folder, in the order of their names.
+    fn verilog_of(&self, folder: &str) -> Vec<String> {
+        let names = self.world.list(folder).unwrap_or_default().into_iter();
+        let is_verilog = |name: &String| CircuitSource::of_path(name) == Some(CircuitSource::Verilog);
+        names.filter(is_verilog).map(|name| format!("{folder}/{name}")).collect()
+    }
+
+    /// Translates Verilog files as one design to circuits of the language, and parses them.
+    fn verilog(
+        &mut self,
+        sources: &mut Sources,
+        name: &str,
+        files: &[String],
+        path: &Text,
+    ) -> Result<(), Vec<Diagnostic>> {
+        let ids = files.iter().map(|file| self.text(sources, file, path)).collect::<Result<Vec<_>, _>>()?;
+        let files: Vec<_> = ids.iter().map(|&id| sources.file(id)).collect();
+        let foreign = Foreign { world: self.world, format: CircuitSource::Verilog, name, place: path.span };
+        let (text, warnings) = foreign.verilog(&files)?;
+        self.loaded.faults.extend(warnings);
+        self.add_circuits(sources, name, text, path)
+    }
+
+    fn add_circuits(
+        &mut self,
+        sources: &mut Sources,
+        name: &str,
+        text: String,
+        path: &Text,
+    ) -> Result<(), Vec<Diagnostic>> {
         if let Some(error) = over_limits(sources, &text) {
             return Err(vec![error.at(path.span)]);
         }

@@ -1,12 +1,12 @@
 //! Circuit files, read and written in the format of their extension.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use crate::store::verilog::{TopModule, Verilog};
 use crate::store::wording::StoreError;
 use crate::store::{DiskWorld, disk};
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, Simulated, Sources, VerilogModules};
+use nbc_base::source::{FileError, FileId, Simulated, Sources, VerilogFile, VerilogModules};
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
 use nbc_lang::syntax;
@@ -16,6 +16,8 @@ use nbc_lang::syntax;
 pub struct CircuitFile<'a> {
     /// Its path.
     pub path: &'a Path,
+    /// Other files of the same design, of Verilog.
+    pub others: &'a [PathBuf],
     /// The clock of registers for which the file names none.
     pub clock: Option<&'a str>,
     /// The module or model to read.
@@ -31,11 +33,13 @@ pub struct CircuitRead {
     pub warnings: Diagnostics,
     /// If Yosys translated it, what a simulation beside the source has shown.
     pub simulated: Option<Simulated>,
+    /// The version of the Yosys that translated it, if one did.
+    pub yosys: Option<String>,
 }
 
 impl CircuitRead {
     fn plain(design: Design, warnings: Diagnostics) -> Self {
-        Self { design, warnings, simulated: None }
+        Self { design, warnings, simulated: None, yosys: None }
     }
 }
 
@@ -44,7 +48,7 @@ impl CircuitRead {
 /// # Errors
 /// A file that cannot be read, of an unknown format, or damaged; or a module that it does not have.
 pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
-    let &CircuitFile { path, clock, top } = from;
+    let &CircuitFile { path, others, clock, top } = from;
     let name = path.display().to_string();
     let format = CircuitSource::of_path(&name);
     let has_modules = matches!(format, Some(CircuitSource::Verilog | CircuitSource::Blif));
@@ -53,6 +57,10 @@ pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> 
     }
     if format.is_some() && !top.parameters.is_empty() && format != Some(CircuitSource::Verilog) {
         return Err(Diagnostic::from(StoreError::NoParameters { file: name }).into());
+    }
+    let is_verilog = |path: &PathBuf| CircuitSource::of_path(&path.to_string_lossy()) == Some(CircuitSource::Verilog);
+    if !others.is_empty() && (format != Some(CircuitSource::Verilog) || !others.iter().all(is_verilog)) {
+        return Err(Diagnostic::from(StoreError::SeveralFiles).into());
     }
     let design = match format {
         Some(CircuitSource::Aiger) => {
@@ -63,7 +71,7 @@ pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> 
         Some(CircuitSource::Blif) => return blif(name, text(path)?, from),
         Some(CircuitSource::Verilog) => {
             without_effect(&name, clock)?;
-            return verilog(name, text(path)?, from);
+            return verilog(from);
         }
         None => return Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
     };
@@ -91,23 +99,30 @@ fn without_effect(file: &str, clock: Option<&str>) -> Result<(), Diagnostics> {
     clock.map_or(Ok(()), |clock| Err(Diagnostic::from(unused(clock)).into()))
 }
 
-/// The top module of a Verilog text.
-fn verilog(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+/// The top module of Verilog files.
+fn verilog(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let mut sources = Sources::default();
-    let file = sources.add(name, text);
-    let (source, cancel) = (sources.file(file), &CancelFlag::default());
-    let modules = Verilog { world: &DiskWorld, path: &source.name, text: &source.text, cancel }.top(from.top);
-    let read = modules.map_err(|error| vec![Diagnostic::untranslated(source, &error)]).and_then(|modules| {
-        let VerilogModules { undriven, left_out, .. } = &modules;
-        let left_out = left_out.iter().map(|module| Diagnostic::left_out(source, module));
-        let warnings = left_out.chain(undriven.iter().map(|wire| Diagnostic::undriven_wire(source, wire))).collect();
-        let module = &modules.tops[0];
-        Ok((verilog_module(&modules, module, source, from.clock)?, warnings, modules.simulated.get(module).copied()))
+    for path in std::iter::once(from.path).chain(from.others.iter().map(PathBuf::as_path)) {
+        let text = text(path)?;
+        sources.add(path.display().to_string(), text);
+    }
+    let (files, cancel): (Vec<_>, _) = (sources.iter().collect(), &CancelFlag::default());
+    let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
+    let modules = Verilog { world: &DiskWorld, files: &given, cancel }.top(from.top);
+    let read = modules.map_err(|error| vec![Diagnostic::untranslated(&files, &error)]).and_then(|modules| {
+        let VerilogModules { undriven, left_out, hints, .. } = &modules;
+        let left_out = left_out.iter().map(|module| Diagnostic::left_out(&files, module));
+        let hints = hints.iter().map(|hint| Diagnostic::hint(&files, hint));
+        let undriven = undriven.iter().map(|wire| Diagnostic::undriven_wire(&files, wire));
+        let warnings = left_out.chain(hints).chain(undriven).collect();
+        let design = verilog_module(&modules, &modules.tops[0], &files, from.clock)?;
+        Ok((design, warnings, modules))
     });
     match read {
-        Ok((design, list, simulated)) => {
+        Ok((design, list, modules)) => {
+            let simulated = modules.simulated.get(&modules.tops[0]).copied();
             let simulated = Some(simulated.unwrap_or(Simulated::NotComparable));
-            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, simulated })
+            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, simulated, yosys: Some(modules.yosys) })
         }
         Err(list) => Err(Diagnostics { list, sources }),
     }

@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::store::disk;
 use crate::store::folder::FolderWorld;
 use crate::store::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// The files of this computer.
@@ -22,8 +22,8 @@ impl SourceWorld for DiskWorld {
         disk::source_bytes(Path::new(path))
     }
 
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        Verilog { world: self, path, text, cancel: &CancelFlag::default() }.modules()
+    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+        Verilog { world: self, files, cancel: &CancelFlag::default() }.modules()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 
 use crate::store::disk;
 use crate::store::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
@@ -94,8 +94,8 @@ impl SourceWorld for FolderWorld {
         disk::source_bytes(&self.existing(path)?)
     }
 
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
-        Verilog { world: self, path, text, cancel: &CancelFlag::default() }.modules()
+    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+        Verilog { world: self, files, cancel: &CancelFlag::default() }.modules()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

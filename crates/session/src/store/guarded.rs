@@ -4,7 +4,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::store::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogModules};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// Called before each translation. Returns the flag that ends it, or the reason why it is not permitted.
@@ -44,12 +44,12 @@ impl<W: VerilogFiles> SourceWorld for GuardedWorld<W> {
         self.world.read_bytes(path)
     }
 
-    fn translate_verilog(&self, path: &str, text: &str) -> Result<VerilogModules, VerilogError> {
+    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
         let cancel = (self.permit)()?;
         if cancel.is_raised() {
             return Err(VerilogError::Cancelled);
         }
-        Verilog { world: &self.world, path, text, cancel: &cancel }.modules()
+        Verilog { world: &self.world, files, cancel: &cancel }.modules()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -70,15 +70,16 @@ mod tests {
     use super::*;
     use crate::store::DiskWorld;
 
-    const TEXT: &str = "module m(input a, output q);\n assign q = a;\nendmodule\n";
+    const FILES: [VerilogFile<'_>; 1] =
+        [VerilogFile { path: "m.v", text: "module m(input a, output q);\n assign q = a;\nendmodule\n" }];
 
     #[test]
     fn nothing_is_translated_without_a_permit_or_after_its_end() {
         let refusing = GuardedWorld::new(DiskWorld, || Err(VerilogError::Untrusted));
-        assert_eq!(refusing.translate_verilog("m.v", TEXT), Err(VerilogError::Untrusted));
+        assert_eq!(refusing.translate_verilog(&FILES), Err(VerilogError::Untrusted));
         let cancel = CancelFlag::default();
         cancel.raise();
         let over = GuardedWorld::until(DiskWorld, cancel);
-        assert_eq!(over.translate_verilog("m.v", TEXT), Err(VerilogError::Cancelled));
+        assert_eq!(over.translate_verilog(&FILES), Err(VerilogError::Cancelled));
     }
 }

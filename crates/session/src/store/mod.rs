@@ -72,5 +72,5 @@ pub use swarm_checkpoint::SwarmCheckpoint;
 #[cfg(feature = "disk")]
 pub use temporary::{PrivateFile, temporary_folder};
 #[cfg(feature = "disk")]
-pub use verilog::{TopModule, VerilogFiles};
+pub use verilog::{ParameterValue, TopModule, VerilogFiles};
 pub use yaml::MAX_ROBOT_BYTES;

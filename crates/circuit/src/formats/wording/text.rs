@@ -21,6 +21,8 @@ pub enum TextError {
     DefinedTwice { net: String, first: Span },
     /// A clock that is neither an input nor a register.
     LogicClock { clock: String, register: String },
+    /// A latch whose enable is neither an input nor a register.
+    LogicEnable { latch: String },
     /// An input or register with a gate.
     DrivenTwice { net: String },
     /// A net without a definition.
@@ -73,6 +75,13 @@ impl TextError {
             Self::LogicClock { clock, register } => {
                 let message = format!("the clock `{clock}` of `{register}` is driven by logic");
                 damaged(message, span, "expected an input or a register as clock")
+            }
+            Self::LogicEnable { latch } => {
+                let message = format!("`{latch}` is a latch, and logic computes when it is open");
+                damaged(message, span, "it keeps its value wherever nothing sets it").with_help(
+                    "set it in every case, such as by a value before the first `if`; a latch must be opened by an \
+                     input or a register",
+                )
             }
             Self::DrivenTwice { net } => {
                 let label = "an input or a register cannot have another driver";

@@ -53,7 +53,8 @@ impl LoadError {
                 .with_suggestion(None, &meant),
             Self::NotUsable { file } => {
                 let message = format!("cannot use `{file}`: it is neither a program nor a circuit file");
-                let label = "expected a file name ending in .nb, .blif, .aig, .aag, .bench, .v or .sv";
+                let label =
+                    "expected a file name ending in .nb, .blif, .aig, .aag, .bench, .v or .sv, or a folder of Verilog";
                 Diagnostic::new(Code::Unreadable, message, span, label)
                     .with_help("a link must lead to a file name with the same ending")
             }

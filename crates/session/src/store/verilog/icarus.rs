@@ -4,7 +4,7 @@
 //! A bit that is `x` or `z` in the source is open, so any value of the translation is right. Registers that the source
 //! leaves open at the start begin with the start values of the translation.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -49,13 +49,12 @@ pub(super) fn simulated(
     folder: &Path,
     source: &str,
     mut modules: VerilogModules,
-    parameters: &BTreeMap<String, u32>,
     cancel: &CancelFlag,
 ) -> Result<VerilogModules, VerilogError> {
     write(folder, WRITTEN, source)?;
     for module in modules.tops.clone() {
         let found = match verilog_design(&modules, &module, FileId(0), None) {
-            Ok(design) => Icarus::new(folder, &module, &design, parameters, cancel).compare(&modules)?,
+            Ok(design) => Icarus::new(folder, &module, &design, cancel).compare(&modules)?,
             // The error is told where the module is read.
             Err(_) => Simulated::NotComparable,
         };
@@ -69,20 +68,13 @@ struct Icarus<'a> {
     folder: &'a Path,
     module: &'a str,
     design: &'a Design,
-    parameters: &'a BTreeMap<String, u32>,
     cancel: &'a CancelFlag,
     inputs: Vec<Bus>,
     outputs: Vec<Bus>,
 }
 
 impl<'a> Icarus<'a> {
-    fn new(
-        folder: &'a Path,
-        module: &'a str,
-        design: &'a Design,
-        parameters: &'a BTreeMap<String, u32>,
-        cancel: &'a CancelFlag,
-    ) -> Self {
+    fn new(folder: &'a Path, module: &'a str, design: &'a Design, cancel: &'a CancelFlag) -> Self {
         let logic = &design.logic;
         let ports = |ids: &[nbc_circuit::NetId]| {
             let names: Vec<String> = ids.iter().map(|&id| logic.net_name(id)).collect();
@@ -90,7 +82,7 @@ impl<'a> Icarus<'a> {
         };
         let (inputs, outputs) =
             (ports(&logic.inputs()[..design.inputs()]), ports(&logic.outputs()[..design.outputs()]));
-        Self { folder, module, design, parameters, cancel, inputs, outputs }
+        Self { folder, module, design, cancel, inputs, outputs }
     }
 
     fn compare(&self, modules: &VerilogModules) -> Result<Simulated, VerilogError> {
@@ -201,9 +193,6 @@ impl<'a> Icarus<'a> {
         };
         let ports = self.inputs.iter().map(|bus| connection("in", bus));
         let ports = ports.chain(self.outputs.iter().map(|bus| connection("out", bus)));
-        let parameters: Vec<String> =
-            self.parameters.iter().map(|(name, value)| format!(".\\{name} ({value})")).collect();
-        let parameters = if parameters.is_empty() { String::new() } else { format!(" #({})", parameters.join(", ")) };
         let digits = |bits: &[bool]| word(bits.iter().rev().copied().chain(bits.is_empty().then_some(false)));
         // Logic that only reads inputs begins when these change.
         let (first, plain) = (digits(&run.steps[0].inputs), digits(&run.plain));
@@ -215,7 +204,7 @@ impl<'a> Icarus<'a> {
              reg [{last_in}:0] in = {width}'b{first};\n\
              wire [{last_out}:0] out;\n\
              integer at, file;\n\
-             \\{} {parameters} dut({});\n\
+             \\{} dut({});\n\
              initial begin {more} $readmemb(\"{STEPS}\", all); file = $fopen(\"{VALUES}\");\n\
              #{part} in = in ^ {width}'b{plain}; #{part} in = in ^ {width}'b{plain}; #{part}\n",
             steps.max(1) - 1,

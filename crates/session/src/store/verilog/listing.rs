@@ -1,14 +1,34 @@
 //! The text that Yosys reads, and where its lines come from.
 
+use std::collections::BTreeMap;
+use std::ops::Range;
+
 use crate::store::verilog::checker::{TokenChecker, TokenFault};
 use crate::store::verilog::modules::ModuleList;
+use crate::store::verilog::parameter::ParameterValue;
+use crate::store::verilog::printing::PrintFilter;
 use crate::store::verilog::source::{Reader, Source};
 use crate::store::verilog::token::{TokenPlace, VerilogToken, VerilogTokenKind};
-use nbc_base::source::{VerilogError, VerilogName, VerilogPlace};
+use nbc_base::source::{VerilogError, VerilogFile, VerilogName, VerilogPlace};
+use nbc_circuit::CancelFlag;
+
+/// What is to be listed.
+#[derive(Clone, Copy)]
+pub(super) struct ListingRequest<'a> {
+    pub(super) files: &'a [VerilogFile<'a>],
+    /// The wanted module.
+    pub(super) top: Option<&'a str>,
+    pub(super) parameters: &'a BTreeMap<String, ParameterValue>,
+    pub(super) read: Reader<'a>,
+    pub(super) cancel: &'a CancelFlag,
+}
 
 /// A text that reads no files and runs no programs.
 pub(super) struct VerilogListing {
+    /// What was written, without directives and without statements that only print.
     pub(super) text: String,
+    /// Hints for synthesizers, each kind once.
+    pub(super) hints: Vec<VerilogName>,
     /// The place of each line.
     pub(super) lines: Vec<VerilogPlace>,
     /// The modules that are not in the text, because they have no outputs.
@@ -17,28 +37,37 @@ pub(super) struct VerilogListing {
     pub(super) tops: Vec<String>,
     /// The parameters of the wanted module, or of the only one of these.
     pub(super) parameters: Vec<String>,
+    /// The places of assignments to nets, by module and name.
+    pub(super) assigned: BTreeMap<(String, String), Vec<VerilogPlace>>,
 }
 
 impl VerilogListing {
-    /// The text of a file, with the files that it includes. A wanted module is in it, whatever its outputs.
+    /// The text of some files, with those that they include. A wanted module is in it, whatever its outputs.
     ///
     /// # Errors
     /// When it could lead to other files or programs, or is not Verilog for circuits.
-    pub(super) fn of(path: &str, text: &str, top: Option<&str>, read: Reader<'_>) -> Result<Self, VerilogError> {
-        let mut source = Source::new(path, text, read);
-        let mut checker = TokenChecker::default();
+    pub(super) fn of(request: &ListingRequest<'_>) -> Result<Self, VerilogError> {
+        let &ListingRequest { files, top, parameters, read, cancel } = request;
+        let mut source = Source::new(files, read, cancel);
+        let (mut checker, mut filter) = (TokenChecker::default(), PrintFilter::default());
         let mut listing = Self {
             text: String::new(),
+            hints: Vec::new(),
             lines: Vec::new(),
             left_out: Vec::new(),
             tops: Vec::new(),
             parameters: Vec::new(),
+            assigned: BTreeMap::new(),
         };
         let mut modules = ModuleList::default();
         let mut last = None;
         while let Some(token) = source.next()? {
+            if filter.leaves_out(&token) {
+                continue;
+            }
+            listing.hint(&token, &source);
             let start = listing.write(&token, &mut last, &source);
-            modules.see(&token, start..listing.text.len(), || source.place(token.place));
+            modules.see(&token, start..listing.text.len(), |at| source.place(at.place));
             if let Err(fault) = checker.see(&token) {
                 modules.fault(refused(fault, source.place(token.place)))?;
             }
@@ -47,8 +76,47 @@ impl VerilogListing {
         listing.tops = modules.tops();
         let wanted = top.or(listing.tops.first().map(String::as_str));
         listing.parameters = wanted.map_or_else(Vec::new, |top| modules.parameters(top));
+        listing.assigned = modules.take_assigned();
+        let values = match (parameters.is_empty(), top, &listing.tops[..]) {
+            (true, ..) => Vec::new(),
+            (_, Some(name), _) => modules.values(name, parameters)?,
+            (_, None, [only]) => modules.values(only, parameters)?,
+            (_, None, tops) => return Err(VerilogError::SeveralModules { known: tops.to_vec() }),
+        };
         listing.left_out = modules.leave_out(top, &mut listing.text)?;
+        listing.replace(values);
         Ok(listing)
+    }
+
+    /// Notes a hint for synthesizers, which a simulator ignores.
+    fn hint(&mut self, token: &VerilogToken, source: &Source<'_>) {
+        let text = token.text.as_str();
+        let is_choice = matches!(text, "case" | "casez" | "casex" | "if");
+        let hints: Vec<&str> = match token.kind {
+            VerilogTokenKind::Hint => {
+                ["full_case", "parallel_case"].into_iter().filter(|hint| text.contains(hint)).collect()
+            }
+            VerilogTokenKind::Word if matches!(text, "full_case" | "parallel_case") => vec![text],
+            VerilogTokenKind::Word if is_choice => {
+                let before = self.text.trim_end().rsplit(|c: char| !c.is_ascii_alphanumeric() && c != '_').next();
+                before.filter(|word| ["unique", "unique0", "priority"].contains(word)).into_iter().collect()
+            }
+            _ => return,
+        };
+        for hint in hints.into_iter().map(str::to_owned).collect::<Vec<_>>() {
+            if !self.hints.iter().any(|known| known.name == hint) {
+                self.hints.push(VerilogName { name: hint, place: Some(source.place(token.place)) });
+            }
+        }
+    }
+
+    /// Writes values in the place of other texts. Lines stay where they are.
+    fn replace(&mut self, mut values: Vec<(Range<usize>, String)>) {
+        values.sort_by_key(|(range, _)| std::cmp::Reverse(range.start));
+        for (range, value) in values {
+            let lines = "\n".repeat(self.text[range.clone()].matches('\n').count());
+            self.text.replace_range(range, &format!(" {value}{lines} "));
+        }
     }
 
     /// Writes a token, and returns where it begins.
@@ -82,6 +150,7 @@ fn refused(fault: TokenFault, place: VerilogPlace) -> VerilogError {
     match fault {
         TokenFault::Outside(word) => VerilogError::Outside { place, word },
         TokenFault::HighImpedance(construct) => VerilogError::HighImpedance { place, construct },
+        TokenFault::InOutArgument => VerilogError::Unclear { place, fault: VerilogFault::InOutArgument },
         TokenFault::NoDigits(base) => VerilogError::Unclear { place, fault: VerilogFault::NoDigits { base } },
     }
 }
@@ -131,7 +200,12 @@ mod tests {
     fn listed(text: &str, files: &[(&str, &str)]) -> Result<VerilogListing, VerilogError> {
         let files: BTreeMap<_, _> = files.iter().copied().collect();
         let read = |path: &str| files.get(path).map(|text| (*text).to_owned()).ok_or(FileError::NotFound);
-        VerilogListing::of("d/a.v", text, None, &read)
+        list(&[VerilogFile { path: "d/a.v", text }], &read)
+    }
+
+    fn list(files: &[VerilogFile<'_>], read: Reader<'_>) -> Result<VerilogListing, VerilogError> {
+        let (parameters, cancel) = (&BTreeMap::new(), &CancelFlag::default());
+        VerilogListing::of(&ListingRequest { files, top: None, parameters, read, cancel })
     }
 
     fn written(text: &str) -> Result<String, VerilogFault> {
@@ -161,6 +235,7 @@ mod tests {
             ("`ifdef NO\n`define A `endif\n`ifdef YOSYS\n1\n`else\n2\n`endif\n`else\n3\n`endif", "3"),
             ("`define LONG a \\\n b // c\n`LONG", "a b"),
             ("`timescale 1ns/1ps\n`default_nettype none\n`celldefine a", "`default_nettype none\na"),
+            ("`define CAT(a, b) a``b``_1 x\n`CAT(t, 1) `CAT(, u) `CAT(4, 'b1)", "t1_1 x u_1 x 4'b1_1 x"),
             ("a // synopsys translate_off\n`NO $system\n// synthesis translate_on\nb", "a\nb"),
         ] {
             assert_eq!(written(text).as_deref(), Ok(expected), "{text}");
@@ -189,7 +264,7 @@ mod tests {
         let directive = |word: &str, expected| VerilogFault::Directive { word: word.to_owned(), expected };
         for (text, fault) in [
             ("`NO", VerilogFault::Undefined { word: "`NO".to_owned() }),
-            ("a``b", VerilogFault::Undefined { word: "`".to_owned() }),
+            ("a``b", VerilogFault::Undefined { word: "``".to_owned() }),
             ("`define A `A\n`A", VerilogFault::TooDeep),
             ("`ifdef A", VerilogFault::OpenCondition),
             ("`endif", VerilogFault::NoCondition { word: "`endif".to_owned() }),
@@ -206,7 +281,74 @@ mod tests {
     fn macros_that_double_are_too_much() {
         let double = |n: usize| format!("`define M{} `M{n} `M{n}\n", n + 1);
         let text: String = std::iter::once("`define M0 x\n".to_owned()).chain((0..40).map(double)).collect();
-        assert_eq!(written(&format!("{text}`M40")), Err(VerilogFault::TooMuch { megabytes: 64 }));
+        assert_eq!(written(&format!("{text}`M40")), Err(VerilogFault::TooMuch { megabytes: 8 }));
+    }
+
+    #[test]
+    fn files_that_include_each_other_often_are_too_much() {
+        let names: Vec<String> = (0..15).map(|n| format!("d/i{n}.vh")).collect();
+        let texts: Vec<String> = (1..=15).map(|n| format!("`include \"i{n}.vh\"\n").repeat(10)).collect();
+        let mut files: Vec<_> = names.iter().map(String::as_str).zip(texts.iter().map(String::as_str)).collect();
+        files.push(("d/i15.vh", ""));
+        match listed("`include \"i0.vh\"", &files) {
+            Err(VerilogError::Unclear { fault: VerilogFault::TooManyFiles { most: 4096 }, .. }) => {}
+            other => panic!("{:?}", other.map(|listing| listing.text)),
+        }
+    }
+
+    #[test]
+    fn a_listing_that_nobody_waits_for_ends() {
+        let cancel = CancelFlag::default();
+        cancel.raise();
+        let (files, parameters) = (&[VerilogFile { path: "a.v", text: "a" }], &BTreeMap::new());
+        let read = &|_: &str| Err(FileError::NotFound);
+        let listed = VerilogListing::of(&ListingRequest { files, top: None, parameters, read, cancel: &cancel });
+        assert_eq!(listed.err(), Some(VerilogError::Cancelled));
+    }
+
+    #[test]
+    fn several_files_are_one_text_with_the_macros_of_those_before() {
+        let files = [
+            VerilogFile { path: "a.v", text: "`define W 4\nmodule a(output q); endmodule" },
+            VerilogFile { path: "b.v", text: "module b(output [`W:0] q); a u(q[0]); endmodule" },
+        ];
+        let listing = list(&files, &|_| Err(FileError::NotFound)).unwrap();
+        assert_eq!(listing.tops, ["b"]);
+        assert_eq!(listing.place(2), Some(VerilogPlace { file: "b.v".into(), line: 1 }));
+    }
+
+    #[test]
+    fn parameters_have_their_values_in_the_place_of_their_defaults() {
+        let text = "module a #(parameter N = 2 +\n (3), parameter signed [3:0] M = f(1, 2)) (output q);\n\
+                    parameter K = 1, L = {2{1'b1}}; localparam P = 1; endmodule \
+                    module b #(Q = 1) (output r); endmodule";
+        let listed = |top, values: &[(&str, &str)]| {
+            let parameters = values.iter().map(|(name, value)| ((*name).to_owned(), value.parse().unwrap())).collect();
+            let (files, cancel) = (&[VerilogFile { path: "a.v", text }], &CancelFlag::default());
+            let read = &|_: &str| Err(FileError::NotFound);
+            VerilogListing::of(&ListingRequest { files, top, parameters: &parameters, read, cancel })
+        };
+        let listing = listed(Some("a"), &[("N", "-2"), ("M", "4'd3"), ("L", "7")]).unwrap();
+        let expected = "module a #(parameter N = -2\n , parameter signed [3:0] M = 4'd3 ) (output q);\n\
+                        parameter K = 1, L = 7 ; localparam P = 1; endmodule";
+        assert!(listing.text.starts_with(expected), "{}", listing.text);
+        assert!(listed(Some("b"), &[("Q", "3")]).unwrap().text.contains("#(Q = 3 )"));
+        let known = ["K", "L", "M", "N"].map(str::to_owned).to_vec();
+        let missing = VerilogError::NoParameter { parameter: "P".to_owned(), known };
+        assert_eq!(listed(Some("a"), &[("P", "3")]).err(), Some(missing));
+        let several = VerilogError::SeveralModules { known: vec!["a".to_owned(), "b".to_owned()] };
+        assert_eq!(listed(None, &[("N", "3")]).err(), Some(several));
+    }
+
+    #[test]
+    fn hints_are_noted_once() {
+        let text = "case (s) // synopsys full_case parallel_case\n endcase (* parallel_case *) case (s) endcase \
+                    unique case (s) endcase unique if (a) ;";
+        let hints = listed(text, &[]).unwrap().hints;
+        assert_eq!(
+            hints.iter().map(|hint| hint.name.as_str()).collect::<Vec<_>>(),
+            ["full_case", "parallel_case", "unique"]
+        );
     }
 
     #[test]
@@ -214,10 +356,10 @@ mod tests {
         let included = [("d/p/b.vh", "b1\n`include \"c.vh\"\nb3"), ("d/p/c.vh", "c1")];
         let listing = listed("\n\na3\n`include \"p/b.vh\"\na5", &included).unwrap();
         assert_eq!(listing.text, "a3\nb1\nc1\nb3\na5\n");
-        let places: Vec<_> = listing.lines.iter().map(|place| (place.file.as_str(), place.line)).collect();
+        let places: Vec<_> = listing.lines.iter().map(|place| (&*place.file, place.line)).collect();
         assert_eq!(places, [("d/a.v", 3), ("d/p/b.vh", 1), ("d/p/c.vh", 1), ("d/p/b.vh", 3), ("d/a.v", 5)]);
-        assert_eq!(listing.place(2).unwrap().file, "d/p/b.vh");
-        let place = VerilogPlace { file: "d/a.v".to_owned(), line: 2 };
+        assert_eq!(&*listing.place(2).unwrap().file, "d/p/b.vh");
+        let place = VerilogPlace { file: "d/a.v".into(), line: 2 };
         let missing = VerilogError::Include { place, path: "no.vh".to_owned(), error: FileError::NotFound };
         assert_eq!(listed("\n`include \"no.vh\"", &included).err(), Some(missing));
     }
@@ -230,7 +372,7 @@ mod tests {
         ) {
             let text = words.join(spaces);
             let read = |_: &str| -> Result<String, FileError> { Ok("`include \"a\"\n`define A `A".to_owned()) };
-            if let Ok(listing) = VerilogListing::of("m.v", &text, None, &read) {
+            if let Ok(listing) = list(&[VerilogFile { path: "m.v", text: &text }], &read) {
                 prop_assert!(listing.place(listing.text.lines().count() + 1).is_none());
             }
         }

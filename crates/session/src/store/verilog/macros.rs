@@ -57,8 +57,14 @@ impl Macro {
         if arguments.len() > parameters.len() {
             return Err(wrong());
         }
-        let mut tokens = Vec::new();
+        let mut tokens: Vec<VerilogToken> = Vec::new();
+        // Whether the next operand is joined to the last one, and whether that was empty.
+        let (mut is_joined, mut was_empty) = (false, true);
         for token in &self.body {
+            if token.kind == VerilogTokenKind::Directive && token.text == JOIN {
+                is_joined = true;
+                continue;
+            }
             let parameter =
                 parameters.iter().position(|one| token.kind == VerilogTokenKind::Word && one.name == token.text);
             let meant = match parameter {
@@ -69,6 +75,16 @@ impl Macro {
                 None => std::slice::from_ref(token),
             };
             budget.spend(meant.iter().map(|token| token.text.len() + 1).sum())?;
+            match (std::mem::take(&mut is_joined), meant.split_first()) {
+                (true, None) => continue,
+                (true, Some((next, others))) if !was_empty => {
+                    let last = tokens.pop().expect("the operand before was not empty");
+                    tokens.extend(joined(&last, &next.text)?);
+                    tokens.extend(others.iter().map(|token| VerilogToken { place, ..token.clone() }));
+                    continue;
+                }
+                _ => was_empty = meant.is_empty(),
+            }
             let first = tokens.len();
             tokens.extend(meant.iter().map(|token| VerilogToken { place, ..token.clone() }));
             // No two words become one.
@@ -78,6 +94,19 @@ impl Macro {
         }
         Ok(tokens)
     }
+}
+
+/// What joins the tokens beside it in a macro.
+const JOIN: &str = "``";
+
+/// A token and a text after it as one token, if they can be one.
+fn joined(token: &VerilogToken, text: &str) -> Result<Vec<VerilogToken>, VerilogFault> {
+    let mut lexer = Lexer::new(format!("{}{text}", token.text), token.place);
+    let mut tokens = Vec::new();
+    while let Some(next) = lexer.next()? {
+        tokens.push(VerilogToken { place: token.place, is_spaced: tokens.is_empty() && token.is_spaced, ..next });
+    }
+    Ok(tokens)
 }
 
 /// A parameter of a definition: a name, perhaps with `=` and a default.
@@ -122,15 +151,30 @@ pub(super) fn arguments(
     Ok(if is_empty { Vec::new() } else { lists })
 }
 
-/// The bytes of text that macros and included files may still become.
+/// What macros and included files may still become.
 #[derive(Debug)]
-pub(super) struct Budget(usize);
+pub(super) struct Budget {
+    /// Bytes of text.
+    bytes: usize,
+    /// Included files, each counted as often as it is included.
+    files: usize,
+}
 
 impl Budget {
-    const MEGABYTES: usize = 64;
+    const MEGABYTES: usize = 8;
+    const FILES: usize = 4096;
 
     pub(super) fn new() -> Self {
-        Self(Self::MEGABYTES << 20)
+        Self { bytes: Self::MEGABYTES << 20, files: Self::FILES }
+    }
+
+    /// Takes a file.
+    ///
+    /// # Errors
+    /// When none is left.
+    pub(super) fn include(&mut self) -> Result<(), VerilogFault> {
+        self.files = self.files.checked_sub(1).ok_or(VerilogFault::TooManyFiles { most: Self::FILES })?;
+        Ok(())
     }
 
     /// Takes bytes.
@@ -138,7 +182,7 @@ impl Budget {
     /// # Errors
     /// When they are more than are left.
     pub(super) fn spend(&mut self, bytes: usize) -> Result<(), VerilogFault> {
-        self.0 = self.0.checked_sub(bytes).ok_or(VerilogFault::TooMuch { megabytes: Self::MEGABYTES })?;
+        self.bytes = self.bytes.checked_sub(bytes).ok_or(VerilogFault::TooMuch { megabytes: Self::MEGABYTES })?;
         Ok(())
     }
 }

@@ -6,16 +6,22 @@
 
 mod checker;
 mod conditions;
+mod drivers;
 mod icarus;
 mod listing;
 mod macros;
+mod misread;
 mod modules;
 mod open_values;
+mod parameter;
+mod printing;
 mod process;
+mod reason;
 mod rtlil;
 mod source;
 mod token;
 mod yosys;
 
+pub use parameter::ParameterValue;
 pub(super) use yosys::Verilog;
 pub use yosys::{TopModule, VerilogFiles};

@@ -1,9 +1,10 @@
 //! The modules of a text that Yosys is to read. One without outputs, such as a test bench, is no circuit: it is left
 //! out, unless a module that is read needs it.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::ops::Range;
 
+use crate::store::verilog::parameter::ParameterValue;
 use crate::store::verilog::token::{VerilogToken, VerilogTokenKind};
 use nbc_base::source::{VerilogError, VerilogName, VerilogPlace};
 
@@ -15,8 +16,8 @@ struct ListedModule {
     /// Its text, from the keyword to the end.
     text: Range<usize>,
     has_outputs: bool,
-    /// The names of its parameters.
-    parameters: BTreeSet<String>,
+    /// The places of its parameters' defaults.
+    parameters: BTreeMap<String, Range<usize>>,
     /// Its words, among them the modules that it contains.
     words: BTreeSet<String>,
     /// Why it cannot be read, if it is.
@@ -35,21 +36,32 @@ pub(super) struct ModuleList {
     is_parameter: bool,
     /// The word before.
     last: String,
+    /// The parameter whose default has not ended, and the brackets that are open in it.
+    default: Option<(String, usize)>,
+    /// The nets of the left side of an assignment, if one is open, and the brackets that are open in it.
+    targets: Option<(Vec<(String, VerilogPlace)>, usize)>,
+    /// The places of assignments to nets, by module and name.
+    assigned: BTreeMap<(String, String), Vec<VerilogPlace>>,
 }
 
 impl ModuleList {
     /// Takes the next token, which begins and ends at these bytes of the text.
-    pub(super) fn see(&mut self, token: &VerilogToken, bytes: Range<usize>, place: impl FnOnce() -> VerilogPlace) {
+    pub(super) fn see(
+        &mut self,
+        token: &VerilogToken,
+        bytes: Range<usize>,
+        place: impl Fn(&VerilogToken) -> VerilogPlace,
+    ) {
         let word = token.text.as_str();
         if token.kind == VerilogTokenKind::Word && !self.is_open && matches!(word, "module" | "macromodule") {
             self.is_open = true;
-            (self.tasks, self.is_parameter) = (0, false);
+            (self.tasks, self.is_parameter, self.default, self.targets) = (0, false, None, None);
             self.modules.push(ListedModule {
                 name: String::new(),
-                place: place(),
+                place: place(token),
                 text: bytes,
                 has_outputs: false,
-                parameters: BTreeSet::new(),
+                parameters: BTreeMap::new(),
                 words: BTreeSet::new(),
                 fault: None,
             });
@@ -57,18 +69,48 @@ impl ModuleList {
         }
         let Some(module) = self.modules.last_mut().filter(|_| self.is_open) else { return };
         module.text.end = bytes.end;
+        let sign = if token.kind == VerilogTokenKind::Sign { word } else { "" };
+        if let Some((parameter, depth)) = &mut self.default {
+            match sign {
+                "(" | "[" | "{" => *depth += 1,
+                ")" | "," | ";" if *depth == 0 => {
+                    module.parameters.entry(std::mem::take(parameter)).and_modify(|text| text.end = bytes.start);
+                    self.default = None;
+                }
+                ")" | "]" | "}" => *depth = depth.saturating_sub(1),
+                _ => {}
+            }
+        }
+        if let Some((targets, depth)) = &mut self.targets {
+            match sign {
+                "[" => *depth += 1,
+                "]" => *depth = depth.saturating_sub(1),
+                "=" => {
+                    for (name, place) in self.targets.take().into_iter().flat_map(|(targets, _)| targets) {
+                        self.assigned.entry((module.name.clone(), name)).or_default().push(place);
+                    }
+                }
+                _ if *depth == 0 && matches!(token.kind, VerilogTokenKind::Word | VerilogTokenKind::Escaped) => {
+                    targets.push((word.trim_start_matches('\\').to_owned(), place(token)));
+                }
+                _ => {}
+            }
+        }
         match token.kind {
             VerilogTokenKind::Word => match word {
                 "endmodule" => self.is_open = false,
                 "task" | "function" => self.tasks += 1,
                 "endtask" | "endfunction" => self.tasks = self.tasks.saturating_sub(1),
                 "output" => module.has_outputs |= self.tasks == 0,
+                "assign" => self.targets = Some((Vec::new(), 0)),
                 _ => {}
             },
-            VerilogTokenKind::Sign if word == "=" && self.is_parameter => {
-                module.parameters.insert(self.last.clone());
+            VerilogTokenKind::Sign if word == "=" && self.is_parameter && self.default.is_none() => {
+                module.parameters.insert(self.last.clone(), bytes.end..bytes.end);
+                self.default = Some((self.last.clone(), 0));
             }
             VerilogTokenKind::Sign if word == ";" => self.is_parameter = false,
+            VerilogTokenKind::Sign if word == "#" && module.words.is_empty() => self.is_parameter = true,
             _ => {}
         }
         if matches!(token.kind, VerilogTokenKind::Word | VerilogTokenKind::Escaped) {
@@ -132,7 +174,31 @@ impl ModuleList {
     /// The parameters of a module.
     pub(super) fn parameters(&self, module: &str) -> Vec<String> {
         let found = self.modules.iter().find(|known| known.name == module);
-        found.map_or_else(Vec::new, |module| module.parameters.iter().cloned().collect())
+        found.map_or_else(Vec::new, |module| module.parameters.keys().cloned().collect())
+    }
+
+    /// Values in the places of the defaults of a module's parameters.
+    ///
+    /// # Errors
+    /// When it has no such parameter.
+    pub(super) fn values(
+        &self,
+        module: &str,
+        values: &BTreeMap<String, ParameterValue>,
+    ) -> Result<Vec<(Range<usize>, String)>, VerilogError> {
+        // A module that is missing is another fault.
+        let Some(found) = self.modules.iter().find(|known| known.name == module) else { return Ok(Vec::new()) };
+        let unknown = |parameter: &String| VerilogError::NoParameter {
+            parameter: parameter.clone(),
+            known: self.parameters(module),
+        };
+        let place = |parameter: &String| found.parameters.get(parameter).cloned().ok_or_else(|| unknown(parameter));
+        values.iter().map(|(parameter, value)| Ok((place(parameter)?, value.to_string()))).collect()
+    }
+
+    /// The places of assignments to nets, by module and name.
+    pub(super) fn take_assigned(&mut self) -> BTreeMap<(String, String), Vec<VerilogPlace>> {
+        std::mem::take(&mut self.assigned)
     }
 
     /// Whether each module is read: it has outputs, is wanted, or such a module names it. If there is none with

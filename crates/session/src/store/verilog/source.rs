@@ -4,11 +4,14 @@
 //! text is the text that Yosys sees.
 
 use std::collections::BTreeMap;
+use std::rc::Rc;
+use std::sync::Arc;
 
 use crate::store::verilog::conditions::Conditions;
 use crate::store::verilog::macros::{Budget, Macro, arguments};
 use crate::store::verilog::token::{Lexer, TokenPlace, VerilogToken, VerilogTokenKind};
-use nbc_base::source::{FileError, VerilogError, VerilogFault, VerilogPlace};
+use nbc_base::source::{FileError, VerilogError, VerilogFault, VerilogFile, VerilogPlace};
+use nbc_circuit::CancelFlag;
 
 /// The most macros and included files inside each other.
 const DEPTH: usize = 64;
@@ -18,11 +21,17 @@ const DEFINED: [&str; 2] = ["SYNTHESIS", "YOSYS"];
 /// Reads an included file: its path and its text.
 pub(super) type Reader<'a> = &'a dyn Fn(&str) -> Result<String, FileError>;
 
-/// The tokens of a file, with macros expanded.
+/// The tokens of files, with macros expanded.
 pub(super) struct Source<'a> {
     read: Reader<'a>,
+    /// Ends the reading.
+    cancel: &'a CancelFlag,
+    /// The files that come after the first, last one first.
+    later: Vec<VerilogFile<'a>>,
+    /// The texts of included files.
+    included: BTreeMap<String, Rc<str>>,
     /// The paths of the files, by the numbers in places.
-    files: Vec<String>,
+    files: Vec<Arc<str>>,
     inputs: Vec<Input>,
     macros: BTreeMap<String, Macro>,
     conditions: Conditions,
@@ -39,9 +48,13 @@ enum Input {
 }
 
 impl<'a> Source<'a> {
-    pub(super) fn new(path: &str, text: &str, read: Reader<'a>) -> Self {
+    /// The tokens of some files, one after the other.
+    pub(super) fn new(files: &[VerilogFile<'a>], read: Reader<'a>, cancel: &'a CancelFlag) -> Self {
         let mut source = Self {
             read,
+            cancel,
+            later: files.iter().rev().copied().collect(),
+            included: BTreeMap::new(),
             files: Vec::new(),
             inputs: Vec::new(),
             macros: DEFINED.iter().map(|&name| (name.to_owned(), Macro::default())).collect(),
@@ -49,7 +62,7 @@ impl<'a> Source<'a> {
             budget: Budget::new(),
             is_off: false,
         };
-        source.enter(path.to_owned(), text);
+        source.enter_next();
         source
     }
 
@@ -65,9 +78,17 @@ impl<'a> Source<'a> {
     pub(super) fn next(&mut self) -> Result<Option<VerilogToken>, VerilogError> {
         let mut after_directive = false;
         loop {
+            if self.cancel.is_raised() {
+                return Err(VerilogError::Cancelled);
+            }
             let Some(mut token) = self.raw()? else {
-                let open = self.conditions.is_open().then_some(VerilogFault::OpenCondition);
-                return open.map_or(Ok(None), |fault| Err(self.fault(self.here(), fault)));
+                if self.conditions.is_open() {
+                    return Err(self.fault(self.here(), VerilogFault::OpenCondition));
+                }
+                if self.enter_next() {
+                    continue;
+                }
+                return Ok(None);
             };
             match token.kind {
                 VerilogTokenKind::Directive => {
@@ -132,17 +153,33 @@ impl<'a> Source<'a> {
             return Err(self.fault(token.place, VerilogFault::TooDeep));
         }
         let whole = beside(&self.files[token.place.file as usize], &path);
-        let text = (self.read)(&whole);
-        let text = text.map_err(|error| VerilogError::Include { place: self.place(token.place), path, error })?;
+        self.budget.include().map_err(|fault| self.fault(token.place, fault))?;
+        let text = match self.included.get(&whole) {
+            Some(text) => text.clone(),
+            None => {
+                let text = (self.read)(&whole);
+                let text =
+                    text.map_err(|error| VerilogError::Include { place: self.place(token.place), path, error })?;
+                self.included.entry(whole.clone()).or_insert(text.into()).clone()
+            }
+        };
         self.budget.spend(text.len() + 1).map_err(|fault| self.fault(token.place, fault))?;
-        self.enter(whole, &text);
+        self.enter(whole, text);
         Ok(())
     }
 
-    fn enter(&mut self, path: String, text: &str) {
+    fn enter(&mut self, path: String, text: Rc<str>) {
         let file = self.files.len() as u32;
-        self.files.push(path);
+        self.files.push(path.into());
         self.inputs.push(Input::File(Lexer::new(text, TokenPlace { file, line: 1 })));
+    }
+
+    /// Goes on with the next file, if there is one.
+    fn enter_next(&mut self) -> bool {
+        let Some(file) = self.later.pop() else { return false };
+        self.inputs.clear();
+        self.enter(file.path.to_owned(), file.text.into());
+        true
     }
 
     fn expand(&mut self, token: &VerilogToken) -> Result<(), VerilogError> {

@@ -70,6 +70,11 @@ impl Lexer {
         self.place
     }
 
+    /// The byte that was reached.
+    pub(super) fn offset(&self) -> usize {
+        self.at
+    }
+
     /// The next token; `None` at the end.
     ///
     /// # Errors
@@ -163,6 +168,7 @@ fn token(rest: &str, first: char) -> Result<(VerilogTokenKind, usize), VerilogFa
         '\'' => based(rest).map_or((VerilogTokenKind::Sign, 1), |length| (VerilogTokenKind::Based, length)),
         '"' => (VerilogTokenKind::Quoted, quoted(rest)?),
         '$' => (VerilogTokenKind::System, 1 + run(&rest[1..], is_word)),
+        '`' if rest.starts_with("``") => (VerilogTokenKind::Directive, 2),
         '`' => (VerilogTokenKind::Directive, 1 + run(&rest[1..], is_word)),
         '\\' => (VerilogTokenKind::Escaped, escaped(rest)?),
         c if c.is_ascii_graphic() => (VerilogTokenKind::Sign, 1),
@@ -230,9 +236,9 @@ fn escaped(rest: &str) -> Result<usize, VerilogFault> {
 fn hint(comment: &str) -> Option<String> {
     let mut words = comment[2..].trim_end_matches("*/").split_ascii_whitespace();
     let is_hint = matches!(words.next(), Some("synopsys" | "synthesis"));
-    let word = words.next().filter(|_| is_hint)?;
     let known = ["full_case", "parallel_case", "translate_off", "translate_on"];
-    known.contains(&word).then(|| format!("/* synopsys {word} */"))
+    let words: Vec<&str> = words.take_while(|word| is_hint && known.contains(word)).collect();
+    (!words.is_empty()).then(|| format!("/* synopsys {} */", words.join(" ")))
 }
 
 #[cfg(test)]
@@ -261,8 +267,11 @@ mod tests {
             ),
             ("\"a\\\"//b\" // c\n d", &[(Quoted, "\"a\\\"//b\""), (Word, "d")]),
             ("$signed/**/x", &[(System, "$signed"), (Word, "x")]),
-            ("`a `b``", &[(Directive, "`a"), (Directive, "`b"), (Directive, "`"), (Directive, "`")]),
-            ("//  synthesis full_case now\n", &[(Hint, "/* synopsys full_case */")]),
+            (
+                "`a `b``c``d",
+                &[(Directive, "`a"), (Directive, "`b"), (Directive, "``"), (Word, "c"), (Directive, "``"), (Word, "d")],
+            ),
+            ("//  synthesis full_case parallel_case now\n", &[(Hint, "/* synopsys full_case parallel_case */")]),
             ("'b", &[(Based, "'b")]),
             (
                 "1import 2e3f 4_0e",

