@@ -66,7 +66,7 @@ test("learners save beside each other, never over each other", async () => {
     await page.getByText(`You are in the class as ${name}`).waitFor();
     await typeProgram(page, `${LATCH}\n// of ${name}\n`);
     await page.locator("[data-do=save]").click();
-    await page.getByText("latch.nb is not a file of yours").waitFor();
+    await page.getByText("is not a file of yours: the class shares this folder").waitFor();
     await page.getByRole("button", { name: `Save as latch.${name}.nb` }).click();
     await page.locator('.file[data-unsaved="false"]').waitFor();
     assert.equal(await page.locator(".file").textContent(), `latch.${name}.nb`);
