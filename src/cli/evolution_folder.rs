@@ -4,9 +4,10 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::Failure;
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::FileError;
-use nbc_session::store::{self, Checkpoint, MAX_PROGRESS_BYTES};
+use nbc_session::store::{self, Checkpoint};
 
 /// The file in a run's folder that it is resumed from.
 pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
@@ -39,7 +40,7 @@ pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure
 
 /// The bytes of a file of progress; empty if there is no file.
 pub(super) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
-    match store::read(path, MAX_PROGRESS_BYTES) {
+    match store::read(path, Limit::ProgressBytes.most()) {
         Ok(bytes) => Ok(bytes),
         Err(FileError::NotFound) => Ok(Vec::new()),
         Err(error) => Err(Failure::plain(Diagnostic::unreadable(&path.display().to_string(), &error))),

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::cli::Failure;
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::wording::UsageError;
+use nbc_base::budget::Limit;
 use nbc_base::diag::suggest::nearest;
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Behavior, Body, Function, Library, Robot};
@@ -41,7 +42,7 @@ pub(super) fn named_library(arguments: &RobotsArguments) -> Result<Library, Fail
 /// The body in a file or, if there is no such file, that of a robot of the library.
 pub(super) fn read_body(robot: &str, library: &RobotsArguments) -> Result<Body, Failure> {
     let mut sources = Sources::default();
-    match store::read_text(Path::new(robot), store::MAX_ROBOT_BYTES) {
+    match store::read_text(Path::new(robot), Limit::RobotBytes.most()) {
         Ok(text) => {
             let id = sources.add(robot, text);
             store::read_body(sources.file(id)).map_err(|fault| Failure::input(vec![fault], sources))
@@ -86,7 +87,7 @@ pub(super) fn robots(path: &Path) -> Result<Library, Failure> {
     let mut found = Vec::new();
     for path in robot_paths(path)? {
         let name = path.display().to_string();
-        let text = store::read_text(&path, store::MAX_ROBOT_BYTES);
+        let text = store::read_text(&path, Limit::RobotBytes.most());
         let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &name, &error)))?;
         let id = sources.add(&name, text);
         match store::read_robot(sources.file(id)) {

@@ -1,11 +1,12 @@
 //! Hostile input: a clear message, bounded work, never a panic.
 
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, render};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 
 use crate::support::bench::Bench;
-use crate::support::limits::InTime;
+use crate::support::limits::{InTime, refused_by};
 
 fn found(text: String) -> Vec<Diagnostic> {
     let mut sources = Sources::default();
@@ -63,7 +64,7 @@ const STACK: usize = 512 << 10;
 
 #[test]
 fn the_deepest_nesting_needs_a_small_stack() {
-    let depth = nbc_lang::syntax::MAX_NESTING - 3;
+    let depth = Limit::Nesting.most() as usize - 3;
     let within = |open: &str, close: &str| circuit(&format!("q = {}a{}", open.repeat(depth), close.repeat(depth)));
     let texts = [
         within("(", ")"),
@@ -123,7 +124,7 @@ fn long_chains_of_circuits_are_rejected() {
 #[test]
 fn a_long_line_and_a_long_file_are_rejected() {
     rejected("a".repeat(10_000_000), Code::Unreadable);
-    rejected("a".repeat(7_000_000), Code::Syntax);
+    rejected("a".repeat(7_000_000), Code::TooLarge);
     rejected("(".repeat(1_000_000), Code::Nesting);
     rejected("circuit f(a) -> (q) { q = a }\0", Code::Unreadable);
     rejected("", Code::Empty);
@@ -208,18 +209,6 @@ fn pipes_are_not_read_and_other_files_not_shown() {
 #[track_caller]
 fn refused_in_bounds(bench: &Bench, file: &str, code: Code) {
     refused_by(bench, &["check", file], code);
-}
-
-#[track_caller]
-fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
-    let file = arguments[1];
-    let mut command = std::process::Command::new("sh");
-    command.args(["-c", "ulimit -t 1 -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_nbc")]).args(arguments);
-    let output = command.current_dir(bench.path()).output_in_time();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{file}: {:?}, {said:.500}", output.status);
-    assert!(said.contains(code.word()) && !said.contains("panicked"), "{file}: {code} is not in {said:.500}");
-    assert!(said.len() < 100_000, "{file}: {} bytes of messages", said.len());
 }
 
 #[test]

@@ -3,6 +3,7 @@
 mod adding;
 mod benchmarks;
 mod broken_circuits;
+mod budget;
 mod cheap;
 mod circuit;
 mod cli;

@@ -15,6 +15,7 @@ const LAYERS: &[(&str, u8)] = &[
     ("source", 0),
     ("diag", 1),
     ("model", 1),
+    ("budget", 2),
     ("syntax", 2),
     ("check", 3),
     ("evolve", 2),

@@ -1,5 +1,6 @@
 //! What every crate of `nbc` speaks: source text, diagnostics, and the nouns of the field.
 
+pub mod budget;
 pub mod diag;
 pub mod model;
 pub mod source;

@@ -1,7 +1,6 @@
 //! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
 mod blocks;
-mod cancel;
 mod cells;
 mod components;
 pub mod correspondence;
@@ -30,6 +29,7 @@ pub mod reachable;
 mod recipes;
 pub mod registers;
 mod rings;
+mod settled;
 mod signal_blocks;
 mod storage;
 pub mod synth;
@@ -38,7 +38,6 @@ pub mod waves;
 mod wording;
 
 pub use blocks::{BlockId, Blocks};
-pub use cancel::CancelFlag;
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
 pub use elaborate::{
@@ -50,12 +49,14 @@ pub use logic::Logic;
 pub use loops::Loops;
 pub use map::{map, map_with};
 pub use memory::Memory;
+pub use nbc_base::source::CancelFlag;
 pub use netlist::{Cell, NetId, Netlist, Node};
 pub use options::{Effort, MapOptions, MappingObjective};
 pub use proof::{Proof, prove};
 pub use races::{Race, races};
 pub use random_run::{RandomRun, RunStep};
 pub use rings::rings;
+pub use settled::{Settled, SettledRow};
 pub use storage::{FlipFlop, Latch, Storage, Unphased, WhyUnphased};
 pub use timing::{Delays, Timing};
 pub use wording::{MapError, NetlistError, Oscillation, ProofError};

@@ -16,6 +16,9 @@ pub struct Logic {
     next: Vec<bool>,
 }
 
+/// The first step whose values are kept, to find the period of an oscillation. Most circuits settle before.
+const FIRST_KEPT: usize = 32;
+
 /// A cell with the slots of its function's inputs.
 #[derive(Clone, Debug)]
 struct Gate {
@@ -103,8 +106,29 @@ impl Logic {
         for (&slot, &value) in self.inputs.iter().zip(inputs) {
             self.values[slot as usize] = value;
         }
-        let rests = (0..self.limit()).any(|_| !self.step());
-        if rests { Ok(self.outputs()) } else { Err(Oscillation) }
+        self.run(|_| {})?;
+        Ok(self.outputs())
+    }
+
+    /// Steps until nothing changes, or as often as the limit says; `see` is shown the values after each step, but not
+    /// again those of an oscillation that it has seen completely. Their period tells how it ends.
+    fn run(&mut self, mut see: impl FnMut(&[bool])) -> Result<(), Oscillation> {
+        let limit = self.limit();
+        let (mut kept, mut kept_at) = (Vec::new(), 0);
+        for step in 1..=limit {
+            if !self.step() {
+                return Ok(());
+            }
+            see(&self.values);
+            if kept == self.values {
+                (0..(limit - step) % (step - kept_at)).for_each(|_| _ = self.step());
+                break;
+            }
+            if step >= FIRST_KEPT && step.is_power_of_two() {
+                (kept, kept_at) = (self.values.clone(), step);
+            }
+        }
+        Err(Oscillation)
     }
 
     /// The number of steps after which a circuit of this size has settled, if it ever does. Without loops the longest
@@ -123,12 +147,13 @@ impl Logic {
     pub fn steady_outputs(&mut self) -> Vec<bool> {
         let before = self.outputs();
         let mut steady = vec![true; before.len()];
-        for _ in 0..self.limit() {
-            self.step();
-            for ((steady, &slot), before) in steady.iter_mut().zip(&self.outputs).zip(&before) {
-                *steady &= self.values[slot as usize] == *before;
+        let outputs = self.outputs.clone();
+        // Whether it settles does not matter here.
+        _ = self.run(|values| {
+            for ((steady, &slot), before) in steady.iter_mut().zip(&outputs).zip(&before) {
+                *steady &= values[slot as usize] == *before;
             }
-        }
+        });
         steady
     }
 }
@@ -190,5 +215,39 @@ mod tests {
         netlist.drive(wire, 0, gate);
         netlist.add_output("q", gate);
         assert_eq!(Logic::new(&netlist).settle(&[]), Err(Oscillation));
+    }
+
+    #[test]
+    fn an_oscillation_ends_where_all_its_steps_would_end() {
+        // Rings of several lengths beside a latch and a chain that settles.
+        for lengths in [&[1][..], &[3, 5], &[2, 7, 9], &[11, 13]] {
+            let mut netlist = set_reset();
+            let [mut tail, reset] = [netlist.inputs()[0], netlist.inputs()[1]];
+            for &length in lengths {
+                let wire = netlist.add_wire("ring", Some(false), None);
+                let ends = (0..length).fold(wire, |net, _| netlist.add_gate(Function::NOT, &[net]));
+                let last = netlist.add_gate(Function::NAND, &[ends, reset]);
+                netlist.drive(wire, 0, last);
+                netlist.add_output("o", last);
+                tail = netlist.add_gate(Function::XOR, &[tail, last]);
+            }
+            netlist.add_output("t", tail);
+            let (mut quick, mut whole) = (Logic::new(&netlist), Logic::new(&netlist));
+            for row in [[false, true], [true, true], [true, false], [true, true]] {
+                let settled = quick.settle(&row).is_ok();
+                for (&slot, value) in whole.inputs.clone().iter().zip(row) {
+                    whole.values[slot as usize] = value;
+                }
+                let rests = (0..whole.limit()).any(|_| !whole.step());
+                assert_eq!((settled, &quick.values), (rests, &whole.values), "{lengths:?} {row:?}");
+                let before = whole.outputs();
+                let mut steady = vec![true; before.len()];
+                for _ in 0..whole.limit() {
+                    whole.step();
+                    steady.iter_mut().zip(whole.outputs()).zip(&before).for_each(|((s, now), was)| *s &= now == *was);
+                }
+                assert_eq!((quick.steady_outputs(), &quick.values), (steady, &whole.values), "{lengths:?} {row:?}");
+            }
+        }
     }
 }

@@ -3,7 +3,6 @@
 use std::collections::BTreeMap;
 
 use crate::cells::{CellKind, CellLibrary};
-use crate::elaborate::MAX_CELLS;
 use crate::guarded::Guarded;
 use crate::loops::Loops;
 use crate::network::{Network, Signal, View};
@@ -14,6 +13,7 @@ use crate::recipes::{Operand, Recipe, Recipes};
 use crate::signal_blocks::SignalBlocks;
 use crate::synth::{CellNetwork, reduce, widen};
 use crate::{BlockId, MapError, NetId, Netlist, Node};
+use nbc_base::budget::Limit;
 use nbc_base::model::Function;
 
 /// Maps a netlist onto a library for few robots, at normal effort.
@@ -31,8 +31,8 @@ pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError
 /// When the netlist is not well formed or the library cannot make a function of the circuit.
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
     let cells = netlist.cells().count();
-    if cells as u64 > MAX_CELLS {
-        return Err(MapError::TooLarge { cells, most: MAX_CELLS });
+    if Limit::Cells.permit(cells as u64).is_err() {
+        return Err(MapError::TooLarge { cells, most: Limit::Cells.most() });
     }
     let mut source = netlist.clone();
     passes::run(&mut source)?;

@@ -1,6 +1,6 @@
 //! Options of mapping: what is minimized, the amount of search, and its early end.
 
-use crate::cancel::CancelFlag;
+use crate::CancelFlag;
 
 /// What technology mapping minimizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

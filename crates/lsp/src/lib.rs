@@ -103,8 +103,9 @@ pub fn serve(
     let (connection, pending) = queued(connection);
     let Some(client) = greeted(&connection, &pending)? else { return Ok(ServerEnd::Abandoned) };
     let (is_trusted, waiting) = (client.trusts_verilog, pending.clone());
-    let permit = move || if is_trusted { Ok(waiting.cancel()) } else { Err(VerilogError::Untrusted) };
-    Ok(Server::new(&connection, client, Arc::new(GuardedWorld::new(world, permit)), pending).run())
+    let world = GuardedWorld::new(world, move || waiting.cancel());
+    let world = if is_trusted { world } else { world.refusing(VerilogError::Untrusted) };
+    Ok(Server::new(&connection, client, Arc::new(world), pending).run())
 }
 
 /// Serves a client that sends these texts, each of which should be a message, and then closes its connection. The

@@ -64,6 +64,11 @@ impl Look<'_> {
         }
     }
 
+    /// Options of a search that ends when nobody waits for the check any more.
+    fn options(&self) -> MapOptions {
+        MapOptions { cancel: self.sources.world.cancel(), ..MapOptions::default() }
+    }
+
     /// The robots of a library; `None` after an error, and for those of an evolution run.
     fn library(&mut self, name: &str) -> Option<Library> {
         let declared = self.program.library(name)?;
@@ -96,7 +101,7 @@ impl Look<'_> {
         let Some(robots) = self.library(library) else { return };
         let cells = nbc_swarm::cells(&robots);
         if !cells.is_complete() {
-            let options = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
+            let options = MapOptions { effort: Effort::Fast, ..self.options() };
             self.note(map_onto(self.program, circuit, &cells, &options, place).map(drop));
         }
     }
@@ -133,7 +138,7 @@ impl Look<'_> {
         } else if (swarm.waves.step.is_some() || !self.is_whole(&swarm.library))
             && let Some(robots) = self.library(&swarm.library)
         {
-            let made = waves::map_waves(netlist, &robots, swarm.waves, &MapOptions::default());
+            let made = waves::map_waves(netlist, &robots, swarm.waves, &self.options());
             self.note(made.map(drop).map_err(|fault| vec![for_circuit(fault, swarm.span)]));
         }
         let clock = step.clock.map(|clock| (clock, step.rises));

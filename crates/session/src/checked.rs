@@ -33,6 +33,8 @@ pub struct Checked {
     pub(super) trees: Vec<Tree>,
     /// The circuits that were built, with the values of their parameters, those of the prelude included.
     pub instances: Vec<Instance>,
+    /// Whether nobody waited for the result any more, so that a part of it is missing.
+    pub(super) is_cancelled: bool,
 }
 
 impl Checked {
@@ -43,9 +45,9 @@ impl Checked {
             Ok(file) => (Some(file), check::check(world, &mut sources, file)),
             Err(fault) => (None, Analysis { diagnostics: vec![fault], ..Analysis::default() }),
         };
-        let Analysis { program, diagnostics, uses, widths, trees, instances } = analysis;
+        let Analysis { program, diagnostics, uses, widths, trees, instances, is_cancelled } = analysis;
         let path = path.to_owned();
-        Self { path, revision, sources, file, program, diagnostics, uses, widths, trees, instances }
+        Self { path, revision, sources, file, program, diagnostics, uses, widths, trees, instances, is_cancelled }
     }
 
     /// The tree of a file; `None` if nothing could be parsed.

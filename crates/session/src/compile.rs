@@ -6,6 +6,7 @@ use crate::mapping::Mapping;
 use crate::plan::Plan;
 use crate::waves::map_waves;
 use crate::wording::{ChoiceError, SwarmWarning, for_circuit};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
@@ -130,6 +131,8 @@ pub(super) fn compile(
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
     let mapping = map(program, &plan, options, place)?;
+    let robots = Limit::Robots.permit(mapping.netlist.cells().count() as u64);
+    robots.map_err(|over| vec![over.at(place)])?;
     let timing = mapping.timing();
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),

@@ -46,13 +46,21 @@ pub(super) fn first_words(
         let fault = Diagnostic::unreadable_in(world, path, &error);
         if chosen.is_some() { fault } else { of_declared_file(fault, declared.span) }
     })?;
-    let words =
-        words(path, &bytes, ports.width).map_err(|line| fault(ScriptError::Line { path: path.to_owned(), line }))?;
-    if words.len() > ports.words {
-        let (found, room) = (words.len(), ports.words);
-        return Err(fault(ScriptError::TooManyWords { path: path.to_owned(), found, room }));
+    let words = words(path, &bytes, ports).map_err(|line| fault(ScriptError::Line { path: path.to_owned(), line }))?;
+    match words {
+        Words::All(words) => Ok(words),
+        Words::TooMany(found) => {
+            Err(fault(ScriptError::TooManyWords { path: path.to_owned(), found, room: ports.words }))
+        }
     }
-    Ok(words)
+}
+
+/// The words of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Words {
+    All(Vec<u128>),
+    /// So many, which the memory does not have.
+    TooMany(usize),
 }
 
 /// The words of a file by its ending: `.bin` has bytes, the lowest of a word first; `.csv` numbers between commas and
@@ -61,16 +69,19 @@ pub(super) fn first_words(
 ///
 /// # Errors
 /// The line, from 1, that is no number or does not fit into a word.
-fn words(path: &str, bytes: &[u8], width: usize) -> Result<Vec<u128>, usize> {
+fn words(path: &str, bytes: &[u8], memory: &MemoryPorts) -> Result<Words, usize> {
+    let width = memory.width;
     if path.ends_with(".bin") {
         let word = |bytes: &[u8]| bytes.iter().rev().fold(0u128, |word, &byte| word << 8 | u128::from(byte));
-        return Ok(bytes.chunks(width.div_ceil(8).min(16)).map(word).collect());
+        let chunks = bytes.chunks(width.div_ceil(8).min(16));
+        let found = chunks.len();
+        return Ok(if found > memory.words { Words::TooMany(found) } else { Words::All(chunks.map(word).collect()) });
     }
     let text = String::from_utf8_lossy(bytes);
     let text = without_mark(&text);
     let is_table = path.ends_with(".csv");
     let mut words: Vec<u128> = Vec::new();
-    let mut place = 0;
+    let (mut place, mut found) = (0, 0);
     for (line, text) in text.lines().enumerate() {
         let text = text.split("//").next().unwrap_or_default().split('#').next().unwrap_or_default();
         let parts = text.split(|c: char| c.is_whitespace() || (is_table && c == ',')).filter(|part| !part.is_empty());
@@ -85,26 +96,40 @@ fn words(path: &str, bytes: &[u8], width: usize) -> Result<Vec<u128>, usize> {
                 None => u128::from_str_radix(&digits, if is_table { 10 } else { 16 }),
             };
             let value = value.ok().filter(|value| width >= 128 || value >> width == 0).ok_or(line + 1)?;
-            if words.len() <= place {
-                words.resize(place + 1, 0);
+            if place < memory.words {
+                words.resize(words.len().max(place + 1), 0);
+                words[place] = value;
             }
-            words[place] = value;
             place += 1;
+            found = found.max(place);
         }
     }
-    Ok(words)
+    Ok(if found > memory.words { Words::TooMany(found) } else { Words::All(words) })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::words;
+    use super::*;
+
+    /// The words of a file for a memory of five words.
+    fn words(path: &str, bytes: &[u8], width: usize) -> Result<Words, usize> {
+        super::words(path, bytes, &MemoryPorts { memory: 0, words: 5, width, reads: Vec::new(), writes: Vec::new() })
+    }
 
     #[test]
     fn files_have_words_by_their_endings() {
-        assert_eq!(words("a.hex", b"0000_00ff 12 // x\n@4 7\n", 32), Ok(vec![255, 18, 0, 0, 7]));
-        assert_eq!(words("a.csv", b"1, 2\n0x10,4\n", 8), Ok(vec![1, 2, 16, 4]));
-        assert_eq!(words("a.bin", &[1, 2, 3, 4, 5], 16), Ok(vec![0x201, 0x403, 5]));
+        let all = |words: &[u128]| Ok(Words::All(words.to_vec()));
+        assert_eq!(words("a.hex", b"0000_00ff 12 // x\n@4 7\n", 32), all(&[255, 18, 0, 0, 7]));
+        assert_eq!(words("a.csv", b"1, 2\n0x10,4\n", 8), all(&[1, 2, 16, 4]));
+        assert_eq!(words("a.bin", &[1, 2, 3, 4, 5], 16), all(&[0x201, 0x403, 5]));
         assert_eq!(words("a.hex", b"12\n100\n", 8), Err(2));
         assert_eq!(words("a.hex", b"zz\n", 8), Err(1));
+    }
+
+    #[test]
+    fn words_beyond_the_memory_are_counted_and_not_kept() {
+        assert_eq!(words("a.hex", b"@3fffffff 7\n", 8), Ok(Words::TooMany(1 << 30)));
+        assert_eq!(words("a.csv", b"1,2,3,4,5,6\n", 8), Ok(Words::TooMany(6)));
+        assert_eq!(words("a.bin", &[0; 6], 8), Ok(Words::TooMany(6)));
     }
 }

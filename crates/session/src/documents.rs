@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::buildable;
 use crate::checked::Checked;
 use crate::robots::{BuiltIn, RobotSources};
-use nbc_base::source::{FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFile, VerilogModules};
+use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFile, VerilogModules};
 
 /// The sources of a session.
 pub(super) struct Documents {
@@ -93,12 +93,14 @@ impl Documents {
         let mut checked = Checked::read(&asking, path, revision);
         if !checked.has_errors() {
             let robots = RobotSources { world: &asking, built_in: &self.built_in, file: path };
+            let cancel = asking.cancel();
             checked.diagnostics.extend(buildable::faults(robots, &checked.program, &self.files));
+            asking.is_cancelled.set(asking.is_cancelled.get() || cancel.is_raised());
             checked.diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
         }
         let checked = Arc::new(checked);
         self.translations = asking.translations.into_inner();
-        if asking.is_cancelled.get() {
+        if asking.is_cancelled.get() || checked.is_cancelled {
             return checked;
         }
         let known = Known { checked: checked.clone(), asked: asking.asked.into_inner() };
@@ -164,6 +166,10 @@ impl SourceWorld for RecordingWorld<'_> {
             self.translations.borrow_mut().insert(paths, (texts, modules.clone()));
         }
         Ok(modules)
+    }
+
+    fn cancel(&self) -> CancelFlag {
+        self.world.cancel()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

@@ -73,7 +73,7 @@ impl Session {
         self.documents.checked(path)
     }
 
-    /// Whether the source at `path` was checked, and its files have not changed since. A check whose translation was
+    /// Whether the source at `path` was checked, and its files have not changed since. A check that was
     /// cancelled does not count.
     pub fn is_checked(&self, path: &str) -> bool {
         self.documents.is_known(path)

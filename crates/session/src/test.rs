@@ -12,10 +12,11 @@ use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use crate::wording::ScriptError;
+use nbc_base::budget::{CYCLE_BITS, Limit, WorkBudget};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, NamedWorld, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{Logic, Netlist, elaborate, elaborate_reference};
+use nbc_circuit::{Netlist, Settled, elaborate, elaborate_reference};
 use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
 
 /// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
@@ -126,10 +127,12 @@ pub(super) fn cases<'a>(
             Some(machine) => {
                 let rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
                 one.rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
+                permit_cycles(test, machine.cycles(one.rows.len()) as u64)?;
                 TestTiming::Waves
             }
             None => {
                 let row_holds = hold::row_holds(&rows, &netlist, &compiled);
+                permit_cycles(test, row_holds.iter().map(|row_hold| row_hold.hold as u64).sum())?;
                 compiled.warnings.extend(short_holds(program, test, &rows, &row_holds, &compiled));
                 TestTiming::Holds(row_holds)
             }
@@ -140,6 +143,12 @@ pub(super) fn cases<'a>(
         }
     }
     Ok(cases)
+}
+
+/// Whether there is room for so many cycles of a test in physics.
+fn permit_cycles(test: &CircuitTest, cycles: u64) -> Result<(), Vec<Diagnostic>> {
+    let bits = test.inputs.iter().map(|column| column.width as u64).sum::<u64>() + CYCLE_BITS;
+    Limit::CycleBits.permit(cycles.saturating_mul(bits)).map_err(|over| vec![over.at(test.span)])
 }
 
 /// The performance of a test whose rows depend on what its circuit does; `None` for other tests.
@@ -164,11 +173,14 @@ fn physical_rows(
 ) -> Result<(Vec<TestRow>, String), Vec<Diagnostic>> {
     let Some(mut performance) = performance else { return Ok((rows(program, test)?, String::new())) };
     let mut rows: Vec<TestRow> = Vec::new();
+    let mut budget = WorkBudget::default();
+    let bits = test.inputs.iter().chain(&test.outputs).map(|column| column.width as u64 + 1).sum();
     while let Some(performed) = performance.step().map_err(|fault| vec![fault])? {
         if options.cancel.is_raised() {
             break;
         }
         for PerformedRow { mut row, outputs, is_last } in performed {
+            budget.take(Limit::RowBits, bits).map_err(|over| vec![over.at(test.span)])?;
             let written = std::mem::replace(&mut row.expected, outputs.into_iter().map(Some).collect());
             if is_last {
                 for (expected, written) in row.expected.iter_mut().zip(written).filter(|(_, written)| written.is_some())
@@ -357,10 +369,23 @@ impl TestCase<'_> {
             Subject::Script(performance) => return perform(self.test, *performance, observer),
             Subject::Robots(..) => unreachable!("a test without robots has gates"),
         };
-        let rows = nbc_swarm::judge_logic(self.test, &self.rows, &netlist);
-        observer.progress(rows.len() as u64, rows.len() as u64);
-        let verdict = verdict(self.test, Level::Logic, None, rows);
-        TestRun { verdict, end: RunEnd::Complete, swarm: None, hold: None, warnings: Vec::new() }
+        let (all, mut rows, mut end) = (self.rows.len() as u64, Vec::new(), RunEnd::Complete);
+        for verdict in nbc_swarm::judge_logic(self.test, &self.rows, &netlist) {
+            rows.push(verdict);
+            if (rows.len() as u64).is_multiple_of(STEPS_BETWEEN_REPORTS) {
+                observer.progress(rows.len() as u64, all);
+                if observer.is_cancelled() {
+                    end = RunEnd::Cancelled;
+                    break;
+                }
+            }
+        }
+        if end == RunEnd::Complete {
+            observer.progress(all, all);
+        }
+        let mut verdict = verdict(self.test, Level::Logic, None, rows);
+        verdict.passed &= end == RunEnd::Complete;
+        TestRun { verdict, end, swarm: None, hold: None, warnings: Vec::new() }
     }
 }
 
@@ -442,17 +467,19 @@ fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagn
         Stimulation::All { reference } => reference,
     };
     let bits: usize = test.inputs.iter().map(|port| port.width).sum();
-    let mut logic = Logic::new(&elaborate_reference(program, reference)?);
+    let mut settled = Settled::new(&elaborate_reference(program, reference)?);
     let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(Base::of_port).collect();
-    let row = |pattern: usize| {
-        let inputs: Vec<bool> = (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
-        let expected = match logic.settle(&inputs) {
-            Ok(outputs) => outputs.into_iter().map(Some).collect(),
-            Err(_) => vec![None; test.output_bits().len()],
-        };
-        let (bases, span, line) = (bases.clone(), test.span, test.line);
-        let (hold, is_half, given_up) = (None, false, None);
-        TestRow { inputs, expected, bases, hold, span, line, row: pattern + 1, is_half, given_up }
-    };
-    Ok((0..1 << bits).map(row).collect())
+    let inputs = |pattern: usize| (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
+    let mut rows = Vec::with_capacity(1 << bits);
+    for first in (0..1usize << bits).step_by(Settled::ROWS) {
+        let block: Vec<Vec<bool>> = (first..(first + Settled::ROWS).min(1 << bits)).map(inputs).collect();
+        let ends = settled.apply(&block.iter().map(Vec::as_slice).collect::<Vec<_>>());
+        for (inputs, end) in block.into_iter().zip(ends) {
+            let expected = end.outputs.into_iter().map(|bit| end.is_settled.then_some(bit)).collect();
+            let (bases, span, line, row) = (bases.clone(), test.span, test.line, rows.len() + 1);
+            let (hold, is_half, given_up) = (None, false, None);
+            rows.push(TestRow { inputs, expected, bases, hold, span, line, row, is_half, given_up });
+        }
+    }
+    Ok(rows)
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::assemble::start_cycles;
 use crate::{RobotFault, RowVerdict, SwarmTrace, WrongOutput};
 use nbc_base::model::{CircuitTest, TestRow};
-use nbc_circuit::{Logic, Netlist};
+use nbc_circuit::{Netlist, Settled, SettledRow};
 
 /// Cycles over which an output must have had its value when its row ends.
 pub const STEADY_CYCLES: usize = 2;
@@ -62,30 +62,29 @@ pub(super) fn without_outputs(test: &CircuitTest, row: &TestRow, fault: RobotFau
     }
 }
 
-/// Judges the rows of a test at the level of logic: each is held until nothing changes. A circuit that oscillates fails
-/// if the row checks an output that keeps changing.
-pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], netlist: &Netlist) -> Vec<RowVerdict> {
-    let mut logic = Logic::new(netlist);
-    let judge = |row: &TestRow| {
-        let steady = rests(&mut logic, row);
-        judge_row(test, row, &logic.outputs(), &steady)
-    };
-    rows.iter().map(judge).collect()
+/// Judges the rows of a test at the level of logic, as they are asked for: each is held until nothing changes. A
+/// circuit that oscillates fails if the row checks an output that keeps changing.
+pub fn judge_logic<'a>(
+    test: &'a CircuitTest,
+    rows: &'a [TestRow],
+    netlist: &Netlist,
+) -> impl Iterator<Item = RowVerdict> + 'a {
+    rows.iter().zip(settled(rows, netlist)).map(|(row, end)| judge_row(test, row, &end.outputs, &end.rests))
+}
+
+/// The end of each row at the level of logic.
+fn settled<'a>(rows: &'a [TestRow], netlist: &Netlist) -> impl Iterator<Item = SettledRow> + 'a {
+    let mut settled = Settled::new(netlist);
+    rows.chunks(Settled::ROWS).flat_map(move |rows| {
+        let inputs: Vec<&[bool]> = rows.iter().map(|row| row.inputs.as_slice()).collect();
+        settled.apply(&inputs)
+    })
 }
 
 /// For each row, which output bits come to rest at the level of logic. In physics an output that keeps changing may
 /// have one value for the last cycles of a row by chance.
 pub fn resting_outputs(rows: &[TestRow], netlist: &Netlist) -> Vec<Vec<bool>> {
-    let mut logic = Logic::new(netlist);
-    rows.iter().map(|row| rests(&mut logic, row)).collect()
-}
-
-/// Holds the inputs of a row; which output bits come to rest.
-fn rests(logic: &mut Logic, row: &TestRow) -> Vec<bool> {
-    match logic.settle(&row.inputs) {
-        Ok(outputs) => vec![true; outputs.len()],
-        Err(_) => logic.steady_outputs(),
-    }
+    settled(rows, netlist).map(|end| end.rests).collect()
 }
 
 /// Whether a row passes that ends with the last cycle of a trace.
@@ -260,7 +259,7 @@ mod tests {
         let passed = |output, expected| {
             let mut netlist = netlist.clone();
             netlist.add_output("y", output);
-            judge_logic(&test(), &[row(true, expected)], &netlist)[0].passed
+            judge_logic(&test(), &[row(true, expected)], &netlist).all(|verdict| verdict.passed)
         };
         assert!(passed(ring, None) && !passed(ring, Some(true)) && !passed(ring, Some(false)));
         assert!(passed(still, Some(false)) && !passed(still, Some(true)), "an output that rests beside the ring");

@@ -8,6 +8,7 @@ use serde::Serialize;
 use crate::cli::robots::robot_paths;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Sources;
 use nbc_session::report::Schema;
@@ -64,7 +65,7 @@ impl RewriteArguments {
 /// The text of a robot file, and its text in the newest format.
 fn texts(path: &Path) -> Result<(String, String), Failure> {
     let name = path.display().to_string();
-    let old = store::read_text(path, store::MAX_ROBOT_BYTES)
+    let old = store::read_text(path, Limit::RobotBytes.most())
         .map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &name, &error)))?;
     let mut sources = Sources::default();
     let id = sources.add(&name, old.as_str());

@@ -98,3 +98,15 @@ fn memory_after_100_000_edits_is_that_after_100() {
     assert!(after - before < 20.0, "{before:.1} MB became {after:.1} MB");
     typing_client.goodbye();
 }
+
+#[test]
+fn small_texts_that_would_make_much_are_diagnostics() {
+    let (_bench, mut client, uri, _) = opened("a.nb", HALF);
+    assert_eq!(client.diagnostics(&uri), json!([]));
+    for (name, text) in crate::budget::rows() {
+        client.change(&uri, &text);
+        let found = client.diagnostics(&uri);
+        assert_eq!((found[0]["code"].as_str(), found.as_array().unwrap().len()), (Some("too-large"), 1), "{name}");
+    }
+    client.goodbye();
+}

@@ -5,6 +5,9 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use nbc_base::diag::Code;
+
+use crate::support::bench::Bench;
 use crate::support::tools::signal;
 
 /// The most time that a program may take. A busy machine needs a small part of it.
@@ -46,6 +49,22 @@ impl InTime for Command {
     fn output_in_time(&mut self) -> Output {
         end(self.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap())
     }
+}
+
+/// The program rejects its second argument with this code, within a gigabyte of address space and five seconds of CPU
+/// time, as a build for tests is several times slower than one for users.
+#[track_caller]
+pub fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
+    let file = arguments[1];
+    let mut command = std::process::Command::new("sh");
+    command
+        .args(["-c", "ulimit -t 5; ulimit -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_nbc")])
+        .args(arguments);
+    let output = command.current_dir(bench.path()).output_in_time();
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{file}: {:?}, {said:.500}", output.status);
+    assert!(said.contains(code.word()) && !said.contains("panicked"), "{file}: {code} is not in {said:.500}");
+    assert!(said.len() < 100_000, "{file}: {} bytes of messages", said.len());
 }
 
 /// Waits until something holds.

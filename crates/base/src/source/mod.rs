@@ -1,12 +1,14 @@
 //! Source text: files, spans, and the [`SourceWorld`] that reads files for the core, which itself does no input or
 //! output.
 
+mod cancel;
 mod file;
 mod file_error;
 mod span;
 mod verilog;
 mod world;
 
+pub use cancel::CancelFlag;
 pub use file::{LineColumn, LineStarts, SourceFile, Sources, without_mark};
 pub use file_error::FileError;
 pub use span::{FileId, Span};

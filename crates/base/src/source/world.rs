@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{FileError, VerilogError, VerilogFile, VerilogModules};
+use super::{CancelFlag, FileError, VerilogError, VerilogFile, VerilogModules};
 
 /// What can be at a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +37,11 @@ pub trait SourceWorld {
     /// When the text has faults, or the world cannot translate Verilog.
     fn translate_verilog(&self, _files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
         Err(VerilogError::NoTranslator)
+    }
+
+    /// The flag that is raised when nobody waits any more for what is being read.
+    fn cancel(&self) -> CancelFlag {
+        CancelFlag::default()
     }
 
     /// The names of the entries of a folder, in order.
@@ -76,6 +81,10 @@ macro_rules! forward {
 
             fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
                 (**self).translate_verilog(files)
+            }
+
+            fn cancel(&self) -> CancelFlag {
+                (**self).cancel()
             }
 
             fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -169,6 +178,10 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
 
     fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
         self.under.translate_verilog(files)
+    }
+
+    fn cancel(&self) -> CancelFlag {
+        self.under.cancel()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

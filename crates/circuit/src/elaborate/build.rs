@@ -4,9 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::elaborate::frame::{Item, Scope};
-use crate::elaborate::limits::{MAX_CELLS, MAX_HIERARCHY, MAX_NETS};
-use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal};
+use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal, Passes, Sum};
 use crate::elaborate::wording::{ElaborateError, RangeError, shown_at, unknown_circuit};
+use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
 use nbc_base::source::Span;
@@ -35,10 +35,22 @@ pub(super) struct Builder<'a> {
     depth: usize,
     /// The modules whose loops were checked.
     pub(super) inspected: Vec<bool>,
+    /// What modules pass from their inputs to their outputs, as far as it was needed.
+    pub(super) passes: Passes,
+    pub(super) budget: WorkBudget,
+    /// Why nothing more is built, once the budget is used up.
+    pub(super) over: Option<OverBudget>,
 }
+
+/// The most errors that are kept; far fewer are shown.
+const MOST_FAULTS: usize = 10_000;
 
 impl<'a> Builder<'a> {
     pub(super) fn new(program: &'a Program) -> Self {
+        Self::within(program, WorkBudget::default())
+    }
+
+    pub(super) fn within(program: &'a Program, budget: WorkBudget) -> Self {
         Self {
             program,
             references: Vec::new(),
@@ -48,7 +60,25 @@ impl<'a> Builder<'a> {
             noted: BTreeSet::new(),
             depth: 0,
             inspected: Vec::new(),
+            passes: Passes::new(),
+            budget,
+            over: None,
         }
+    }
+
+    /// Counts what is about to be made. Once it is too much, nothing more is built.
+    pub(super) fn take(&mut self, limit: Limit, amount: u64, place: Span) -> Option<()> {
+        if self.over.is_some() {
+            return None;
+        }
+        let taken = self.budget.take(limit, amount);
+        taken.map_err(|over| self.end(over, place)).ok()
+    }
+
+    /// Builds nothing more.
+    fn end(&mut self, over: OverBudget, place: Span) {
+        self.over = Some(over);
+        self.fault(over.at(place));
     }
 
     pub(super) fn module(&self, id: ModuleId) -> &Module {
@@ -68,7 +98,7 @@ impl<'a> Builder<'a> {
 
     /// Adds an error, unless it is a duplicate.
     pub(super) fn fault(&mut self, fault: Diagnostic) {
-        if self.noted.insert(fault.clone()) {
+        if self.diagnostics.len() < MOST_FAULTS && self.noted.insert(fault.clone()) {
             self.diagnostics.push(fault);
         }
     }
@@ -116,10 +146,12 @@ impl<'a> Builder<'a> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
-        if self.depth >= MAX_HIERARCHY {
-            self.fault(ElaborateError::TooDeep { most: MAX_HIERARCHY }.at(self.circuit(key.circuit).span));
+        let place = self.circuit(key.circuit).span;
+        if Limit::Hierarchy.permit(self.depth as u64 + 1).is_err() {
+            self.fault(ElaborateError::TooDeep { most: Limit::Hierarchy.most() }.at(place));
             return None;
         }
+        self.take(Limit::Modules, 1, place)?;
         self.known.insert(key.clone(), None);
         self.depth += 1;
         let module = ModuleBuilder::new(self, key.circuit).run(&key);
@@ -178,6 +210,8 @@ pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) unnamed: usize,
     /// Whether the module has an error and cannot be used.
     pub(super) failed: bool,
+    /// The place of what is being built.
+    pub(super) place: Span,
 }
 
 impl<'a, 'b> ModuleBuilder<'a, 'b> {
@@ -193,11 +227,11 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             starts: Vec::new(),
             output_bits: Vec::new(),
             memories: Vec::new(),
-            cells: 0,
-            size: 0,
+            sum: Sum::default(),
         };
         let (frames, items) = (Vec::new(), Vec::new());
-        Self { builder, circuit, module, frames, items, constants: [None; 2], unnamed: 0, failed: false }
+        let place = circuit.span;
+        Self { builder, circuit, module, frames, items, constants: [None; 2], unnamed: 0, failed: false, place }
     }
 
     fn run(mut self, key: &ModuleKey) -> Option<Module> {
@@ -213,6 +247,9 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         }
         for at in 0..self.items.len() {
             self.item(at as u32);
+            if self.builder.over.is_some() {
+                return None;
+            }
         }
         self.undriven();
         self.contradicting_starts();
@@ -225,6 +262,13 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         self.builder.fault(fault);
     }
 
+    /// Counts what is about to be made.
+    pub(super) fn take(&mut self, limit: Limit, amount: u64) -> Option<()> {
+        let taken = self.builder.take(limit, amount, self.place);
+        self.failed |= taken.is_none();
+        taken
+    }
+
     fn ports(&mut self, absent: &[u32]) -> Option<()> {
         let ports = self.circuit.inputs + self.circuit.outputs;
         for net in 0..ports {
@@ -234,6 +278,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             };
             let words = self.declared_words(NetSlot(net as u32), 0);
             self.give_array(net, width, words);
+            self.module.nets[net].width?;
             if net >= self.circuit.inputs {
                 self.output(net);
             } else if absent.contains(&(net as u32)) {
@@ -281,9 +326,9 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
     /// Adds an array of so many words of this width, or another net.
     pub(super) fn give_array(&mut self, net: usize, width: u32, words: Option<u32>) {
         let bits = i64::from(width) * i64::from(words.unwrap_or(1));
-        if bits > super::MAX_WIDTH {
+        if Limit::Width.permit(bits as u64).is_err() {
             let span = self.module.nets[net].span;
-            self.fault(RangeError::NetWidth { width: bits, most: super::MAX_WIDTH }.at(span));
+            self.fault(RangeError::NetWidth { width: bits, most: Limit::Width.most() }.at(span));
             return;
         }
         self.module.nets[net].words = words;
@@ -292,12 +337,11 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
 
     /// Adds a net of this width.
     pub(super) fn give_width(&mut self, net: usize, width: u32) {
-        let first = self.module.signals.len() as u32;
-        if u64::from(first) + u64::from(width) > MAX_NETS {
-            let span = self.module.nets[net].span;
-            self.fault(ElaborateError::TooManyNets.at(span));
+        // The first bit was counted when the net was opened.
+        if self.take(Limit::Nets, u64::from(width).saturating_sub(1)).is_none() {
             return;
         }
+        let first = self.module.signals.len() as u32;
         self.module.nets[net].width = Some(width);
         self.module.nets[net].first = first;
         let signal = |bit| ModuleSignal::Net { net: net as u32, bit, driver: None, by: 0 };
@@ -336,22 +380,15 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         !matches!(self.module.signals[bit as usize], ModuleSignal::Net { driver: None, .. })
     }
 
+    /// Sums up what the circuit will have when it is flattened.
     fn total(&mut self) {
-        let gates =
-            self.module.signals.iter().filter(|signal| matches!(signal, ModuleSignal::Gate { .. })).count() as u64;
-        let inside = |count: fn(&Module) -> u64| {
-            self.module.sites.iter().fold(0u64, |sum, site| sum.saturating_add(count(self.builder.module(site.module))))
-        };
-        let cells = gates.saturating_add(inside(|module| module.cells));
-        let size = (self.module.signals.len() as u64).saturating_add(inside(|module| module.size));
-        (self.module.cells, self.module.size) = (cells, size);
-        for (count, what, most) in [(cells, "cells", MAX_CELLS), (size, "nets", MAX_NETS)] {
-            if count > most {
-                let circuit = self.circuit.name.clone();
-                self.fault(ElaborateError::TooLarge { circuit, count, what, most }.at(self.circuit.span));
-                break;
-            }
+        let sum = Sum::of(&self.module, &self.builder.modules, self.circuit.name.len());
+        let over = sum.counts().into_iter().find(|(limit, count)| limit.permit(*count).is_err());
+        if let Some((limit, count)) = over {
+            let circuit = self.circuit.name.clone();
+            self.fault(ElaborateError::TooLarge { circuit, count, limit }.at(self.circuit.span));
         }
+        self.module.sum = sum;
     }
 
     /// The span of an expression.

@@ -7,6 +7,7 @@ use crate::elaborate::outside::IndexedNet;
 use crate::elaborate::table::TableValues;
 use crate::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
 use crate::index::ListIndex;
+use nbc_base::budget::Limit;
 use nbc_base::model::{
     CircuitId, ExpressionId, ExpressionKind, FreeNumber, Function, NetSlot, Operator, SizeId, SizeKind, Target,
 };
@@ -25,6 +26,9 @@ struct Call<'c> {
     frame: u32,
     span: Span,
 }
+
+/// What a part of an expression counts beside its bits, in steps.
+const PART_STEPS: u64 = 12;
 
 /// The word and the bits that are taken of a net.
 type NetPart = (Option<SizeId>, Option<(SizeId, SizeId)>);
@@ -49,6 +53,7 @@ impl ModuleBuilder<'_, '_> {
     /// Builds one statement.
     pub(super) fn item(&mut self, at: u32) {
         let item = self.items[at as usize];
+        self.place = self.span(item.value);
         let name = item.targets.first().and_then(|target| self.target_name(target, item.frame));
         let expected = self.targets_width(&item);
         let Some(values) = self.values(item.value, item.frame, name, expected) else {
@@ -246,6 +251,7 @@ impl ModuleBuilder<'_, '_> {
                 return self.call(Call { callee: *circuit, arguments, operands, frame, span }, values, name);
             }
         };
+        self.take(Limit::Steps, PART_STEPS + value.len() as u64)?;
         Some(vec![value])
     }
 
@@ -264,7 +270,11 @@ impl ModuleBuilder<'_, '_> {
         self.constants[usize::from(value)] == Some(bit)
     }
 
+    /// Adds a signal. If there is no room for it, it is any other: the module has failed.
     fn signal(&mut self, signal: ModuleSignal) -> Bit {
+        if self.take(Limit::Nets, 1).is_none() {
+            return 0;
+        }
         self.module.signals.push(signal);
         self.module.signals.len() as Bit - 1
     }
@@ -365,6 +375,7 @@ impl ModuleBuilder<'_, '_> {
         };
         let first = self.module.nets[net].first;
         let span = self.span(index);
+        self.take(Limit::Steps, u64::from(words) * u64::from(count))?;
         let column = |builder: &mut Self, bit: u32| {
             let mut level: Vec<Bit> = (0..words).map(|place| builder.known(first + place * word + low + bit)).collect();
             for &selected in &value {
@@ -383,9 +394,10 @@ impl ModuleBuilder<'_, '_> {
 
     fn repetition(&mut self, count: SizeId, value: &[Bit], frame: u32) -> Option<Vec<Bit>> {
         let times = self.size(count, frame)?;
-        if times < 0 || times.saturating_mul(value.len() as i64) > super::MAX_WIDTH {
+        let bits = u64::try_from(times).ok().map(|times| times.saturating_mul(value.len() as u64));
+        if bits.is_none_or(|bits| Limit::Width.permit(bits).is_err()) {
             let span = self.circuit.sizes[count.0 as usize].span;
-            self.fault(RangeError::Repetitions { times, most: super::MAX_WIDTH }.at(span));
+            self.fault(RangeError::Repetitions { times, most: Limit::Width.most() }.at(span));
             return None;
         }
         Some(value.repeat(times as usize))
@@ -474,6 +486,8 @@ impl ModuleBuilder<'_, '_> {
             self.unnamed += 1;
             format!("{}_{}", self.builder.circuit(call.callee).name, self.unnamed)
         });
+        self.take(Limit::Instances, 1)?;
+        self.take(Limit::NetNameBytes, name.len() as u64)?;
         let site = self.module.sites.len() as u32;
         let inputs = values.into_iter().flatten().flatten().collect();
         self.module.sites.push(Site { module: id, inputs, name });

@@ -1,6 +1,7 @@
 //! What is known of circuits that were built.
 
 use crate::elaborate::build::Builder;
+use nbc_base::budget::OverBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Instance;
 use nbc_base::source::Span;
@@ -14,6 +15,8 @@ pub struct Inspection {
     pub widths: NetWidths,
     /// The circuits that were built without errors, with the values of their parameters.
     pub instances: Vec<Instance>,
+    /// Whether nobody waited for the result any more, so that a part of it is missing.
+    pub is_cancelled: bool,
 }
 
 impl Inspection {
@@ -21,7 +24,8 @@ impl Inspection {
         let nets = builder.modules.iter().flat_map(|module| &module.nets);
         let widths = NetWidths::new(nets.filter_map(|net| Some((net.span, net.width?))));
         let instances = builder.instances().collect();
-        Self { diagnostics: builder.diagnostics, widths, instances }
+        let is_cancelled = builder.over == Some(OverBudget::Cancelled);
+        Self { diagnostics: builder.diagnostics, widths, instances, is_cancelled }
     }
 }
 

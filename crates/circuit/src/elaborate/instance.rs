@@ -3,8 +3,9 @@
 use crate::elaborate::build::Builder;
 use crate::elaborate::size;
 use crate::elaborate::wording::ElaborateError;
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Circuit, CircuitId, SizeKind};
+use nbc_base::model::{Circuit, CircuitId, Size, SizeKind};
 use nbc_base::source::Span;
 
 impl Builder<'_> {
@@ -16,6 +17,7 @@ impl Builder<'_> {
         operands: &[Option<u32>],
         span: Span,
     ) -> Option<Vec<i64>> {
+        self.take(Limit::Steps, cost(self.circuit(circuit)), span)?;
         match arguments(self.circuit(circuit), given, operands, span) {
             Ok(arguments) => Some(arguments),
             Err(fault) => {
@@ -24,6 +26,15 @@ impl Builder<'_> {
             }
         }
     }
+}
+
+/// The steps that the values of a circuit's parameters and the widths of its ports take.
+pub(super) fn cost(circuit: &Circuit) -> u64 {
+    let ports = &circuit.nets[..circuit.inputs + circuit.outputs];
+    let defaults = circuit.parameters.iter().filter_map(|parameter| parameter.default);
+    let sizes = defaults.chain(ports.iter().filter_map(|net| net.width));
+    let parts = sizes.map(|size| u64::from(size.0 - Size::first_part(&circuit.sizes, size).0) + 1);
+    ports.len() as u64 + parts.sum::<u64>()
 }
 
 /// A value for each parameter.

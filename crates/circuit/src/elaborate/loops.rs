@@ -1,8 +1,11 @@
 //! Loops without a start value: found by looking at a module with all bits cut that have one.
 
+use std::collections::BTreeSet;
+
 use crate::elaborate::build::Builder;
-use crate::elaborate::module::{Module, ModuleId, ModuleSignal};
+use crate::elaborate::module::{Module, ModuleId, ModuleSignal, Passes, Site};
 use crate::elaborate::wording::ElaborateError;
+use nbc_base::budget::{Limit, OverBudget};
 use nbc_base::diag::Diagnostic;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
@@ -11,7 +14,7 @@ impl Builder<'_> {
     /// Warns of loops without a start value in a module and the circuits it contains.
     pub(super) fn look_for_loops(&mut self, top: ModuleId) {
         let mut open = vec![top];
-        while let Some(id) = open.pop() {
+        while let Some(id) = open.pop().filter(|_| self.over.is_none()) {
             if std::mem::replace(&mut self.inspected[id.0 as usize], true) {
                 continue;
             }
@@ -22,31 +25,58 @@ impl Builder<'_> {
         }
     }
 
-    fn loops_of(&self, id: ModuleId) -> Vec<Diagnostic> {
-        let module = self.module(id);
-        let coarse = loops(&self.graph(module, false));
+    fn loops_of(&mut self, id: ModuleId) -> Vec<Diagnostic> {
+        let coarse = loops(&self.graph(self.module(id), None));
         if coarse.is_empty() {
             return Vec::new();
         }
         // At first, a circuit inside was assumed to pass every input to every output; now check its real dependencies.
+        let module = self.module(id);
         let has_sites = coarse
             .iter()
             .flatten()
             .any(|&at| at >= module.signals.len() || matches!(module.signals[at], ModuleSignal::Output { .. }));
-        let exact = if has_sites { loops(&self.graph(module, true)) } else { coarse };
-        exact.iter().filter_map(|signals| warning(module, signals)).collect()
+        let exact = match has_sites {
+            false => coarse,
+            true if self.find_passes(id).is_none() => return Vec::new(),
+            true => loops(&self.graph(self.module(id), Some(&self.passes))),
+        };
+        exact.iter().filter_map(|signals| warning(self.module(id), signals)).collect()
     }
 
-    /// The dependencies in a module; each circuit inside is a node after the signals, unless `exact`.
-    fn graph(&self, module: &Module, exact: bool) -> DiGraph<(), ()> {
+    /// Finds what the circuits inside a module pass from their inputs to their outputs, each once; nothing if that
+    /// takes too many steps.
+    fn find_passes(&mut self, id: ModuleId) -> Option<()> {
+        let inside: BTreeSet<ModuleId> = self.module(id).sites.iter().map(|site| site.module).collect();
+        for site in inside {
+            if !self.passes.contains_key(&site) {
+                self.find_passes(site)?;
+                let found = self.passes_of(site)?;
+                self.passes.insert(site, found);
+            }
+        }
+        let passed = self.module(id).sites.iter().flat_map(|site| &self.passes[&site.module]);
+        let passed = passed.map(|inputs| inputs.len() as u64).sum();
+        self.take_steps(passed)
+    }
+
+    fn take_steps(&mut self, steps: u64) -> Option<()> {
+        let taken = self.budget.take(Limit::LoopSteps, steps);
+        if taken == Err(OverBudget::Cancelled) {
+            self.over = Some(OverBudget::Cancelled);
+        }
+        taken.ok()
+    }
+
+    /// The dependencies in a module; each circuit inside is a node after the signals, unless it is known what it
+    /// passes.
+    fn graph(&self, module: &Module, exact: Option<&Passes>) -> DiGraph<(), ()> {
         let signals = module.signals.len();
         let mut graph = DiGraph::with_capacity(signals + module.sites.len(), 2 * signals);
         for _ in 0..signals + module.sites.len() {
             graph.add_node(());
         }
         let mut edge = |from: usize, to: usize| _ = graph.add_edge(NodeIndex::new(from), NodeIndex::new(to), ());
-        let passes: Vec<_> =
-            if exact { module.sites.iter().map(|site| self.passes(site.module)).collect() } else { Vec::new() };
         let started = started(module);
         for (at, signal) in module.signals.iter().enumerate() {
             match *signal {
@@ -54,17 +84,19 @@ impl Builder<'_> {
                     pins[..function.arity()].iter().for_each(|&pin| edge(pin as usize, at))
                 }
                 ModuleSignal::Net { driver: Some(driver), .. } if !started[at] => edge(driver.get() as usize, at),
-                ModuleSignal::Output { site, bit } if exact => {
-                    let inputs = &module.sites[site as usize].inputs;
-                    passes[site as usize][bit as usize]
-                        .iter()
-                        .for_each(|&input| edge(inputs[input as usize] as usize, at));
-                }
-                ModuleSignal::Output { site, .. } => edge(signals + site as usize, at),
+                ModuleSignal::Output { site, bit } => match exact {
+                    Some(passes) => {
+                        let Site { module, inputs, .. } = &module.sites[site as usize];
+                        passes[module][bit as usize]
+                            .iter()
+                            .for_each(|&input| edge(inputs[input as usize] as usize, at));
+                    }
+                    None => edge(signals + site as usize, at),
+                },
                 _ => {}
             }
         }
-        if !exact {
+        if exact.is_none() {
             for (at, site) in module.sites.iter().enumerate() {
                 site.inputs.iter().for_each(|&input| edge(input as usize, signals + at));
             }
@@ -72,27 +104,30 @@ impl Builder<'_> {
         graph
     }
 
-    /// For each output bit of a module, the input bits that reach it without passing a bit with a start value.
-    fn passes(&self, id: ModuleId) -> Vec<Vec<u32>> {
-        let module = self.module(id);
-        let graph = self.graph(module, true);
-        let reach = |&output: &u32| {
+    /// For each output bit of a module, the input bits that reach it without passing a bit with a start value; nothing
+    /// if that takes too many steps.
+    fn passes_of(&mut self, id: ModuleId) -> Option<Vec<Vec<u32>>> {
+        let graph = self.graph(self.module(id), Some(&self.passes));
+        let mut seen = vec![0; self.module(id).signals.len()];
+        let outputs = self.module(id).output_bits.clone();
+        let mut passes = Vec::new();
+        for (turn, output) in (1u32..).zip(outputs) {
             let mut inputs = Vec::new();
-            let mut seen = vec![false; module.signals.len()];
             let mut open = vec![NodeIndex::new(output as usize)];
             while let Some(at) = open.pop() {
-                if std::mem::replace(&mut seen[at.index()], true) {
+                if std::mem::replace(&mut seen[at.index()], turn) == turn {
                     continue;
                 }
-                if let ModuleSignal::Input(input) = module.signals[at.index()] {
+                self.take_steps(1)?;
+                if let ModuleSignal::Input(input) = self.module(id).signals[at.index()] {
                     inputs.push(input);
                 }
                 open.extend(graph.neighbors_directed(at, petgraph::Direction::Incoming));
             }
             inputs.sort_unstable();
-            inputs
-        };
-        module.output_bits.iter().map(reach).collect()
+            passes.push(inputs);
+        }
+        Some(passes)
     }
 }
 

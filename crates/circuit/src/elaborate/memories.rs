@@ -3,6 +3,7 @@
 
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::memory_ports::MemoryPorts;
+use nbc_base::budget::Limit;
 use nbc_base::model::NetSlot;
 
 impl ModuleBuilder<'_, '_> {
@@ -14,6 +15,9 @@ impl ModuleBuilder<'_, '_> {
                 self.failed = true;
                 return;
             };
+            if self.take(Limit::MemoryWords, u64::from(words)).is_none() {
+                return;
+            }
             let (words, width) = (words as usize, width as usize);
             let mut ports = MemoryPorts { memory: at, words, width, reads: Vec::new(), writes: Vec::new() };
             for frame in 0..self.frames.len() as u32 {
@@ -46,6 +50,7 @@ impl ModuleBuilder<'_, '_> {
             return None;
         };
         self.give_width(net, width);
+        self.module.nets[net].width?;
         let ports = if is_input { &self.module.inputs } else { &self.module.outputs };
         let first = ports.iter().map(|port| port.width as usize).sum();
         if is_input {

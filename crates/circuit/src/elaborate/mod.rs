@@ -11,7 +11,6 @@ mod flatten;
 mod frame;
 mod inspection;
 mod instance;
-mod limits;
 mod loops;
 mod memories;
 mod memory_ports;
@@ -27,13 +26,12 @@ mod width;
 mod wording;
 
 pub use inspection::{Inspection, NetWidths};
-pub(crate) use limits::MAX_CELLS;
-pub use limits::MAX_WIDTH;
 pub use memory_ports::MemoryPorts;
 pub use table_faults::{table_fault, table_in_bits};
 pub use wording::TableError;
 
 use crate::Netlist;
+use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Circuit, CircuitId, Column, Instance, Program};
 use nbc_base::source::Span;
@@ -121,8 +119,13 @@ pub struct Inspector<'a>(Builder<'a>);
 
 impl<'a> Inspector<'a> {
     /// An inspector of the circuits of a program, which has not built any.
-    pub fn new(program: &'a Program) -> Self {
-        Self(Builder::new(program))
+    pub fn new(program: &'a Program, budget: WorkBudget) -> Self {
+        Self(Builder::within(program, budget))
+    }
+
+    /// What may still be made of the program.
+    pub fn budget(&mut self) -> &mut WorkBudget {
+        &mut self.0.budget
     }
 
     /// Checks a circuit without parameters, or with their defaults.

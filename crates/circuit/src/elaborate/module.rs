@@ -1,7 +1,10 @@
 //! A circuit with values for its parameters, built: bits with their drivers, and the circuits inside it.
 
+use std::collections::BTreeMap;
+
 use crate::elaborate::memory_ports::MemoryPorts;
 use crate::index::ListIndex;
+use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, Function};
 use nbc_base::source::Span;
 
@@ -15,6 +18,9 @@ impl ModuleId {
         Self(u32::try_from(at).expect("fewer than 2^32 modules"))
     }
 }
+
+/// For each module, and each of its output bits, the input bits that reach it.
+pub(super) type Passes = BTreeMap<ModuleId, Vec<Vec<u32>>>;
 
 /// One bit inside a module: the place of its signal.
 pub(super) type Bit = u32;
@@ -83,10 +89,8 @@ pub(super) struct Module {
     pub(super) output_bits: Vec<Bit>,
     /// The ports of the memories, if it is an environment.
     pub(super) memories: Vec<MemoryPorts>,
-    /// Gates, including those of the circuits inside.
-    pub(super) cells: u64,
-    /// Signals, including those of the circuits inside.
-    pub(super) size: u64,
+    /// What it has with the circuits inside.
+    pub(super) sum: Sum,
 }
 
 impl Module {
@@ -111,5 +115,62 @@ impl Module {
         let port = self.outputs.first().cloned();
         self.outputs =
             port.map(|port| ModulePort { width: self.output_bits.len() as u32, ..port }).into_iter().collect();
+    }
+}
+
+/// Sums over a module and all that it contains. Each is at most the largest number.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Sum {
+    /// Gates.
+    cells: u64,
+    /// Signals.
+    nets: u64,
+    /// The module and the circuits inside it.
+    instances: u64,
+    /// Signals with names.
+    named: u64,
+    /// The bytes of all names, as they begin in this module.
+    name_bytes: u64,
+}
+
+/// The most digits and brackets after the name of a net.
+const BIT_BYTES: u64 = 9;
+
+impl Sum {
+    /// The sums of a module of a circuit with so long a name, from those of the modules inside it.
+    pub(super) fn of(module: &Module, modules: &[Module], circuit_bytes: usize) -> Self {
+        let mut sum = Self { nets: module.signals.len() as u64, instances: 1, ..Self::default() };
+        sum.name_bytes = circuit_bytes as u64;
+        for signal in &module.signals {
+            match signal {
+                ModuleSignal::Gate { .. } => sum.cells += 1,
+                ModuleSignal::Net { net, .. } => {
+                    sum.named += 1;
+                    sum.name_bytes += module.nets[*net as usize].name.len() as u64 + BIT_BYTES;
+                }
+                _ => {}
+            }
+        }
+        for site in &module.sites {
+            let inside = &modules[site.module.0 as usize].sum;
+            // The name of a call begins the names of all that is inside.
+            let before = (site.name.len() as u64 + 1).saturating_mul(inside.named.saturating_add(inside.instances));
+            sum.cells = sum.cells.saturating_add(inside.cells);
+            sum.nets = sum.nets.saturating_add(inside.nets);
+            sum.instances = sum.instances.saturating_add(inside.instances);
+            sum.named = sum.named.saturating_add(inside.named);
+            sum.name_bytes = sum.name_bytes.saturating_add(inside.name_bytes).saturating_add(before);
+        }
+        sum
+    }
+
+    /// The sums with their limits.
+    pub(super) fn counts(&self) -> [(Limit, u64); 4] {
+        [
+            (Limit::Cells, self.cells),
+            (Limit::Nets, self.nets),
+            (Limit::Instances, self.instances),
+            (Limit::NetNameBytes, self.name_bytes),
+        ]
     }
 }

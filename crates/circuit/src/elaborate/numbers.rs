@@ -1,9 +1,11 @@
 //! Numbers without a width: each takes the width that the expression around it has or needs.
 
 use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::instance;
 use crate::elaborate::size;
 use crate::elaborate::width::ExpressionWidths;
 use crate::elaborate::wording::{ElaborateError, RangeError};
+use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, FreeNumber, OutputValue, SizeId, SizeKind, Table};
 
 /// The widths that the parts of an expression need, as far as they have none of their own.
@@ -106,6 +108,9 @@ impl ModuleBuilder<'_, '_> {
         let mut given: Vec<Option<i64>> =
             arguments.iter().map(|size| size.and_then(|size| self.size(size, frame))).collect();
         let callee = self.builder.circuit(callee);
+        if self.take(Limit::Steps, instance::cost(callee)).is_none() {
+            return Vec::new();
+        }
         let slot_of = |net: usize| match callee.sizes.get(callee.nets[net].width?.0 as usize)?.kind {
             SizeKind::Variable(slot) => Some(slot as usize),
             _ => None,

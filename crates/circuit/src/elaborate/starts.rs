@@ -3,6 +3,7 @@
 use crate::elaborate::build::{Builder, ModuleBuilder};
 use crate::elaborate::module::{Bit, Module, ModuleId, ModuleSignal};
 use crate::elaborate::wording::ElaborateError;
+use nbc_base::budget::Limit;
 
 impl Builder<'_> {
     /// Whether a module or a circuit inside it has a start value.
@@ -21,12 +22,14 @@ impl Builder<'_> {
         false
     }
 
-    /// The start value of the net that a bit of a module stands for, through nets and outputs of circuits inside.
-    fn start_of(&self, module: &Module, bit: Bit) -> Option<bool> {
+    /// The start value of the net that a bit of a module stands for, through nets and outputs of circuits inside;
+    /// `steps` counts these.
+    fn start_of(&self, module: &Module, bit: Bit, steps: &mut u64) -> Option<bool> {
         let (mut module, mut at, mut nets) = (module, bit, 0);
         // A net that is driven by itself has an error of its own.
         while nets <= module.signals.len() {
             nets += 1;
+            *steps += 2;
             match module.signals[at as usize] {
                 ModuleSignal::Net { driver, .. } => match module.start(at) {
                     Some(start) => return Some(start),
@@ -47,15 +50,18 @@ impl ModuleBuilder<'_, '_> {
     /// Reports nets with another start value than the memory that drives them: they cannot have both.
     pub(super) fn contradicting_starts(&mut self) {
         self.module.starts.sort_unstable();
-        let contradicts = |&&(bit, start): &&(Bit, bool)| match self.module.signals[bit as usize] {
-            ModuleSignal::Net { driver: Some(driver), .. } => {
-                self.builder.start_of(&self.module, driver.get()).is_some_and(|own| own != start)
-            }
-            _ => false,
-        };
         let mut items: Vec<u32> = Vec::new();
-        for &(bit, _) in self.module.starts.iter().filter(contradicts) {
-            if let ModuleSignal::Net { by, .. } = self.module.signals[bit as usize] {
+        for at in 0..self.module.starts.len() {
+            let (bit, start) = self.module.starts[at];
+            let ModuleSignal::Net { driver: Some(driver), by, .. } = self.module.signals[bit as usize] else {
+                continue;
+            };
+            let mut steps = 0;
+            let own = self.builder.start_of(&self.module, driver.get(), &mut steps);
+            if self.take(Limit::Steps, steps).is_none() {
+                return;
+            }
+            if own.is_some_and(|own| own != start) {
                 items.push(by);
             }
         }

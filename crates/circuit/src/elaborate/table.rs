@@ -5,6 +5,7 @@ use crate::elaborate::dense::{Dense, Shape};
 use crate::elaborate::module::Bit;
 use crate::elaborate::table_faults::{table_fault, table_in_bits};
 use crate::elaborate::wording::{ElaborateError, OperandText, WidthError};
+use nbc_base::budget::Limit;
 use nbc_base::model::{ExpressionId, Function, OutputValue, Table, TableOutput, TableRow};
 use nbc_base::source::Span;
 
@@ -42,6 +43,7 @@ impl ModuleBuilder<'_, '_> {
     /// The outputs of a table for these input bits, the lowest first.
     pub(super) fn table(&mut self, table: &Table, inputs: &[Bit], values: TableValues) -> Option<Vec<Bit>> {
         let resolved;
+        self.take(Limit::Steps, (table.rows.len() as u64 + 1).saturating_mul(inputs.len() as u64))?;
         let digits = inputs.len() != 1 && table.rows.iter().all(|row| row.pattern.digit().is_some());
         let table = if table.is_in_bits() && !digits {
             table
@@ -73,6 +75,8 @@ impl ModuleBuilder<'_, '_> {
             self.fault(WidthError::Outputs { first, second }.into());
             return None;
         }
+        let patterns = if inputs.len() <= MAX_DENSE_BITS { 1 << inputs.len() } else { table.rows.len() };
+        self.take(Limit::Steps, (patterns as u64).saturating_mul(width as u64))?;
         let column = |bit: usize| outputs.iter().map(|output| output[bit]).collect::<Vec<_>>();
         let columns: Vec<_> = (0..width).map(column).collect();
         Some(columns.iter().map(|column| self.table_bit(table, inputs, column)).collect())

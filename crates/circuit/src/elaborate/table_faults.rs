@@ -1,15 +1,10 @@
 //! What is wrong with a truth table: it needs exactly one row for every pattern.
 
 use crate::elaborate::wording::TableError;
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{OutputValue, Table, TableOutput, TablePattern, TableRow};
 use nbc_base::source::Span;
-
-/// The most rows. All pairs of rows are compared.
-const MOST_ROWS: usize = 4096;
-
-/// The most input bits.
-const MOST_BITS: usize = 64;
 
 /// The same table over inputs of `width` bits, with the bits of every pattern.
 ///
@@ -34,13 +29,15 @@ pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
     Ok(table)
 }
 
-/// What is wrong with a table whose patterns all have their bits: their widths, patterns with two rows or none.
+/// What is wrong with a table whose patterns all have their bits: their widths, patterns with two rows or none. All
+/// pairs of rows are compared, so there must be few.
 pub fn table_fault(table: &Table) -> Option<Diagnostic> {
-    if table.rows.len() > MOST_ROWS {
-        return Some(TableError::TooManyRows { rows: table.rows.len(), most: MOST_ROWS }.at(table.span));
+    if Limit::TableRows.permit(table.rows.len() as u64).is_err() {
+        return Some(TableError::TooManyRows { rows: table.rows.len(), most: Limit::TableRows.most() }.at(table.span));
     }
-    if let Some(row) = table.rows.iter().find(|row| row.bits().len() > MOST_BITS) {
-        return Some(TableError::TooManyBits { bits: row.bits().len(), most: MOST_BITS }.at(row.span));
+    let is_wide = |row: &&TableRow| Limit::TableBits.permit(row.bits().len() as u64).is_err();
+    if let Some(row) = table.rows.iter().find(is_wide) {
+        return Some(TableError::TooManyBits { bits: row.bits().len(), most: Limit::TableBits.most() }.at(row.span));
     }
     uneven(table.rows.iter().map(|row| (row.bits().len(), row.span)), "patterns")
         .or_else(|| uneven(table.outputs().filter_map(written), "outputs"))

@@ -2,10 +2,10 @@
 
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::frame::{Item, Scope};
-use crate::elaborate::limits::{MAX_STATEMENTS, MAX_WIDTH};
 use crate::elaborate::module::ModuleNet;
 use crate::elaborate::size;
 use crate::elaborate::wording::{ElaborateError, RangeError};
+use nbc_base::budget::Limit;
 use nbc_base::model::{Block, NetSlot, Size, SizeId, SizeKind, Statement};
 use nbc_base::source::Span;
 
@@ -13,14 +13,21 @@ impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls loops: fills the list of statements to build.
     pub(super) fn unroll(&mut self, variables: Vec<i64>) {
         let body = &self.circuit.body;
-        let root = self.open_frame(None, body, variables, String::new());
-        self.unroll_block(root, body);
+        if let Some(root) = self.open_frame(None, body, variables, String::new()) {
+            self.unroll_block(root, body);
+        }
     }
 
-    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i64>, turn: String) -> u32 {
+    /// A block in one turn of the loops around it, if there is room for it.
+    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i64>, turn: String) -> Option<u32> {
         let first_net = self.module.nets.len() as u32;
-        for slot in block.nets.clone() {
-            let net = &self.circuit.nets[slot as usize];
+        let nets = &self.circuit.nets[block.nets.start as usize..block.nets.end as usize];
+        let names: usize = nets.iter().map(|net| net.name.len() + turn.len()).sum();
+        self.take(Limit::Statements, 1)?;
+        self.take(Limit::Steps, variables.len() as u64)?;
+        self.take(Limit::Nets, nets.len() as u64)?;
+        self.take(Limit::NetNameBytes, (names + turn.len()) as u64)?;
+        for net in nets {
             let name = if parent.is_none() { net.name.clone() } else { format!("{}{turn}", net.name) };
             self.module.nets.push(ModuleNet { name, span: net.span, width: None, words: None, first: 0 });
         }
@@ -32,7 +39,7 @@ impl<'a> ModuleBuilder<'a, '_> {
             variables,
             turn,
         });
-        self.frames.len() as u32 - 1
+        Some(self.frames.len() as u32 - 1)
     }
 
     fn unroll_block(&mut self, frame: u32, block: &'a Block) {
@@ -45,6 +52,9 @@ impl<'a> ModuleBuilder<'a, '_> {
             match statement {
                 Statement::Let { .. } => {}
                 Statement::Drive { targets, joined, value } => {
+                    if self.take(Limit::Statements, 1).is_none() {
+                        return;
+                    }
                     self.items.push(Item { frame, targets, joined: *joined, value: *value });
                 }
                 Statement::If { condition, then, otherwise } => {
@@ -70,8 +80,10 @@ impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls a block inside another, in the same turn of the loops.
     fn unroll_inside(&mut self, frame: u32, block: &'a Block) {
         let Scope { variables, turn, .. } = &self.frames[frame as usize];
-        let inner = self.open_frame(Some(frame), block, variables.clone(), turn.clone());
-        self.unroll_block(inner, block);
+        let (variables, turn) = (variables.clone(), turn.clone());
+        if let Some(inner) = self.open_frame(Some(frame), block, variables, turn) {
+            self.unroll_block(inner, block);
+        }
     }
 
     fn name_integer(&mut self, frame: u32, variable: u32, value: SizeId) {
@@ -98,10 +110,11 @@ impl<'a> ModuleBuilder<'a, '_> {
             self.failed = true;
             return;
         }
-        let turns = to.saturating_sub(from).max(0) as usize;
-        let statements = turns.saturating_mul(body.statements.len().max(1));
-        if statements.saturating_add(self.items.len()) > MAX_STATEMENTS || self.frames.len() + turns > MAX_STATEMENTS {
-            self.fault(ElaborateError::TooManyTurns { statements, most: MAX_STATEMENTS }.at(span));
+        let turns = to.saturating_sub(from).max(0) as u64;
+        let statements = turns.saturating_mul(body.statements.len() as u64 + 1);
+        if Limit::Statements.permit(statements).is_err() {
+            let most = Limit::Statements.most();
+            self.fault(ElaborateError::TooManyTurns { statements, most }.at(span));
             self.failed = true;
             return;
         }
@@ -109,8 +122,9 @@ impl<'a> ModuleBuilder<'a, '_> {
             let mut variables = self.frames[frame as usize].variables.clone();
             set_variable(&mut variables, variable, value);
             let turn = format!("{}.{value}", self.frames[frame as usize].turn);
-            let inner = self.open_frame(Some(frame), body, variables, turn);
-            self.unroll_block(inner, body);
+            if let Some(inner) = self.open_frame(Some(frame), body, variables, turn) {
+                self.unroll_block(inner, body);
+            }
             if self.failed {
                 return;
             }
@@ -131,6 +145,8 @@ impl<'a> ModuleBuilder<'a, '_> {
 
     /// The value of a size in a frame; reports an error.
     pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i64> {
+        let first = Size::first_part(&self.circuit.sizes, size);
+        self.take(Limit::Steps, u64::from(size.0 - first.0))?;
         match size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables) {
             Ok(value) => Some(value),
             Err(fault) => {
@@ -143,10 +159,10 @@ impl<'a> ModuleBuilder<'a, '_> {
     /// A width: a size from 1 to the most bits of a net.
     pub(super) fn width(&mut self, size: SizeId, frame: u32) -> Option<u32> {
         let value = self.size(size, frame)?;
-        if (1..=MAX_WIDTH).contains(&value) {
+        if value >= 1 && Limit::Width.permit(value as u64).is_ok() {
             return Some(value as u32);
         }
-        let error = RangeError::NetWidth { width: value, most: MAX_WIDTH };
+        let error = RangeError::NetWidth { width: value, most: Limit::Width.most() };
         self.fault(error.at(self.circuit.sizes[size.0 as usize].span));
         None
     }

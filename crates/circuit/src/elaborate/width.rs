@@ -5,7 +5,11 @@ use std::collections::VecDeque;
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::instance;
 use crate::elaborate::wording::ElaborateError;
+use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, NetSlot, OutputValue, SizeId, TableOutput};
+
+/// What the width of a part of an expression counts, in steps.
+const WIDTH_STEPS: u64 = 4;
 
 /// The width of a part of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -72,7 +76,7 @@ impl ModuleBuilder<'_, '_> {
         while !open.is_empty() && !self.failed {
             let before = open.len();
             open = self.settle(open);
-            if open.len() == before {
+            if open.len() == before && self.builder.over.is_none() {
                 self.unknown_widths(&open);
             }
         }
@@ -106,7 +110,7 @@ impl ModuleBuilder<'_, '_> {
     fn settle(&mut self, mut open: VecDeque<u32>) -> VecDeque<u32> {
         let mut waiting: std::collections::BTreeMap<usize, Vec<u32>> = std::collections::BTreeMap::new();
         let mut stuck = VecDeque::new();
-        while let Some(item) = open.pop_front() {
+        while let Some(item) = open.pop_front().filter(|_| self.builder.over.is_none()) {
             if let Some(missing) = self.settle_item(item) {
                 waiting.entry(missing).or_default().push(item);
                 continue;
@@ -165,6 +169,9 @@ impl ModuleBuilder<'_, '_> {
     pub(super) fn widths(&mut self, root: ExpressionId, frame: u32) -> ExpressionWidths {
         let first = self.circuit.first_leaf(root).0;
         let mut found = ExpressionWidths { first, parts: Vec::new(), values: Vec::new(), missing: None };
+        if self.take(Limit::Steps, WIDTH_STEPS * (u64::from(root.0 - first) + 1)).is_none() {
+            return found;
+        }
         for at in first..root.0 {
             let width = self.width_of(ExpressionId(at), frame, &mut found);
             found.parts.push(width.first().copied().unwrap_or(PartWidth::Unknown));
@@ -254,6 +261,9 @@ impl ModuleBuilder<'_, '_> {
     ) -> Vec<PartWidth> {
         let given: Vec<_> = arguments.iter().map(|size| size.and_then(|size| self.size(size, frame))).collect();
         let (callee, span) = (self.builder.circuit(callee), self.span(id));
+        if self.take(Limit::Steps, instance::cost(callee)).is_none() {
+            return vec![PartWidth::Unknown; callee.outputs];
+        }
         let widths: Vec<_> = operands.iter().map(|part| part.bits()).collect();
         let known = instance::arguments(callee, given, &widths, span).ok();
         match known.and_then(|arguments| instance::output_widths(callee, &arguments)) {

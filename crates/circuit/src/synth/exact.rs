@@ -5,7 +5,7 @@
 //! interchangeable inputs are distinguished by the first cell (Knuth, The Art of Computer Programming 7.1.2, for the
 //! principle).
 
-use crate::cancel::CancelFlag;
+use crate::CancelFlag;
 use crate::network::{Network, Signal, counting_word};
 use crate::synth::prices::Prices;
 use nbc_base::model::Function;

@@ -3,7 +3,7 @@
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::cancel::CancelFlag;
+use crate::CancelFlag;
 use crate::cells::CellLibrary;
 use crate::network::{Network, Signal};
 use crate::options::{Effort, MapOptions, MappingObjective};

@@ -5,7 +5,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::cancel::CancelFlag;
+use crate::CancelFlag;
 use crate::network::{Network, Signal, word};
 use crate::synth::candidates::{Finder, Replacement, Rows, TRIES, below};
 use crate::synth::graph::{Graph, every_pattern};

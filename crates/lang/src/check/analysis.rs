@@ -21,6 +21,8 @@ pub struct Analysis {
     pub trees: Vec<Tree>,
     /// The circuits that were built, with the values of their parameters, those of the prelude included.
     pub instances: Vec<Instance>,
+    /// Whether nobody waited for the result any more, so that a part of it is missing.
+    pub is_cancelled: bool,
 }
 
 impl Analysis {

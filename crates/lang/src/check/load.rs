@@ -7,6 +7,7 @@ use crate::check::names::Home;
 use crate::check::wording::LoadError;
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Suggestion, similar_file};
 use nbc_base::source::{FileError, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::formats::CircuitSource;
@@ -16,15 +17,6 @@ pub const PRELUDE: [(&str, &str); 2] = [
     ("prelude.nb", include_str!("../../library/prelude.nb")),
     ("standard.nb", include_str!("../../library/standard.nb")),
 ];
-
-/// The deepest nesting of `use`.
-const MAX_DEPTH: usize = 64;
-
-/// The most files of a program.
-const MAX_FILES: usize = 256;
-
-/// The largest total size of the files of a program, in bytes.
-const MAX_PROGRAM_BYTES: usize = 16 << 20;
 
 /// The kind of a file, by its extension. Text of other files is never shown in messages.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -121,8 +113,8 @@ impl Loader<'_> {
             let open = &self.open[at..];
             let circle = open.iter().chain(open.first()).map(|(_, name)| name.clone()).collect();
             self.loaded.faults.push(LoadError::Circular { circle }.at(path.span));
-        } else if self.open.len() >= MAX_DEPTH {
-            self.loaded.faults.push(LoadError::TooDeep { most: MAX_DEPTH }.at(path.span));
+        } else if Limit::Uses.permit(self.open.len() as u64 + 1).is_err() {
+            self.loaded.faults.push(LoadError::TooDeep { most: Limit::Uses.most() }.at(path.span));
         } else if !self.done.contains(&identity) {
             self.read(sources, name, identity, path);
         }
@@ -234,10 +226,12 @@ impl Loader<'_> {
 /// The error of adding one more file, if any.
 fn over_limits(sources: &Sources, text: &str) -> Option<LoadError> {
     let bytes = sources.iter().map(|file| file.text.len()).sum::<usize>() + text.len();
-    if sources.iter().count() - PRELUDE.len() >= MAX_FILES {
-        return Some(LoadError::TooManyFiles { most: MAX_FILES });
+    let files = sources.iter().count() - PRELUDE.len() + 1;
+    if Limit::Files.permit(files as u64).is_err() {
+        return Some(LoadError::TooManyFiles { most: Limit::Files.most() });
     }
-    (bytes > MAX_PROGRAM_BYTES).then_some(LoadError::TooLarge { megabytes: MAX_PROGRAM_BYTES >> 20 })
+    let size = Limit::ProgramBytes.permit(bytes as u64);
+    size.err().map(|_| LoadError::TooLarge { megabytes: Limit::ProgramBytes.most() >> 20 })
 }
 
 /// A path relative to the folder of another file.

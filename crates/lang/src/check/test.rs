@@ -5,6 +5,7 @@ use crate::check::names::duplicate;
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
 use crate::syntax::tree::{self, NameSyntax, TestItem, TestTable, UntilSyntax};
+use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Base, Column, ScriptStep, TestRow, Until};
 use nbc_base::source::{Sources, Span};
@@ -18,13 +19,11 @@ pub(crate) struct Ports<'a> {
     pub(crate) given: Vec<String>,
 }
 
-/// The most rows of a test, those that are repeated counted each time.
-const MAX_ROWS: usize = 1_000_000;
-
-/// The steps of a test, as bits in order of the ports.
+/// The steps of a test in so many worlds, as bits in order of the ports; they are counted before they are repeated.
 pub(crate) fn steps(
     table: &TestTable,
     ports: &Ports<'_>,
+    (budget, worlds): (&mut WorkBudget, usize),
     sources: &Sources,
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<ScriptStep> {
@@ -38,10 +37,33 @@ pub(crate) fn steps(
     if faults.len() > before {
         return Vec::new();
     }
+    let bits = ports.inputs.iter().chain(ports.outputs).map(|column| column.width as u64 + 1).sum();
+    if let Err(over) = take_rows(budget, count(&table.rows).saturating_mul(worlds as u64), bits) {
+        faults.push(over.at(table.header));
+        return Vec::new();
+    }
     let columns = Columns { ports, inputs: &inputs, outputs: &outputs, sources };
     let (mut steps, mut number) = (Vec::new(), 0);
     columns.items(&table.rows, &mut number, &mut steps, faults);
     steps
+}
+
+/// Counts rows of so many bits before they are made.
+pub(crate) fn take_rows(budget: &mut WorkBudget, rows: u64, bits: u64) -> Result<(), OverBudget> {
+    budget.take(Limit::Rows, rows)?;
+    budget.take(Limit::RowBits, rows.saturating_mul(bits))
+}
+
+/// The number of rows, those that are repeated counted each time; a row with a pulse is two.
+fn count(items: &[TestItem]) -> u64 {
+    let rows = items.iter().map(|item| match item {
+        TestItem::Row(row) => 1 + u64::from(row.inputs.iter().any(|word| word.text == "^")),
+        TestItem::Repeat { times, rows, .. } => {
+            // What is no number has an error of its own.
+            times.text.parse().map_or(1, |times: u64| times.saturating_mul(count(rows)))
+        }
+    });
+    rows.fold(0, u64::saturating_add)
 }
 
 impl Ports<'_> {
@@ -113,17 +135,13 @@ impl Columns<'_> {
                         steps.push(ScriptStep { rows, until: until.flatten() });
                     }
                 }
-                TestItem::Repeat { times, rows, span } => {
+                TestItem::Repeat { times, rows, .. } => {
                     let Some(times) = times.text.parse::<usize>().ok().filter(|times| *times > 0) else {
                         faults.push(RowError::NoTimes { text: times.text.clone() }.at(times.span));
                         continue;
                     };
                     let mut once = Vec::new();
                     self.items(rows, number, &mut once, faults);
-                    if steps.len().saturating_add(once.len().saturating_mul(times)) > MAX_ROWS {
-                        faults.push(RowError::TooManyRows { most: MAX_ROWS }.at(*span));
-                        continue;
-                    }
                     steps.extend(std::iter::repeat_n(once, times).flatten());
                 }
             }
@@ -144,8 +162,11 @@ impl Columns<'_> {
                 RowCell::Pulse => return Err(CellError::PulsedOutput.at(word.span)),
             },
         };
-        let most = source.most.text.parse::<usize>().ok().filter(|most| (1..=MAX_ROWS).contains(most));
-        let most = most.ok_or_else(|| RowError::TooManyRows { most: MAX_ROWS }.at(source.most.span))?;
+        let most = source.most.text.parse::<u64>().ok().filter(|most| *most > 0);
+        let most = most.filter(|most| Limit::Repetitions.permit(*most).is_ok());
+        let most =
+            most.ok_or_else(|| RowError::TooManyRows { most: Limit::Repetitions.most() }.at(source.most.span))?;
+        let most = most as usize;
         let first = self.ports.outputs[..place].iter().map(|column| column.width).sum();
         Ok(Until { first, bits, most, output: name.text.clone(), span: name.span })
     }

@@ -20,5 +20,5 @@ mod wording;
 
 pub use format::format;
 pub use lexer::{Token, TokenKind, tokens};
-pub use parse::{MAX_NESTING, MAX_SOURCE_BYTES, Parsed, parse, parse_instance};
+pub use parse::{Parsed, parse, parse_instance};
 pub use split::KEYWORDS;

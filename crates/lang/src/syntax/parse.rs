@@ -12,18 +12,9 @@ use crate::syntax::recover;
 use crate::syntax::split::{SourcePiece, Split, split};
 use crate::syntax::tree::{BrokenSyntax, InstanceSyntax, Tree};
 use crate::syntax::wording::{Slip, SyntaxError};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Sources, Span};
-
-/// The largest source text, in bytes.
-pub const MAX_SOURCE_BYTES: u64 = 8 << 20;
-
-/// The deepest nesting of brackets and `if`. It is small enough for the parser, checker and formatter to fit in the
-/// stack of any thread.
-pub const MAX_NESTING: usize = 64;
-
-/// The most tokens of a declaration, which bounds the time of parsing.
-pub(crate) const MAX_WORDS: usize = 2_000_000;
 
 /// The tree of a text, and its errors.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,8 +28,8 @@ pub struct Parsed {
 /// Parses a file of `sources`.
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let text = &sources.file(file).text;
-    if text.len() as u64 > MAX_SOURCE_BYTES {
-        let error = SyntaxError::TooLarge { bytes: text.len(), most: MAX_SOURCE_BYTES };
+    if Limit::SourceBytes.permit(text.len() as u64).is_err() {
+        let error = SyntaxError::TooLarge { bytes: text.len(), most: Limit::SourceBytes.most() };
         return Parsed { errors: vec![error.at(Span::new(file, 0, 0))], ..Parsed::default() };
     }
     if let Some(at) = text.find('\0') {
@@ -146,8 +137,12 @@ fn blank(text: &mut String, range: Range<usize>) {
 
 /// The error of a declaration that is nested too deeply or too long to be parsed.
 fn over_limits(piece: &SourcePiece) -> Option<SyntaxError> {
-    if piece.depth > MAX_NESTING {
-        return Some(SyntaxError::TooDeep { depth: piece.depth, most: MAX_NESTING });
+    if Limit::Nesting.permit(piece.depth as u64).is_err() {
+        return Some(SyntaxError::TooDeep { depth: piece.depth, most: Limit::Nesting.most() });
     }
-    (piece.words > MAX_WORDS).then_some(SyntaxError::TooLong { words: piece.words, most: MAX_WORDS })
+    if Limit::NameBytes.permit(piece.name as u64).is_err() {
+        return Some(SyntaxError::LongName { bytes: piece.name, most: Limit::NameBytes.most() });
+    }
+    let words = Limit::Words.permit(piece.words as u64);
+    words.err().map(|_| SyntaxError::TooLong { words: piece.words, most: Limit::Words.most() })
 }

@@ -50,6 +50,8 @@ pub(crate) struct SourcePiece {
     pub(crate) depth: usize,
     /// The number of tokens.
     pub(crate) words: usize,
+    /// The bytes of the longest name.
+    pub(crate) name: usize,
 }
 
 /// Splits a text into declarations.
@@ -86,10 +88,13 @@ impl Splitter<'_> {
             self.end_piece();
         }
         let start = token.range.start;
-        let empty = || SourcePiece { range: start..start, semicolons: Vec::new(), depth: 0, words: 0 };
+        let empty = || SourcePiece { range: start..start, semicolons: Vec::new(), depth: 0, words: 0, name: 0 };
         let piece = self.piece.get_or_insert_with(empty);
         piece.range.end = token.range.end;
         piece.words += 1;
+        if token.kind == TokenKind::Word {
+            piece.name = piece.name.max(word.len());
+        }
         let text = self.text;
         bracket(&mut self.open, word, start, |&open| &text[open..=open]);
         self.closed |= word == "}" && self.open.is_empty();

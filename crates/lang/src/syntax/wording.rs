@@ -18,11 +18,13 @@ pub(crate) enum SyntaxError {
     /// A zero byte.
     ZeroByte,
     /// A declaration that is nested too deeply.
-    TooDeep { depth: usize, most: usize },
+    TooDeep { depth: usize, most: u64 },
     /// Nesting above the limit of the parser itself.
     TooDeepHere,
     /// A declaration of too many words.
-    TooLong { words: usize, most: usize },
+    TooLong { words: usize, most: u64 },
+    /// A name of too many bytes in a declaration.
+    LongName { bytes: usize, most: u64 },
     /// A text that is not the name of a circuit with its parameters.
     NotAnInstance { text: String },
     /// An unexpected word or sign; `expected` describes the valid ones.
@@ -63,6 +65,10 @@ impl SyntaxError {
                 let message = format!("declaration of {words} words and signs is too long");
                 Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
                     .with_help(format!("split it, or {REPEAT}"))
+            }
+            Self::LongName { bytes, most } => {
+                let message = format!("a name of {bytes} bytes is too long");
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most} in this declaration"))
             }
             Self::NotAnInstance { text } => {
                 let message = format!("`{text}` is not the name of a circuit");

@@ -6,10 +6,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::store::atomic::write_file;
 use crate::store::declared::Declared;
-use crate::store::disk::{MAX_CHECKPOINT_BYTES, read};
+use crate::store::disk::read;
 use crate::store::first_checkpoint::FirstRecord;
 use crate::store::search_state::SearchRecord as StateRecord;
 use crate::store::wording::{CheckpointError, StateError};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Evolution;
 use nbc_base::source::FileError;
@@ -73,7 +74,7 @@ impl Checkpoint {
     /// When the file cannot be read, and as [`Checkpoint::read`].
     pub fn open(path: &Path) -> Result<Option<Self>, Diagnostic> {
         let name = path.display().to_string();
-        match read(path, MAX_CHECKPOINT_BYTES) {
+        match read(path, Limit::CheckpointBytes.most()) {
             Ok(bytes) => Self::read(&name, &bytes).map(Some),
             Err(FileError::NotFound) => Ok(None),
             Err(error) => Err(Diagnostic::unreadable(&name, &error)),

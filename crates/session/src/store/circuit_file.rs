@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::store::verilog::{TopModule, Verilog};
 use crate::store::wording::StoreError;
 use crate::store::{DiskWorld, disk};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::source::{FileError, FileId, Simulated, Sources, VerilogFile, VerilogModules};
 use nbc_circuit::CancelFlag;
@@ -64,7 +65,7 @@ pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> 
     }
     let design = match format {
         Some(CircuitSource::Aiger) => {
-            let bytes = disk::read(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))?;
+            let bytes = disk::read(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))?;
             aiger::read(&bytes, clock)?
         }
         Some(CircuitSource::Bench) => parse(name.clone(), text(path)?, |text, file| bench::read(text, file, clock))?.0,
@@ -142,8 +143,8 @@ pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>,
 
 /// A program of ours as the formatter writes it, unless it is too large to be read again.
 fn canonical(text: String) -> Result<String, Diagnostic> {
-    if text.len() as u64 > syntax::MAX_SOURCE_BYTES {
-        return Err(StoreError::NbTooLarge { bytes: text.len(), most: syntax::MAX_SOURCE_BYTES }.into());
+    if Limit::SourceBytes.permit(text.len() as u64).is_err() {
+        return Err(StoreError::NbTooLarge { bytes: text.len(), most: Limit::SourceBytes.most() }.into());
     }
     let mut sources = Sources::default();
     let file = sources.add("the circuit as a .nb file", text);
@@ -157,7 +158,7 @@ fn unreadable(path: &Path, error: &FileError) -> Diagnostics {
 }
 
 fn text(path: &Path) -> Result<String, Diagnostics> {
-    disk::read_text(path, disk::MAX_CIRCUIT_BYTES).map_err(|error| unreadable(path, &error))
+    disk::read_text(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))
 }
 
 /// Reads a text under a name for messages.

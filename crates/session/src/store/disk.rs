@@ -4,16 +4,9 @@ use std::fs::{self, File, FileType};
 use std::io::Read;
 use std::path::Path;
 
+use nbc_base::budget::Limit;
 use nbc_base::diag::io_words;
 use nbc_base::source::{EntryKind, FileError};
-use nbc_lang::syntax::MAX_SOURCE_BYTES;
-
-/// The largest checkpoint of an evolution run, in bytes.
-pub const MAX_CHECKPOINT_BYTES: u64 = 1 << 30;
-/// The largest record of a run's progress, in bytes.
-pub const MAX_PROGRESS_BYTES: u64 = 256 << 20;
-/// The largest circuit file (BLIF, AIGER, .bench, Verilog), in bytes.
-pub const MAX_CIRCUIT_BYTES: u64 = 256 << 20;
 
 /// The path of standard input, which may be a pipe.
 const STANDARD_INPUT: &str = "/dev/stdin";
@@ -78,7 +71,7 @@ fn kind(of: FileType) -> &'static str {
 /// # Errors
 /// As [`read_text`].
 pub(super) fn source(path: &Path) -> Result<String, FileError> {
-    read_text(path, MAX_SOURCE_BYTES)
+    read_text(path, Limit::SourceBytes.most())
 }
 
 /// The bytes of a source.
@@ -86,7 +79,7 @@ pub(super) fn source(path: &Path) -> Result<String, FileError> {
 /// # Errors
 /// As [`read`].
 pub(super) fn source_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
-    read(path, MAX_SOURCE_BYTES)
+    read(path, Limit::SourceBytes.most())
 }
 
 /// The names of the entries of a folder, in order.

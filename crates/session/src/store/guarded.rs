@@ -7,14 +7,14 @@ use crate::store::verilog::{Verilog, VerilogFiles};
 use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
 use nbc_circuit::CancelFlag;
 
-/// Called before each translation. Returns the flag that ends it, or the reason why it is not permitted.
-type Permit = Arc<dyn Fn() -> Result<CancelFlag, VerilogError> + Send + Sync>;
-
 /// Files of another world, whose Verilog is translated as far as a door permits.
 #[derive(Clone)]
 pub struct GuardedWorld<W> {
     world: W,
-    permit: Permit,
+    /// Gives the flag that ends work which begins now.
+    cancel: Arc<dyn Fn() -> CancelFlag + Send + Sync>,
+    /// Why nothing is translated, if so.
+    refusal: Option<VerilogError>,
 }
 
 impl<W> fmt::Debug for GuardedWorld<W> {
@@ -24,14 +24,19 @@ impl<W> fmt::Debug for GuardedWorld<W> {
 }
 
 impl<W> GuardedWorld<W> {
-    /// The same files. `permit` is asked before each translation for the flag that ends it.
-    pub fn new(world: W, permit: impl Fn() -> Result<CancelFlag, VerilogError> + Send + Sync + 'static) -> Self {
-        Self { world, permit: Arc::new(permit) }
+    /// The same files. `cancel` gives the flag that ends a translation or a check which begins now.
+    pub fn new(world: W, cancel: impl Fn() -> CancelFlag + Send + Sync + 'static) -> Self {
+        Self { world, cancel: Arc::new(cancel), refusal: None }
     }
 
-    /// The same files. Translations end when the flag is raised.
+    /// The same files. Translations and checks end when the flag is raised.
     pub fn until(world: W, cancel: CancelFlag) -> Self {
-        Self::new(world, move || Ok(cancel.clone()))
+        Self::new(world, move || cancel.clone())
+    }
+
+    /// The same files, of which nothing is translated, for this reason.
+    pub fn refusing(self, refusal: VerilogError) -> Self {
+        Self { refusal: Some(refusal), ..self }
     }
 }
 
@@ -45,11 +50,18 @@ impl<W: VerilogFiles> SourceWorld for GuardedWorld<W> {
     }
 
     fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        let cancel = (self.permit)()?;
+        if let Some(refusal) = &self.refusal {
+            return Err(refusal.clone());
+        }
+        let cancel = self.cancel();
         if cancel.is_raised() {
             return Err(VerilogError::Cancelled);
         }
         Verilog { world: &self.world, files, cancel: &cancel }.modules()
+    }
+
+    fn cancel(&self) -> CancelFlag {
+        (self.cancel)()
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -74,8 +86,8 @@ mod tests {
         [VerilogFile { path: "m.v", text: "module m(input a, output q);\n assign q = a;\nendmodule\n" }];
 
     #[test]
-    fn nothing_is_translated_without_a_permit_or_after_its_end() {
-        let refusing = GuardedWorld::new(DiskWorld, || Err(VerilogError::Untrusted));
+    fn nothing_is_translated_against_a_refusal_or_after_the_end() {
+        let refusing = GuardedWorld::new(DiskWorld, CancelFlag::default).refusing(VerilogError::Untrusted);
         assert_eq!(refusing.translate_verilog(&FILES), Err(VerilogError::Untrusted));
         let cancel = CancelFlag::default();
         cancel.raise();

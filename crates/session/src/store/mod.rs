@@ -51,7 +51,7 @@ pub use circuit_file::{CircuitFile, CircuitRead, encode_circuit, read_circuit};
 #[cfg(feature = "disk")]
 pub use declared::Declared;
 #[cfg(feature = "disk")]
-pub use disk::{MAX_CIRCUIT_BYTES, MAX_PROGRESS_BYTES, read, read_text};
+pub use disk::{read, read_text};
 #[cfg(feature = "disk")]
 pub use disk_world::DiskWorld;
 #[cfg(feature = "disk")]
@@ -73,4 +73,3 @@ pub use swarm_checkpoint::SwarmCheckpoint;
 pub use temporary::{PrivateFile, temporary_folder};
 #[cfg(feature = "disk")]
 pub use verilog::{ParameterValue, TopModule, VerilogFiles};
-pub use yaml::MAX_ROBOT_BYTES;

@@ -6,8 +6,9 @@ use serde::{Deserialize, Serialize};
 
 use crate::store::atomic::write_file;
 use crate::store::checkpoint::{framed, unframed};
-use crate::store::disk::{MAX_CHECKPOINT_BYTES, read};
+use crate::store::disk::read;
 use crate::store::wording::{CheckpointError, StateError};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::FileError;
 use nbc_swarm::{KeptSwarm, SwarmTask};
@@ -47,7 +48,7 @@ impl SwarmCheckpoint {
     /// When it cannot be read, is damaged, or belongs to another task.
     pub fn open(path: &Path, task: &SwarmTask) -> Result<Option<Self>, Diagnostic> {
         let name = path.display().to_string();
-        let bytes = match read(path, MAX_CHECKPOINT_BYTES) {
+        let bytes = match read(path, Limit::CheckpointBytes.most()) {
             Ok(bytes) => bytes,
             Err(FileError::NotFound) => return Ok(None),
             Err(error) => return Err(Diagnostic::unreadable(&name, &error)),

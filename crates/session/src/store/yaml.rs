@@ -1,17 +1,14 @@
 //! YAML that any reader loads, and YAML's errors as diagnostics with places.
 
-use serde::Serialize;
-use serde::de::DeserializeOwned;
+use std::fmt;
+
+use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor};
+use serde::{Deserializer, Serialize};
 
 use crate::store::wording::RobotFileError;
+use nbc_base::budget::{Limit, WorkBudget};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, SourceFile, Span};
-
-/// The largest robot file, in bytes; the largest body takes a tenth of it.
-pub const MAX_ROBOT_BYTES: u64 = 1 << 20;
-
-/// The deepest nesting of brackets, because the reader's time grows with its square.
-const MAX_DEPTH: usize = 64;
 
 /// Words that some readers take for numbers, booleans or null.
 const RESERVED: [&str; 13] =
@@ -22,25 +19,115 @@ const RESERVED: [&str; 13] =
 /// # Errors
 /// A diagnostic with its place.
 pub(super) fn read<T: DeserializeOwned>(file: &SourceFile) -> Result<T, Diagnostic> {
-    if file.text.len() as u64 > MAX_ROBOT_BYTES {
-        return Err(RobotFileError::TooLarge { most: MAX_ROBOT_BYTES }.of(&file.name, None));
+    if Limit::RobotBytes.permit(file.text.len() as u64).is_err() {
+        return Err(RobotFileError::TooLarge { most: Limit::RobotBytes.most() }.of(&file.name, None));
     }
     if let Some(at) = too_deep(&file.text) {
-        return Err(RobotFileError::TooDeep { most: MAX_DEPTH }.of(&file.name, span(file.id, at, 1)));
+        return Err(RobotFileError::TooDeep { most: Limit::RobotNesting.most() }.of(&file.name, span(file.id, at, 1)));
+    }
+    // Only an alias is longer than it is written.
+    if file.text.contains('*') {
+        let mut budget = WorkBudget::default();
+        let counted = Tally(&mut budget).deserialize(serde_yaml::Deserializer::from_str(&file.text));
+        if budget.left(Limit::RobotTextBytes) == 0 {
+            return Err(RobotFileError::TooMuch { most: Limit::RobotTextBytes.most() }.of(&file.name, None));
+        }
+        counted.map_err(|error| fault(file, &error))?;
     }
     serde_yaml::from_str(&file.text).map_err(|error| fault(file, &error))
 }
 
+/// Reads any value and keeps nothing of it, but counts its texts; ends where there are too many.
+struct Tally<'b>(&'b mut WorkBudget);
+
+impl Tally<'_> {
+    fn take<E: Error>(&mut self, bytes: usize) -> Result<(), E> {
+        // Each value takes memory, too.
+        let bytes = (bytes as u64).saturating_add(VALUE_BYTES);
+        let taken = self.0.take(Limit::RobotTextBytes, bytes);
+        taken.map_err(|_| {
+            // What is left says whether it was too much.
+            let left = self.0.left(Limit::RobotTextBytes);
+            _ = self.0.take(Limit::RobotTextBytes, left);
+            E::custom("too much text")
+        })
+    }
+}
+
+/// What a value counts beside its text.
+const VALUE_BYTES: u64 = 8;
+
+impl<'de> DeserializeSeed<'de> for Tally<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Tally<'_> {
+    type Value = ();
+
+    fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        formatter.write_str("a value")
+    }
+
+    fn visit_bool<E: Error>(mut self, _: bool) -> Result<(), E> {
+        self.take(0)
+    }
+
+    fn visit_i64<E: Error>(mut self, _: i64) -> Result<(), E> {
+        self.take(0)
+    }
+
+    fn visit_u64<E: Error>(mut self, _: u64) -> Result<(), E> {
+        self.take(0)
+    }
+
+    fn visit_f64<E: Error>(mut self, _: f64) -> Result<(), E> {
+        self.take(0)
+    }
+
+    fn visit_str<E: Error>(mut self, text: &str) -> Result<(), E> {
+        self.take(text.len())
+    }
+
+    fn visit_unit<E: Error>(mut self) -> Result<(), E> {
+        self.take(0)
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(mut self, mut list: A) -> Result<(), A::Error> {
+        self.take(0)?;
+        while list.next_element_seed(Tally(self.0))?.is_some() {}
+        Ok(())
+    }
+
+    fn visit_map<A: MapAccess<'de>>(mut self, mut entries: A) -> Result<(), A::Error> {
+        self.take(0)?;
+        while entries.next_key_seed(Tally(self.0))?.is_some() {
+            entries.next_value_seed(Tally(self.0))?;
+        }
+        Ok(())
+    }
+
+    fn visit_enum<A: EnumAccess<'de>>(self, tagged: A) -> Result<(), A::Error> {
+        let (tag, value) = tagged.variant::<String>()?;
+        let Self(budget) = self;
+        Tally(&mut *budget).take(tag.len())?;
+        value.newtype_variant_seed(Tally(budget))
+    }
+}
+
 /// The place of the first bracket that is nested too deep.
 fn too_deep(text: &str) -> Option<usize> {
-    let mut depth = 0usize;
+    let mut depth = 0;
     text.bytes().position(|byte| {
         match byte {
             b'[' | b'{' => depth += 1,
-            b']' | b'}' => depth = depth.saturating_sub(1),
+            b']' | b'}' => depth = u64::saturating_sub(depth, 1),
             _ => {}
         }
-        depth > MAX_DEPTH
+        Limit::RobotNesting.permit(depth).is_err()
     })
 }
 

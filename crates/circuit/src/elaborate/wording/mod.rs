@@ -6,6 +6,7 @@ pub use tables::TableError;
 
 use std::fmt;
 
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Fix, Label, Suggestion, counted, suggest};
 use nbc_base::source::Span;
 
@@ -176,13 +177,11 @@ pub(super) enum ElaborateError {
     /// A value up to `most` that selects one of `count` bits, or words.
     IndexOutside { net: String, count: u32, most: u64, is_word: bool },
     /// Circuits that are nested too deeply.
-    TooDeep { most: usize },
-    /// Too many nets, at the first one above the limit.
-    TooManyNets,
-    /// Too many cells or nets.
-    TooLarge { circuit: String, count: u64, what: &'static str, most: u64 },
-    /// A `for` that makes too many statements.
-    TooManyTurns { statements: usize, most: usize },
+    TooDeep { most: u64 },
+    /// A circuit that would have too much of something when it is flattened.
+    TooLarge { circuit: String, count: u64, limit: Limit },
+    /// A `for` that makes too many statements and turns.
+    TooManyTurns { statements: u64, most: u64 },
 }
 
 impl ElaborateError {
@@ -253,15 +252,12 @@ impl ElaborateError {
                 let message = format!("circuits are nested more than {most} levels deep");
                 Diagnostic::new(Code::Nesting, message, span, "the limit is reached here")
             }
-            Self::TooManyNets => {
-                Diagnostic::new(Code::TooLarge, "the circuit has too many nets", span, "the limit is reached here")
-            }
-            Self::TooLarge { circuit, count, what, most } => {
-                let message = format!("`{circuit}` needs {count} {what}");
-                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
+            Self::TooLarge { circuit, count, limit } => {
+                let message = format!("`{circuit}` needs {count} {}", limit.things());
+                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {}", limit.most()))
             }
             Self::TooManyTurns { statements, most } => {
-                let message = format!("the loop makes {statements} statements");
+                let message = format!("the loop makes {statements} statements and turns");
                 Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
             }
         }
@@ -274,7 +270,7 @@ pub(super) enum RangeError {
     /// A number that is too large, or divided by zero.
     Overflow,
     /// A width of a net that is below 1 or above the limit.
-    NetWidth { width: i64, most: i64 },
+    NetWidth { width: i64, most: u64 },
     /// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
     AscendingSlice { net: String, ends: [i64; 2], is_literal: bool },
     /// A loop that would have to count down; `is_literal` where both ends are written as digits.
@@ -290,7 +286,7 @@ pub(super) enum RangeError {
     /// A constant that does not fit into its width.
     ConstantWidth { value: u128, width: u32 },
     /// A value repeated a negative number of times, or to more bits than a net has.
-    Repetitions { times: i64, most: i64 },
+    Repetitions { times: i64, most: u64 },
 }
 
 impl RangeError {

@@ -25,14 +25,14 @@ pub enum TableError {
         /// The number of rows.
         rows: usize,
         /// The most that are possible.
-        most: usize,
+        most: u64,
     },
     /// A pattern of too many bits.
     TooManyBits {
         /// The number of bits; of two places, that of the first one first.
         bits: usize,
         /// The most that are possible.
-        most: usize,
+        most: u64,
     },
     /// Patterns or outputs of different widths.
     Uneven {

@@ -22,9 +22,10 @@ use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EvolutionError};
 use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
+use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation};
-use nbc_base::source::{SourceWorld, Sources, Span};
+use nbc_base::source::{CancelFlag, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
 /// The program of the trees, and what is known of it.
@@ -41,12 +42,12 @@ pub(crate) fn program(files: &dyn SourceWorld, trees: &[(Home, Tree)], sources: 
     assembly.circuits();
     assembly.swarms();
     assembly.unused_libraries();
-    let Inspection { diagnostics, widths, instances } = assembly.build();
+    let Inspection { diagnostics, widths, instances, is_cancelled } = assembly.build(files.cancel());
     assembly.faults.extend(diagnostics);
     assembly.forget_redeclared();
     let uses = assembly.uses();
     let trees = Vec::new();
-    Analysis { program: assembly.program, diagnostics: assembly.faults, uses, widths, trees, instances }
+    Analysis { program: assembly.program, diagnostics: assembly.faults, uses, widths, trees, instances, is_cancelled }
 }
 
 /// A program under construction.
@@ -366,9 +367,9 @@ impl<'a> Assembly<'a> {
 
     /// Builds all circuits that can be built, to find errors of width, and reads the tests and simulations, which need
     /// the ports.
-    fn build(&mut self) -> Inspection {
+    fn build(&mut self, cancel: CancelFlag) -> Inspection {
         let mut program = std::mem::take(&mut self.program);
-        let mut inspector = Inspector::new(&program);
+        let mut inspector = Inspector::new(&program, WorkBudget::until(cancel));
         for (at, home) in self.circuits.homes.iter().enumerate() {
             if *home != Home::Prelude && self.circuits.sound[at] {
                 inspector.inspect(CircuitId(at as u32));

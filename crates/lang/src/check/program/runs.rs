@@ -15,6 +15,7 @@ use crate::check::uses::{NameKind, NameUse};
 use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EnvironmentError};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, TestItem, TestTable};
+use nbc_base::budget::{CYCLE_BITS, Limit};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{CircuitId, CircuitTest, Column, Instance, Program, Script, Simulation, Stimulation};
 use nbc_base::source::Span;
@@ -36,6 +37,8 @@ impl<'a> Assembly<'a> {
             let at = source.swarm.span;
             let spells =
                 spells(&source.with, at, &inputs, Home::Own, schedules, self.declarations.sources, &mut self.faults);
+            let cycles = spells.iter().map(|spell| u64::from(spell.cycles)).sum();
+            self.permit_cycles(cycles, &inputs, at);
             let world = self.world(source.world.as_ref());
             let (file, line) = self.declarations.line(declaration.span);
             let (swarm, span) = (source.swarm.text.clone(), source.swarm.span);
@@ -83,7 +86,10 @@ impl<'a> Assembly<'a> {
                 self.rows_named(&tested.circuit, table, &table.rows, ports);
                 let given = environment.as_ref().map_or(Vec::new(), |(_, given)| given.clone());
                 let ports = test::Ports { circuit: &tested.circuit, inputs: &inputs, outputs: &outputs, given };
-                let steps = test::steps(table, &ports, self.declarations.sources, &mut self.faults);
+                let (sources, room) = (self.declarations.sources, (inspector.budget(), source.worlds.len().max(1)));
+                let steps = test::steps(table, &ports, room, sources, &mut self.faults);
+                let cycles = steps.iter().flat_map(|step| &step.rows).map(|row| u64::from(row.hold.unwrap_or(1)));
+                self.permit_cycles(cycles.sum(), &inputs, source.circuit.name.span);
                 let environment = environment.map(|(environment, _)| environment);
                 if environment.is_some() || steps.iter().any(|step| step.until.is_some()) {
                     Stimulation::Script(Script { environment, steps })
@@ -99,7 +105,7 @@ impl<'a> Assembly<'a> {
         };
         if let Stimulation::All { .. } = stimulation {
             let place = source.circuit.name.span;
-            self.all_inputs(&inputs, place)?;
+            self.all_inputs((&inputs, &outputs), source.worlds.len().max(1), inspector, place)?;
             let circuit = self.circuits.place(&tested.circuit);
             if circuit.is_some_and(|circuit| inspector.has_memory(circuit, &tested.arguments, place)) {
                 self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
@@ -283,15 +289,27 @@ impl<'a> Assembly<'a> {
     }
 
     /// Rejects a test over all inputs that would have too many rows.
-    fn all_inputs(&mut self, inputs: &[Column], span: Span) -> Option<()> {
+    fn all_inputs(
+        &mut self,
+        (inputs, outputs): (&[Column], &[Column]),
+        worlds: usize,
+        inspector: &mut Inspector<'_>,
+        span: Span,
+    ) -> Option<()> {
         let bits: usize = inputs.iter().map(|column| column.width).sum();
-        if bits > MAX_TRIED_BITS {
-            self.faults.push(CircuitError::TooManyInputs { bits, most: MAX_TRIED_BITS }.at(span));
+        if Limit::TriedBits.permit(bits as u64).is_err() {
+            self.faults.push(CircuitError::TooManyInputs { bits, most: Limit::TriedBits.most() }.at(span));
             return None;
         }
-        Some(())
+        let columns = inputs.iter().chain(outputs).map(|column| column.width as u64 + 1);
+        let taken = test::take_rows(inspector.budget(), (worlds as u64) << bits, columns.sum());
+        self.note(taken.map_err(|over| over.at(span))).then_some(())
+    }
+
+    /// Rejects a run over more cycles than there is room for.
+    fn permit_cycles(&mut self, cycles: u64, inputs: &[Column], span: Span) {
+        let bits = inputs.iter().map(|column| column.width as u64).sum::<u64>() + CYCLE_BITS;
+        let permitted = Limit::CycleBits.permit(cycles.saturating_mul(bits));
+        self.note(permitted.map_err(|over| over.at(span)));
     }
 }
-
-/// The most input bits of a test over all inputs.
-const MAX_TRIED_BITS: usize = 16;

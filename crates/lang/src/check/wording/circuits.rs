@@ -30,7 +30,7 @@ pub(crate) enum CircuitError {
     /// only the tested circuit has, and those that only the reference has.
     MixedPorts { circuits: [String; 2], kind: &'static str, ports: [Vec<String>; 2], first: Span },
     /// A test over all inputs with too many input bits.
-    TooManyInputs { bits: usize, most: usize },
+    TooManyInputs { bits: usize, most: u64 },
     /// A test over all inputs of a circuit with memory.
     AllInputsOfMemory { circuit: String },
     /// Two tests of a circuit with the same title.

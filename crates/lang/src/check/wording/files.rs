@@ -22,13 +22,13 @@ pub(crate) enum LoadError {
     /// Files that use each other.
     Circular { circle: Vec<String> },
     /// Files that use each other too deeply.
-    TooDeep { most: usize },
+    TooDeep { most: u64 },
     /// Too many files.
-    TooManyFiles { most: usize },
+    TooManyFiles { most: u64 },
     /// Errors and warnings of a file above the number that is shown.
     MoreFaults { file: String, errors: usize, warnings: usize },
     /// Too much text.
-    TooLarge { megabytes: usize },
+    TooLarge { megabytes: u64 },
     /// A folder that cannot be read.
     UnreadableLibrary { folder: String, error: FileError },
     /// A folder without robot files.

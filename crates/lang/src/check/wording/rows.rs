@@ -120,7 +120,7 @@ pub(crate) enum RowError {
     /// Rows that are repeated no times, or a number of times that is too large.
     NoTimes { text: String },
     /// Too many rows.
-    TooManyRows { most: usize },
+    TooManyRows { most: u64 },
     /// A row that is repeated until an output of several bits has no value that is given.
     UntilWithoutValue { output: String },
 }

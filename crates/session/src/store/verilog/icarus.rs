@@ -12,6 +12,7 @@ use std::path::Path;
 use crate::store::disk;
 use crate::store::verilog::open_values::OpenValues;
 use crate::store::verilog::process::{self, Limits};
+use nbc_base::budget::Limit;
 use nbc_base::diag::io_words;
 use nbc_base::source::{FileId, Simulated, VerilogDifference, VerilogError, VerilogModules};
 use nbc_circuit::formats::buses::{Bus, buses};
@@ -110,7 +111,7 @@ impl<'a> Icarus<'a> {
         if self.compiled(settings, &run, &dump)?.is_none() || self.run()?.is_none() {
             return Ok(Simulated::NotRun);
         }
-        let dump = disk::read_text(&self.folder.join(DUMP), disk::MAX_CIRCUIT_BYTES);
+        let dump = disk::read_text(&self.folder.join(DUMP), Limit::CircuitFileBytes.most());
         let Ok(dump) = dump else { return Ok(Simulated::NotRun) };
         let registers = self.design.registers.iter().map(|register| register.name.as_str());
         let open = OpenValues::of(&dump, &registers.collect(), values.len(), STEP);
@@ -229,7 +230,7 @@ impl<'a> Icarus<'a> {
             Err(VerilogError::Cancelled) => return Err(VerilogError::Cancelled),
             _ => return Ok(None),
         }
-        let text = disk::read_text(&self.folder.join(VALUES), disk::MAX_CIRCUIT_BYTES);
+        let text = disk::read_text(&self.folder.join(VALUES), Limit::CircuitFileBytes.most());
         let is_whole = |line: &&str| line.len() == self.design.outputs().max(1);
         Ok(text.ok().map(|text| text.lines().take_while(is_whole).map(str::to_owned).collect()))
     }

@@ -16,6 +16,7 @@ use crate::store::verilog::parameter::ParameterValue;
 use crate::store::verilog::process::{self, Limits};
 use crate::store::verilog::reason::rejected;
 use crate::store::verilog::rtlil::{RtlilLines, tops, undriven, unknown_label, version};
+use nbc_base::budget::Limit;
 use nbc_base::diag::io_words;
 use nbc_base::source::{
     FileError, SourceWorld, VERILOG_SOURCE, VerilogDrivers, VerilogError, VerilogFile, VerilogModules, VerilogName,
@@ -170,7 +171,7 @@ fn is_plain(name: &str) -> bool {
 }
 
 fn result(folder: &tempfile::TempDir, name: &str) -> Result<String, VerilogError> {
-    disk::read_text(&folder.path().join(name), disk::MAX_CIRCUIT_BYTES).map_err(|_| VerilogError::NoResult)
+    disk::read_text(&folder.path().join(name), Limit::CircuitFileBytes.most()).map_err(|_| VerilogError::NoResult)
 }
 
 /// The result for some modules, if all their cells are gates and registers.

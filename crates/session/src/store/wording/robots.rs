@@ -11,8 +11,10 @@ use nbc_base::source::{FileError, Span};
 pub(in crate::store) enum RobotFileError {
     /// Too much text.
     TooLarge { most: u64 },
+    /// Too much text, that of aliases counted each time.
+    TooMuch { most: u64 },
     /// Brackets that are nested too deeply.
-    TooDeep { most: usize },
+    TooDeep { most: u64 },
     /// Text that is not the YAML of a robot, in the words of the reader.
     Shape(String),
     /// A file of another version.
@@ -32,6 +34,11 @@ impl RobotFileError {
             Self::TooLarge { most } => {
                 (Code::RobotFile, format!("`{file}` is not a robot file: larger than {most} bytes"), "here")
             }
+            Self::TooMuch { most } => (
+                Code::RobotFile,
+                format!("`{file}` is not a robot file: with its aliases it has more than {most} bytes of text"),
+                "here",
+            ),
             Self::TooDeep { most } => (
                 Code::RobotFile,
                 format!("`{file}` is not a robot file: brackets are nested more than {most} levels deep"),

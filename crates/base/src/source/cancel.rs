@@ -1,13 +1,13 @@
-//! A flag by which another thread can end a search early.
+//! A flag by which another thread can end work early.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A request to end a search of mapping early. Clones share their state.
+/// A request to end work early: a search of mapping, a translation, a check. Clones share their state.
 ///
 /// A cancelled search soon returns the best network so far. It consists of cells of the library and has the function of
-/// its source, but it may have more cells than after a complete search, depending on the moment. A flag that is never
-/// raised does not affect the result.
+/// its source, but it may have more cells than after a complete search, depending on the moment. A check that was cut
+/// short has an error that says so. A flag that is never raised does not affect a result.
 #[derive(Clone, Debug, Default)]
 pub struct CancelFlag(Arc<AtomicBool>);
 
@@ -18,12 +18,12 @@ impl From<Arc<AtomicBool>> for CancelFlag {
 }
 
 impl CancelFlag {
-    /// Ends the searches that have this flag, and those that will start.
+    /// Ends the work that has this flag, and that which will start.
     pub fn raise(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the search is to end.
+    /// Whether the work is to end.
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

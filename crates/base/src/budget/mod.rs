@@ -1,0 +1,113 @@
+//! One budget for everything that a text from outside can make: it is asked before anything is unfolded, so that no
+//! small text takes all memory or all time of a process that others use, too.
+
+mod limit;
+mod wording;
+
+pub use limit::{CYCLE_BITS, Limit};
+
+use crate::source::CancelFlag;
+
+/// What one piece of work has made so far, such as a check of a program or the building of a circuit.
+#[derive(Clone, Debug)]
+pub struct WorkBudget {
+    /// By the places of the limits in [`Limit::ALL`].
+    used: [u64; Limit::ALL.len()],
+    cancel: CancelFlag,
+    /// What was made since the flag was looked at.
+    unseen: u64,
+}
+
+/// The reason why work ends without a result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum OverBudget {
+    /// It would make more than a limit permits.
+    Limit(Limit),
+    /// Nobody waits for the result any more.
+    Cancelled,
+}
+
+impl Default for WorkBudget {
+    /// A budget of work that somebody waits for until it ends.
+    fn default() -> Self {
+        Self::until(CancelFlag::default())
+    }
+}
+
+/// What is made between two looks at the flag. Small programs are checked completely.
+const BETWEEN_LOOKS: u64 = 1 << 16;
+
+impl WorkBudget {
+    /// A budget of work that ends when the flag is raised.
+    pub fn until(cancel: CancelFlag) -> Self {
+        Self { used: [0; Limit::ALL.len()], cancel, unseen: 0 }
+    }
+
+    /// Counts what is about to be made.
+    ///
+    /// # Errors
+    /// When it is too much; then nothing is counted. When nobody waits any more.
+    pub fn take(&mut self, limit: Limit, amount: u64) -> Result<(), OverBudget> {
+        self.unseen = self.unseen.saturating_add(amount);
+        if self.unseen > BETWEEN_LOOKS {
+            self.unseen = 0;
+            if self.cancel.is_raised() {
+                return Err(OverBudget::Cancelled);
+            }
+        }
+        if amount > self.left(limit) {
+            return Err(OverBudget::Limit(limit));
+        }
+        self.used[limit as usize] += amount;
+        Ok(())
+    }
+
+    /// What may still be made.
+    pub fn left(&self, limit: Limit) -> u64 {
+        limit.most() - self.used[limit as usize]
+    }
+}
+
+impl Limit {
+    /// Whether so much is permitted.
+    ///
+    /// # Errors
+    /// When it is too much.
+    pub fn permit(self, amount: u64) -> Result<(), OverBudget> {
+        if amount <= self.most() { Ok(()) } else { Err(OverBudget::Limit(self)) }
+    }
+
+    /// Its row in the table of docs/limits.md.
+    pub fn row(self) -> String {
+        let digits = self.most().to_string();
+        let groups: Vec<&str> =
+            digits.as_bytes().rchunks(3).rev().map(|group| str::from_utf8(group).expect("digits")).collect();
+        format!("| {} {} | {} |", self.things(), self.scope(), groups.join(","))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_budget_is_asked_before_anything_is_made() {
+        let mut budget = WorkBudget::default();
+        let most = Limit::Cells.most();
+        assert_eq!(budget.take(Limit::Cells, most), Ok(()));
+        assert_eq!(budget.take(Limit::Cells, 1), Err(OverBudget::Limit(Limit::Cells)));
+        assert_eq!((budget.take(Limit::Cells, 0), budget.take(Limit::Nets, 1)), (Ok(()), Ok(())));
+        assert_eq!(budget.take(Limit::Nets, u64::MAX), Err(OverBudget::Limit(Limit::Nets)));
+        assert_eq!(budget.left(Limit::Nets), Limit::Nets.most() - 1);
+        assert_eq!(Limit::Width.permit(Limit::Width.most() + 1), Err(OverBudget::Limit(Limit::Width)));
+    }
+
+    #[test]
+    fn long_work_ends_when_nobody_waits_for_it() {
+        let cancel = CancelFlag::default();
+        let mut budget = WorkBudget::until(cancel.clone());
+        cancel.raise();
+        assert_eq!(budget.take(Limit::Steps, 1), Ok(()), "small work is done");
+        assert_eq!(budget.take(Limit::Steps, BETWEEN_LOOKS), Err(OverBudget::Cancelled));
+    }
+}
