@@ -10,8 +10,9 @@ use flate2::write::ZlibEncoder;
 
 use crate::history::FRAMES;
 use crate::message::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
-use crate::programs::{MOST_ROBOTS, describe};
+use crate::programs::describe;
 use crate::wording::PlayError;
+use nbc_base::budget::Limit;
 use nbc_base::model::{
     Behavior, Body, CYCLE_STEPS, Direction, GroundProfile, Pattern, Schedule, Setting, Stimulation, TestRow,
 };
@@ -63,8 +64,8 @@ pub fn export(session: &Session, checked: &Checked, compiled: &Compiled) -> Resu
 fn exported(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedSwarm, PlayError> {
     let members = &compiled.assembly.members;
     let robots = members.len();
-    if robots > MOST_ROBOTS {
-        return Err(PlayError::TooManyRobots { robots, most: MOST_ROBOTS });
+    if Limit::PageRobots.permit(robots as u64).is_err() {
+        return Err(PlayError::TooManyRobots { robots, most: Limit::PageRobots.most() as usize });
     }
     let mut bodies: Vec<(&Body, Behavior)> = Vec::new();
     let mut place = |body, behavior| match bodies.iter().position(|known| *known == (body, behavior)) {

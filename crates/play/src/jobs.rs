@@ -9,14 +9,13 @@ use std::time::{Duration, Instant};
 use crate::message::RequestResult;
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
+use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
 use nbc_session::{CompileOptions, Observer};
 use nbc_sim::{Monitor, Simulator};
 
-/// The most requests of a page that run at once.
-const MOST: usize = 4;
 /// The time after which a request is stopped.
-const TIME: Duration = Duration::from_secs(600);
+const TIME: Duration = Duration::from_secs(Limit::PageSeconds.most());
 
 /// The requests of a page that run.
 pub(super) struct Jobs {
@@ -25,8 +24,18 @@ pub(super) struct Jobs {
     outbox: Outbox,
 }
 
+/// The kinds of requests, each of which has room of its own.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum JobKind {
+    /// A check of a text, which the page asks for while its user types.
+    Check,
+    /// All others.
+    Work,
+}
+
 /// The handle to stop a request that runs.
 struct Running {
+    kind: JobKind,
     stop: CancelFlag,
     monitor: Arc<Monitor>,
     end: Instant,
@@ -60,22 +69,30 @@ impl Jobs {
         Self { running: Arc::default(), making, outbox }
     }
 
-    /// Starts a request.
-    pub(super) fn start(&self, id: u64, work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) {
+    /// Starts a request; the flag that stops it, if it could be started.
+    pub(super) fn start(
+        &self,
+        id: u64,
+        kind: JobKind,
+        work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static,
+    ) -> Option<CancelFlag> {
         let (stop, monitor, end) = (CancelFlag::default(), Arc::new(Monitor::default()), Instant::now() + TIME);
         {
             let mut running = lock(&self.running);
+            let same = running.values().filter(|one| one.kind == kind).count() as u64;
             // Otherwise it could not be cancelled, and the end of one would count as that of the other.
-            if running.contains_key(&id) {
-                return self.outbox.answer(id, Err(Refused::NumberInUse { id }));
+            let refused = match running.contains_key(&id) {
+                true => Some(Refused::NumberInUse { id }),
+                false => Limit::PageJobs.permit(same + 1).err().map(|_| Refused::Busy { most: same as usize }),
+            };
+            if let Some(refused) = refused {
+                self.outbox.answer(id, Err(refused));
+                return None;
             }
-            if running.len() >= MOST {
-                return self.outbox.answer(id, Err(Refused::Busy { most: MOST }));
-            }
-            running.insert(id, Running { stop: stop.clone(), monitor: monitor.clone(), end });
+            running.insert(id, Running { kind, stop: stop.clone(), monitor: monitor.clone(), end });
         }
         let (running, outbox) = (self.running.clone(), self.outbox.clone());
-        let mut job = Job { id, outbox, stop, making: self.making.clone(), monitor, end, told: 0 };
+        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, end, told: 0 };
         thread::spawn(move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
             lock(&running).remove(&id);
@@ -85,6 +102,7 @@ impl Jobs {
                 Err(refused) => job.outbox.answer(id, Err(job.reason(refused))),
             }
         });
+        Some(stop)
     }
 
     /// Stops a request.

@@ -25,6 +25,7 @@ mod socket;
 mod takes;
 mod taking;
 mod teacher;
+mod text_checker;
 #[cfg(test)]
 mod typescript;
 mod visit;
@@ -36,7 +37,6 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use nbc_base::diag::{Diagnostics, io_words};
-use nbc_circuit::CancelFlag;
 use nbc_session::CompileOptions;
 use nbc_session::store::{FolderWorld, PrivateFile};
 use tokio::net::TcpListener;
@@ -184,7 +184,7 @@ pub fn serve_texts(folder: &Path, texts: &[&str]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let served = Arc::new(Served::new(world, String::new(), None, String::new()));
     let (inbox, outgoing) = outbox::outbox();
-    let mut visit = visit::Visit::new(served, inbox, CancelFlag::default());
+    let mut visit = visit::Visit::new(served, inbox);
     // Nobody reads the answers.
     drop(outgoing);
     texts.iter().for_each(|text| visit.receive_and_wait(text, PATIENCE));

@@ -10,15 +10,12 @@ use crate::outbox::outbox;
 use crate::served::Served;
 use crate::socket::{WAITING, pump};
 use crate::visit::Visit;
-use nbc_circuit::CancelFlag;
 
 /// Serves one page until it is gone.
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (requests, waiting) = mpsc::channel(WAITING);
     let (inbox, outgoing) = outbox();
-    let gone = CancelFlag::default();
-    let (visited, visit_ends) = (served.clone(), gone.clone());
-    thread::spawn(move || Visit::new(visited, inbox, visit_ends).serve(waiting));
+    let visited = served.clone();
+    thread::spawn(move || Visit::new(visited, inbox).serve(waiting));
     pump(socket, requests, outgoing, &served.waiting).await;
-    gone.raise();
 }

@@ -7,19 +7,17 @@ use crate::jobs::{Job, JobEnd};
 use crate::message::finding::findings;
 use crate::message::{
     CircuitEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, TestAnswer,
-    TestEntry, TestResult, TestRowEntry, looks,
+    TestEntry, TestResult, TestRowEntry, listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::LoadedSwarm;
 use crate::served::SCHEME;
+use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::waves::WaveMachine;
 use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestCase, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, SwarmTrace};
-
-/// The most robots of a live swarm.
-pub(super) const MOST_ROBOTS: usize = 2000;
 
 /// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
 /// of, and its tests.
@@ -45,7 +43,10 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
 
 fn test(index: usize, test: &CircuitTest) -> TestEntry {
     let rows = match &test.stimulation {
-        Stimulation::Rows(rows) => rows.iter().filter(|row| !row.is_half).map(|one| row(test, one)).collect(),
+        Stimulation::Rows(rows) => {
+            let whole = rows.iter().filter(|row| !row.is_half);
+            whole.take(listed(&test.inputs, &test.outputs)).map(|one| row(test, one)).collect()
+        }
         Stimulation::Script(_) | Stimulation::All { .. } => Vec::new(),
     };
     TestEntry {
@@ -95,8 +96,8 @@ pub(super) fn loaded(
 ) -> Result<LoadedSwarm, Refused> {
     job.check()?;
     let robots = compiled.assembly.members.len();
-    if robots > MOST_ROBOTS {
-        return Err(Refused::TooManyRobots { robots, most: MOST_ROBOTS });
+    if Limit::PageRobots.permit(robots as u64).is_err() {
+        return Err(Refused::TooManyRobots { robots, most: Limit::PageRobots.most() as usize });
     }
     let swarm = session.swarm(&compiled);
     let answer = answer(SwarmAnswer { swarm: Box::new(describe(number, &compiled, &swarm)) });

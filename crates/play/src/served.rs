@@ -18,8 +18,6 @@ use nbc_session::store::FolderWorld;
 
 /// The colors of materials on the page, and of what is taken from it.
 pub(super) const SCHEME: Scheme = Scheme::Safe;
-/// The largest message that a page may send, in bytes.
-pub(super) const MOST_BYTES: usize = 1 << 20;
 /// The pages for which there is room, unless the user says how many, and the most that may be said.
 pub(super) const PAGES: usize = 16;
 pub(super) const MOST_PAGES: usize = 64;

@@ -10,8 +10,9 @@ use axum::middleware::{self, Next};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{any, get};
 
-use crate::served::{MOST_BYTES, Served};
+use crate::served::Served;
 use crate::{language, live, teacher};
+use nbc_base::budget::Limit;
 
 /// The content security policy: a page may load and connect to this server only.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: \
@@ -99,7 +100,8 @@ fn accept<F: Future<Output = ()> + Send + 'static>(
     let Ok(place) = served.sockets.clone().try_acquire_owned() else {
         return StatusCode::SERVICE_UNAVAILABLE.into_response();
     };
-    upgrade.max_message_size(MOST_BYTES).max_frame_size(MOST_BYTES).on_upgrade(async move |socket| {
+    let most = Limit::PageMessage.most() as usize;
+    upgrade.max_message_size(most).max_frame_size(most).on_upgrade(async move |socket| {
         serve(served, socket).await;
         drop(place);
     })

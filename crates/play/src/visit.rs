@@ -12,15 +12,17 @@ use tokio::sync::mpsc;
 use crate::class::Membership;
 use crate::files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::history::MEMORY;
-use crate::jobs::{Job, JobEnd, Jobs};
+use crate::jobs::{Job, JobEnd, JobKind, Jobs};
 use crate::message::finding::findings;
 use crate::message::{Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
 use crate::runner::{self, SwarmOrder};
-use crate::served::{MOST_BYTES, Served};
+use crate::served::Served;
+use crate::text_checker::TextChecker;
 use crate::{bodies, evolving, lessons, programs, taking};
+use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
 use nbc_session::store::GuardedWorld;
 use nbc_session::{Checked, Choice, Compiled, Session};
@@ -32,9 +34,9 @@ const LOOK: Duration = Duration::from_millis(500);
 /// A page that is connected.
 pub(super) struct Visit {
     served: Arc<Served>,
-    session: Session,
-    /// Counts the texts of the page, so that each has a later revision than the one before.
-    revision: u64,
+    checker: Arc<TextChecker>,
+    /// The path of the last text that was to be checked, and the flag that ends its check.
+    checking: Option<(String, CancelFlag)>,
     files: PageFiles,
     jobs: Jobs,
     runner: Sender<SwarmOrder>,
@@ -45,12 +47,12 @@ pub(super) struct Visit {
 }
 
 impl Visit {
-    /// A page that has connected; `gone` is raised when it disconnects.
-    pub(super) fn new(served: Arc<Served>, outbox: Outbox, gone: CancelFlag) -> Self {
+    /// A page that has connected.
+    pub(super) fn new(served: Arc<Served>, outbox: Outbox) -> Self {
         let world = served.world.clone();
         Self {
-            session: Session::new(GuardedWorld::until(world.clone(), gone)),
-            revision: 0,
+            checker: Arc::new(TextChecker::new(world.clone())),
+            checking: None,
             files: PageFiles::new(world),
             jobs: Jobs::new(outbox.clone(), served.making.clone()),
             runner: runner::start(outbox.clone()),
@@ -97,7 +99,7 @@ impl Visit {
     fn look(&mut self) {
         self.looked = Instant::now();
         for (path, event) in self.files.changes() {
-            self.session.close(&path);
+            self.checker.close(path);
             self.outbox.event(event);
         }
         self.jobs.end_late();
@@ -117,11 +119,7 @@ impl Visit {
                 .may_save(&path)
                 .and_then(|()| self.files.save(path, &text, stamp.as_deref()))
                 .map(RequestResult::Save),
-            Verb::Program { path, text } => {
-                self.revision += 1;
-                self.session.update(&path, self.revision, text);
-                Ok(RequestResult::Program(programs::program(&self.session.checked(&path))))
-            }
+            Verb::Program { path, text } => return self.check(id, path, text),
             Verb::Join { name } => {
                 let done = self.join(&name);
                 return self.outbox.done(id, done);
@@ -160,76 +158,87 @@ impl Visit {
         if own == path { Ok(()) } else { Err(Refused::NotOwn { path: path.to_owned(), own }) }
     }
 
+    /// Starts the check of a text. That of an older text at the same path ends.
+    fn check(&mut self, id: u64, path: String, text: String) {
+        let older = self.checking.take().filter(|(older, _)| *older == path);
+        older.into_iter().for_each(|(_, stop)| stop.raise());
+        self.checker.update(path.clone(), text);
+        let (checker, of) = (self.checker.clone(), path.clone());
+        let stop = self.jobs.start(id, JobKind::Check, move |job| {
+            Ok(Some(RequestResult::Program(programs::program(&*checker.checked(&of, job)?))))
+        });
+        self.checking = stop.map(|stop| (path, stop));
+    }
+
     /// Starts a long request.
     fn start(&mut self, id: u64, verb: Verb) {
         let work = match verb {
             Verb::Compile { path, circuit, swarm } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
-                return self.run_swarm(id, &path, RequestResult::Compile, move |session, checked, job| {
+                return self.run_swarm(id, path, RequestResult::Compile, move |session, checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
                     Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
                 });
             }
             Verb::Replay { path, test, swarm, world, row } => {
-                return self.run_swarm(id, &path, RequestResult::Replay, move |session, checked, job| {
+                return self.run_swarm(id, path, RequestResult::Replay, move |session, checked, job| {
                     programs::until_row(session, checked, (test, swarm.as_deref(), world.as_deref(), row), job)
                 });
             }
             Verb::Read { path: Some(path), .. } => {
-                let world = self.served.world.clone();
-                Ok(boxed(move |job| {
-                    let mut session = Session::new(GuardedWorld::until(world.clone(), job.stop.clone()));
-                    Ok(Some(RequestResult::Read(program_around(&world, &mut session, &path)?)))
-                }))
+                let (checker, world) = (self.checker.clone(), self.served.world.clone());
+                boxed(move |job| {
+                    // Its text is not one of the page's, but it waits for its turn to be translated.
+                    let mut apart = Session::new(GuardedWorld::until(world.clone(), job.stop.clone()));
+                    let read = checker.with(job, |_| program_around(&world, &mut apart, &path))??;
+                    Ok(Some(RequestResult::Read(read)))
+                })
             }
-            Verb::Test { path, test, level } => self.with_program(&path, move |session, checked, job| {
+            Verb::Test { path, test, level } => self.with_program(path, move |session, checked, job| {
                 programs::run_test(session, checked, test, level.into(), job)
             }),
             Verb::Robots { path } => {
-                let checked = path.map(|path| self.session.checked(&path));
-                let session = self.fresh();
-                Ok(boxed(move |_| {
+                let (checker, session) = (self.checker.clone(), self.fresh());
+                boxed(move |job| {
+                    let checked = path.map(|path| checker.checked(&path, job)).transpose()?;
                     bodies::robots(&session, checked.as_deref()).map(|cards| Some(RequestResult::Robots(cards)))
-                }))
+                })
             }
             Verb::Lessons => {
                 let served = self.served.clone();
-                Ok(boxed(move |_| {
+                boxed(move |_| {
                     let lessons::ReadLessons { lessons, found } = lessons::load(&served.lessons, Some(&served.world));
                     let findings = findings(&found.list, &found.sources);
                     Ok(Some(RequestResult::Lessons(LessonList { lessons, findings })))
-                }))
+                })
             }
             Verb::Probe { body, cycles, character } => {
                 let served = self.served.clone();
                 let is_whole = character.unwrap_or(true);
-                Ok(boxed(move |job| served.probing.install(|| bodies::probe(&body, cycles, is_whole, job))))
+                boxed(move |job| served.probing.install(|| bodies::probe(&body, cycles, is_whole, job)))
             }
             Verb::Evolve(request) => {
                 let served = self.served.clone();
-                Ok(boxed(move |job| evolving::evolve(&request, &served.background, job)))
+                boxed(move |job| evolving::evolve(&request, &served.background, job))
             }
             Verb::Keep(request) => {
                 let served = self.served.clone();
                 let files = PageFiles::new(served.world.clone());
                 let is_shared = served.class.is_some();
-                Ok(boxed(move |job| served.background.install(|| bodies::keep(&request, &files, is_shared, job))))
+                boxed(move |job| served.background.install(|| bodies::keep(&request, &files, is_shared, job)))
             }
             Verb::Export { path, circuit, swarm } => {
                 let (choice, served) = (Choice { circuit: Some(circuit), swarm }, self.served.clone());
-                self.with_program(&path, move |session, checked, job| {
+                self.with_program(path, move |session, checked, job| {
                     let (name, bytes) = taking::exported(session, checked, &choice, job)?;
                     let url = served.takes.keep(&name, taking::HTML, bytes);
                     Ok(Some(RequestResult::Export(TakenFile { url, name })))
                 })
             }
-            Verb::Take { what, cycles } => Ok(self.take(what, cycles)),
+            Verb::Take { what, cycles } => self.take(what, cycles),
             other => unreachable!("{other:?} is answered at once"),
         };
-        match work {
-            Ok(work) => self.jobs.start(id, work),
-            Err(refused) => self.outbox.answer(id, Err(refused)),
-        }
+        self.jobs.start(id, JobKind::Work, work);
     }
 
     fn hello(&self) -> Greeting {
@@ -241,7 +250,11 @@ impl Visit {
             file: self.served.file.clone(),
             files: self.files.list(),
             examples: examples(),
-            limits: PlayLimits { robots: programs::MOST_ROBOTS, cycles: MEMORY, message: MOST_BYTES },
+            limits: PlayLimits {
+                robots: Limit::PageRobots.most() as usize,
+                cycles: MEMORY,
+                message: Limit::PageMessage.most() as usize,
+            },
             class: self.served.class.is_some(),
             cycle_seconds: 0.25,
         }
@@ -251,7 +264,7 @@ impl Visit {
     fn run_swarm(
         &mut self,
         id: u64,
-        path: &str,
+        path: String,
         answer: fn(SwarmAnswer) -> RequestResult,
         compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Vec<Vec<bool>>), Refused> + Send + 'static,
     ) {
@@ -263,21 +276,17 @@ impl Visit {
             let _ = runner.send(SwarmOrder::Load(Box::new(loaded)));
             Ok(None)
         });
-        match work {
-            Ok(work) => self.jobs.start(id, work),
-            Err(refused) => self.outbox.answer(id, Err(refused)),
-        }
+        self.jobs.start(id, JobKind::Work, work);
     }
 
     /// Work on a program without errors.
     fn with_program(
-        &mut self,
-        path: &str,
+        &self,
+        path: String,
         work: impl FnOnce(&Session, &Checked, &mut Job) -> JobEnd + Send + 'static,
-    ) -> Result<Work, Refused> {
-        let checked = self.session.open(path)?;
-        let session = self.fresh();
-        Ok(boxed(move |job| work(&session, &checked, job)))
+    ) -> Work {
+        let (checker, session) = (self.checker.clone(), self.fresh());
+        boxed(move |job| work(&session, &*checker.open(&path, job)?, job))
     }
 
     /// A session for another thread.
@@ -343,7 +352,7 @@ mod tests {
             let world = FolderWorld::new(folder.path()).unwrap();
             let served = Arc::new(Served::new(world, String::new(), None, "secret".to_owned()));
             let (inbox, outgoing) = outbox();
-            let mut visit = Visit::new(served, inbox, CancelFlag::default());
+            let mut visit = Visit::new(served, inbox);
             // Nobody reads the answers.
             drop(outgoing);
             visit.receive(&broken);

@@ -90,6 +90,20 @@ fn a_page_that_sends_too_much_is_disconnected_and_others_go_on() {
 }
 
 #[test]
+fn small_texts_that_would_make_much_are_refused_and_the_page_goes_on() {
+    let (_folder, server) = served();
+    let mut page = server.page();
+    for (name, text) in crate::budget::rows() {
+        let program = page.done(json!({ "do": "program", "path": "small.nb", "text": text }));
+        let codes: Vec<&Value> = program["diagnostics"].as_array().unwrap().iter().map(|one| &one["code"]).collect();
+        assert_eq!(codes, ["too-large"], "{name}");
+        let test = page.ask(json!({ "do": "test", "path": "small.nb", "test": 0, "level": "logic" }));
+        assert!(test.unwrap_err()["diagnostics"].to_string().contains("too-large"), "{name}");
+    }
+    page.compile("latch.nb", LATCH);
+}
+
+#[test]
 fn work_is_limited_and_can_be_stopped() {
     let (_folder, server) = served();
     let mut page = server.page();

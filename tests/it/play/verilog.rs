@@ -31,6 +31,27 @@ fn yosys_ends_when_the_page_leaves() {
 }
 
 #[test]
+fn a_check_can_be_cancelled_and_nothing_waits_for_it() {
+    let slow = SlowYosys::new();
+    let server = Server::run(slow.program().args(["play", "--no-open", "a.nb"]));
+    let mut page = server.page();
+    let check = json!({ "do": "program", "path": "a.nb", "text": USER });
+    let first = page.begin(check.clone());
+    let yosys = slow.begun();
+    assert!(page.done(json!({ "do": "files" })).to_string().contains("m.v"));
+    page.begin(json!({ "do": "cancel", "of": first }));
+    assert_eq!(page.event(|answer| answer["id"] == json!(first))["error"]["code"], "cancelled");
+    ended(yosys);
+    // Another text for the same path takes the place of the one that is being checked.
+    let older = page.begin(check);
+    let yosys = slow.begun();
+    let newer = page.done(json!({ "do": "program", "path": "a.nb", "text": "circuit f(a) -> (q) { q = a }" }));
+    assert_eq!((&newer["errors"], newer["circuits"].as_array().unwrap().len()), (&json!(0), 1));
+    assert_eq!(page.event(|answer| answer["id"] == json!(older))["error"]["code"], "cancelled");
+    ended(yosys);
+}
+
+#[test]
 fn yosys_ends_when_the_editor_of_the_page_leaves() {
     let slow = SlowYosys::new();
     let server = Server::run(slow.program().args(["play", "--no-open", "a.nb"]));

@@ -6,7 +6,8 @@ use ts_rs::TS;
 
 use super::program::PortEntry;
 use crate::request::TestLevel;
-use nbc_base::model::Value;
+use nbc_base::budget::Limit;
+use nbc_base::model::{Column, Value};
 use nbc_swarm::{RowVerdict, TestVerdict};
 
 /// The answer to `test`: a result for each swarm of its circuit in each world of the test.
@@ -62,6 +63,12 @@ pub(crate) struct RowValue {
     text: String,
 }
 
+/// The most rows of a test with these ports that a page gets.
+pub(crate) fn listed(inputs: &[Column], outputs: &[Column]) -> usize {
+    let bits: usize = inputs.iter().chain(outputs).map(|port| port.width).sum();
+    (Limit::PageRows.most().min(Limit::PageRowBits.most() / (bits as u64).max(1))) as usize
+}
+
 impl From<&TestVerdict> for TestResult {
     fn from(verdict: &TestVerdict) -> Self {
         Self {
@@ -75,7 +82,7 @@ impl From<&TestVerdict> for TestResult {
             line: verdict.line,
             inputs: PortEntry::of(&verdict.inputs),
             outputs: PortEntry::of(&verdict.outputs),
-            rows: verdict.rows.iter().map(RowResult::from).collect(),
+            rows: verdict.rows.iter().take(listed(&verdict.inputs, &verdict.outputs)).map(RowResult::from).collect(),
         }
     }
 }

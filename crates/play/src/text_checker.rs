@@ -1,0 +1,90 @@
+//! The session of a page, in which its long requests check its texts, one after the other.
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::jobs::Job;
+use crate::refusal::Refused;
+use nbc_circuit::CancelFlag;
+use nbc_session::store::{FolderWorld, GuardedWorld};
+use nbc_session::{Checked, Session};
+
+/// The texts of a page and what is known of them. Checks are made on the threads of requests, and end with these.
+pub(super) struct TextChecker {
+    session: Mutex<Session>,
+    /// What has changed since the last check, by path; so a change never waits for a check.
+    changes: Mutex<Changes>,
+    /// The flag of the request that checks now.
+    cancel: Arc<Mutex<CancelFlag>>,
+}
+
+#[derive(Default)]
+struct Changes {
+    /// The new text of a file, or that of the folder again.
+    texts: BTreeMap<String, Option<String>>,
+    /// Counts the texts of the page, so that each has a later revision than the one before.
+    revision: u64,
+}
+
+impl TextChecker {
+    pub(super) fn new(world: FolderWorld) -> Self {
+        let cancel: Arc<Mutex<CancelFlag>> = Arc::default();
+        let current = cancel.clone();
+        let world = GuardedWorld::new(world, move || lock(&current).clone());
+        Self { session: Mutex::new(Session::new(world)), changes: Mutex::default(), cancel }
+    }
+
+    /// Sets the text of the source at `path`, which hides that of the folder.
+    pub(super) fn update(&self, path: String, text: String) {
+        lock(&self.changes).texts.insert(path, Some(text));
+    }
+
+    /// Forgets the text of the source at `path`: that of the folder counts again.
+    pub(super) fn close(&self, path: String) {
+        lock(&self.changes).texts.insert(path, None);
+    }
+
+    /// The source at `path` as it is now, parsed and checked.
+    ///
+    /// # Errors
+    /// When the request is stopped meanwhile.
+    pub(super) fn checked(&self, path: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
+        self.with(job, |session| session.checked(path))
+    }
+
+    /// Uses the session with the texts as they are now. Others wait meanwhile, so that a page translates one Verilog
+    /// file at a time.
+    ///
+    /// # Errors
+    /// When the request is stopped meanwhile.
+    pub(super) fn with<R>(&self, job: &Job, work: impl FnOnce(&mut Session) -> R) -> Result<R, Refused> {
+        let mut session = lock(&self.session);
+        job.check()?;
+        *lock(&self.cancel) = job.stop.clone();
+        let mut changes = lock(&self.changes);
+        for (path, text) in std::mem::take(&mut changes.texts) {
+            changes.revision += 1;
+            match text {
+                Some(text) => session.update(&path, changes.revision, text),
+                None => session.close(&path),
+            }
+        }
+        drop(changes);
+        let done = work(&mut session);
+        job.check()?;
+        Ok(done)
+    }
+
+    /// The source at `path` without errors.
+    ///
+    /// # Errors
+    /// Its errors, or when the request is stopped meanwhile.
+    pub(super) fn open(&self, path: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
+        let checked = self.checked(path, job)?;
+        if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
