@@ -285,14 +285,21 @@ impl Netlist {
 }
 
 impl fmt::Display for Netlist {
-    /// The netlist as text: ports, then a line for each cell or wire in order of numbers.
+    /// The netlist as text: ports, then a line for each cell and wire in order of numbers, and for each output that
+    /// has another name than the net that drives it. An output is no cell, so its line has no operator.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let names = |ids: &[NetId]| ids.iter().map(|&id| self.net_name(id)).collect::<Vec<_>>().join(", ");
         writeln!(f, "netlist {}({}) -> ({}) {{", self.name, names(&self.inputs), names(&self.outputs))?;
         for id in self.ids() {
             let (operator, start) = match self.node(id) {
                 Node::Input(_) | Node::Constant(_) => continue,
-                Node::Output(_) => ("output".to_owned(), None),
+                Node::Output(_) => {
+                    let (name, driver) = (self.net_name(id), names(&self.pins(id)));
+                    if name != driver {
+                        writeln!(f, "    {name} = {driver}")?;
+                    }
+                    continue;
+                }
                 Node::Wire { start, .. } => ("wire".to_owned(), *start),
                 Node::Cell(cell) => (cell.function.to_string(), cell.start),
             };
@@ -314,7 +321,7 @@ mod tests {
         let b = netlist.add_input("b");
         let sum = netlist.add_gate(Function::XOR, &[a, b]);
         netlist.add_output("s", sum);
-        assert_eq!(netlist.to_string(), "netlist half(a, b) -> (s) {\n    n2 = xor(a, b)\n    s = output(n2)\n}\n");
+        assert_eq!(netlist.to_string(), "netlist half(a, b) -> (s) {\n    n2 = xor(a, b)\n    s = n2\n}\n");
     }
 
     #[test]

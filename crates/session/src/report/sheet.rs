@@ -303,7 +303,7 @@ mod tests {
 
     #[test]
     fn a_part_is_a_box_and_a_bus_is_a_port() {
-        check(0, "netlist buses(a) -> (q) {; first = buf(a); second = buf(first); q = output(second); }");
+        check(0, "netlist buses(a) -> (q) {; first = buf(a); second = buf(first); q = second; }");
     }
 
     #[test]
