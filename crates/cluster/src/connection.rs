@@ -1,19 +1,23 @@
 //! A connection to a NATS server, for code that is not asynchronous.
 
 use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use async_nats::jetstream::consumer::{AckPolicy, PullConsumer, pull};
 use async_nats::jetstream::context::{CreateStreamError, CreateStreamErrorKind};
 use async_nats::jetstream::stream::{RetentionPolicy, StorageType, Stream};
 use async_nats::jetstream::{self, ErrorCode, stream};
-use async_nats::{ConnectOptions, ServerAddr};
+use async_nats::{ConnectOptions, Event, ServerAddr, connection};
 use percent_encoding::percent_decode_str;
 use tokio::runtime::{Builder, EnterGuard, Runtime};
 use tokio::time;
 
+use crate::Log;
 use crate::message::{MOST_BYTES, TaskKey, VERSION};
 use crate::wording::ClusterError;
+use nbc_base::diag::without_passwords;
 
 /// The stream of tasks.
 const STREAM: &str = "nbc-tasks";
@@ -28,6 +32,9 @@ pub const PATIENCE: Duration = Duration::from_secs(5);
 const OPENING: Duration = Duration::from_secs(30);
 /// The time between attempts while another program creates the stream.
 const PAUSE: Duration = Duration::from_millis(50);
+/// The time between two signs of life that the client asks the server for. It gives a connection up when two are
+/// missing.
+const PING: Duration = Duration::from_secs(2);
 /// The most tasks that workers have taken and not finished.
 const MOST_TAKEN: i64 = 1_000_000;
 
@@ -57,8 +64,8 @@ impl Connection {
     ///
     /// # Errors
     /// When the server cannot be reached or refuses the client.
-    pub fn open(server: &NatsServer, name: &str) -> Result<Self, ClusterError> {
-        let shown = without_password(&server.address);
+    pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, ClusterError> {
+        let shown = without_passwords(&server.address);
         let runtime = Builder::new_multi_thread()
             .worker_threads(1)
             .enable_all()
@@ -66,7 +73,12 @@ impl Connection {
             .map_err(|error| ClusterError::Start { reason: error.to_string() })?;
         let runtime: &'static Runtime = Box::leak(Box::new(runtime));
         let _entered = runtime.enter();
-        let mut options = ConnectOptions::new().name(name).connection_timeout(PATIENCE).event_callback(|_| async {});
+        let mut options = ConnectOptions::new().name(name).connection_timeout(PATIENCE).ping_interval(PING);
+        let watch = Arc::new(Silence::new(&shown, log));
+        options = options.event_callback(move |event| {
+            watch.take(&event);
+            async {}
+        });
         // The client ignores the user in the address.
         if let Some((user, password)) = user_and_password(&server.address) {
             options = options.user_and_password(user, password);
@@ -82,9 +94,11 @@ impl Connection {
             options = runtime.block_on(options.credentials_file(path)).map_err(fault)?;
         }
         let connecting = async { options.connect(server.address.as_str()).await };
-        let client = runtime
-            .block_on(connecting)
-            .map_err(|error| ClusterError::Connect { server: shown.clone(), reason: error.to_string() })?;
+        let client = runtime.block_on(connecting).map_err(|error| {
+            // Some reasons repeat the address.
+            let reason = error.to_string().replace(&server.address, &shown);
+            ClusterError::Connect { server: shown.clone(), reason }
+        })?;
         let jetstream = jetstream::ContextBuilder::new().timeout(PATIENCE).ack_timeout(PATIENCE).build(client.clone());
         Ok(Self { runtime, client, jetstream, server: shown })
     }
@@ -93,6 +107,11 @@ impl Connection {
     /// which start asynchronous tasks.
     pub fn enter(&self) -> EnterGuard<'static> {
         self.runtime.enter()
+    }
+
+    /// Whether the server answers, as far as the client knows.
+    pub fn is_open(&self) -> bool {
+        self.client.connection_state() == connection::State::Connected
     }
 
     /// The stream of tasks, which is made if there is none.
@@ -155,6 +174,32 @@ impl Connection {
     }
 }
 
+/// Tells when the server does not answer, and when it answers again.
+struct Silence {
+    server: String,
+    log: Log,
+    is_silent: AtomicBool,
+}
+
+impl Silence {
+    fn new(server: &str, log: Log) -> Self {
+        Self { server: server.to_owned(), log, is_silent: AtomicBool::new(false) }
+    }
+
+    fn take(&self, event: &Event) {
+        let server = &self.server;
+        match event {
+            Event::Disconnected if !self.is_silent.swap(true, Ordering::Relaxed) => {
+                (self.log)(&format!("the NATS server `{server}` does not answer; trying again\n"));
+            }
+            Event::Connected if self.is_silent.swap(false, Ordering::Relaxed) => {
+                (self.log)(&format!("the NATS server `{server}` answers again\n"));
+            }
+            _ => {}
+        }
+    }
+}
+
 /// The words of an error.
 pub fn words(error: impl ToString) -> String {
     error.to_string()
@@ -214,16 +259,6 @@ fn user_and_password(urls: &str) -> Option<(String, String)> {
     Some((decoded(url.username()?), decoded(url.password()?)))
 }
 
-/// The addresses without users and passwords, for messages.
-fn without_password(url: &str) -> String {
-    let hide = |url: &str| match (url.split_once("://"), url.rsplit_once('@')) {
-        (Some((scheme, _)), Some((_, host))) => format!("{scheme}://{host}"),
-        (None, Some((_, host))) => host.to_owned(),
-        (_, None) => url.to_owned(),
-    };
-    url.split(',').map(hide).collect::<Vec<_>>().join(",")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -240,12 +275,5 @@ mod tests {
         let expected = Some(("me".to_owned(), "a b".to_owned()));
         assert_eq!(user_and_password("nats://me:a%20b@host:4222,nats://other"), expected);
         assert_eq!(user_and_password("nats://host:4222"), None);
-    }
-
-    #[test]
-    fn passwords_are_not_shown() {
-        let shown = ["nats://me:secret@host:4222", "me:secret@host", "tls://host", "nats://a:b@h,nats://c:d@i"];
-        let expected = ["nats://host:4222", "host", "tls://host", "nats://h,nats://i"];
-        assert_eq!(shown.map(without_password), expected);
     }
 }

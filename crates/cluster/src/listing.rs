@@ -9,6 +9,7 @@ use serde::Serialize;
 use tokio::runtime::EnterGuard;
 use tokio::time;
 
+use crate::Log;
 use crate::connection::{Connection, NatsServer, search_note_subject, worker_note_subject};
 use crate::message::{SearchNote, WorkerNote};
 use crate::wording::ClusterError;
@@ -70,8 +71,8 @@ impl ClusterWatch {
     ///
     /// # Errors
     /// When the server cannot be used.
-    pub fn open(server: &NatsServer) -> Result<Self, ClusterError> {
-        let connection = Connection::open(server, "nbc workers")?;
+    pub fn open(server: &NatsServer, log: Log) -> Result<Self, ClusterError> {
+        let connection = Connection::open(server, "nbc workers", log)?;
         let entered = connection.enter();
         let subscribing = async {
             let subscribe = async |subject: String| connection.client.subscribe(subject).await;

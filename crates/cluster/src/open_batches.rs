@@ -87,6 +87,11 @@ impl OpenBatches {
         keys.into_iter().flat_map(|key| self.pass_on(key, &is_trusted)).collect()
     }
 
+    /// The results of a worker that were not checked here, at most so many.
+    pub fn claims(&self, worker: &str, most: usize) -> Vec<(TaskKey, TaskResult)> {
+        self.open.values().flat_map(|waiting| waiting.batch.claims(worker)).take(most).collect()
+    }
+
     /// Drops the unverified results of a worker, and returns their tasks.
     pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
         self.open.values_mut().flat_map(|waiting| waiting.batch.forget(worker)).collect()

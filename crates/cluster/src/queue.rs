@@ -15,7 +15,7 @@ use crate::connection::{Connection, NatsServer, answer_subject, random_name, wor
 use crate::message::{AnswerReply, TaskKey, encode};
 use crate::open_batches::{BatchRequest, OpenBatches};
 use crate::physics::PhysicsId;
-use crate::reports::Reports;
+use crate::reports::{Reporter, Reports};
 use crate::task_batch::Verdict;
 use crate::task_message::{TOGETHER, TaskMessage};
 use crate::task_sender::TaskSender;
@@ -48,7 +48,7 @@ impl Queue {
     /// When the server cannot be used.
     pub fn open(server: &NatsServer, is_trusting: bool, log: Log) -> Result<Self, ClusterError> {
         let search = random_name();
-        let connection = Connection::open(server, &format!("nbc evolve {search}"))?;
+        let connection = Connection::open(server, &format!("nbc evolve {search}"), log)?;
         let entered = connection.enter();
         let physics = PhysicsId::compute(&Simulator::default());
         connection.open_queue(&physics.token())?;
@@ -185,7 +185,7 @@ impl Queue {
                 self.check(key, vec![(first, *result), (worker.to_owned(), answer.result)]);
             }
             Verdict::Implausible | Verdict::Wrong => {
-                self.reject(worker, "its result cannot be right");
+                self.reject(worker, key, "its result cannot be right");
                 self.send([key]);
                 return AnswerReply::Wrong;
             }
@@ -207,23 +207,29 @@ impl Queue {
             batch.verify(check.key, check.correct.clone());
         }
         for worker in check.wrong() {
-            self.reject(worker, "its result differs from that of this machine");
+            self.reject(worker, check.key, "its result differs from that of this machine");
         }
         // The worker may be trusted now.
         let workers = self.batches.pass_on_all(|worker| self.checker.trusts(worker));
         self.checker.set_used(workers);
     }
 
-    /// Refuses a worker after a wrong result, and sends its tasks again.
-    fn reject(&mut self, worker: &str, reason: &str) {
-        self.checker.refuse_wrong(worker, reason);
+    /// Drops what came in the name of a worker with a wrong result of a task, and sends its tasks again.
+    fn reject(&mut self, worker: &str, key: TaskKey, reason: &str) {
+        // Others of its results tell whether somebody else used its name.
+        for (key, claim) in self.batches.claims(worker, self.checker.count_wrong(worker, key, reason)) {
+            self.check(key, vec![(worker.to_owned(), claim)]);
+        }
         let lost = self.batches.forget(worker);
         self.send(lost);
     }
 
     async fn take_note(&mut self, message: &Message) {
-        if let Some(unfit) = self.reports.take(message).await {
-            self.checker.refuse(&unfit.name, &unfit.reason);
+        match self.reports.take(message).await {
+            Some(Reporter::Unfit { name, reason }) => self.checker.refuse(&name, &reason),
+            Some(Reporter::Fit { name }) => self.checker.readmit(&name),
+            Some(Reporter::Two { name }) => self.checker.count_junk(&name),
+            None => {}
         }
     }
 

@@ -25,10 +25,14 @@ pub struct Reports {
     reported: Option<Instant>,
 }
 
-/// A worker that the search cannot use.
-pub struct UnfitWorker {
-    pub name: String,
-    pub reason: String,
+/// Who sent a report.
+pub enum Reporter {
+    /// A worker that the search can use.
+    Fit { name: String },
+    /// One that it cannot use.
+    Unfit { name: String, reason: String },
+    /// Somebody with other physics in the name of a worker that reports, too.
+    Two { name: String },
 }
 
 impl Reports {
@@ -37,12 +41,16 @@ impl Reports {
         Self { client, search, physics, notes, workers: WorkerStatistics::default(), reported: None }
     }
 
-    /// Takes the report of a worker. If the worker has other physics, replies so and returns it.
-    pub async fn take(&mut self, message: &Message) -> Option<UnfitWorker> {
+    /// Takes the report of a worker. If the worker has other physics, replies so.
+    pub async fn take(&mut self, message: &Message) -> Option<Reporter> {
         let note = WorkerNote::decode(&message.payload).ok()?;
         if note.physics == self.physics.0 && note.program == PROGRAM {
+            let name = note.name.clone();
             self.workers.take(note);
-            return None;
+            return Some(Reporter::Fit { name });
+        }
+        if self.workers.has(&note.name) {
+            return Some(Reporter::Two { name: note.name });
         }
         let WorkerNote { name, program, physics, .. } = note;
         let reply = encode(&AnswerReply::OtherPhysics);
@@ -51,7 +59,7 @@ impl Reports {
         let own = self.physics.0;
         let reason =
             format!("its physics is {physics:016x} (version {program}), expected {own:016x} (version {PROGRAM})");
-        Some(UnfitWorker { name, reason })
+        Some(Reporter::Unfit { name, reason })
     }
 
     /// Sends a report if one is due, with these numbers of runs in progress, tasks without a result and refused

@@ -114,6 +114,14 @@ impl TaskBatch {
         }
     }
 
+    /// The results of a worker that were not checked here.
+    pub fn claims(&self, worker: &str) -> impl Iterator<Item = (TaskKey, TaskResult)> {
+        self.results.iter().enumerate().filter_map(move |(index, result)| {
+            let taken = result.as_ref().filter(|taken| taken.worker == worker && taken.trust == Trust::Claimed)?;
+            Some((self.key(index), taken.result.clone()))
+        })
+    }
+
     /// Drops the unverified results of a worker, and returns their tasks.
     pub fn forget(&mut self, worker: &str) -> Vec<TaskKey> {
         let is_its = |result: &Option<TakenResult>| {

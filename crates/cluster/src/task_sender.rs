@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::time::{Duration, Instant};
 
-use async_nats::jetstream;
+use async_nats::jetstream::{self, consumer};
 use futures_util::TryStreamExt;
 use tokio::task::JoinSet;
 
@@ -16,6 +16,12 @@ use crate::task_message::TaskMessage;
 const AGAIN: Duration = Duration::from_secs(1);
 /// The time between two searches for tasks that the server has lost.
 const LOOK: Duration = Duration::from_secs(5);
+
+/// A queue that gives out no task for this time, although tasks wait and workers ask for them, is made again. It is
+/// longer than the time after which a task is given to another worker.
+const STUCK: Duration = Duration::from_secs(10);
+/// The same if all tasks are given out: one that takes long may be at work.
+const STUCK_IF_GIVEN_OUT: Duration = Duration::from_secs(60);
 
 /// The tasks that are being sent, and those that must be sent again.
 pub struct TaskSender {
@@ -30,6 +36,8 @@ pub struct TaskSender {
     looked: Instant,
     /// The last fault, so that it is logged once.
     trouble: Option<String>,
+    /// The number of tasks that the queue has ever given out, and since when that is so although workers ask for tasks.
+    given_out: (u64, Instant),
     log: Log,
 }
 
@@ -47,6 +55,7 @@ impl TaskSender {
             failed: Instant::now(),
             looked: Instant::now(),
             trouble: None,
+            given_out: (0, Instant::now()),
             log,
         }
     }
@@ -70,13 +79,18 @@ impl TaskSender {
             Err(reason) => {
                 self.kept.insert(key);
                 self.failed = Instant::now();
-                if self.trouble.as_ref() != Some(&reason) {
-                    (self.log)(&format!("the NATS server does not take tasks ({reason}); trying again\n"));
-                }
-                self.trouble = Some(reason);
+                self.complain(format!("the NATS server does not take tasks ({reason}); trying again\n"));
             }
         }
         Some(())
+    }
+
+    /// Logs a fault, unless it was the last one.
+    fn complain(&mut self, fault: String) {
+        if self.trouble.as_ref() != Some(&fault) {
+            (self.log)(&fault);
+        }
+        self.trouble = Some(fault);
     }
 
     /// The tasks that must be sent again now.
@@ -99,7 +113,14 @@ impl TaskSender {
         if tasks.is_empty() || !self.sending.is_empty() {
             return Vec::new();
         }
-        let Ok(there) = self.subjects(&tasks).await else { return Vec::new() };
+        let there = match self.subjects(&tasks).await {
+            Ok(there) => there,
+            Err(reason) => {
+                self.complain(format!("the queue of the NATS server does not answer ({reason}); trying again\n"));
+                return Vec::new();
+            }
+        };
+        self.trouble = None;
         tasks.retain(|&key| !self.kept.contains(&key) && !there.contains(&self.subject(key)));
         tasks
     }
@@ -110,7 +131,7 @@ impl TaskSender {
 
     /// The subjects of this search's tasks that the server has. A queue that would never give some of these tasks to a
     /// worker is made again.
-    async fn subjects(&self, tasks: &[TaskKey]) -> Result<BTreeSet<String>, String> {
+    async fn subjects(&mut self, tasks: &[TaskKey]) -> Result<BTreeSet<String>, String> {
         // The queue may be gone, too. What it has to do is asked first: a task that is done later leaves the stream.
         let queue = Connection::queue(&self.jetstream, &self.token).await?;
         let stream = Connection::stream(&self.jetstream).await?;
@@ -121,14 +142,35 @@ impl TaskSender {
         let info = queue.cached_info();
         let is_idle = info.num_pending == 0 && info.num_ack_pending == 0;
         let has_ours = tasks.iter().any(|&key| there.contains(&self.subject(key)));
+        let is_stuck = has_ours && self.is_stuck(info);
         // After a failure of its disk the server may number its messages from an earlier number on than the queue does,
         // which takes the new ones for done.
-        if info.delivered.stream_sequence > last || is_idle && has_ours {
-            (self.log)("the queue of the NATS server has lost its place; it is made again\n");
+        let is_lost = info.delivered.stream_sequence > last || is_idle && has_ours;
+        if is_lost || is_stuck {
+            let waiting = info.num_pending + info.num_ack_pending as u64;
+            (self.log)(&match is_lost {
+                true => "the queue of the NATS server has lost its place; it is made again\n".to_owned(),
+                false => format!(
+                    "the queue of the NATS server gives out none of {waiting} tasks, though workers ask; it is made \
+                     again\n"
+                ),
+            });
+            self.given_out.1 = Instant::now();
             stream.delete_consumer(&info.name).await.map_err(words)?;
             Connection::queue(&self.jetstream, &self.token).await?;
         }
         Ok(there)
+    }
+
+    /// Whether the queue has given out nothing for long, although it has tasks and workers ask for them. A server that
+    /// was killed may not find the tasks that its notes name, and then gives out no other, either.
+    fn is_stuck(&mut self, queue: &consumer::Info) -> bool {
+        let given_out = queue.delivered.consumer_sequence;
+        if given_out != self.given_out.0 || queue.num_waiting == 0 {
+            self.given_out = (given_out, Instant::now());
+        }
+        let most = if queue.num_pending > 0 { STUCK } else { STUCK_IF_GIVEN_OUT };
+        self.given_out.1.elapsed() >= most
     }
 
     /// Removes this search's tasks from the server. A server that cannot be reached drops them when they are too old.

@@ -50,7 +50,7 @@ impl Worker {
         if !is_name(&name) || name.contains('.') {
             return Err(ClusterError::Name { name });
         }
-        let connection = Connection::open(&server, &format!("nbc worker {name}"))?;
+        let connection = Connection::open(&server, &format!("nbc worker {name}"), log)?;
         let entered = connection.enter();
         let physics = PhysicsId::compute(&Simulator::default());
         let queue = connection.open_queue(&physics.token())?;

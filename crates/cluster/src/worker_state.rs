@@ -1,7 +1,7 @@
 //! The state that the threads of a worker share: its connection, its name, the number of tasks done.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -18,6 +18,8 @@ use nbc_circuit::CancelFlag;
 
 /// The time between reports.
 pub const REPORT: Duration = Duration::from_secs(2);
+/// The worker ends when so many of its answers were rejected.
+const MOST_REJECTIONS: usize = 3;
 /// Tasks of a search that did not receive an answer are dropped for this time.
 const SHUNNED: Duration = Duration::from_secs(10);
 
@@ -29,8 +31,8 @@ pub struct WorkerState {
     pub tally: Arc<Tally>,
     pub log: Log,
     cancel: CancelFlag,
-    /// Set when a search has rejected the worker.
-    rejected: AtomicBool,
+    /// The number of answers that searches have rejected. Anybody who can use the server can say so once.
+    rejections: AtomicUsize,
     /// Searches that did not receive an answer, and when that was.
     silent: Mutex<BTreeMap<String, Instant>>,
 }
@@ -45,13 +47,13 @@ pub struct Tally {
 impl WorkerState {
     /// A worker that has done nothing yet.
     pub fn new(name: String, connection: Connection, physics: PhysicsId, cancel: CancelFlag, log: Log) -> Self {
-        let (tally, rejected, silent) = (Arc::default(), AtomicBool::new(false), Mutex::default());
-        Self { name, connection, physics, tally, log, cancel, rejected, silent }
+        let (tally, rejections, silent) = (Arc::default(), AtomicUsize::new(0), Mutex::default());
+        Self { name, connection, physics, tally, log, cancel, rejections, silent }
     }
 
     /// Whether no more tasks should be taken.
     pub fn is_ending(&self) -> bool {
-        self.cancel.is_raised() || self.rejected.load(Ordering::Relaxed)
+        self.cancel.is_raised() || self.rejections.load(Ordering::Relaxed) >= MOST_REJECTIONS
     }
 
     /// Whether tasks of the search are dropped, because it seems to have ended.
@@ -74,13 +76,17 @@ impl WorkerState {
                     silent.insert(search, Instant::now());
                 }
                 DeliveryEnd::Rejected(reply) => {
-                    self.rejected.store(true, Ordering::Relaxed);
                     let reason = match reply {
                         AnswerReply::OtherPhysics => "its physics is different",
                         AnswerReply::Invalid => "its messages cannot be read",
                         AnswerReply::Wrong | AnswerReply::Received => "its results are wrong",
                     };
-                    return Err(ClusterError::Rejected { name: self.name.clone(), reason });
+                    let (name, count) = (self.name.clone(), self.rejections.fetch_add(1, Ordering::Relaxed) + 1);
+                    if count >= MOST_REJECTIONS {
+                        return Err(ClusterError::Rejected { name, reason });
+                    }
+                    let said = format!("an answer was rejected: {reason} ({count} of {MOST_REJECTIONS})");
+                    (self.log)(&format!("worker `{name}`: {said}\n"));
                 }
             }
         }

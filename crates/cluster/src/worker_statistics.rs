@@ -43,6 +43,11 @@ impl WorkerStatistics {
         self.workers.insert(note.name.clone(), (note, Instant::now()));
     }
 
+    /// Whether a worker has reported lately.
+    pub fn has(&self, name: &str) -> bool {
+        self.workers.get(name).is_some_and(|(_, seen)| seen.elapsed() < GONE)
+    }
+
     /// Counts a result.
     pub fn count(&mut self) {
         self.taken += 1;

@@ -90,6 +90,10 @@ impl<'a> WorkerThread<'a> {
     /// Takes waiting tasks, at most as many as should be taken together; waits for one if there is none.
     async fn fetch(&mut self) -> Result<Vec<OpenTask>, String> {
         let mut taken = Vec::new();
+        // The connection says that the server does not answer; the client tries again.
+        while !self.worker.connection.is_open() && !self.worker.is_ending() {
+            time::sleep(GLANCE).await;
+        }
         let most = self.together;
         let waiting = self.queue.fetch().max_messages(most).messages().await.map_err(words)?;
         self.take(waiting, &mut taken).await?;
@@ -109,11 +113,13 @@ impl<'a> WorkerThread<'a> {
     async fn take(&mut self, mut batch: Batch, taken: &mut Vec<OpenTask>) -> Result<(), String> {
         // A server that dies does not end the request.
         let end = time::Instant::now() + REQUEST + PATIENCE;
-        while time::Instant::now() < end && !(self.worker.is_ending() && taken.is_empty()) {
+        while self.worker.connection.is_open() && !(self.worker.is_ending() && taken.is_empty()) {
             match time::timeout(GLANCE, batch.next()).await {
                 Ok(Some(message)) => self.accept(message.map_err(words)?, taken).await,
                 Ok(None) => break,
-                Err(_) => {}
+                Err(_) if time::Instant::now() < end => {}
+                Err(_) if taken.is_empty() => return Err("the queue of the NATS server does not answer".to_owned()),
+                Err(_) => break,
             }
         }
         Ok(())

@@ -53,13 +53,12 @@ fn garbage_repeated_late_and_oversized_answers_change_nothing() {
         let line = format!("dropped a message in the name of `{worker}` that is not an answer, {count} so far");
         assert!(ran.err.contains(&line), "{line}\n{}", ran.err);
     }
-    for (worker, reason) in [
-        ("impossible", "its result cannot be right"),
-        ("confused", "its result cannot be right"),
-        ("foreign", "its physics is 0000000000000007 (version 9.9.9), expected "),
+    for line in [
+        "dropped a result in the name of `impossible`: its result cannot be right (1 of 3)",
+        "dropped a result in the name of `confused`: its result cannot be right (1 of 3)",
+        "refused worker `foreign`: its physics is 0000000000000007 (version 9.9.9), expected ",
     ] {
-        let line = format!("refused worker `{worker}`: {reason}");
-        assert!(ran.err.contains(&line), "{line}\n{}", ran.err);
+        assert!(ran.err.contains(line), "{line}\n{}", ran.err);
     }
     assert!(!ran.err.contains("`good`") && !ran.err.contains("`echo`") && !ran.err.contains("`late`"), "{}", ran.err);
     good.kill();
@@ -95,6 +94,38 @@ fn junk_in_the_name_of_a_worker_is_dropped_and_the_worker_stays() {
         "{}",
         left.err
     );
+}
+
+#[test]
+fn a_forged_message_in_the_name_of_a_worker_does_not_remove_it() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let good = worker(&bench, &server, "good");
+    let search = evolve(&bench, &server, &[]);
+    let is_first_answer = |message: &Seen| message.is_answer_of("good") && message.payload.starts_with(&[VERSION, 0]);
+    (0..20).for_each(|_| _ = wire.wait_for(is_first_answer));
+    // A wrong result of a task, which claims to come from the connection of the worker.
+    let answer = wire.wait_for(is_first_answer);
+    let task = wire.wait_for(|message| message.subject.starts_with("nbc.v4.task."));
+    let (connection, _) = answer.reply.rsplit_once('.').expect("the worker waits for a reply");
+    wire.publish(&format!("{} {connection}.forged", answer_subject(&task, "good")), &unstable(&task));
+    // A report of other physics, and a reply that says that a result is wrong.
+    let note = [&[VERSION, 4], &b"good"[..], &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
+    wire.publish("nbc.v4.worker", &note);
+    let answer = wire.wait_for(|message| message.is_answer_of("good"));
+    wire.publish(&answer.reply, &[VERSION, 3]);
+    let ran = search.end();
+    assert_same(&bench, &ran);
+    assert!(
+        ran.err.contains("dropped a result in the name of `good`: ") && ran.err.contains("(1 of 3)"),
+        "{}",
+        ran.err
+    );
+    assert!(!ran.err.contains("refused worker"), "{}", ran.err);
+    good.signal("TERM");
+    let left = good.end();
+    assert_eq!(left.status, 0, "{}", left.err);
 }
 
 #[test]
@@ -140,9 +171,11 @@ fn a_worker_that_is_wrong_after_its_results_were_used_ends_the_search_with_a_che
         wire.publish(&answer_subject(&task, "turncoat"), answer);
     }
     let answer = |task: &Seen| &right[&(1, task.subject.rsplit('.').next().unwrap().parse().unwrap())];
-    let task = wire.wait_for(|message| is_task(message, 0, 1));
-    wire.publish(&answer_subject(&task, "turncoat"), &unstable(&task));
-    wire.publish(&answer_subject(&task, "honest"), answer(&task));
+    for _ in 0..3 {
+        let task = wire.wait_for(|message| is_task(message, 0, 1));
+        wire.publish(&answer_subject(&task, "turncoat"), &unstable(&task));
+        wire.publish(&answer_subject(&task, "honest"), answer(&task));
+    }
     let ran = search.end();
     assert_eq!(ran.status, 2, "{}", ran.err);
     assert!(ran.err.contains("worker `turncoat` sent a wrong result, and earlier ones of it were used"), "{}", ran.err);

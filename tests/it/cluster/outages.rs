@@ -11,7 +11,7 @@ use crate::cluster::wire::Wire;
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
 use crate::support::bench::Bench;
 use crate::support::limits;
-use crate::support::tools::skip;
+use crate::support::tools::{signal, skip};
 
 /// Runs a command of the system; whether it succeeded.
 fn succeeds(line: &str) -> bool {
@@ -159,6 +159,53 @@ fn a_server_that_loses_its_messages_but_not_its_notes_is_given_the_tasks_again()
     (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("good")));
     server.restart_without_messages();
     assert_same(&bench, &search.end());
+    good.kill();
+}
+
+#[test]
+fn a_server_that_stops_reading_is_named_and_search_and_worker_go_on_when_it_reads() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    let good = worker(&bench, &server, "good");
+    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("good")));
+    signal("STOP", server.child.id());
+    let stopped = Instant::now();
+    let silent = format!("the NATS server `{}` does not answer; trying again\n", server.url());
+    search.wait_for(&silent);
+    good.wait_for(&silent);
+    assert!(stopped.elapsed() < Duration::from_secs(30), "{:?}", stopped.elapsed());
+    signal("CONT", server.child.id());
+    good.wait_for(&format!("the NATS server `{}` answers again\n", server.url()));
+    assert_same(&bench, &search.end());
+    good.kill();
+}
+
+/// As after some kills of the server: tasks wait and a worker asks, but the queue gives out none.
+#[test]
+fn a_queue_that_gives_out_no_task_is_made_again() {
+    let Some(server) = Server::start(&[]) else { return };
+    let bench = bench();
+    let mut wire = Wire::open(&server);
+    let search = evolve(&bench, &server, &[]);
+    let task = wire.wait_for(|message| message.subject.starts_with("nbc.v4.task."));
+    let token = task.subject.split('.').nth(3).unwrap();
+    let (name, filter) = (format!("workers-{token}"), format!("nbc.v4.task.{token}.>"));
+    // A queue of the same name that gives out one task, which nobody does.
+    let config = format!(
+        r#"{{"stream_name":"nbc-tasks","config":{{"durable_name":"{name}","ack_policy":"explicit",
+        "ack_wait":3600000000000,"filter_subject":"{filter}","max_ack_pending":1,"max_waiting":1000}}}}"#
+    );
+    wire.request(&format!("$JS.API.CONSUMER.DELETE.nbc-tasks.{name}"), "");
+    wire.request(&format!("$JS.API.CONSUMER.DURABLE.CREATE.nbc-tasks.{name}"), &config);
+    wire.publish(&format!("$JS.API.CONSUMER.MSG.NEXT.nbc-tasks.{name} nbc.v4.reply.wire"), b"1");
+    wire.wait_for(|message| message.reply.starts_with("$JS.ACK.nbc-tasks."));
+    let good = worker(&bench, &server, "good");
+    search.wait_for("tasks, though workers ask; it is made again\n");
+    let ran = search.end();
+    assert_same(&bench, &ran);
+    assert!(ran.err.contains("the queue of the NATS server gives out none of "), "{}", ran.err);
     good.kill();
 }
 

@@ -18,6 +18,8 @@ pub struct Wire {
 /// A message.
 pub struct Seen {
     pub subject: String,
+    /// The subject for an answer, or empty.
+    pub reply: String,
     pub payload: Vec<u8>,
 }
 
@@ -79,11 +81,12 @@ impl Wire {
                 self.say(b"PONG\r\n");
             }
             let words: Vec<&str> = line.split(' ').collect();
-            let [kind @ ("MSG" | "HMSG"), subject, .., size] = words[..] else { continue };
+            let [kind @ ("MSG" | "HMSG"), subject, _, .., size] = words[..] else { continue };
+            let reply = if words.len() > 4 { words[3] } else { "" };
             let mut payload = vec![0; size.parse::<usize>().unwrap() + 2];
             self.reader.read_exact(&mut payload).unwrap();
             payload.truncate(payload.len() - 2);
-            let seen = Seen { subject: subject.to_owned(), payload };
+            let seen = Seen { subject: subject.to_owned(), reply: reply.to_owned(), payload };
             if kind == "MSG" && wanted(&seen) {
                 return seen;
             }

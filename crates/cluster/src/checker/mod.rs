@@ -2,7 +2,7 @@
 
 mod plausible;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::time::{Duration, Instant};
 
 use tokio::runtime::Handle;
@@ -19,6 +19,8 @@ pub use plausible::is_plausible;
 const SHARE: f64 = 0.02;
 /// Messages that are not answers have a line each up to this number, then fewer.
 const JUNK_LINES: u64 = 8;
+/// A worker is refused after wrong results of so many tasks. Anybody who can use the server can send one in its name.
+const MOST_WRONG: usize = 3;
 
 /// The trust in each worker, and the checks in progress.
 pub struct Checker {
@@ -37,11 +39,13 @@ pub struct Checker {
 }
 
 /// The history of a worker.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Known {
     standing: Standing,
     /// Whether its results were used without doing the work here.
     is_used: bool,
+    /// The tasks of which a wrong result came in its name.
+    wrong: BTreeSet<TaskKey>,
 }
 
 /// Whether a worker can be trusted.
@@ -159,11 +163,31 @@ impl Checker {
         }
     }
 
-    /// The same for a worker with a wrong result.
-    pub fn refuse_wrong(&mut self, worker: &str, reason: &str) {
+    /// Counts a wrong result of a task in the name of a worker. Its next result is checked here before others are used;
+    /// after some it is refused. Returns how many more are missing for that.
+    pub fn count_wrong(&mut self, worker: &str, key: TaskKey, reason: &str) -> usize {
+        let known = self.known(worker);
+        if known.standing == Standing::Refused || !known.wrong.insert(key) {
+            return 0;
+        }
+        let (count, is_used) = (known.wrong.len(), known.is_used);
+        if count < MOST_WRONG {
+            known.standing = Standing::Unknown;
+            let name = name_of(worker);
+            (self.log)(&format!("dropped a result in the name of `{name}`: {reason} ({count} of {MOST_WRONG})\n"));
+            return MOST_WRONG - count;
+        }
         self.refuse(worker, reason);
-        if self.known(worker).is_used {
+        if is_used {
             self.unsound = Some(name_of(worker).to_owned());
+        }
+        0
+    }
+
+    /// No longer ignores a name, of which a report was wrong.
+    pub fn readmit(&mut self, name: &str) {
+        if self.is_refused(name) {
+            self.workers.remove(name);
         }
     }
 
