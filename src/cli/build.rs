@@ -9,6 +9,8 @@ use serde_json::json;
 use crate::cli::harden::{HardenArguments, Hardened};
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::mapping::CellsArguments;
+use crate::cli::options::new_path::new_path;
+use crate::cli::source_path::source_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::model::Column;
@@ -16,7 +18,7 @@ use nbc_circuit::formats::{Design, blif, dot, verilog};
 use nbc_circuit::timing::fan_out;
 use nbc_circuit::{CellLibrary, NetId, Netlist, Race, levels, races, rings};
 use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema, WaveTiming};
-use nbc_session::store::{self, DiskWorld};
+use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Mapping, Session};
 
 const EXAMPLES: &str = "\
@@ -37,7 +39,7 @@ pub struct BuildArguments {
     #[arg(long, value_enum)]
     emit: Option<Emit>,
     /// The file to write instead of standard output
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", value_parser = new_path())]
     output: Option<PathBuf>,
     #[command(flatten)]
     making: MakingArguments,
@@ -72,7 +74,7 @@ impl BuildArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (kind, chosen) = (self.emit(context.format)?, self.cells.chosen()?);
         let mut session = Session::new(DiskWorld);
-        let checked = session.open(&self.file.to_string_lossy())?;
+        let checked = session.open(source_path(&self.file)?)?;
         let circuit = checked.circuit(&self.making.choice())?;
         let options = self.making.options()?;
         let Some(hardened) = self.harden.find(&session, &checked, &circuit, &options, context)? else {
@@ -86,7 +88,7 @@ impl BuildArguments {
         let is_short = !hardened.tried.is_empty() && !hardened.reached;
         let text = emit(kind, mapping, hardened);
         match &self.output {
-            Some(path) => store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?,
+            Some(path) => context.write(path, text.as_bytes())?,
             None => context.print(text)?,
         }
         Ok(if is_short { Status::TestFailed } else { Status::Done })

@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::io::{self, IsTerminal, Write};
+use std::path::Path;
 
 use clap::{Args, Command, ValueEnum};
 use serde::Serialize;
@@ -10,10 +11,11 @@ use serde_json::ser::Formatter;
 use crate::cli::Status;
 use crate::cli::failure::{Failure, unprintable};
 use crate::cli::output::Output;
-use nbc_base::diag::{Diagnostic, is_hidden, render, visible};
+use nbc_base::diag::{Diagnostic, Diagnostics, is_hidden, render, visible};
 use nbc_base::source::Sources;
 use nbc_session::Checked;
 use nbc_session::report::{Document, Schema};
+use nbc_session::store;
 
 /// The format of the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
@@ -83,6 +85,11 @@ impl Context {
         }
     }
 
+    /// The context of a command line that clap refuses.
+    pub(super) fn bare(format: OutputFormat, command: fn() -> Command) -> Self {
+        Self::new(&GlobalArguments { format, color: ColorChoice::Auto }, command)
+    }
+
     /// Prints to standard output. A closed pipe is ignored and the command continues, because its work decides the exit
     /// status.
     ///
@@ -150,7 +157,7 @@ impl Context {
     /// Writes a message to standard error. Errors of writing are ignored, because there is no other place to report
     /// them.
     pub fn log(&self, text: &str) {
-        let _ = io::stderr().write_all(visible(text).as_bytes());
+        log(text);
     }
 
     /// Logs warnings about a source, each one once.
@@ -167,11 +174,7 @@ impl Context {
     pub(super) fn report(&mut self, failure: Failure) -> Status {
         match failure {
             Failure::Input(found) => {
-                if self.format == OutputFormat::Json {
-                    let value = serde_json::json!({ "diagnostics": found.json() });
-                    // The failure itself is what matters if this cannot be written either.
-                    let _ = self.print_json(Schema::Diagnostics, &value).and_then(|()| self.flush());
-                }
+                self.print_diagnostics(&found);
                 self.tell(&found.list, &found.sources);
             }
             Failure::Output(error) => self.tell(&[unprintable(&error)], &Sources::default()),
@@ -179,10 +182,39 @@ impl Context {
         Status::BadInput
     }
 
+    /// Prints diagnostics to standard output, if it is JSON.
+    pub(super) fn print_diagnostics(&mut self, found: &Diagnostics) {
+        if self.format == OutputFormat::Json {
+            let value = serde_json::json!({ "diagnostics": found.json() });
+            // The failure itself is what matters if this cannot be written either.
+            let _ = self.print_json(Schema::Diagnostics, &value).and_then(|()| self.flush());
+        }
+    }
+
+    /// Writes a file that the user named, and says so on standard error.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
+        store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))?;
+        self.wrote(path);
+        Ok(())
+    }
+
+    /// Says on standard error that a file that the user named is written.
+    pub fn wrote(&self, path: &Path) {
+        self.log(&format!("wrote {}\n", path.display()));
+    }
+
     /// Writes diagnostics to standard error, with excerpts of the sources.
     pub fn tell(&self, diagnostics: &[Diagnostic], sources: &Sources) {
         tell(diagnostics, sources, self.color);
     }
+}
+
+/// Writes a message to standard error, as [`Context::log`], from any thread.
+pub(super) fn log(text: &str) {
+    let _ = io::stderr().write_all(visible(text).as_bytes());
 }
 
 /// Writes diagnostics to standard error, as [`Context::tell`], from any thread.

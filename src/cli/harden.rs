@@ -4,6 +4,7 @@
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::options::number::number;
 use crate::cli::test::share;
 use crate::cli::wording::{HardenNote, UsageError};
 use crate::cli::world_runs::{Experiment, WorldRuns};
@@ -25,7 +26,7 @@ pub(super) struct HardenArguments {
     #[arg(value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     worlds: u32,
     /// The seed of the worlds
-    #[arg(long, value_name = "SEED", requires = "harden", default_value_t = 1)]
+    #[arg(long, value_name = "SEED", requires = "harden", default_value_t = 1, value_parser = number::<u64>)]
     seed: u64,
     /// The share of worlds in which each test must pass
     #[arg(long, value_name = "SHARE", requires = "harden", default_value = "95%", value_parser = share)]

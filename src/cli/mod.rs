@@ -40,24 +40,22 @@ mod robots;
 mod run;
 mod runs;
 mod simulate;
+mod source_path;
 mod standard_input;
 mod status;
 mod synth;
 mod task_executor;
 mod test;
 mod threads;
+mod usage;
 mod watch;
 mod wording;
 mod world_runs;
 
 use std::ffi::OsString;
-use std::io::{self, Write};
 use std::process::ExitCode;
 
-use clap::{CommandFactory, Parser, Subcommand};
-
-use nbc_base::diag::{is_hidden, render, visible};
-use nbc_base::source::Sources;
+use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 #[cfg(not(feature = "cluster"))]
 use not_built::cluster;
@@ -143,35 +141,19 @@ pub fn main() -> ExitCode {
 
 /// Runs the program on a command line, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
-    let cli = match Cli::try_parse_from(options::circuit::with_named_files(arguments)) {
+    let arguments = options::circuit::with_named_files(arguments);
+    let parsed = usage::with_negative_numbers(Cli::command())
+        .try_get_matches_from(&arguments)
+        .and_then(|found| Cli::from_arg_matches(&found));
+    let cli = match parsed {
         Ok(cli) => cli,
-        Err(told) => return tell(&told).into(),
+        Err(told) => return usage::tell(&told, &arguments, Cli::command).into(),
     };
     let mut context = Context::new(&cli.global, Cli::command);
     let outcome = threads::start(&context)
         .and_then(|()| cli.command.run(&mut context))
         .and_then(|status| context.flush().map(|()| status));
     outcome.unwrap_or_else(|failure| context.report(failure)).into()
-}
-
-/// Prints the message of clap: help, the version, or a usage error.
-fn tell(told: &clap::Error) -> Status {
-    let text = told.render().to_string();
-    if text.contains(|c| is_hidden(c) && c != '\t') {
-        // The arguments contain control characters, so print them escaped and without colors.
-        let _ = io::stderr().write_all(visible(&text).as_bytes());
-        return Status::BadInput;
-    }
-    match told.print().and_then(|()| io::stdout().flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            // If standard error is closed too, the exit status still reports the failure.
-            let fault = failure::unprintable(&error);
-            let _ = io::stderr().write_all(render::text(&[fault], &Sources::default(), false).as_bytes());
-            Status::BadInput
-        }
-        _ if told.use_stderr() => Status::BadInput,
-        _ => Status::Done,
-    }
 }
 
 #[cfg(test)]

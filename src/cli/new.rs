@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::cli::options::new_path::new_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_circuit::formats::is_word;
@@ -43,6 +44,7 @@ A file that exists is not changed.
 Exit status: 0 done, 2 the file exists or cannot be written.")]
 pub struct NewArguments {
     /// The name of the circuit, or the path of its file
+    #[arg(value_parser = new_path())]
     name: PathBuf,
 }
 

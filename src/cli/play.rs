@@ -12,6 +12,8 @@ use nbc_swarm::Room;
 use serde_json::json;
 
 use crate::cli::options::making::MakingArguments;
+use crate::cli::options::new_path::new_path;
+use crate::cli::source_path::source_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
@@ -55,7 +57,7 @@ pub struct PlayArguments {
     #[arg(long, value_name = "TEXT", value_parser = token)]
     token: Option<String>,
     /// Write the circuit to this HTML file, which plays without a server, and start none
-    #[arg(long, value_name = "OUT", requires = "file")]
+    #[arg(long, value_name = "OUT", requires = "file", value_parser = new_path())]
     #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages"])]
     export: Option<PathBuf>,
     #[command(flatten)]
@@ -86,6 +88,7 @@ impl PlayArguments {
             return Err(UsageError::OnlyExported.into());
         }
         let making = making.options()?;
+        file.as_deref().map(source_path).transpose()?;
         let interrupt = Interrupt::watch()?;
         let lessons = lessons.into_iter().map(source).collect();
         let pages = Some(pages);
@@ -106,14 +109,15 @@ impl PlayArguments {
 /// Writes a circuit as a page of its own.
 fn write_page(file: &Path, output: &Path, making: &MakingArguments, context: &mut Context) -> Result<Status, Failure> {
     let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
-    let checked = session.open(&file.to_string_lossy())?;
+    let checked = session.open(source_path(file)?)?;
     let circuit = checked.circuit(&making.choice())?;
     let compiled = session.compile(&checked, &circuit, &making.options()?)?;
     context.tell(&compiled.warnings, &checked.sources);
     let page = nbc_play::export(&session, &checked, &compiled)?;
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
     let (bytes, name) = (page.html.len(), output.display());
-    let written = json!({ "file": output, "circuit": page.circuit, "robots": page.robots, "bytes": bytes });
+    let written =
+        json!({ "file": output.display().to_string(), "circuit": page.circuit, "robots": page.robots, "bytes": bytes });
     context.print_result(Schema::Player, &written, || {
         let robots = counted(page.robots, "robot");
         format!("wrote {name}: {} with {robots}, {} kB; a browser opens it\n", page.circuit, bytes.div_ceil(1000))

@@ -9,9 +9,11 @@ use crate::cli::gpu::OpenDevice;
 use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::making::MakingArguments;
+use crate::cli::options::new_path::new_path;
 use crate::cli::options::timings::{TimedStage, Timings};
 use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::runs::{CompleteRun, chosen_runs, run_list, unknown_run};
+use crate::cli::source_path::source_path;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_session::report::{
     self, Document, PageSwarm, RunResult, Schema, SchematicPages, Scheme, Svg, SwarmResult, SwarmTiming,
@@ -40,7 +42,7 @@ pub struct RunArguments {
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// The folder for pictures and results [default: `out/NAME` for the file `NAME.nb`]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = new_path())]
     out: Option<PathBuf>,
     /// Do not write the report page
     #[arg(long)]
@@ -79,7 +81,7 @@ impl RunArguments {
         if !self.no_report {
             session = session.with_poses(Room::SWARM);
         }
-        let file = match session.open(&self.file.to_string_lossy()) {
+        let file = match session.open(source_path(&self.file)?) {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             file => file?,
         };

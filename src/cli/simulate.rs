@@ -5,6 +5,7 @@ use serde::Serialize;
 
 use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::number::number;
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::robots::read_body;
 use crate::cli::wording::{GroundEnds, UsageError};
@@ -33,10 +34,11 @@ pub struct SimulateArguments {
     #[arg(long)]
     schedule: String,
     /// The ground column of the body's left column [default: the middle of the world]
-    #[arg(long, value_name = "COLUMN")]
+    #[arg(long, value_name = "COLUMN", value_parser = number::<usize>)]
     start_x: Option<usize>,
     /// Ground voxels in a row
     #[arg(long, value_name = "VOXELS", default_value_t = Setting::default().world_width)]
+    #[arg(value_parser = number::<usize>)]
     world_width: usize,
     #[command(flatten)]
     library: RobotsArguments,

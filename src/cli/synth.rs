@@ -8,6 +8,7 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::options::mapping::{MappingArguments, functions};
+use crate::cli::options::new_path::new_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
 use nbc_base::diag::Diagnostic;
@@ -38,7 +39,7 @@ pub struct SynthArguments {
     #[arg(required = true)]
     input: Vec<PathBuf>,
     /// The file to write: .blif, .aig, .aag, .v, .dot or .nb
-    #[arg(short, long, value_name = "OUT")]
+    #[arg(short, long, value_name = "OUT", value_parser = new_path())]
     output: Option<PathBuf>,
     #[command(flatten)]
     mapping: MappingArguments,
@@ -272,7 +273,7 @@ impl SynthArguments {
         let Made { design, source, result } = made;
         if let (Some(path), Some(target)) = (&self.output, target) {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
-            store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
+            context.write(path, &bytes)?;
         }
         let proof = simulated.into();
         let mut report = Report { unreachable, proof, yosys, ..Report::of(&design, removed, &result.logic, started) };

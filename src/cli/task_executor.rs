@@ -41,20 +41,20 @@ impl TaskExecutor {
         Ok(Self { simulator: device.simulator(), device, queue, interrupt: interrupt.clone() })
     }
 
-    /// The same for a command that a signal ends at once if it works here. Notes are shown by `bar`.
+    /// The same on the device that the user chose. Notes are shown by `bar`.
     ///
     /// # Errors
     /// When the device or the server cannot be used.
     pub fn choose(
         device: DeviceArguments,
         queue: &QueueArguments,
+        interrupt: &Interrupt,
         bar: &Arc<Progress>,
         context: &Context,
     ) -> Result<Self, Failure> {
         let device = OpenDevice::open(device.choice(), LaneBackend::default(), context)?;
-        let interrupt = if queue.nats.is_some() { Interrupt::watch()? } else { Interrupt::default() };
         let bar = Arc::clone(bar);
-        Self::open(device, queue, &interrupt, move |note| bar.note(note))
+        Self::open(device, queue, interrupt, move |note| bar.note(note))
     }
 
     /// The executor to hand the tasks to.

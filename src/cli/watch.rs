@@ -66,16 +66,16 @@ impl WatchArguments {
     /// Checks and tests until a signal arrives.
     ///
     /// # Errors
-    /// When the output cannot be written.
+    /// When a path is not UTF-8, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let signal = Interrupt::watch()?;
         let device = self.test.device(context)?;
         let mut session =
             Session::new(signal.world()).with_simulator(device.simulator()).with_files(self.test.named_files());
-        let mut stamps = Stamps::default();
+        let (paths, mut stamps) = (self.test.paths()?, Stamps::default());
         while !signal.is_raised() {
             context.clear()?;
-            let checked = self.check(&mut session, &mut stamps);
+            let checked = check(&paths, &mut session, &mut stamps);
             if signal.is_raised() {
                 break;
             }
@@ -87,19 +87,6 @@ impl WatchArguments {
             }
         }
         Ok(Status::Done)
-    }
-
-    /// Checks the programs. Only a check tells what they depend on, and a path may change before it has its stamp, so
-    /// what has a new stamp is read again.
-    fn check(&self, session: &mut Session, stamps: &mut Stamps) -> Vec<Arc<Checked>> {
-        loop {
-            let checked = self.test.paths().map(|path| session.checked(&path)).collect();
-            let new = stamps.add(self.test.paths().flat_map(|path| session.dependencies(&path)));
-            if new.is_empty() {
-                return checked;
-            }
-            new.iter().for_each(|path| session.close(path));
-        }
     }
 
     /// Prints the diagnostics, and tests if there are no errors, until a file changes or a signal arrives.
@@ -137,6 +124,19 @@ impl WatchArguments {
             outcome => _ = outcome?,
         }
         Ok(())
+    }
+}
+
+/// Checks the programs. Only a check tells what they depend on, and a path may change before it has its stamp, so what
+/// has a new stamp is read again.
+fn check(paths: &[&str], session: &mut Session, stamps: &mut Stamps) -> Vec<Arc<Checked>> {
+    loop {
+        let checked = paths.iter().map(|path| session.checked(path)).collect();
+        let new = stamps.add(paths.iter().flat_map(|path| session.dependencies(path)));
+        if new.is_empty() {
+            return checked;
+        }
+        new.iter().for_each(|path| session.close(path));
     }
 }
 

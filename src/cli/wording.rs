@@ -7,6 +7,20 @@ use nbc_base::model::SettingError;
 /// A command line that is invalid, or output that cannot be written; `path` is as the user wrote it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(in crate::cli) enum UsageError {
+    /// Arguments that clap refuses, in its words.
+    Arguments { message: String, help: String },
+    /// A command line without a command.
+    NoCommand,
+    /// An argument or a path that is not UTF-8.
+    NotText { name: String },
+    /// Two files whose robots would have one name.
+    SameRobot { name: String },
+    /// A file whose name no robot can have.
+    RobotName { path: String },
+    /// A body that cannot be measured.
+    Unstable { path: String, env_step: u32 },
+    /// Behaviors that are asked for where only files are given.
+    BehaviorOfFile,
     /// Standard output that cannot be written.
     Output { reason: String },
     /// A folder that cannot be listed.
@@ -51,6 +65,24 @@ impl From<UsageError> for Diagnostic {
     fn from(error: UsageError) -> Self {
         let bad = |message: String| Self::without_place(Code::BadValue, message);
         match error {
+            UsageError::Arguments { message, help } => bad(message).with_help(help),
+            UsageError::NoCommand => {
+                bad("the command is missing".to_owned()).with_help("`nbc --help` lists the commands")
+            }
+            UsageError::NotText { name } => bad(format!("the name `{name}` is not valid UTF-8"))
+                .with_help("rename the file or the folder; programs and messages name it as text"),
+            UsageError::SameRobot { name } => {
+                bad(format!("two robots would be called `{name}`")).with_help("rename one of the files")
+            }
+            UsageError::RobotName { path } => bad(format!("no robot can have the name of `{path}`"))
+                .with_help("a name has letters, digits, `_`, `-`, `+` and `.`, and does not begin with `.`"),
+            UsageError::Unstable { path, env_step } => {
+                let message = format!("the body in `{path}` is unstable at env step {env_step}");
+                Self::without_place(Code::RobotFile, message)
+                    .with_help("a body of less swelling or other neighbors may be stable; `nbc simulate` shows it")
+            }
+            UsageError::BehaviorOfFile => bad("`--behavior` chooses among the robots of runs".to_owned())
+                .with_help("leave it out: a robot of your own has the behavior that it has"),
             UsageError::Output { reason } => {
                 Self::without_place(Code::Unwritable, format!("cannot write the output: {reason}"))
             }

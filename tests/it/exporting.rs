@@ -58,7 +58,7 @@ fn an_archive_is_exported_completely_with_its_materials() {
     assert_eq!(ran.status, 0, "{}", ran.err);
     for file in ["elites.csv", "elites.json"] {
         let ran = bench.run(&["export", "out/own", "-o", file]);
-        assert_eq!((ran.status, ran.out.as_str(), ran.err.as_str()), (0, "", ""));
+        assert_eq!((ran.status, ran.out.as_str(), ran.err), (0, "", format!("wrote {file}\n")));
     }
     let read = |file: &str| fs::read_to_string(bench.path().join(file)).unwrap();
     let json = validate("elites", &read("elites.json"));

@@ -71,6 +71,7 @@ mod three;
 mod tidy;
 mod ui;
 mod unstable;
+mod usage;
 mod using;
 mod verilog;
 mod wave_machines;

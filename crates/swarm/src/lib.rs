@@ -52,7 +52,7 @@ pub use radius::safe_radius;
 pub use recording::{Recorded, Recording, Room};
 pub use robustness::{FailingRobot, RobotMargin, Robustness, WorldFailure, WorldMargin, WorldTrial};
 pub use sample::WorldSample;
-pub use selection::{RobotCandidate, Selected, Selection};
+pub use selection::{MEASUREMENT_COST, RobotCandidate, Selected, Selection};
 pub use settling::Settling;
 pub use simulate::{SwarmConditions, simulate};
 pub use swarm_task::{PlainMember, SwarmBits, SwarmTask};

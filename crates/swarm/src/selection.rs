@@ -10,7 +10,7 @@ use nbc_base::model::{Behavior, Fault, Provenance, Robot};
 /// The longest clock of a gate that is measured in full, in cycles.
 const LONGEST_CLOCK: u32 = 4;
 /// The cost of a full measurement, in screenings.
-const MEASUREMENT_COST: u64 = 4;
+pub const MEASUREMENT_COST: u64 = 4;
 
 /// The effort of a selection and the accepted errors.
 #[derive(Clone, Copy, Debug, PartialEq)]

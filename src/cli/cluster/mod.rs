@@ -3,11 +3,10 @@
 mod worker;
 mod workers;
 
-use std::io::{self, Write};
-
 use clap::Args;
 use nbc_cluster::{NatsServer, QueueOptions};
 
+use crate::cli::context::log;
 use crate::cli::options::queue::{NatsAccess, QueueArguments};
 use crate::cli::{Failure, Interrupt};
 
@@ -45,12 +44,6 @@ pub fn open_queue(
     let (server, trust_workers) = (server(address, &arguments.access), arguments.trust_workers);
     let options = QueueOptions { server, trust_workers, cancel: interrupt.cancel(), log };
     Ok(Some(QueueExecutor::open(options, note)?))
-}
-
-/// Writes a line to standard error.
-pub fn log(text: &str) {
-    // If standard error is closed, there is nowhere to report it.
-    let _ = io::stderr().write_all(text.as_bytes());
 }
 
 fn server(address: &str, access: &NatsAccess) -> NatsServer {

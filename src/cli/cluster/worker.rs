@@ -5,7 +5,8 @@ use std::thread;
 use clap::Args;
 use nbc_cluster::{Worker, WorkerOptions};
 
-use crate::cli::cluster::{NatsArguments, log};
+use crate::cli::cluster::NatsArguments;
+use crate::cli::context::log;
 use crate::cli::{Context, Failure, Interrupt, Status};
 use nbc_base::diag::counted;
 

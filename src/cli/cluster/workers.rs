@@ -4,6 +4,7 @@ use clap::Args;
 use nbc_cluster::ClusterWatch;
 
 use crate::cli::cluster::NatsArguments;
+use crate::cli::context::log;
 use crate::cli::{Context, Failure, Interrupt, Status};
 use nbc_session::report::Schema;
 
@@ -28,7 +29,7 @@ impl WorkersArguments {
     /// When the server cannot be used.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
-        let mut watch = ClusterWatch::open(&self.server.server())?;
+        let mut watch = ClusterWatch::open(&self.server.server(), log)?;
         loop {
             let found = watch.listen(&interrupt.cancel());
             if self.watch && interrupt.is_raised() {

@@ -6,6 +6,7 @@ use clap::Args;
 
 use crate::cli::draw::kind::{Kind, kinds};
 use crate::cli::draw::request::DrawRequest;
+use crate::cli::options::new_path::new_path;
 
 /// Draw a robot, a library, an evolution run, or a circuit and its swarm
 #[derive(Args)]
@@ -24,7 +25,7 @@ pub struct DrawArguments {
     #[arg(long = "as", value_parser = kinds())]
     pub(super) kind: Kind,
     /// The file to write: `.svg` or `.png` for pictures, `.gif`, `.png` or `.apng` for films, `.vcd`, `.dot`, `.html`
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = new_path())]
     pub(super) output: PathBuf,
     #[command(flatten)]
     pub(super) request: DrawRequest,

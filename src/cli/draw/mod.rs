@@ -41,8 +41,9 @@ impl DrawArguments {
         let subject = subject_kind(&request.what);
         options::check_options(&request, kind, subject)?;
         canvas.write(draw(kind, subject, &request, context)?)?;
+        context.wrote(&output);
         if context.format == OutputFormat::Json {
-            let drawn = serde_json::json!({ "file": output, "kind": kind.description().word });
+            let drawn = serde_json::json!({ "file": output.display().to_string(), "kind": kind.description().word });
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)

@@ -5,8 +5,12 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::new_path::new_path;
+use crate::cli::options::number::number;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::options::timings::Timings;
+use crate::cli::source_path::source_path;
+use crate::cli::wording::UsageError;
 use nbc_session::RUNS;
 use nbc_session::store::ResultPlace;
 
@@ -27,13 +31,13 @@ pub struct EvolveArguments {
     #[arg(long, value_name = "NAME")]
     pub(super) run: Option<String>,
     /// Use this seed instead of the declared ones
-    #[arg(long)]
+    #[arg(long, value_parser = number::<u64>)]
     pub(super) seed: Option<u64>,
     /// Use this number of generations instead of the declared one
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub(super) generations: Option<u32>,
     /// The folder for results [default: out]
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, value_name = "DIR", value_parser = new_path())]
     pub(super) out: Option<PathBuf>,
     /// Continue from the checkpoints in the folder; start runs without one
     #[arg(long)]
@@ -42,7 +46,7 @@ pub struct EvolveArguments {
     #[arg(long, conflicts_with_all = ["seed", "generations"])]
     pub(super) quick: bool,
     /// Seconds between checkpoints; 0 writes one each generation
-    #[arg(long, value_name = "SECONDS", default_value_t = 10)]
+    #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = number::<u64>)]
     pub(super) checkpoint_every: u64,
     /// Write a page with plots, on which the archive's elites walk
     #[arg(long)]
@@ -57,8 +61,11 @@ pub struct EvolveArguments {
 
 impl EvolveArguments {
     /// The folder of runs, in which the robots of other evolutions are.
-    pub(super) fn runs(&self) -> String {
-        self.out.as_deref().unwrap_or(Path::new(RUNS)).to_string_lossy().into_owned()
+    ///
+    /// # Errors
+    /// When it is not UTF-8.
+    pub(super) fn runs(&self) -> Result<&str, UsageError> {
+        source_path(self.out.as_deref().unwrap_or(Path::new(RUNS)))
     }
 
     /// The folder for the runs of a declaration, or for a part of their results.

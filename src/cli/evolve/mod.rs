@@ -16,8 +16,9 @@ use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::campaign::{Campaign, MadeRun};
 use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::Ended;
-use crate::cli::evolve::wording::EvolveError;
+use crate::cli::evolve::wording::{EvolveError, QuickRun};
 use crate::cli::gpu::OpenDevice;
+use crate::cli::source_path::source_path;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
@@ -66,7 +67,7 @@ impl EvolveArguments {
     /// When the file has errors, a checkpoint is rejected, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
-        let declared = match self.declared(&interrupt) {
+        let declared = match self.declared(&interrupt, context) {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             declared => declared?,
         };
@@ -175,8 +176,9 @@ impl Comparison {
 
 impl EvolveArguments {
     /// The evolutions to run, with the changes from the command line.
-    fn declared(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
-        let mut evolutions = self.chosen(interrupt)?;
+    fn declared(&self, interrupt: &Interrupt, context: &Context) -> Result<Vec<Evolution>, Failure> {
+        let declared = self.chosen(interrupt)?;
+        let mut evolutions = declared.clone();
         if self.quick {
             evolutions.truncate(1);
         }
@@ -189,6 +191,9 @@ impl EvolveArguments {
             }
             let quick = self.quick.then_some(QUICK_GENERATIONS);
             evolution.generations = self.generations.or(quick).unwrap_or(evolution.generations);
+        }
+        if let (true, [declared, left_out @ ..], [used, ..]) = (self.quick, &declared[..], &evolutions[..]) {
+            context.log(&QuickRun { declared, used, left_out }.text());
         }
         Ok(evolutions)
     }
@@ -213,11 +218,13 @@ impl EvolveArguments {
     /// file that it uses.
     fn chosen(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
         let mut session = Session::new(interrupt.world());
-        let checked = self.file.as_ref().map(|path| session.open(&path.to_string_lossy())).transpose()?;
+        let checked = self.file.as_ref().map(|path| Ok::<_, Failure>(session.open(source_path(path)?)?)).transpose()?;
         let program = checked.as_ref().map_or_else(nbc_session::prelude, |checked| checked.program.clone());
         let started = |evolution: &Evolution| match &checked {
-            None => Ok(evolution.clone()),
-            Some(checked) => session.started(checked, evolution, &self.runs()),
+            None => Ok::<_, Failure>(evolution.clone()),
+            // Others read no robots.
+            Some(checked) if evolution.start.is_some() => Ok(session.started(checked, evolution, self.runs()?)?),
+            Some(_) => Ok(evolution.clone()),
         };
         let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
         if let Some(name) = &self.run {
@@ -230,7 +237,7 @@ impl EvolveArguments {
             return Err(EvolveError::NoEvolution { file: path.display().to_string(), known: known() }.into());
         }
         let own = program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name));
-        Ok(own.map(started).collect::<Result<_, _>>()?)
+        own.map(started).collect()
     }
 }
 

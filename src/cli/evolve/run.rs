@@ -9,9 +9,10 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use crate::cli::Failure;
+use crate::cli::context;
 use crate::cli::evolution_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::evolve::arguments::EvolveArguments;
-use crate::cli::evolve::wording::{EvolveError, ProgressGaps};
+use crate::cli::evolve::wording::{EvolveError, ProgressGaps, ResumedUntil};
 use crate::cli::options::timings::{TimedStage, Timer};
 use nbc_base::model::Evolution;
 use nbc_session::report::{EvolutionLine, History, evolution_table};
@@ -24,7 +25,7 @@ use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Task, TaskResult,
 pub(super) struct Ended {
     run: String,
     seed: u64,
-    folder: PathBuf,
+    folder: String,
     finished: bool,
     seconds: f64,
     #[serde(flatten)]
@@ -70,6 +71,13 @@ impl<'a> EvolutionRun<'a> {
             None => (Search::new(evolution, seed), Work::default()),
             Some(_) if !arguments.resume => return Err(would_overwrite(&path)),
             Some(checkpoint) => {
+                let until = ResumedUntil {
+                    folder: folder.display().to_string(),
+                    done: checkpoint.state.generation,
+                    before: checkpoint.declared.generations(),
+                    now: evolution.generations,
+                };
+                context::log(&until.text());
                 let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
                 let resumed = checkpoint.resume(&path.display().to_string(), evolution, seed);
                 (resumed.map_err(Failure::plain)?, work)
@@ -195,7 +203,7 @@ impl<'a> EvolutionRun<'a> {
         Ended {
             run: self.search.evolution().name.clone(),
             seed: self.search.seed(),
-            folder: self.folder.clone(),
+            folder: self.folder.display().to_string(),
             finished,
             seconds: self.started.elapsed().as_secs_f64(),
             line: EvolutionLine::of(&self.search, self.work),
@@ -206,7 +214,7 @@ impl<'a> EvolutionRun<'a> {
         let Ended { run, seed, folder, .. } = self.ended(finished);
         let table = evolution_table(&self.search, self.work);
         let left = if finished { "" } else { "interrupted; `--resume` continues the run\n" };
-        let (speed, folder) = (self.speed(), folder.display());
+        let speed = self.speed();
         format!("{run}, seed {seed}\n{table}{speed}results in {folder}\n{left}\n")
     }
 

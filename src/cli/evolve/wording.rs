@@ -1,7 +1,8 @@
 //! Errors of evolution runs and their folders, and the messages.
 
 use nbc_base::diag::suggest::alternatives;
-use nbc_base::diag::{Code, Diagnostic, Severity};
+use nbc_base::diag::{Code, Diagnostic, Severity, counted};
+use nbc_base::model::Evolution;
 
 use crate::cli::wording::no_such;
 
@@ -68,5 +69,70 @@ impl From<ProgressGaps> for Diagnostic {
         };
         let message = format!("`{path}` {damage}");
         Self { severity: Severity::Warning, ..Self::without_place(Code::Checkpoint, message).with_help(help) }
+    }
+}
+
+/// What `--quick` makes of a declaration.
+pub(in crate::cli) struct QuickRun<'a> {
+    pub(in crate::cli) declared: &'a Evolution,
+    pub(in crate::cli) used: &'a Evolution,
+    /// The declarations that are not run.
+    pub(in crate::cli) left_out: &'a [Evolution],
+}
+
+impl QuickRun<'_> {
+    /// A line on what is different, and one on what is left out.
+    pub(in crate::cli) fn text(&self) -> String {
+        let Self { declared, used, left_out } = self;
+        let (seeds, generations) = (used.seeds.len(), used.generations);
+        let (all_seeds, all_generations) = (declared.seeds.len(), declared.generations);
+        let name = &declared.name;
+        let mut text = format!(
+            "`--quick` runs `{name}` with {} of {all_seeds} and {} instead of {all_generations}\n",
+            counted(seeds, "seed"),
+            counted(generations as usize, "generation")
+        );
+        if !left_out.is_empty() {
+            let names: Vec<&str> = left_out.iter().map(|evolution| evolution.name.as_str()).collect();
+            text += &format!("`--quick` leaves out {}\n", alternatives(&names, "and"));
+        }
+        text
+    }
+}
+
+/// A run that is resumed until another generation than before.
+pub(in crate::cli) struct ResumedUntil {
+    pub(in crate::cli) folder: String,
+    pub(in crate::cli) done: u32,
+    pub(in crate::cli) before: Option<u32>,
+    pub(in crate::cli) now: u32,
+}
+
+impl ResumedUntil {
+    /// A line on what is different; empty if nothing is.
+    pub(in crate::cli) fn text(&self) -> String {
+        let Self { folder, done, before, now } = self;
+        let before = before.filter(|before| before != now).map(|before| format!(", which was to have {before},"));
+        let made = counted(*done as usize, "generation");
+        match before {
+            _ if done > now => format!("`{folder}` has {made} already, more than the {now} that are asked for\n"),
+            None => String::new(),
+            Some(before) => format!("`{folder}`{before} continues after {made} until it has {now}\n"),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_resumed_run_says_what_is_replaced() {
+        let text = |done, before, now| ResumedUntil { folder: "out/a/seed-1".to_owned(), done, before, now }.text();
+        let longer = "`out/a/seed-1`, which was to have 10, continues after 10 generations until it has 50\n";
+        assert_eq!(text(10, Some(10), 50), longer);
+        let fewer = "`out/a/seed-1` has 10 generations already, more than the 5 that are asked for\n";
+        assert_eq!(text(10, Some(10), 5), fewer);
+        assert_eq!((text(4, Some(10), 10), text(4, None, 10)), (String::new(), String::new()));
     }
 }

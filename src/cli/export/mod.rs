@@ -8,11 +8,12 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
+use crate::cli::options::new_path::new_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use nbc_base::model::Library;
 use nbc_session::report::{Document, Elites, Schema, robots_csv};
-use nbc_session::store::{self, RobotRecord};
+use nbc_session::store::RobotRecord;
 
 /// Export the elites of evolution runs, or the robots of a library, as CSV or JSON
 #[derive(Args)]
@@ -32,7 +33,7 @@ pub struct ExportArguments {
     #[arg(long, value_enum)]
     to: Option<Target>,
     /// The file to write instead of standard output
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = new_path())]
     output: Option<PathBuf>,
     /// With `--to ro-crate`: the license of the runs, by its SPDX name
     #[arg(long, value_name = "NAME")]
@@ -86,7 +87,7 @@ impl ExportArguments {
         };
         match &self.output {
             None => context.print(metadata),
-            Some(path) => write(path, &metadata),
+            Some(path) => context.write(path, metadata.as_bytes()),
         }
     }
 
@@ -102,10 +103,10 @@ impl ExportArguments {
             (Target::Json, None) => context.print_json(schema, content),
             (Target::Json, Some(path)) => {
                 let text = serde_json::to_string(&Document::new(schema, content));
-                write(path, &(text.expect("an export can be written as JSON") + "\n"))
+                context.write(path, (text.expect("an export can be written as JSON") + "\n").as_bytes())
             }
             (_, None) => context.print(csv()),
-            (_, Some(path)) => write(path, &csv()),
+            (_, Some(path)) => context.write(path, csv().as_bytes()),
         }
     }
 
@@ -137,8 +138,4 @@ impl ExportArguments {
             (None, None) => Ok(Target::Csv),
         }
     }
-}
-
-fn write(path: &Path, text: &str) -> Result<(), Failure> {
-    store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))
 }

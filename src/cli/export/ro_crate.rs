@@ -8,6 +8,7 @@ use nbc_session::report::{CrateFile, CrateRun, ro_crate};
 use sha2::{Digest, Sha256};
 
 use crate::cli::evolution_folder::{CHECKPOINT, PROGRESS, checkpoints, read_checkpoint};
+use crate::cli::source_path::source_path;
 use crate::cli::{Failure, Progress};
 
 /// How deep below the named folder runs are looked for.
@@ -53,7 +54,7 @@ fn runs_below(folder: &Path, depth: usize) -> Vec<PathBuf> {
 fn run(root: &Path, checkpoint: &Path) -> Result<Option<CrateRun>, Failure> {
     let Some(known) = read_checkpoint(checkpoint)? else { return Ok(None) };
     let parts = checkpoint.parent().and_then(|folder| folder.strip_prefix(root).ok()).unwrap_or(Path::new(""));
-    let folder = parts.iter().map(|part| part.to_string_lossy()).collect::<Vec<_>>().join("/");
+    let folder = parts.iter().map(|part| source_path(Path::new(part))).collect::<Result<Vec<_>, _>>()?.join("/");
     let mut files = Vec::new();
     for (name, description, media) in FILES {
         let path = checkpoint.with_file_name(name);

@@ -1,6 +1,7 @@
 //! `nbc library`: the robots that circuits are made of.
 
 mod add;
+mod measured;
 mod radius;
 mod rewrite;
 mod verify;

@@ -6,6 +6,7 @@ use clap::Args;
 use rayon::prelude::*;
 use serde::Serialize;
 
+use crate::cli::options::number::number;
 use crate::cli::robots::{robot_paths, robots};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
@@ -26,7 +27,7 @@ pub(super) struct RadiusArguments {
     #[arg(value_parser = clap::value_parser!(u32).range(1..=100_000))]
     worlds: u32,
     /// The seed of the worlds
-    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 1)]
+    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 1, value_parser = number::<u64>)]
     seed: u64,
     /// Write the radius into the robot files
     #[arg(long, requires_all = ["vary", "path"])]

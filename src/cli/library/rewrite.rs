@@ -26,7 +26,7 @@ pub struct RewriteArguments {
 /// The result for a file.
 #[derive(Serialize)]
 struct Rewritten {
-    path: PathBuf,
+    path: String,
     changed: bool,
 }
 
@@ -50,7 +50,11 @@ impl RewriteArguments {
         for (path, _, text) in files.iter().filter(|(_, changed, _)| *changed) {
             store::write(path, text.as_bytes()).map_err(|error| Failure::unwritable(path, &error))?;
         }
-        let done: Vec<Rewritten> = files.into_iter().map(|(path, changed, _)| Rewritten { path, changed }).collect();
+        let written = |(path, changed, _): &(PathBuf, bool, String)| Rewritten {
+            path: path.display().to_string(),
+            changed: *changed,
+        };
+        let done: Vec<Rewritten> = files.iter().map(written).collect();
         match context.format {
             OutputFormat::Json => context.print_json(Schema::Rewritten, &serde_json::json!({ "files": done }))?,
             OutputFormat::Text => {

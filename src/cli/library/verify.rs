@@ -8,7 +8,7 @@ use crate::cli::in_order::in_order;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::task_executor::TaskExecutor;
-use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Character, Fault, Library, Robot};
 use nbc_session::report::Schema;
@@ -42,7 +42,9 @@ pub fn verify(
     context: &mut Context,
 ) -> Result<Status, Failure> {
     let bar = Arc::new(Progress::new("verifying", library.robots.len() as u64));
-    let tasks = TaskExecutor::choose(device, queue, &bar, context)?;
+    // Without workers a signal ends the program at once.
+    let interrupt = if queue.nats.is_some() { Interrupt::watch()? } else { Interrupt::default() };
+    let tasks = TaskExecutor::choose(device, queue, &interrupt, &bar, context)?;
     let robots: Vec<&Robot> = library.robots.iter().collect();
     let mut findings = Vec::new();
     let keep = |finding| {

@@ -7,6 +7,7 @@ use std::path::PathBuf;
 use clap::{Args, Command};
 use clap_mangen::Man;
 
+use crate::cli::options::new_path::new_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_session::store;
@@ -19,7 +20,7 @@ use nbc_session::store;
 pub struct ManualArguments {
     /// The folder of the pages, which is made if it does not exist; or a file that ends in .md, for one page in
     /// Markdown
-    #[arg(value_name = "FOLDER")]
+    #[arg(value_name = "FOLDER", value_parser = new_path())]
     place: PathBuf,
 }
 

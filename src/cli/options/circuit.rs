@@ -107,9 +107,10 @@ pub(in crate::cli) fn with_named_files(arguments: impl IntoIterator<Item = OsStr
     let mut given = Vec::with_capacity(arguments.len());
     let mut rest = arguments.into_iter().peekable();
     while let Some(argument) = rest.next() {
-        let text = argument.to_string_lossy().into_owned();
+        // What is not text is refused later.
+        let text = argument.to_str().unwrap_or_default().to_owned();
         let (name, value) = match text.strip_prefix("--").map(|option| option.split_once('=')) {
-            Some(Some((name, value))) => (name.to_owned(), Some(value.to_owned())),
+            Some(Some((name, value))) => (name.to_owned(), Some(value.into())),
             Some(None) => (text[2..].to_owned(), None),
             None => (String::new(), None),
         };
@@ -117,9 +118,9 @@ pub(in crate::cli) fn with_named_files(arguments: impl IntoIterator<Item = OsStr
             given.push(argument);
             continue;
         }
-        let value = value.or_else(|| rest.next().map(|value| value.to_string_lossy().into_owned()));
-        given.push("--file".into());
-        given.push(format!("{name}={}", value.unwrap_or_default()).into());
+        let mut named = OsString::from(format!("{name}="));
+        named.push(value.or_else(|| rest.next()).unwrap_or_default());
+        given.extend(["--file".into(), named]);
     }
     given
 }

@@ -9,6 +9,7 @@ use clap::Args;
 pub struct DeviceArguments {
     /// Where to simulate: `cpu`, `gpu` for the first OpenCL device (`gpu:1` for another, as `nbc devices` counts them),
     /// or `auto` for a graphics card if there is one
+    #[cfg_attr(not(feature = "gpu"), arg(hide = true))]
     #[arg(long, value_name = "DEVICE", default_value = "cpu", group = "place")]
     device: DeviceChoice,
 }

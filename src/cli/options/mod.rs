@@ -4,6 +4,8 @@ pub(super) mod circuit;
 pub(super) mod device;
 pub(super) mod making;
 pub(super) mod mapping;
+pub(super) mod new_path;
+pub(super) mod number;
 pub(super) mod queue;
 pub(super) mod robots;
 pub(super) mod timings;

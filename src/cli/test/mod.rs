@@ -15,10 +15,13 @@ use crate::cli::in_order::in_order;
 use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::making::MakingArguments;
+use crate::cli::options::new_path::new_path;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::runs::{chosen_runs, unknown_run};
+use crate::cli::source_path::source_path;
 use crate::cli::task_executor::threads;
+use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{self, Schema};
@@ -64,7 +67,7 @@ pub struct TestArguments {
     #[arg(long)]
     physics: bool,
     /// Keep the swarms of tests in physics in this folder once a minute, and go on with those that are there
-    #[arg(long, value_name = "DIR", conflicts_with = "logic")]
+    #[arg(long, value_name = "DIR", conflicts_with = "logic", value_parser = new_path())]
     checkpoints: Option<PathBuf>,
     #[command(flatten)]
     worlds: WorldsArguments,
@@ -114,8 +117,11 @@ impl TestArguments {
     }
 
     /// The paths of the files.
-    pub(super) fn paths(&self) -> impl Iterator<Item = String> {
-        self.files.iter().map(|file| file.to_string_lossy().into_owned())
+    ///
+    /// # Errors
+    /// When one is not UTF-8.
+    pub(super) fn paths(&self) -> Result<Vec<&str>, UsageError> {
+        self.files.iter().map(|file| source_path(file)).collect()
     }
 
     /// Runs the tests of files without errors.
@@ -199,7 +205,7 @@ impl TestArguments {
 }
 
 fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
-    let file = session.open(&path.to_string_lossy())?;
+    let file = session.open(source_path(path)?)?;
     if file.program.tests.is_empty() {
         return Err(RunChoiceError::NoTest { file: file.path.clone() }.into());
     }

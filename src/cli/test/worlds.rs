@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::draw::wording::DrawError;
+use crate::cli::options::new_path::new_path;
+use crate::cli::options::number::number;
 use crate::cli::world_runs::{Experiment, WorldRuns};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::model::Variation;
@@ -29,13 +31,13 @@ pub(super) struct WorldsArguments {
     #[arg(long, value_name = "NUMBERS", requires = "vary", value_delimiter = ',', value_parser = scale)]
     times: Vec<f64>,
     /// The seed of the worlds
-    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 1)]
+    #[arg(long, value_name = "SEED", requires = "vary", default_value_t = 1, value_parser = number::<u64>)]
     seed: u64,
     /// Fail if a test passes in a smaller share of the worlds, such as `95%`
     #[arg(long, value_name = "SHARE", requires = "vary", value_parser = share)]
     least_yield: Option<f64>,
     /// Draw the yields into this file, `.svg` or `.png`
-    #[arg(long, value_name = "FILE", requires = "vary")]
+    #[arg(long, value_name = "FILE", requires = "vary", value_parser = new_path())]
     picture: Option<PathBuf>,
 }
 

@@ -25,4 +25,4 @@ pub use fix::{Edit, Fix};
 pub use json::json;
 pub use severity::Severity;
 pub use suggest::Suggestion;
-pub use visible::{is_hidden, visible};
+pub use visible::{is_hidden, visible, without_passwords};

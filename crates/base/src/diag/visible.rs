@@ -20,6 +20,25 @@ pub fn visible(text: &str) -> Cow<'_, str> {
     Cow::Owned(text.chars().map(shown).collect())
 }
 
+/// Addresses without their users and passwords: `nats://me:secret@host,nats://other` becomes
+/// `nats://host,nats://other`. A comma or an `@` may be part of a password.
+pub fn without_passwords(addresses: &str) -> String {
+    let mut shown: Vec<String> = Vec::new();
+    for part in addresses.split(',') {
+        match shown.last_mut() {
+            Some(address) if !part.contains("://") => *address += &format!(",{part}"),
+            _ => shown.push(part.to_owned()),
+        }
+    }
+    for address in &mut shown {
+        if let Some((before, host)) = address.rsplit_once('@').filter(|(before, _)| before.contains(':')) {
+            let scheme = before.split_once("://").map_or_else(String::new, |(scheme, _)| format!("{scheme}://"));
+            *address = format!("{scheme}{host}");
+        }
+    }
+    shown.join(",")
+}
+
 /// Like [`visible`], but the offset of every byte stays the same, for excerpts with places in them. A carriage return
 /// at the end of a line becomes a space or the line break itself.
 #[cfg(feature = "render")]
@@ -49,6 +68,23 @@ mod tests {
         assert_eq!(visible("gate \u{1b}[32mpass\u{7}\r\n"), "gate \\u{1b}[32mpass\\u{7}\\u{d}\n");
         assert_eq!(visible("\u{9b}2J \u{202e}ssap"), "\\u{9b}2J \\u{202e}ssap");
         assert!(matches!(visible("größe →\n"), Cow::Borrowed(_)));
+    }
+
+    #[test]
+    fn passwords_of_addresses_are_not_shown() {
+        for (addresses, shown) in [
+            ("nats://me:secret@host:4222", "nats://host:4222"),
+            ("--nats=nats://me:secret@host", "--nats=nats://host"),
+            ("me:secret@host", "host"),
+            ("nats://a:b@h,nats://c:d@i:1,j", "nats://h,nats://i:1,j"),
+            ("nats://me:p@ss,w:/o r,d@host", "nats://host"),
+            ("nats://token@host", "nats://host"),
+            ("tls://host:4222", "tls://host:4222"),
+            ("h:1,c:d@i", "i"),
+            ("me@host", "me@host"),
+        ] {
+            assert_eq!(without_passwords(addresses), shown);
+        }
     }
 
     #[cfg(feature = "render")]

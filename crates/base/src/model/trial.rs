@@ -1,6 +1,6 @@
 //! Trials and their results.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use super::{Body, FaultKind, GroundProfile, Schedule, SettingError, WorldFactors};
 
@@ -111,7 +111,7 @@ impl Trajectory {
 }
 
 /// Why and when a simulation ended early.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Fault {
     /// The env step that was abandoned, from 1.
     pub env_step: u32,

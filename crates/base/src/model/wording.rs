@@ -3,7 +3,7 @@
 use std::error::Error;
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The reason why rows of text are not a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -396,7 +396,7 @@ impl fmt::Display for VariationError {
 impl Error for VariationError {}
 
 /// The reason why a simulation failed.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum FaultKind {
     /// Too many of the body's voxels overlap (docs/physics.md 9).

@@ -76,8 +76,11 @@ impl fmt::Display for Answer {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}  {:<10}  ", self.behavior, self.function)?;
         match (self.outcome, &self.robot) {
-            (Outcome::Added, Some(Listing { name, clock, margin, .. })) => {
+            (Outcome::Added, Some(Listing { name, clock, margin, error_rate, .. })) => {
                 write!(f, "added     {name}, clock {clock}, margin {margin:.3}")?;
+                if *error_rate > 0.0 {
+                    write!(f, ", {:.2} % of the switches wrong", 100.0 * error_rate)?;
+                }
             }
             (Outcome::Missing, _) => f.write_str("none")?,
             _ => f.write_str("left out")?,

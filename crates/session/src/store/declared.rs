@@ -46,6 +46,14 @@ impl Declared {
         }
     }
 
+    /// The number of generations that the run was to have; `None` in checkpoints of format 1.
+    pub fn generations(&self) -> Option<u32> {
+        match &self.whole {
+            FullDeclaration::Data(evolution) => Some(evolution.generations),
+            FullDeclaration::Text(_) => None,
+        }
+    }
+
     /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be
     /// others.
     pub(super) fn fits(&self, evolution: &Evolution) -> bool {

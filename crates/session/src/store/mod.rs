@@ -65,6 +65,7 @@ pub use lock::{FolderLock, LockFault, lock_folder};
 pub use results::{ResultPlace, write_result};
 pub use robot::{FORMAT, RobotRecord, own_materials, print_robot, read_robot};
 pub use shape::read_body;
+pub use soundness::is_robot_name;
 #[cfg(feature = "disk")]
 pub use source_files::source_files;
 #[cfg(feature = "disk")]

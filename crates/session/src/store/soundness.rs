@@ -32,13 +32,17 @@ fn weights(robot: &Robot) -> Option<Flaw> {
     weights.into_iter().any(|weight| !weight.is_finite()).then_some(Flaw::Weight)
 }
 
-fn words(robot: &Robot) -> Option<Flaw> {
-    let name = &robot.name;
-    let is_name = !name.is_empty()
+/// Whether a robot can have the name, which is also that of its file.
+pub fn is_robot_name(name: &str) -> bool {
+    !name.is_empty()
         && name.len() <= MAX_NAME
         && !name.starts_with('.')
-        && name.chars().all(|c| c.is_ascii_alphanumeric() || "_-+.".contains(c));
-    if !is_name {
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || "_-+.".contains(c))
+}
+
+fn words(robot: &Robot) -> Option<Flaw> {
+    let name = &robot.name;
+    if !is_robot_name(name) {
         return Some(Flaw::Name { name: name.clone(), most: MAX_NAME });
     }
     let provenance = &robot.provenance;
