@@ -5,7 +5,7 @@
 FROM rust:1.95-slim-bookworm AS build
 WORKDIR /nbc
 COPY . .
-RUN cargo build --release --locked && strip target/release/nbc
+RUN cargo build --release --locked && strip target/release/nbc && .ci/licenses THIRD-PARTY.md
 
 FROM debian:bookworm-slim
 COPY --from=build /nbc/target/release/nbc /usr/local/bin/nbc

@@ -22,7 +22,7 @@
 //! | `parallel` | simulation on all cores |
 //! | `pictures` | drawings as pixels, films |
 //! | `disk` | [`DiskWorld`], [`run_file`], [`Checkpoint`]s |
-//! | `gpu` | simulation on graphics cards and other OpenCL devices |
+//! | `gpu` (default) | simulation on graphics cards and other OpenCL devices |
 //! | `cli` | the program, with threads, pictures and files |
 //! | `play` (default) | the program's live page |
 //! | `cluster` | the program's work on several machines |

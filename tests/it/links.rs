@@ -15,11 +15,9 @@ const PLACES: [&str; 9] = ["", "docs", "docs/errors", "grammar", "web", "editors
 fn pages() -> Vec<PathBuf> {
     let files = PLACES.iter().flat_map(|place| fs::read_dir(root().join(place)).unwrap());
     let mut pages: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
-    // The licenses of others have links of their own. The list of the book names a page that is made for it.
+    // The list of the book names a page that is made for it.
     let is_page = |path: &PathBuf| {
-        path.extension().is_some_and(|extension| extension == "md")
-            && !path.ends_with("THIRD-PARTY.md")
-            && !path.ends_with("docs/SUMMARY.md")
+        path.extension().is_some_and(|extension| extension == "md") && !path.ends_with("docs/SUMMARY.md")
     };
     pages.retain(is_page);
     pages.sort();

@@ -42,7 +42,6 @@ mod manual;
 mod memory;
 mod misread;
 mod modules;
-mod notices;
 mod optima;
 mod page;
 mod palette;
