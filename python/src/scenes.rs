@@ -9,8 +9,12 @@ use crate::physics::Ending;
 use crate::slot::Slot;
 use crate::work::{Watch, at_once};
 
-/// With fewer scenes than this the caller's thread simulates them: another thread would cost more than it does.
+/// With fewer scenes than this the caller's thread simulates a portion of env steps: another thread would cost more than
+/// it does.
 const FEW: usize = 9;
+
+/// Env steps between two looks for an interrupt: some milliseconds of work.
+const PORTION: u32 = 64;
 
 /// The most columns and rows of a world: a table has a place for each of its cells.
 const MOST_CELLS: usize = 4096;
@@ -63,15 +67,16 @@ impl Scenes {
         })
     }
 
-    /// Simulates env steps.
+    /// Simulates env steps. After an interrupt the scenes are as before.
     fn step(&self, py: Python<'_>, env_steps: u32) -> PyResult<()> {
-        if self.size < FEW {
-            return self.scenes.with(py, |scenes| {
-                py.detach(|| scenes.advance(env_steps));
-                Ok(())
-            });
+        if env_steps > PORTION || self.size >= FEW {
+            let advance = move |scenes: &mut Simulations, watch: &Watch| advance(scenes, env_steps, watch);
+            return self.scenes.run(py, &Watch::over(0), None, advance)?.finished();
         }
-        self.scenes.run(py, &Watch::over(0), None, move |scenes, _| scenes.advance(env_steps))?.finished()
+        self.scenes.with(py, |scenes| {
+            py.detach(|| scenes.advance(env_steps));
+            Ok(())
+        })
     }
 
     /// Puts a scene back to its start.
@@ -175,6 +180,21 @@ impl Scenes {
     /// Ends the simulation.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.scenes.close(py)
+    }
+}
+
+/// Simulates env steps in portions; if the watch ends them, the scenes are put back.
+fn advance(scenes: &mut Simulations, env_steps: u32, watch: &Watch) {
+    if env_steps <= PORTION {
+        return scenes.advance(env_steps);
+    }
+    let before: Vec<SceneState> = (0..scenes.len()).map(|n| scenes.state(n)).collect();
+    for done in (0..env_steps).step_by(PORTION as usize) {
+        if watch.is_stopped() {
+            before.iter().enumerate().for_each(|(n, state)| scenes.restore(n, state));
+            return;
+        }
+        scenes.advance(PORTION.min(env_steps - done));
     }
 }
 

@@ -96,3 +96,27 @@ def test_a_robot_with_sensors_walks_as_in_evolution_gym():
 def test_a_structure_can_be_simulated():
     body = evogym.from_structure([[3, 3, 3], [3, 0, 3]])
     assert nbc.simulate(body[None], "00*1").ok.all()
+
+
+@pytest.mark.parametrize("number", [-1, 1, 5, np.int64(-2)])
+def test_a_world_that_there_is_not_is_refused_and_the_others_stay(number):
+    world = evogym.EvoWorld.of_task("Walker-v0")
+    world.add_from_array("robot", np.array([[3, 3], [4, 4]]), 1, 1)
+    scenes = evogym.Scenes([world])
+    for use in (
+        lambda: scenes.reset(number),
+        lambda: scenes.points([number], "robot"),
+        lambda: scenes.turns([0, number], "robot"),
+        lambda: scenes.voxels(number, "robot"),
+        lambda: scenes.actuators(number, "robot"),
+    ):
+        with pytest.raises(IndexError, match=f"there is no world {number}; the worlds count from 0 to 0"):
+            use()
+    scenes.step(np.ones(4))
+    assert scenes.clock.tolist() == [1]
+
+
+@pytest.mark.parametrize("shape", [(0, 5), (5, 0), (-1, 2)])
+def test_a_random_robot_has_a_place_for_a_voxel(shape):
+    with pytest.raises(ValueError, match="expected at least one row and one column"):
+        evogym.sample_robot(shape)

@@ -104,6 +104,30 @@ def test_a_flock_is_as_before():
     assert out.split() == ["True", "True"]
 
 
+@pytest.mark.parametrize("worlds", [1, 9])
+def test_worlds_are_as_before(worlds):
+    # Without an interrupt these env steps take hours.
+    out = run(f"""
+        from nbc.evogym import EvoWorld, Scenes
+        world = EvoWorld.of_task("Walker-v0")
+        world.add_from_array("robot", np.full((5, 5), 3), 1, 1)
+        scenes, targets = Scenes([world] * {worlds}), np.linspace(0.6, 1.6, 25 * {worlds})
+        scenes.step(targets, steps=10)
+        before = scenes.points([0], "robot")
+        try:
+            threading.Timer(0.3, interrupt).start()
+            scenes.step(targets, steps=100_000_000)
+        except KeyboardInterrupt:
+            after = scenes.points([0], "robot")
+            print(all((one == other).all() for one, other in zip(before, after)), scenes.clock.tolist() == [10] * {worlds})
+        scenes.step(targets, steps=10)
+        same = Scenes([world] * {worlds})
+        same.step(targets, steps=20)
+        print(bool((scenes.points([0], "robot")[0] == same.points([0], "robot")[0]).all()))
+    """)
+    assert out.split() == ["True"] * 3
+
+
 def test_a_swarm_keeps_its_cycles():
     out = run("""
         swarm = nbc.loads("circuit f(a) -> (q) { q = not a }").compile().swarm()

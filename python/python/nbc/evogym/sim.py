@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from typing import Any, Dict, List, Sequence, Tuple
 
 import numpy as np
@@ -67,7 +68,7 @@ class Scenes:
 
     def reset(self, scene: int) -> None:
         """Puts a world back to its start. Its targets stay until the next step."""
-        self._native.reset(scene)
+        self._native.reset(self._known(scene))
 
     def points(self, scenes: Sequence[int], name: str) -> Tuple[_Points, _Points]:
         """The points of an object in some worlds, one world after another: positions in voxels, shape (P, 2), and
@@ -108,10 +109,17 @@ class Scenes:
         self._native.close()
 
     def _place(self, scene: int, name: str) -> int:
+        scene = self._known(scene)
         try:
             return self.names[scene].index(name)
         except ValueError:
             raise ValueError(f"world {scene} has no object `{name}`") from None
+
+    def _known(self, scene: int) -> int:
+        number = operator.index(scene)
+        if not 0 <= number < len(self):
+            raise IndexError(f"there is no world {number}; the worlds count from 0 to {len(self) - 1}")
+        return number
 
 
 class EvoSim:

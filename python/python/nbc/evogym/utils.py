@@ -74,6 +74,8 @@ def sample_robot(
         raise ValueError(f"pd has the shape {weights.shape}, expected (5,)")
     if weights[3] + weights[4] <= 0:
         raise ValueError("pd gives no actuator")
+    if min(robot_shape) < 1:
+        raise ValueError(f"robot_shape is {tuple(robot_shape)}, expected at least one row and one column")
     while True:
         robot = np.zeros(robot_shape)
         for place in np.ndindex(*robot_shape):
