@@ -15,6 +15,20 @@ pub struct Swarm {
     bits: usize,
 }
 
+/// What a robot keeps of its walk in a cycle: a hundred bytes, so that a swarm keeps a gigabyte at most.
+const MOST_ROBOT_CYCLES: u64 = 10_000_000;
+
+/// Refuses cycles that could not be kept.
+fn check_room(live: &LiveSwarm, cycles: u64) -> PyResult<()> {
+    let (robots, done) = (live.trace().robots.len().max(1) as u64, live.trace().cycles.len() as u64);
+    let most = MOST_ROBOT_CYCLES / robots;
+    if cycles <= most.saturating_sub(done) {
+        return Ok(());
+    }
+    let message = format!("{cycles} more cycles after {done}; this swarm keeps at most {most} ({robots} robots)");
+    Err(bad_value(message))
+}
+
 impl Swarm {
     /// A swarm at its start.
     pub fn new(live: LiveSwarm) -> Self {
@@ -25,28 +39,37 @@ impl Swarm {
 
 #[pymethods]
 impl Swarm {
-    /// Simulates cycles with these bits on the input ports; the bits of the output ports after each. A cycle that is
-    /// interrupted is completed. A cycle in which a robot fails has no outputs and ends the swarm.
+    /// Holds each of these rows of bits on the input ports for cycles; the bits of the output ports at the end of each
+    /// row. A cycle that is interrupted is completed. A cycle in which a robot fails has no outputs and ends the swarm.
     fn step(
         &self,
         py: Python<'_>,
         rows: Vec<Vec<bool>>,
+        hold: u64,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Vec<Vec<bool>>> {
         if let Some(row) = rows.iter().find(|row| row.len() != self.bits) {
             let (found, expected) = (row.len(), self.bits);
             return Err(bad_value(format!("{found} input bits, expected {expected}")));
         }
-        let watch = Watch::over(rows.len() as u64);
+        let all = hold.saturating_mul(rows.len() as u64);
+        self.live.with(py, |live| check_room(live, all))?;
+        let watch = Watch::over(all);
         let done = self.live.run(py, &watch, progress.as_ref(), move |live, watch| {
             let mut observer = watch.observer();
-            let (mut outputs, all) = (Vec::new(), rows.len() as u64);
-            for (cycle, row) in (1..).zip(&rows) {
-                if watch.is_stopped() {
-                    break;
+            let (mut outputs, mut cycle) = (Vec::new(), 0);
+            for row in &rows {
+                for held in 1..=hold {
+                    if watch.is_stopped() {
+                        return Ok(outputs);
+                    }
+                    let now = &live.step(row)?.outputs;
+                    if held == hold {
+                        outputs.push(now.clone());
+                    }
+                    cycle += 1;
+                    nbc::Observer::progress(&mut observer, cycle, all);
                 }
-                outputs.push(live.step(row)?.outputs.clone());
-                nbc::Observer::progress(&mut observer, cycle, all);
             }
             Ok::<_, nbc::RobotFault>(outputs)
         })?;

@@ -233,6 +233,16 @@ def test_names_that_are_looked_up_are_offered(tmp_path):
         assert message in str(caught.value)
 
 
+def test_cycles_that_a_swarm_cannot_keep_are_refused_before_they_are_simulated():
+    swarm = nbc.loads("circuit f(a) -> (q) { q = not a }").compile().swarm()
+    swarm.step(a=1, cycles=3)
+    with pytest.raises(ValueError, match="1000000000 more cycles after 3; this swarm keeps at most 10000000"):
+        swarm.step(a=1, cycles=10**9)
+    with pytest.raises(ValueError, match="2000000000 more cycles after 3"):
+        swarm.run([{"a": 0}, {"a": 1}], hold=10**9)
+    assert swarm.cycles == 3
+
+
 def test_a_path_is_checked_before_the_work(tmp_path, monkeypatch):
     run = nbc.Evolution(shape=(2, 3), generations=10**6, batch=2, fixed="1 cycles")
     for path in (tmp_path / "no/folder/run.nbc", tmp_path):

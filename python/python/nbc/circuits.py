@@ -406,13 +406,13 @@ class Swarm:
             cycles: how many cycles the values are held.
 
         Raises:
-            ValueError: for missing or unknown ports, and values that do not fit.
+            ValueError: for missing or unknown ports, values that do not fit, and more cycles than a swarm keeps.
             RobotFault: when the simulation of a robot fails.
         """
         if values is not None and ports:
             raise TypeError("the values are given twice; name the ports, or give one mapping or sequence")
         row = self._row(ports if values is None else values)
-        outputs = self._native.step([row] * count(cycles, "cycles", least=1), None)
+        outputs = self._native.step([row], count(cycles, "cycles", least=1), None)
         return self._values(self.compiled.outputs, outputs[-1])
 
     def run(
@@ -432,8 +432,8 @@ class Swarm:
         each = count(held, "hold", least=1)
         packed = [self._row(row) for row in (array_of(rows) if is_array(rows) else rows)]
         with reporting(progress, " cycles") as report:
-            outputs = self._native.step([row for row in packed for _ in range(each)], report)
-        return [self._values(self.compiled.outputs, row) for row in outputs[each - 1 :: each]]
+            outputs = self._native.step(packed, each, report)
+        return [self._values(self.compiled.outputs, row) for row in outputs]
 
     @property
     def cycles(self) -> int:
