@@ -18,6 +18,7 @@ use crate::cli::robots::behavior;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{Axis, Behavior, Body, Genotype, Provenance, Robot};
 use nbc_base::source::Sources;
@@ -314,7 +315,7 @@ fn own_robot(path: &Path) -> Result<OwnRobot, Failure> {
         return Err(UsageError::RobotName { path: path.display().to_string() }.into());
     }
     let shown = path.display().to_string();
-    let text = store::read_text(path, store::MAX_ROBOT_BYTES);
+    let text = store::read_text(path, Limit::RobotBytes.most());
     let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &shown, &error)))?;
     let mut sources = Sources::default();
     let is_robot = text.lines().any(|line| line.starts_with("format:"));
