@@ -9,8 +9,8 @@ use crate::physics::Ending;
 use crate::slot::Slot;
 use crate::work::{Watch, at_once};
 
-/// With fewer scenes than this the caller's thread simulates a portion of env steps: another thread would cost more than
-/// it does.
+/// With fewer scenes than this the caller's thread simulates a portion of env steps: another thread would cost more
+/// than it does.
 const FEW: usize = 9;
 
 /// Env steps between two looks for an interrupt: some milliseconds of work.

@@ -119,7 +119,8 @@ def test_worlds_are_as_before(worlds):
             scenes.step(targets, steps=100_000_000)
         except KeyboardInterrupt:
             after = scenes.points([0], "robot")
-            print(all((one == other).all() for one, other in zip(before, after)), scenes.clock.tolist() == [10] * {worlds})
+            print(all((one == other).all() for one, other in zip(before, after)))
+            print(scenes.clock.tolist() == [10] * {worlds})
         scenes.step(targets, steps=10)
         same = Scenes([world] * {worlds})
         same.step(targets, steps=20)

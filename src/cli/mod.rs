@@ -174,6 +174,8 @@ mod tests {
             let expected: &[&str] = match command.get_name() {
                 // It evolves robots, or lists those of a run: a run is all that it knows.
                 "evolve" | "library" | "export" => &found,
+                // It has a swarm of its own, and a flag to measure it.
+                "bench" => &["swarm"],
                 // One robot, by its name in a library.
                 "simulate" => &["library"],
                 // A circuit without a program, whose cells need not be robots.

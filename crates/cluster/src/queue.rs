@@ -226,6 +226,8 @@ impl Queue {
 
     async fn take_note(&mut self, message: &Message) {
         match self.reports.take(message).await {
+            // Only workers with the physics of this search get its tasks, and what they answer is checked.
+            Some(Reporter::Unfit { name, .. }) if self.checker.has_answered(&name) => self.checker.count_junk(&name),
             Some(Reporter::Unfit { name, reason }) => self.checker.refuse(&name, &reason),
             Some(Reporter::Fit { name }) => self.checker.readmit(&name),
             Some(Reporter::Two { name }) => self.checker.count_junk(&name),

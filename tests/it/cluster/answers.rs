@@ -107,12 +107,12 @@ fn a_forged_message_in_the_name_of_a_worker_does_not_remove_it() {
     (0..20).for_each(|_| _ = wire.wait_for(is_first_answer));
     // A wrong result of a task, which claims to come from the connection of the worker.
     let answer = wire.wait_for(is_first_answer);
-    let task = wire.wait_for(|message| message.subject.starts_with("nbc.v4.task."));
+    let task = wire.wait_for(|message| message.subject.starts_with("nbc.v5.task."));
     let (connection, _) = answer.reply.rsplit_once('.').expect("the worker waits for a reply");
     wire.publish(&format!("{} {connection}.forged", answer_subject(&task, "good")), &unstable(&task));
     // A report of other physics, and a reply that says that a result is wrong.
     let note = [&[VERSION, 4], &b"good"[..], &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
-    wire.publish("nbc.v4.worker", &note);
+    wire.publish("nbc.v5.worker", &note);
     let answer = wire.wait_for(|message| message.is_answer_of("good"));
     wire.publish(&answer.reply, &[VERSION, 3]);
     let ran = search.end();

@@ -136,10 +136,8 @@ fn declared(source: &str, name: &str) -> Evolution {
 fn generations_of_both_objectives() {
     let Some((device, _turn)) = device() else { return };
     let simulator = Simulator::new(backend(&device, 1));
-    for objective in ["distance", "gate"] {
-        let source = format!(
-            "evolution mine {{ from: gates, objective: {objective}, box: 3 x 3, fixed: 2 cycles, batch: 3, seed: 4 }}"
-        );
+    for objective in ["distance, fixed: 2 cycles", "gate"] {
+        let source = format!("evolution mine {{ from: gates, objective: {objective}, box: 3 x 3, batch: 3, seed: 4 }}");
         let mut search = Search::new(&declared(&source, "mine"), 4);
         for _ in 0..2 {
             let candidates = search.ask();

@@ -95,8 +95,13 @@ impl Language {
             said.extend(self.ask("workspace/executeCommand", json!({ "command": command, "arguments": arguments })));
         }
         self.tell("textDocument/didClose", json!({ "textDocument": { "uri": uri } }));
+        // What is said about the end of the text does not belong to the next one.
+        self.ask("workspace/symbol", json!({ "query": "" }));
         said.iter_mut().for_each(|message| message["id"] = Value::Null);
-        said.iter().map(Value::to_string).collect::<Vec<_>>().join("\n")
+        // Mistakes are published when they are found, before or after an answer.
+        let mut said: Vec<String> = said.iter().map(Value::to_string).collect();
+        said.sort_unstable();
+        said.join("\n")
     }
 }
 

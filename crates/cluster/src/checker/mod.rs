@@ -139,6 +139,11 @@ impl Checker {
         self.is_trusting || self.standing(worker) == Standing::Passed
     }
 
+    /// Whether results have come from senders with this name.
+    pub fn has_answered(&self, name: &str) -> bool {
+        self.workers.iter().any(|(sender, known)| name_of(sender) == name && *known != Known::default())
+    }
+
     /// Remembers whose results were used without doing the work here.
     pub fn set_used(&mut self, workers: impl IntoIterator<Item = String>) {
         workers.into_iter().for_each(|worker| self.known(&worker).is_used = true);

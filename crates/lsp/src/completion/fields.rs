@@ -135,9 +135,12 @@ mod tests {
             mine.sort_unstable();
             assert_eq!(mine, listed, "{keyword}: {known}");
         }
-        let values = |field: &str| inside(field).iter().map(|name| format!("{name}: 0")).collect::<Vec<_>>().join(", ");
-        let (mutation, vary) = (values("mutation"), values("vary"));
-        assert_eq!(messages(&format!("evolution x {{ mutation: {{ {mutation} }}, vary: {{ {vary} }} }}")), "");
+        let values = |field: &str, value: u32| {
+            inside(field).iter().map(|name| format!("{name}: {value}")).collect::<Vec<_>>().join(", ")
+        };
+        let (mutation, vary) = (values("mutation", 1), values("vary", 0));
+        let text = format!("evolution x {{ objective: gate, mutation: {{ {mutation} }}, vary: {{ {vary} }} }}");
+        assert_eq!(messages(&text), "");
     }
 
     #[test]
