@@ -146,7 +146,7 @@ impl KeptResult {
             TaskResult::Screening(Ok(found)) => Self::Screened(*found),
             TaskResult::Screening(Err(fault)) => Self::FaultyScreening(*fault),
             TaskResult::Measurement(Ok(Measurement { displacement, behavior, character })) => {
-                Self::Measured(Box::new((displacement.clone(), *behavior, character.clone())))
+                Self::Measured(Box::new((*displacement, *behavior, character.clone())))
             }
             TaskResult::Measurement(Err(fault)) => Self::FaultyMeasurement(*fault),
             TaskResult::Evaluation(_) | TaskResult::Swarm(_) => return None,

@@ -343,7 +343,7 @@ impl RangeError {
                     .with_help(format!("it needs {}: `{needed}'d{value}`", bits(needed)))
             }
             Self::Repetitions { times, most } => {
-                let label = format!("expected 0 or more, and at most {} in all", bits(most as u64));
+                let label = format!("expected 0 or more, and at most {} in all", bits(most));
                 outside(format!("a value cannot be repeated {times} times"), label)
             }
         }
