@@ -26,7 +26,8 @@ use nbc_sim::LaneBackend;
 A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, \
 1 rigid, 2 soft, 3 actuator, 4 actuator in antiphase. While stimulus 1 is present, 5 shrinks and 7 grows; while \
 stimulus 2 is present, 6 shrinks and 8 grows. A file may have `materials:` of its own; a pattern has a digit for each \
-stimulus that they sense.")]
+stimulus that they sense.
+Exit status: 0 simulated to the end, 1 the simulation failed, 2 bad input.")]
 pub struct SimulateArguments {
     /// A file with a body, or the name of a robot in the library
     robot: String,
@@ -77,7 +78,7 @@ impl SimulateArguments {
         context.print_result(Schema::Simulate, &Outcome::of(&schedule, &trajectory), || {
             describe(&schedule, stimuli, &trajectory)
         })?;
-        Ok(Status::Done)
+        Ok(if trajectory.fault.is_none() { Status::Done } else { Status::TestFailed })
     }
 }
 
@@ -115,6 +116,6 @@ fn describe(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Str
     }
     match trajectory.fault {
         None => format!("{table}voxels walked\n"),
-        Some(Fault { kind, env_step }) => format!("{table}the robot {kind} at env step {env_step}\n"),
+        Some(Fault { kind, env_step }) => format!("{table}FAIL: the robot {kind} in env step {env_step}\n"),
     }
 }

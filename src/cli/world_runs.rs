@@ -51,23 +51,24 @@ impl WorldRuns<'_> {
             let run = (!self.interrupt.is_raised()).then(|| self.visit(visit, &bar));
             run.flatten()
         };
-        let (mut found, mut trials, mut stopped) = (Vec::new(), Vec::new(), false);
+        let (mut found, mut trials) = (Vec::new(), Vec::new());
+        // After an interruption, which is an error without a failure, no more worlds are begun.
         let mut take = |done: Option<(TestVerdict, WorldTrial)>| {
-            // After an interruption, worlds that were begun may still be completed.
-            stopped |= done.is_none();
-            let Some((verdict, trial)) = done.filter(|_| !stopped) else { return Ok(()) };
+            let (verdict, trial) = done.ok_or(None)?;
             trials.push(trial);
             if trials.len() == self.worlds {
                 let Experiment { case, variation, scale } = &experiments[found.len()];
                 let trials = std::mem::take(&mut trials);
                 let robustness = Robustness::of(&verdict, case.robots(), (*variation, *scale), &trials);
-                tell(&robustness)?;
+                tell(&robustness).map_err(Some)?;
                 found.push(robustness);
             }
-            Ok::<(), Failure>(())
+            Ok::<(), Option<Failure>>(())
         };
-        in_order(rayon::current_num_threads(), &visits, visit, |done| bar.suspend(|| take(done)))?;
-        Ok(found)
+        match in_order(rayon::current_num_threads(), &visits, visit, |done| bar.suspend(|| take(done))) {
+            Err(Some(failure)) => Err(failure),
+            Ok(()) | Err(None) => Ok(found),
+        }
     }
 
     /// The verdict in a world; `None` if it was interrupted.

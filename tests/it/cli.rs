@@ -66,18 +66,20 @@ fn simulate_reads_json_and_places_the_body() {
 }
 
 #[test]
-fn an_unstable_body_is_a_result_and_not_an_error() {
+fn an_unstable_body_is_a_result_that_fails() {
     let bench = Bench::new();
     bench.file("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
     let place = ["--start-x", "28", "--world-width", "60"];
     let arguments = [&["simulate", "wild.yaml", "--schedule", "11*60steps 00*60steps"], &place[..]].concat();
-    let found = bench.run(&[&arguments[..], &["--format", "json"]].concat()).expect_json();
+    let ran = bench.run(&[&arguments[..], &["--format", "json"]].concat());
+    assert_eq!(ran.status, 1, "{}", ran.err);
+    let found = crate::support::schema::validate("simulate", &ran.out);
     assert_eq!(found["unstable_at"], 72);
     assert_eq!(found["com_x"].as_array().unwrap().len(), 72);
     assert!(found["displacement"][0].is_number() && found["displacement"][1].is_null());
     let ran = bench.run(&arguments);
-    assert_eq!(ran.status, 0);
-    assert!(ran.out.contains("unstable at env step 72"), "{}", ran.out);
+    assert_eq!(ran.status, 1);
+    assert!(ran.out.ends_with("FAIL: the robot became unstable in env step 72\n"), "{}", ran.out);
 }
 
 #[test]

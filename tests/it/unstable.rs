@@ -2,11 +2,16 @@
 //! door names it.
 
 use std::fs;
+use std::io::Read;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use serde_json::{Value, json};
 
 use crate::support::bench::Bench;
+use crate::support::limits::{InTime, end};
 use crate::support::schema::validate;
+use crate::support::tools::signal;
 use nbc_base::source::MemoryWorld;
 use nbc_session::report::describe_test;
 use nbc_session::{CompileOptions, RunReport, Session, TestOptions, TestRun};
@@ -177,8 +182,60 @@ fn a_simulation_with_a_fault_ends_with_status_one() {
     assert!(names(&ran.out) && ran.out.ends_with("FAIL\n"), "{}", ran.out);
     let result = validate("run", &fs::read_to_string(bench.path().join("out/s/result.json")).unwrap());
     assert_eq!((&result["passed"], &result["simulations"][0]["fault"]["cycle"]), (&json!(false), &json!(0)));
-    let picture = bench.run(&["draw", "s.nb", "--as", "spacetime", "-o", "s.svg"]);
-    assert_eq!(picture.status, 0, "{}", picture.err);
+    let page = fs::read_to_string(bench.path().join("out/s/report.html")).unwrap();
+    assert!(page.contains("FAIL: 1 of 1 simulation failed"), "the page says it, too");
+}
+
+#[test]
+fn a_picture_names_the_robot_that_fails_in_it() {
+    let bench = Bench::new();
+    bench.file("s.nb", SIMULATED);
+    for kind in [["spacetime", "s.svg"], ["gif", "s.gif"], ["vcd", "s.vcd"], ["report", "s.html"]] {
+        let drawn = bench.run(&["draw", "s.nb", "--as", kind[0], "-o", kind[1]]);
+        assert_eq!(drawn.status, 0, "{}", drawn.err);
+        let warning = "warning[fault]: robot and_5x5 on net r became unstable in cycle 1\n";
+        assert!(drawn.err.contains(warning), "{kind:?}: {}", drawn.err);
+    }
+    bench.file("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
+    for kind in [["spacetime", "w.svg"], ["gif", "w.gif"], ["strip", "w.svg"], ["pose", "w.svg"]] {
+        let drawn = bench.run(&["draw", "wild.yaml", "--schedule", "00*4", "--as", kind[0], "-o", kind[1]]);
+        assert_eq!(drawn.status, 0, "{}", drawn.err);
+        let warning = "warning[fault]: robot wild became unstable in env step 28\n";
+        assert!(drawn.err.contains(warning), "{kind:?}: {}", drawn.err);
+    }
+    let before = ["draw", "wild.yaml", "--schedule", "00*4", "--as", "pose", "--at", "0.3", "-o", "w.svg"];
+    assert!(!bench.run(&before).err.contains("warning"));
+    let sound = bench.run(&["draw", "nand", "--schedule", "11*2", "--as", "spacetime", "-o", "n.svg"]);
+    assert_eq!((sound.status, sound.err.as_str()), (0, "wrote n.svg\n"));
+}
+
+#[test]
+fn a_robot_that_explodes_takes_no_more_time_than_others() {
+    let bench = boom();
+    let asked = "ulimit -t 2; exec \"$0\" test boom.nb --vary friction=1% --worlds 40";
+    let mut command = Command::new("sh");
+    command.args(["-c", asked, env!("CARGO_BIN_EXE_nbc")]).current_dir(bench.path());
+    let output = command.output_in_time();
+    let said = String::from_utf8(output.stdout).unwrap();
+    assert!(said.contains("0 of 40 worlds pass"), "{:?}: {said}", output.status);
+}
+
+#[test]
+#[cfg(unix)]
+fn hardening_ends_at_a_signal() {
+    let bench = boom();
+    let asked = ["build", "boom.nb", "--harden", "friction=1%", "--worlds", "1000000"];
+    let mut program = Command::new(env!("CARGO_BIN_EXE_nbc"));
+    program.args(asked).current_dir(bench.path()).stdout(Stdio::null()).stderr(Stdio::piped());
+    let mut program = program.spawn().unwrap();
+    let mut first = [0; 1];
+    // The bar shows when the first worlds are done.
+    program.stderr.as_mut().unwrap().read_exact(&mut first).unwrap();
+    let begun = Instant::now();
+    signal("TERM", program.id());
+    let output = end(program);
+    assert_eq!(output.status.code(), Some(4));
+    assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
 }
 
 #[test]

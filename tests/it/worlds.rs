@@ -8,6 +8,8 @@ use nbc_base::model::{GroundProfile, PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_session::report::Stage;
 use nbc_swarm::{Assembly, Recording, Room, SwarmConditions, SwarmTrace, simulate};
 
+use serde_json::json;
+
 use crate::support::bench::Bench;
 use crate::support::limits::InTime;
 use crate::support::root;
@@ -87,6 +89,23 @@ simulate s with schedule (a, b) {{ 0 0 for 2 cycles }}"
     assert_eq!(["own", "named", "taken"].map(friction), [1.0, 2.0, 2.0]);
     let run = session.simulate(&checked, &program.simulations[0], &CompileOptions::default(), &mut ()).unwrap();
     assert_eq!(run.swarm.compiled.plan.world.world.factors.gravity, 1.2);
+}
+
+#[test]
+fn a_yield_is_around_a_redeclared_paper() {
+    let bench = Bench::new();
+    let found = |declarations: &str, world: &str| {
+        bench.file("a.nb", format!("{declarations}{}", CIRCUIT.replace("WORLD", world)));
+        let asked = ["test", "a.nb", "--vary", "gravity=1%", "--worlds", "2", "--format", "json"];
+        validate("robustness", &bench.run(&asked).out)["tests"][0].clone()
+    };
+    // Robots are unstable in such a world.
+    let own = found("world paper { stiffness: 10 }\n", "");
+    let named = found("world stiff { stiffness: 10 }\n", "in stiff");
+    assert_eq!((&own["yield"]["passed"], &own["world"]), (&json!(0), &json!("paper")));
+    assert_eq!(named["world"], "stiff");
+    assert_eq!(own["failures"], named["failures"], "the worlds of the sample are the same");
+    assert_eq!(found("", "")["yield"]["passed"], 2);
 }
 
 /// A file of Evolution Gym has the same ground as heights, around the place where robots start.

@@ -3,6 +3,7 @@
 mod arguments;
 mod canvas;
 mod evolution_run;
+mod faults;
 mod kind;
 mod options;
 mod picture;
@@ -17,12 +18,13 @@ use std::path::Path;
 
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
+use nbc_base::source::Sources;
 use nbc_session::report::Schema;
 use nbc_session::store;
 
 use canvas::Canvas;
 use kind::Kind;
-use picture::{Drawing, PictureKind, SubjectKind};
+use picture::{Drawn, PictureKind, SubjectKind};
 use request::DrawRequest;
 use titled_body::TitledBody;
 
@@ -40,7 +42,9 @@ impl DrawArguments {
         let canvas = Canvas::new(&output, kind)?;
         let subject = subject_kind(&request.what);
         options::check_options(&request, kind, subject)?;
-        canvas.write(draw(kind, subject, &request, context)?)?;
+        let Drawn { drawing, faults } = draw(kind, subject, &request, context)?;
+        canvas.write(drawing)?;
+        context.tell(&faults, &Sources::default());
         context.wrote(&output);
         if context.format == OutputFormat::Json {
             let drawn = serde_json::json!({ "file": output.display().to_string(), "kind": kind.description().word });
@@ -65,7 +69,7 @@ fn draw(
     subject: SubjectKind,
     request: &DrawRequest,
     context: &Context,
-) -> Result<Drawing, Failure> {
+) -> Result<Drawn, Failure> {
     match subject {
         SubjectKind::Program => kind.of_program(request),
         SubjectKind::Run => {
@@ -79,7 +83,7 @@ fn draw(
     }
 }
 
-fn draw_library(kind: &dyn PictureKind, request: &DrawRequest) -> Result<Drawing, Failure> {
+fn draw_library(kind: &dyn PictureKind, request: &DrawRequest) -> Result<Drawn, Failure> {
     let what = &request.what;
     let library = robots::robots_of(Path::new(what))?;
     let Some(behavior) = request.behavior else {

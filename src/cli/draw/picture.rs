@@ -6,6 +6,7 @@ use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::TitledRobots;
 use crate::cli::draw::wording::DrawError;
+use nbc_base::diag::Diagnostic;
 use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
 
 /// What is drawn.
@@ -31,6 +32,18 @@ pub(super) enum Drawing {
         film: Box<Film>,
         stage: Box<Stage>,
     },
+}
+
+/// A drawing, with a warning of each robot whose simulation failed.
+pub(super) struct Drawn {
+    pub(super) drawing: Drawing,
+    pub(super) faults: Vec<Diagnostic>,
+}
+
+impl From<Drawing> for Drawn {
+    fn from(drawing: Drawing) -> Self {
+        Self { drawing, faults: Vec::new() }
+    }
 }
 
 /// The formats of films.
@@ -68,17 +81,17 @@ pub(super) trait PictureKind: Sync {
     fn description(&self) -> KindDescription;
 
     /// Draws one robot.
-    fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
         Err(self.refuse(SubjectKind::Robot, request))
     }
 
     /// Draws the robots of a library.
-    fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
         Err(self.refuse(SubjectKind::Library, request))
     }
 
     /// Draws an evolution run; its best robots, if this is a picture of several robots.
-    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
         match self.description().subject {
             SubjectKind::Library => self.of_library(&best_champions(results), request),
             _ => Err(self.refuse(SubjectKind::Run, request)),
@@ -86,7 +99,7 @@ pub(super) trait PictureKind: Sync {
     }
 
     /// Draws the circuit of a source file, or its swarm.
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
         Err(self.refuse(SubjectKind::Program, request))
     }
 

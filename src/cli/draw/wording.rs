@@ -1,7 +1,7 @@
 //! Errors of `nbc draw` and their messages.
 
 use nbc_base::diag::suggest::alternatives;
-use nbc_base::diag::{Code, Diagnostic, Suggestion};
+use nbc_base::diag::{Code, Diagnostic, Severity, Suggestion};
 use nbc_base::model::Behavior;
 
 use crate::cli::wording::no_such;
@@ -99,6 +99,20 @@ impl From<DrawError> for Diagnostic {
                 "each run counts once; move the copy out of the folder",
             ),
         }
+    }
+}
+
+/// A robot that a picture shows up to its fault only.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct FaultyRobot {
+    /// The robot, its fault, and when that was.
+    pub(super) fault: String,
+}
+
+impl From<FaultyRobot> for Diagnostic {
+    fn from(FaultyRobot { fault }: FaultyRobot) -> Self {
+        let fault = Self::without_place(Code::Fault, fault);
+        Self { severity: Severity::Warning, ..fault }.with_help("the picture shows it up to there")
     }
 }
 

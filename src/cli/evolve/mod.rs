@@ -140,7 +140,8 @@ impl EvolveArguments {
     fn write_report(&self, evolution: &Evolution, context: &mut Context) -> Result<(), Failure> {
         let folder = self.folder(&evolution.name).path();
         let path = folder.join("report.html");
-        let page = run_page(&read_run(&folder, context)?, Scheme::default());
+        let (page, faults) = run_page(&read_run(&folder, context)?, Scheme::default());
+        context.tell(&faults, &Sources::default());
         store::write_result(&path, page.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;
         if context.format == OutputFormat::Text {
             context.print(format_args!("report  {}\n", path.display()))?;
@@ -170,7 +171,7 @@ impl Comparison {
     }
 
     fn describe(&self) -> String {
-        format!("{}, {} runs: {}\n", self.run, self.seeds, describe_groups(&self.groups, &self.pairs))
+        format!("{}, {}: {}\n", self.run, counted(self.seeds, "run"), describe_groups(&self.groups, &self.pairs))
     }
 }
 

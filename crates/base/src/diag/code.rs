@@ -53,6 +53,7 @@ codes! {
     CircularUse = "circular-use", Error: "Files that use each other in a circle.";
     Duplicate = "duplicate", Error: "A name that is declared twice.";
     Empty = "empty", Error: "A file, test or schedule without content.";
+    Fault = "fault", Warning: "A robot whose simulation failed.";
     ForeignFormat = "foreign-format", Error: "A file of another version of the program.";
     GroundEnds = "ground-ends", Warning: "A robot that walks off the end of its ground.";
     HoldTooShort = "hold-too-short", Warning: "Inputs held for less time than the robots need to settle.";
@@ -82,7 +83,7 @@ codes! {
     UnknownRobot = "unknown-robot", Error: "A robot that the library does not have.";
     UnknownWidth = "unknown-width", Error: "A net, constant or parameter of unknown width.";
     Unreadable = "unreadable", Error: "A file that cannot be read.";
-    Unused = "unused", Warning: "An input or a net that is never used.";
+    Unused = "unused", Warning: "An input, a net or a stimulus that is never used.";
     Unwritable = "unwritable", Error: "A file or folder that cannot be written.";
     Value = "value", Error: "A value of the wrong kind.";
     WeakRobot = "weak-robot", Warning: "A circuit that uses a robot that makes errors or hardly moves.";

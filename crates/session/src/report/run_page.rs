@@ -47,12 +47,12 @@ pub struct PageSwarm<'a> {
 pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> String {
     let members = swarms.iter().flat_map(|swarm| &swarm.assembly.members);
     let looks = Looks::of(members.map(|member| &member.robot.body), scheme);
-    let tests: Vec<bool> = swarms.iter().filter_map(|swarm| swarm.outcome.passed()).collect();
-    let passed = tests.iter().all(|passed| *passed);
+    let (tests, simulations): (Vec<SwarmOutcome<'_>>, Vec<SwarmOutcome<'_>>) =
+        swarms.iter().map(|swarm| swarm.outcome).partition(|outcome| matches!(outcome, SwarmOutcome::Test(_)));
     Html {
         heading: source,
-        passed,
-        verdict: heading(&tests, swarms.len() - tests.len()),
+        passed: swarms.iter().all(|swarm| swarm.outcome.passed()),
+        verdict: heading(&tests, &simulations),
         body: swarms.iter().enumerate().map(|(i, swarm)| section(i, swarm)).collect(),
         data: json!({
             "looks": look_data(&looks),
@@ -64,23 +64,29 @@ pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> 
 }
 
 /// `pass: 2 of 2 tests passed, 1 simulation`
-fn heading(tests: &[bool], simulations: usize) -> String {
-    let (passed, count) = (tests.iter().filter(|passed| **passed).count(), tests.len());
-    let word = if passed == count { "pass" } else { "FAIL" };
-    let simulated = counted(simulations, "simulation");
-    match (count, simulations) {
-        (0, _) => simulated,
-        (_, 0) => format!("{word}: {passed} of {} passed", counted(count, "test")),
-        _ => format!("{word}: {passed} of {} passed, {simulated}", counted(count, "test")),
+fn heading(tests: &[SwarmOutcome<'_>], simulations: &[SwarmOutcome<'_>]) -> String {
+    let passed = |outcomes: &[SwarmOutcome<'_>]| outcomes.iter().filter(|outcome| outcome.passed()).count();
+    let failed = simulations.len() - passed(simulations);
+    let word = if passed(tests) == tests.len() && failed == 0 { "pass" } else { "FAIL" };
+    let tested = format!("{} of {} passed", passed(tests), counted(tests.len(), "test"));
+    let simulated = match failed {
+        0 => counted(simulations.len(), "simulation"),
+        _ => format!("{failed} of {} failed", counted(simulations.len(), "simulation")),
+    };
+    match (tests.len(), simulations.len()) {
+        (0, _) if failed == 0 => simulated,
+        (0, _) => format!("{word}: {simulated}"),
+        (_, 0) => format!("{word}: {tested}"),
+        _ => format!("{word}: {tested}, {simulated}"),
     }
 }
 
 impl SwarmOutcome<'_> {
-    /// Whether a test passed.
-    fn passed(self) -> Option<bool> {
+    /// Whether a test passed, or every robot of a simulation could be simulated.
+    fn passed(self) -> bool {
         match self {
-            Self::Test(verdict) => Some(verdict.passed),
-            Self::Simulation(_) => None,
+            Self::Test(verdict) => verdict.passed,
+            Self::Simulation(result) => result.fault.is_none(),
         }
     }
 

@@ -1,7 +1,7 @@
 //! The fitness of a run by group of behaviors.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
@@ -16,8 +16,8 @@ impl PictureKind for ComparisonPicture {
         )
     }
 
-    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(comparison(results)))
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawn, Failure> {
+        Ok(Drawing::Picture(comparison(results)).into())
     }
 }
 

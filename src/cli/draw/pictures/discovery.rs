@@ -1,7 +1,7 @@
 //! How soon a run found each behavior.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
@@ -16,8 +16,8 @@ impl PictureKind for DiscoveryPicture {
         )
     }
 
-    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(discovery(results)))
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawn, Failure> {
+        Ok(Drawing::Picture(discovery(results)).into())
     }
 }
 

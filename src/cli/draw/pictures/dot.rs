@@ -1,7 +1,7 @@
 //! A netlist for Graphviz.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use nbc_circuit::formats::dot;
 
@@ -16,7 +16,7 @@ impl PictureKind for DotPicture {
         }
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(dot::write(&request.compiled()?.mapping.netlist)))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
+        Ok(Drawing::Text(dot::write(&request.compiled()?.mapping.netlist)).into())
     }
 }

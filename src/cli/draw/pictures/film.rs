@@ -1,7 +1,8 @@
 //! Films of robots that move.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, FilmFormat, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::faults;
+use crate::cli::draw::picture::{Drawing, Drawn, FilmFormat, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::TitledRobots;
@@ -22,28 +23,33 @@ impl PictureKind for FilmPicture {
         KindDescription { extensions, options, ..KindDescription::new(word, about, SubjectKind::Library) }
     }
 
-    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
         let TitledBody { title, body } = robot;
         let lanes = vec![format!("{} x {}", body.width(), body.height())];
-        let stage = Stage::of_trial(&Setting::default(), body, &request.schedule([body])?, request.stride());
-        Ok(self.film(title, lanes, std::slice::from_ref(body), request, stage))
+        let schedule = request.schedule([body])?;
+        let stage = Stage::of_trial(&Setting::default(), body, &schedule, request.stride());
+        let drawing = self.film(title, lanes, std::slice::from_ref(body), request, stage);
+        Ok(Drawn { drawing, faults: faults::until(title, body, &schedule, schedule.steps()) })
     }
 
-    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
         let bodies: Vec<Body> = robots.robots.iter().map(|one| one.body.clone()).collect();
         let lanes = robots.robots.iter().map(|one| one.name.clone()).collect();
-        let stage = Stage::of_trials(&Setting::default(), &bodies, &request.schedule(&bodies)?, request.stride());
-        Ok(self.film(&robots.title, lanes, &bodies, request, stage))
+        let schedule = request.schedule(&bodies)?;
+        let stage = Stage::of_trials(&Setting::default(), &bodies, &schedule, request.stride());
+        let faults = faults::of_paths(&robots.robots, &faults::walk(&bodies, &schedule));
+        Ok(Drawn { drawing: self.film(&robots.title, lanes, &bodies, request, stage), faults })
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
         let ran = request.ran(None)?;
         let SwarmRun { compiled, trace } = ran.swarm();
         let assembly = &compiled.assembly;
         let bodies: Vec<Body> = assembly.members.iter().map(|member| member.robot.body.clone()).collect();
         let lanes = assembly.members.iter().map(|member| format!("{} ({})", member.net, member.robot.function()));
         let stage = Stage::of_swarm(assembly, trace, request.stride());
-        Ok(self.film(&assembly.circuit, lanes.collect(), &bodies, request, stage))
+        let drawing = self.film(&assembly.circuit, lanes.collect(), &bodies, request, stage);
+        Ok(Drawn { drawing, faults: faults::of_swarm(trace) })
     }
 }
 

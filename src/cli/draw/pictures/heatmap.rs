@@ -1,7 +1,7 @@
 //! An archive as a map of its niches.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording::DrawError;
 use nbc_session::report::{self, ArchiveMap, EvolutionResults, axis_word};
@@ -15,14 +15,14 @@ impl PictureKind for HeatmapPicture {
         KindDescription { options, ..KindDescription::new("heatmap", "The archive of a run", SubjectKind::Run) }
     }
 
-    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
         let [x, y] = axes(results, &request.axes)?;
         let best = results.best();
         let niches: Vec<(&NicheKey, f64)> = best.iter().map(|(key, (_, elite))| (*key, elite.fitness[0])).collect();
         let (unit, axes, stimuli) = (results.unit(), &results.axes, results.stimuli);
         let archive_map = ArchiveMap { unit, axes, stimuli, niches: &niches };
         let title = format!("{}: the best of each niche", results.name);
-        Ok(Drawing::Picture(report::draw_heatmap(&title, &archive_map, x, y)))
+        Ok(Drawing::Picture(report::draw_heatmap(&title, &archive_map, x, y)).into())
     }
 }
 

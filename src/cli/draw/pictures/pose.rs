@@ -1,7 +1,8 @@
 //! A deformed body at one moment.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::faults;
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
@@ -17,9 +18,10 @@ impl PictureKind for PosePicture {
         }
     }
 
-    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
         let schedule = request.schedule([&robot.body])?;
         let step = request.step(&schedule)?;
-        Ok(Drawing::Picture(report::draw_pose(&robot.title, &robot.body, &schedule, step, request.scheme())))
+        let pose = report::draw_pose(&robot.title, &robot.body, &schedule, step, request.scheme());
+        Ok(Drawn { drawing: Drawing::Picture(pose), faults: faults::until(&robot.title, &robot.body, &schedule, step) })
     }
 }

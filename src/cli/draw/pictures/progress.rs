@@ -1,7 +1,7 @@
 //! The curves of a run.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::{self, EvolutionResults, Svg};
 
@@ -12,8 +12,8 @@ impl PictureKind for ProgressPicture {
         KindDescription::new("progress", "The coverage and QD-score of a run over its generations", SubjectKind::Run)
     }
 
-    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(progress(results)))
+    fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawn, Failure> {
+        Ok(Drawing::Picture(progress(results)).into())
     }
 }
 

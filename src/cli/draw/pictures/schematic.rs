@@ -1,7 +1,7 @@
 //! The cells of a circuit with their robots.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use nbc_session::report::draw_schematic_page;
 
@@ -17,10 +17,10 @@ impl PictureKind for SchematicPicture {
         }
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
         let compiled = request.compiled()?;
         let schematic = compiled.schematic(request.scheme());
         let page = draw_schematic_page(&compiled.assembly, &schematic.pages());
-        Ok(Drawing::Sheets { top: schematic.top(), page })
+        Ok(Drawing::Sheets { top: schematic.top(), page }.into())
     }
 }

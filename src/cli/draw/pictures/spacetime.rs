@@ -4,15 +4,16 @@ use std::collections::BTreeMap;
 
 use crate::cli::Failure;
 use crate::cli::draw::evolution_run::each_champion;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::faults;
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
-use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
+use crate::cli::draw::titled_robots::TitledRobots;
 use crate::cli::draw::wording::DrawError;
-use nbc_base::model::{CYCLE_STEPS, Function, Schedule, Setting, Trial};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{CYCLE_STEPS, Function, Schedule, Trial};
 use nbc_session::SwarmRun;
 use nbc_session::report::{self, Champions, EvolutionResults, Svg};
-use nbc_sim::Simulator;
 use nbc_swarm::SwarmTrace;
 
 pub(super) struct SpacetimePicture;
@@ -23,28 +24,31 @@ impl PictureKind for SpacetimePicture {
         KindDescription { options, ..KindDescription::new("spacetime", "Paths over time", SubjectKind::Library) }
     }
 
-    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
         let trial = Trial { body: robot.body.clone(), schedule: request.schedule([&robot.body])? };
-        let trajectory = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
-        Ok(Drawing::Picture(report::draw_robot(&robot.title, &trial, &trajectory)))
+        let path = faults::walk([&trial.body], &trial.schedule).remove(0);
+        let faults = path.fault.map(|fault| faults::of_body(&robot.title, fault)).into_iter().collect();
+        Ok(Drawn { drawing: Drawing::Picture(report::draw_robot(&robot.title, &trial, &path)), faults })
     }
 
-    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(champions(robots, &request.schedule(robots.robots.iter().map(|one| &one.body))?)))
+    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
+        let (svg, faults) = champions(robots, &request.schedule(robots.robots.iter().map(|one| &one.body))?);
+        Ok(Drawn { drawing: Drawing::Picture(svg), faults })
     }
 
-    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
         self.of_library(&each_champion(results), request)
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
         let ran = request.ran(None)?;
         let SwarmRun { trace, .. } = ran.swarm();
-        if request.robots.is_empty() {
-            return Ok(Drawing::Picture(report::draw_swarm(trace)));
-        }
         let chosen = request.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
-        Ok(Drawing::Picture(report::draw_chosen(trace, &chosen.concat())))
+        let svg = match &chosen[..] {
+            [] => report::draw_swarm(trace),
+            chosen => report::draw_chosen(trace, &chosen.concat()),
+        };
+        Ok(Drawn { drawing: Drawing::Picture(svg), faults: faults::of_swarm(trace) })
     }
 }
 
@@ -63,11 +67,10 @@ fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
     Ok(meant)
 }
 
-/// Every robot's path under one schedule, by behavior.
-pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> Svg {
-    let trial = |one: &NamedBody| Trial { body: one.body.clone(), schedule: schedule.clone() };
-    let trials: Vec<Trial> = several.robots.iter().map(trial).collect();
-    let trajectories = Simulator::default().run_trials(&Setting::default(), &trials);
+/// Every robot's path under one schedule, by behavior, and warnings of robots that fail.
+pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> (Svg, Vec<Diagnostic>) {
+    let trajectories = faults::walk(several.robots.iter().map(|one| &one.body), schedule);
+    let faults = faults::of_paths(&several.robots, &trajectories);
     let mut paths: BTreeMap<Function, Champions> = BTreeMap::new();
     for (one, trajectory) in several.robots.iter().zip(trajectories) {
         let function = one.behavior.function();
@@ -75,7 +78,7 @@ pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> Svg {
         group.paths.push((trajectory, one.body.width()));
     }
     let groups: Vec<Champions> = paths.into_values().collect();
-    report::draw_champions(&several.title, &groups, &changes(schedule))
+    (report::draw_champions(&several.title, &groups, &changes(schedule)), faults)
 }
 
 /// The cycles at which a schedule's stimuli change.

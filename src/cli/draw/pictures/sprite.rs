@@ -1,7 +1,7 @@
 //! Bodies with their materials.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::{NamedBody, TitledRobots, of_swarm};
@@ -18,21 +18,21 @@ impl PictureKind for SpritePicture {
         }
     }
 
-    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Picture(report::draw_portrait(&robot.title, &robot.body, request.scheme())))
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
+        Ok(Drawing::Picture(report::draw_portrait(&robot.title, &robot.body, request.scheme())).into())
     }
 
-    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
         let portrait = |one: &NamedBody| Portrait {
             title: one.behavior.function().to_string(),
             subtitle: format!("{}, {}", one.behavior, one.name),
             body: one.body.clone(),
         };
         let portraits: Vec<Portrait> = robots.robots.iter().map(portrait).collect();
-        Ok(Drawing::Picture(report::draw_portraits(&robots.title, &portraits, request.scheme())))
+        Ok(Drawing::Picture(report::draw_portraits(&robots.title, &portraits, request.scheme())).into())
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
         self.of_library(&of_swarm(&request.compiled()?.assembly), request)
     }
 }

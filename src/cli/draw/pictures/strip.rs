@@ -1,7 +1,8 @@
 //! Snapshots of a gait.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::faults;
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use nbc_session::report;
@@ -17,8 +18,10 @@ impl PictureKind for StripPicture {
         }
     }
 
-    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawing, Failure> {
+    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
         let schedule = request.schedule([&robot.body])?;
-        Ok(Drawing::Picture(report::draw_strip(&robot.title, &robot.body, &schedule, request.scheme())))
+        let strip = report::draw_strip(&robot.title, &robot.body, &schedule, request.scheme());
+        let faults = faults::until(&robot.title, &robot.body, &schedule, schedule.steps());
+        Ok(Drawn { drawing: Drawing::Picture(strip), faults })
     }
 }

@@ -1,7 +1,8 @@
 //! Waveforms.
 
 use crate::cli::Failure;
-use crate::cli::draw::picture::{Drawing, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::faults;
+use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
 use nbc_session::report;
 
@@ -13,7 +14,9 @@ impl PictureKind for VcdPicture {
         KindDescription { extensions, ..KindDescription::new("vcd", "The waveforms of a swarm", SubjectKind::Program) }
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawing, Failure> {
-        Ok(Drawing::Text(report::vcd(&request.ran(None)?.swarm().trace)))
+    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
+        let ran = request.ran(None)?;
+        let trace = &ran.swarm().trace;
+        Ok(Drawn { drawing: Drawing::Text(report::vcd(trace)), faults: faults::of_swarm(trace) })
     }
 }

@@ -42,10 +42,17 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.touching.inside = inside;
     }
 
+    /// Those of some lanes whose robots are not unstable. The env step of an unstable one counts for nothing, and its
+    /// huge voxels would touch all of the ground.
+    pub fn sound_lanes(&self, lanes: u32) -> impl Iterator<Item = usize> + use<R, K> {
+        let sound = lanes & !self.unstable;
+        (0..self.occupants.len()).filter(move |lane| sound >> lane & 1 == 1)
+    }
+
     /// Contact between each robot's low voxels and the ground, each way once.
     #[inline(never)]
     fn collide_with_ground(&mut self, low: &[LowPoint]) {
-        for lane in 0..self.occupants.len() {
+        for lane in self.sound_lanes(u32::MAX) {
             let mut voxels = std::mem::take(&mut self.touching.voxels);
             for point in low.iter().filter(|point| point.lanes >> lane & 1 == 1) {
                 voxels.extend(self.occupants[lane].at_mass[point.mass].iter().map(|&(voxel, _)| voxel));
@@ -86,7 +93,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     #[inline(never)]
     fn collide_with_itself(&mut self, insides: &[Inside]) {
         for inside in insides {
-            for lane in (0..self.occupants.len()).filter(|lane| inside.lanes >> lane & 1 == 1) {
+            for lane in self.sound_lanes(inside.lanes) {
                 self.collide_point_with_itself(lane, inside);
             }
         }

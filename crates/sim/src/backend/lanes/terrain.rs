@@ -63,7 +63,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let fixed = &terrain.voxels()[pair.voxel];
         let bounds: [Vector2<f64>; 2] = [fixed.corners[3], fixed.corners[1]];
         let fixed = Quad::within(bounds, fixed.corners, fixed.surface);
-        for lane in (0..self.occupants.len()).filter(|lane| lanes >> lane & 1 == 1) {
+        for lane in self.sound_lanes(lanes) {
             let voxel = self.proximity.tiles[pair.tile].in_lane[lane];
             let (quad, masses) = self.quad(lane, voxel);
             self.collide_with_fixed(lane, &quad, &masses, &fixed);
