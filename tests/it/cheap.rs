@@ -35,6 +35,47 @@ fn a_check_refuses_swarms_that_cannot_be_made() {
 }
 
 #[test]
+fn a_check_refuses_a_kind_of_registers_where_there_are_none() {
+    let gate = "circuit g(a, b) -> (q) { q = a and b }\ntest g {\n a b | q\n 0 1 | 0\n}\n";
+    for style in ["pulsed", "mux"] {
+        let swarm = format!("swarm s {{ circuit: g, library: three, registers: {style} }}\n{gate}");
+        refused(&swarm, &format!("`registers: {style}` has no effect in the swarm `s`"));
+    }
+    let bench = Bench::new();
+    bench.file("a.nb", format!("{FLIP_FLOP}swarm s {{ circuit: ff, registers: pulsed }}\n{ROWS}"));
+    assert_eq!(bench.run(&["check", "a.nb"]).status, 0);
+}
+
+#[test]
+fn a_check_looks_at_the_robots_of_an_evolution_that_has_run() {
+    let gate = "circuit g(a, b) -> (q) { q = a and b }\ntest g {\n a b | q\n 0 1 | 0\n}\n";
+    let library = |fields: &str| {
+        let evolution = "evolution few { objective: gate, box: 3 x 3, generations: 2 }\n";
+        format!("{evolution}library own {{ from: few{fields} }}\nswarm s {{ circuit: g, library: own }}\n{gate}")
+    };
+    let bench = Bench::new();
+    bench.file("a.nb", library(""));
+    assert_eq!(bench.run(&["check", "a.nb"]).status, 0, "it has not run");
+    let robot = |name: &str| {
+        let robots = nbc_session::store::shipped_library().robots;
+        nbc_session::store::print_robot(robots.iter().find(|robot| robot.name == name).unwrap())
+    };
+    for (name, text, fields, says) in [
+        ("broken", "format: 2".to_owned(), "", "broken.yaml"),
+        ("xor", robot("xor_5x5"), "", "cannot be made of"),
+        ("nand", robot("nand_5x5"), ", without: [nobody]", "the library has no robot `nobody`"),
+    ] {
+        let bench = Bench::new();
+        bench.file("a.nb", library(fields));
+        std::fs::create_dir_all(bench.path().join("out/few/robots")).unwrap();
+        bench.file(&format!("out/few/robots/{name}.yaml"), text);
+        let [checked, tested] = ["check", "test"].map(|command| bench.run(&[command, "a.nb"]));
+        checked.expect_fault(&[says]);
+        assert_eq!((tested.status, tested.err), (2, checked.err), "{}", tested.out);
+    }
+}
+
+#[test]
 fn a_check_refuses_libraries_without_the_robots_that_are_needed() {
     let gate = "circuit g(a, b) -> (q) { q = a and b }\ntest g {\n a b | q\n 0 1 | 0\n}\n";
     let missing = "cannot be made of";
@@ -156,7 +197,7 @@ test h \"memory\" with e {
     let ran = bench.run(&["test", "a.nb", "--logic"]);
     assert!(ran.status == 0 && ran.out.contains("2 passed"), "{}{}", ran.out, ran.err);
     let checked = bench.run(&["check", "a.nb"]);
-    assert_eq!(checked.err.matches("warning[index-outside]").count(), 5, "{}", checked.err);
+    assert_eq!(checked.err.matches("warning[index-outside]").count(), 6, "{}", checked.err);
 }
 
 #[test]

@@ -4,26 +4,28 @@
 use crate::compile::map_onto;
 use crate::options::RUNS;
 use crate::robots::RobotSources;
-use crate::wording::{ChoiceError, for_circuit};
+use crate::wording::{ChoiceError, NoRegistersError, for_circuit};
 use crate::{script, start_bodies, waves};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Severity};
 use nbc_base::model::{CircuitTest, Instance, Library, Origin, Program, RegisterStyle, Stimulation, Swarm, TestRow};
 use nbc_base::source::Span;
 use nbc_circuit::timing::Held;
 use nbc_circuit::waves::ClockStep;
-use nbc_circuit::{Effort, MapOptions, elaborate, is_same_instance};
+use nbc_circuit::{Effort, Loops, MapOptions, elaborate, is_same_instance};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
 /// Circuits of more cells are not made into wave machines to find out whether they can be.
 const SMALL: usize = 200;
 
-/// The errors of a program that has no others; `files` are the paths of files that replace declared ones. Robots of
-/// evolution runs, which may not have run yet, are not looked at.
+/// The errors of a program that has no others; `files` are the paths of files that replace declared ones. Libraries of
+/// evolutions that have not run yet are not looked at.
 pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(String, String)]) -> Vec<Diagnostic> {
     let mut look = Look { sources, program, faults: Vec::new() };
     for declared in &program.libraries {
         // The libraries of the program itself are whole, and need not be read.
-        if declared.behaviors.is_some() || !declared.without.is_empty() || matches!(declared.from, Origin::Folder(_)) {
+        let is_elsewhere = matches!(declared.from, Origin::Folder(_) | Origin::Evolution(_));
+        if declared.behaviors.is_some() || !declared.without.is_empty() || is_elsewhere {
             look.library(&declared.name);
         }
     }
@@ -42,7 +44,7 @@ pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(Str
     }
     for evolution in program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name)) {
         let library = evolution.start.as_ref().and_then(|start| program.library(&start.library));
-        if library.is_some_and(|library| !matches!(library.from, Origin::Evolution(_))) {
+        if library.is_some_and(|library| sources.has_run(library, RUNS)) {
             look.note(start_bodies::started(sources, program, evolution, RUNS).map(drop));
         }
     }
@@ -69,10 +71,10 @@ impl Look<'_> {
         MapOptions { cancel: self.sources.world.cancel(), ..MapOptions::default() }
     }
 
-    /// The robots of a library; `None` after an error, and for those of an evolution run.
+    /// The robots of a library; `None` after an error, and for an evolution that has not run yet.
     fn library(&mut self, name: &str) -> Option<Library> {
         let declared = self.program.library(name)?;
-        if matches!(declared.from, Origin::Evolution(_)) {
+        if !self.sources.has_run(declared, RUNS) {
             return None;
         }
         match self.sources.library(declared, RUNS) {
@@ -102,11 +104,12 @@ impl Look<'_> {
         let cells = nbc_swarm::cells(&robots);
         if !cells.is_complete() {
             let options = MapOptions { effort: Effort::Fast, ..self.options() };
-            self.note(map_onto(self.program, circuit, &cells, &options, place).map(drop));
+            self.note(map_onto(self.program, circuit, &cells, &options, (place, Limit::SwarmGates)).map(drop));
         }
     }
 
     fn swarm(&mut self, swarm: &Swarm) {
+        self.registers(swarm);
         match swarm.registers {
             RegisterStyle::MasterSlave | RegisterStyle::Pulsed => {
                 self.circuit(&swarm.circuit, &swarm.library, swarm.span);
@@ -120,6 +123,21 @@ impl Look<'_> {
                 }
             }
             RegisterStyle::Waves => self.waves(swarm),
+        }
+    }
+
+    /// Whether a swarm that says what its registers are made of has any.
+    fn registers(&mut self, swarm: &Swarm) {
+        let style = match swarm.registers {
+            RegisterStyle::Pulsed => "pulsed",
+            RegisterStyle::Mux => "mux",
+            // Anything can be a wave machine, and the other is what is usual.
+            RegisterStyle::Waves | RegisterStyle::MasterSlave => return,
+        };
+        let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
+        if Loops::of(&netlist).cores().is_empty() {
+            let (swarm, circuit, span) = (swarm.name.clone(), swarm.circuit.to_string(), swarm.span);
+            self.note(Err(vec![NoRegistersError { style, swarm, circuit }.at(span)]));
         }
     }
 

@@ -47,11 +47,10 @@ impl<'a> RobotSources<'a> {
             Origin::Three => self.built_in.three().clone(),
             Origin::Folder(folder) => self.folder(folder, declared, None)?,
             Origin::Evolution(name) => {
-                let (run, file) = (format!("{runs}/{name}"), self.file);
-                let help = format!(
-                    "`nbc evolve {file} --run {name} --out {runs}`, then `nbc library add {run} --into {run}/robots`"
-                );
-                self.folder(&format!("{run}/robots"), declared, Some(&help))?
+                let (folder, file) = (robots_of_run(runs, name), self.file);
+                let evolve = format!("nbc evolve {file} --run {name} --out {runs}");
+                let help = format!("`{evolve}`, then `nbc library add {runs}/{name} --into {folder}`");
+                self.folder(&folder, declared, Some(&help))?
             }
         };
         if let Some(behaviors) = &declared.behaviors {
@@ -78,8 +77,21 @@ impl<'a> RobotSources<'a> {
         Ok(library)
     }
 
+    /// Whether a library has robots by now: an evolution may not have run yet.
+    pub(super) fn has_run(self, declared: &LibrarySource, runs: &str) -> bool {
+        match &declared.from {
+            Origin::Evolution(name) => self.world.list(&robots_of_run(runs, name)).is_ok(),
+            Origin::Shipped | Origin::Three | Origin::Folder(_) => true,
+        }
+    }
+
     fn folder(self, folder: &str, declared: &LibrarySource, help: Option<&str>) -> Result<Library, Vec<Diagnostic>> {
         let placed = |fault: Diagnostic| of_library(fault, declared.span, help);
         store::read_library(self.world, folder).map_err(|faults| faults.into_iter().map(placed).collect())
     }
+}
+
+/// The folder of the robots of an evolution run.
+fn robots_of_run(runs: &str, name: &str) -> String {
+    format!("{runs}/{name}/robots")
 }

@@ -91,6 +91,24 @@ pub(super) fn of_declared_file(error: Diagnostic, declared: Span) -> Diagnostic 
     error.with_label(declared, "declared here")
 }
 
+/// A swarm that says what the registers of a circuit without memory are made of.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct NoRegistersError {
+    pub style: &'static str,
+    pub swarm: String,
+    pub circuit: String,
+}
+
+impl NoRegistersError {
+    /// The error at the swarm.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let Self { style, swarm, circuit } = self;
+        let message = format!("`registers: {style}` has no effect in the swarm `{swarm}`");
+        Diagnostic::new(Code::NoEffect, message, span, format!("`{circuit}` has no register"))
+            .with_help(format!("remove `registers: {style}`"))
+    }
+}
+
 /// A library with which an evolution cannot begin: none of its robots fits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct StartError {

@@ -23,6 +23,8 @@ pub struct Program {
     pub own_evolutions: Vec<String>,
     /// Declared circuits; a [`CircuitId`](crate::model::CircuitId) is an index.
     pub circuits: Vec<Circuit>,
+    /// The circuit `select` of the prelude: its second operand selects a bit of its first.
+    pub selector: Option<CircuitId>,
     /// Declared enumerations, in the order of the source.
     pub enumerations: Vec<Enumeration>,
     /// Declared files, in the order of the source.

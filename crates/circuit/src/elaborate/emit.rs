@@ -543,6 +543,9 @@ impl ModuleBuilder<'_, '_> {
                 return None;
             }
         }
+        if self.builder.program.selector == Some(call.callee) {
+            self.look_selected(call.operands, values);
+        }
         Some(id)
     }
 }

@@ -43,6 +43,13 @@ impl ModuleBuilder<'_, '_> {
         self.fault(fault);
     }
 
+    /// The same for the operands of `select`.
+    pub(super) fn look_selected(&mut self, operands: &[Option<ExpressionId>], values: &[Option<Vec<Bit>>]) {
+        let ([Some(of), Some(index)], [Some(bits), Some(value)]) = (operands, values) else { return };
+        let name = self.operand(*of, bits).net.unwrap_or_else(|| "a".to_owned());
+        self.look_outside(IndexedNet { name, count: bits.len() as u32, is_word: false }, *index, value);
+    }
+
     /// Whether a value is a net with an enumeration whose members are all inside.
     fn is_always_inside(&self, index: ExpressionId, count: u32) -> bool {
         let ExpressionKind::Net(slot) = self.circuit.expressions[index.0 as usize].kind else { return false };

@@ -98,6 +98,11 @@ impl<T: Copy> NameTable<T> {
         self.uses.borrow_mut().push(NameUse { place, declared, kind: self.kind });
     }
 
+    /// Whether a name that is declared at this place is used anywhere.
+    pub(crate) fn is_used(&self, declared: Span) -> bool {
+        self.uses.borrow().iter().any(|found| found.declared == declared && found.place != declared)
+    }
+
     /// Adds names that were resolved otherwise.
     pub(crate) fn note(&self, uses: impl Iterator<Item = NameUse>) {
         self.uses.borrow_mut().extend(uses);

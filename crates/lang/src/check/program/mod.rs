@@ -23,7 +23,7 @@ use crate::check::wording::{CircuitError, EvolutionError};
 use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::budget::WorkBudget;
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation};
 use nbc_base::source::{CancelFlag, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -42,6 +42,7 @@ pub(crate) fn program(files: &dyn SourceWorld, trees: &[(Home, Tree)], sources: 
     assembly.circuits();
     assembly.swarms();
     assembly.unused_libraries();
+    assembly.unused_stimuli();
     let Inspection { diagnostics, widths, instances, is_cancelled } = assembly.build(files.cancel());
     assembly.faults.extend(diagnostics);
     assembly.forget_redeclared();
@@ -267,6 +268,8 @@ impl<'a> Assembly<'a> {
                 sources.push((home, source));
             }
         }
+        let selector = self.names.circuits.find("select", Home::Prelude);
+        self.program.selector = selector.map(|at| CircuitId(at as u32));
         let mut calls = Vec::new();
         for &(home, source) in &sources {
             let checked = circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers);
@@ -363,6 +366,27 @@ impl<'a> Assembly<'a> {
                 self.faults.push(CircuitError::UnusedLibrary { library: name.to_owned() }.at(source.name.span));
             }
         }
+    }
+
+    /// Warns of a file's own stimuli that no material senses and no schedule gives, unless they are all that it has.
+    fn unused_stimuli(&mut self) {
+        let is_other = |declaration: &tree::Declaration| !matches!(declaration.kind, DeclarationKind::Stimulus(_));
+        if !self.declarations.own().any(is_other) || self.faults.iter().any(|fault| fault.code == Code::Unknown) {
+            return;
+        }
+        let names = self.declarations.own().filter_map(|declaration| match &declaration.kind {
+            DeclarationKind::Stimulus(names) => Some(names),
+            _ => None,
+        });
+        let stimuli = &self.names.stimuli;
+        let is_unused = |name: &&NameSyntax| {
+            let is_new = stimuli.find(&name.text, Home::Prelude).is_none();
+            is_new && !name.text.starts_with('_') && !stimuli.is_used(name.span)
+        };
+        let unused = names.flatten().filter(is_unused);
+        let warning =
+            |name: &NameSyntax| CircuitError::Unused { what: "stimulus", net: name.text.clone() }.at(name.span);
+        self.faults.extend(unused.map(warning));
     }
 
     /// Builds all circuits that can be built, to find errors of width, and reads the tests and simulations, which need
