@@ -45,6 +45,14 @@ pub fn rows() -> Vec<(&'static str, String)> {
     ]
 }
 
+/// A circuit that cells permit, but robots do not.
+fn too_many_for_robots() -> String {
+    "circuit f(a[64], b[64]) -> (q[64]) {\n net t[3500][64]\n t[0] = a xor b\n for i in 1..3500 {\n\
+     t[i] = (t[i - 1] nand {t[i - 1][62..0], t[i - 1][63]}) xor b\n }\n q = t[3499]\n}\n\
+     swarm s { circuit: f }\nsimulate s with schedule (a, b) {\n 1 2 for 4 cycles\n}\n"
+        .to_owned()
+}
+
 /// Circuits that become large.
 fn circuits() -> Vec<(&'static str, String)> {
     let long = "n".repeat(4_000);
@@ -97,6 +105,8 @@ fn small_programs_are_refused_within_a_second_and_a_gigabyte() {
         bench.file(&file, &text);
         refused_by(&bench, &["check", &file], Code::TooLarge);
     }
+    bench.file("swarm.nb", too_many_for_robots());
+    refused_by(&bench, &["run", "swarm.nb"], Code::TooLarge);
     for (name, text) in rows() {
         bench.file("small.nb", &text);
         eprintln!("{name}");

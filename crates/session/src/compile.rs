@@ -65,22 +65,30 @@ pub fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) ->
     }
 }
 
-/// Elaborates a circuit of a program without errors, and maps it onto cells as requested at `place`.
+/// Elaborates a circuit of a program without errors, and maps it onto cells as requested at `place`. `gates` is what
+/// limits it before.
 ///
 /// # Errors
-/// When the circuit cannot be built, or the library lacks a function.
+/// When the circuit cannot be built or is too large, or the library lacks a function.
 pub(super) fn map_onto(
     program: &Program,
     circuit: &Instance,
     cells: &CellLibrary,
     options: &MapOptions,
-    place: Span,
+    (place, gates): (Span, Limit),
 ) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate(program, circuit)?;
+    permit(&source, gates, place)?;
     synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
 }
 
+/// Whether a netlist has no more cells than a limit permits.
+fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagnostic>> {
+    limit.permit(netlist.cells().count() as u64).map_err(|over| vec![over.at(place)])
+}
+
 /// Elaborates a planned circuit of a program without errors, and maps it onto its robots as requested at `place`.
+/// `gates` is what limits it before.
 ///
 /// # Errors
 /// As [`map_onto`], and when the circuit cannot be the wave machine that it is to be.
@@ -88,15 +96,16 @@ pub(super) fn map(
     program: &Program,
     plan: &Plan,
     options: &MapOptions,
-    place: Span,
+    (place, gates): (Span, Limit),
 ) -> Result<Mapping, Vec<Diagnostic>> {
-    let map = || map_onto(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, place);
+    let map = || map_onto(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, (place, gates));
     match plan.registers {
         RegisterStyle::MasterSlave => map(),
         RegisterStyle::Pulsed => map().map(Mapping::pulsed),
         RegisterStyle::Mux => map()?.held().ok_or_else(|| vec![for_circuit(ChoiceError::NoMultiplexer.into(), place)]),
         RegisterStyle::Waves => {
             let source = elaborate(program, &plan.circuit)?;
+            permit(&source, gates, place)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);
             mapping.map_err(|fault| vec![for_circuit(fault, place)])
         }
@@ -130,9 +139,8 @@ pub(super) fn compile(
     options: &MapOptions,
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let mapping = map(program, &plan, options, place)?;
-    let robots = Limit::Robots.permit(mapping.netlist.cells().count() as u64);
-    robots.map_err(|over| vec![over.at(place)])?;
+    let mapping = map(program, &plan, options, (place, Limit::SwarmGates))?;
+    permit(&mapping.netlist, Limit::Robots, place)?;
     let timing = mapping.timing();
     let assembly = match &mapping.waves {
         None => nbc_swarm::assemble(&mapping.netlist, &plan.library),

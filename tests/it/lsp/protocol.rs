@@ -2,10 +2,12 @@
 
 use std::io::{BufRead, BufReader, Write};
 use std::process::{Command, Stdio};
+use std::time::Instant;
 
 use lsp_server::ErrorCode;
 use serde_json::{Value, json};
 
+use crate::lsp::client::opened;
 use crate::support::limits;
 
 /// A frame with a message.
@@ -110,4 +112,30 @@ fn the_first_request_is_initialize_with_an_object() {
     assert_eq!(status, Some(0));
     let expected = [(5, early), (6, wrong), (1, OK), (7, INVALID), (8, OK)];
     assert_eq!(answers, expected.map(|(id, code)| (json!(id), code)));
+}
+
+#[test]
+fn a_check_ends_when_the_text_has_changed_meanwhile() {
+    const SMALL: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n";
+    // Its check takes most of the steps that a program may take.
+    let slow = |name: &str| {
+        let turn = "_ = a and a and a and a and a and a";
+        format!("circuit {name}(a) -> (q) {{\nfor i in 0..180000 {{\n{turn}\n}}\nq = a\n}}\n")
+    };
+    let (_bench, mut client, uri, _) = opened("a.nb", SMALL);
+    let mut least = f64::INFINITY;
+    for round in 0..3 {
+        let begun = Instant::now();
+        client.change(&uri, &slow(&format!("f{round}")));
+        assert_eq!(client.diagnostics(&uri), json!([]));
+        let whole = begun.elapsed();
+        let begun = Instant::now();
+        client.change(&uri, &slow(&format!("g{round}")));
+        std::thread::sleep(whole / 4);
+        client.change(&uri, SMALL);
+        assert_eq!(client.diagnostics(&uri), json!([]));
+        least = least.min(begun.elapsed().as_secs_f64() / whole.as_secs_f64());
+    }
+    assert!(least < 0.7, "the new text has its diagnostics after {least:.2} of the time of the old one");
+    client.goodbye();
 }

@@ -289,11 +289,11 @@ pub enum VerilogFault {
     /// Too many included files.
     TooManyFiles {
         /// The limit.
-        most: usize,
+        most: u64,
     },
     /// Macros and included files that become too much text.
     TooMuch {
         /// The limit, in megabytes.
-        megabytes: usize,
+        megabytes: u64,
     },
 }

@@ -8,14 +8,9 @@ use crate::formats::names::{FileNames, free};
 use crate::formats::wording::{AigerError, AigerPlace};
 use crate::network::{Gate, View};
 use crate::{NetId, Netlist};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
-
-/// The most variables that a file may have.
-pub(crate) const MOST_VARIABLES: usize = 4_000_000;
-
-/// The most inputs and latches. A binary file only states their number.
-pub(crate) const MOST_PORTS: usize = 1_000_000;
 
 /// What version 1.9 of the format adds to the header.
 const EXTRA: [&str; 4] =
@@ -129,11 +124,12 @@ impl<'b> Reader<'b> {
         if let Some((&number, what)) = extra.iter().zip(EXTRA).find(|(number, _)| **number > 0) {
             return self.fault(AigerError::Property { what, number });
         }
-        if let Some(&number) = numbers.iter().find(|&&number| number > MOST_VARIABLES) {
-            return self.fault(AigerError::TooLarge { number, most: MOST_VARIABLES });
+        if let Some(&number) = numbers.iter().find(|&&number| Limit::AigerVariables.permit(number as u64).is_err()) {
+            return self.fault(AigerError::TooLarge { number, most: Limit::AigerVariables.most() });
         }
-        if inputs > MOST_PORTS || latches > MOST_PORTS {
-            return self.fault(AigerError::TooManyPorts { most: MOST_PORTS });
+        // A binary file only states the number of its inputs.
+        if Limit::AigerPorts.permit(inputs.max(latches) as u64).is_err() {
+            return self.fault(AigerError::TooManyPorts { most: Limit::AigerPorts.most() });
         }
         let used = inputs + latches + ands;
         if used > variables || binary && used != variables {

@@ -2,8 +2,9 @@
 //! name.
 
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
-use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_NAME_BYTES};
+use crate::formats::draft::{Definition, Draft, DraftRegister};
 use crate::formats::wording::{BenchError, TextError};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
 use nbc_base::source::{FileId, Span};
@@ -44,9 +45,10 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
     if target.is_some_and(|target| target.contains(char::is_whitespace)) || pins_have_blanks(arguments) {
         return draft.fault(BenchError::SpaceInName, span);
     }
-    if let Some(long) = target.into_iter().chain(arguments.split(',')).find(|name| name.len() > MOST_NAME_BYTES) {
+    let is_long = |name: &&str| Limit::FileNameBytes.permit(name.len() as u64).is_err();
+    if let Some(long) = target.into_iter().chain(arguments.split(',')).find(is_long) {
         let start = Span { end: span.start + 20, ..span };
-        return draft.fault(TextError::LongName { bytes: long.len(), most: MOST_NAME_BYTES }, start);
+        return draft.fault(TextError::LongName { bytes: long.len(), most: Limit::FileNameBytes.most() }, start);
     }
     let pins: Vec<_> = arguments.split(',').map(|pin| draft.name(pin.trim())).collect();
     let word = word.trim().to_ascii_uppercase();

@@ -5,12 +5,13 @@ use std::fmt::Write;
 
 use crate::formats::blif_register::{cell_of, forced_cell};
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
-use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, MOST_NAME_BYTES, NetName};
+use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
 use crate::formats::starts::starts;
 use crate::formats::wording::{BlifError, ModelError, TextError};
 use crate::{NetId, Netlist, Node};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Severity};
 use nbc_base::model::Function;
 use nbc_base::source::{FileId, Span};
@@ -68,12 +69,6 @@ pub fn ignored(text: &str, file: FileId) -> Vec<Diagnostic> {
 
 /// The directive after which a network says where the outputs may be anything, up to the end of the model.
 const DONT_CARES: &str = ".exdc";
-
-/// How deep models may instantiate models.
-const MOST_DEPTH: usize = 200;
-
-/// The most bytes, roughly, that the expanded models may take.
-const MOST_BYTES: usize = 1 << 29;
 
 /// A logical line: its words with their places.
 type Words<'t> = Vec<(&'t str, Span)>;
@@ -156,6 +151,11 @@ const IGNORED: &[&str] = &[
     ".wire_arrival",
 ];
 
+/// Whether a name is longer than any name may be.
+fn is_long(name: &str) -> bool {
+    Limit::FileNameBytes.permit(name.len() as u64).is_err()
+}
+
 /// The size of a model with everything it instantiates.
 #[derive(Clone, Copy, Debug, Default)]
 struct Extent {
@@ -179,18 +179,18 @@ impl<'t> Models<'t> {
             let Some(&inner) = self.by_name.get(words[0].0) else { continue };
             let nested = match known[inner] {
                 Some(nested) => nested,
-                None if depth < MOST_DEPTH => self.extent(inner, depth + 1, known)?,
-                None => Extent { depth: MOST_DEPTH, ..Extent::default() },
+                None if Limit::Hierarchy.permit(depth as u64 + 1).is_ok() => self.extent(inner, depth + 1, known)?,
+                None => Extent { depth: Limit::Hierarchy.most() as usize, ..Extent::default() },
             };
             // The name of an instance comes before those of its nets.
             let names = nested.statements.saturating_mul(words[0].0.len() + 10);
             extent.depth = extent.depth.max(nested.depth + 1);
             extent.statements = extent.statements.saturating_add(nested.statements);
             extent.bytes = extent.bytes.saturating_add(nested.bytes).saturating_add(names);
-            if extent.depth > MOST_DEPTH {
-                return Err((ModelError::ModelDepth { most: MOST_DEPTH }, *span));
+            if Limit::Hierarchy.permit(extent.depth as u64).is_err() {
+                return Err((ModelError::ModelDepth { most: Limit::Hierarchy.most() }, *span));
             }
-            if extent.bytes > MOST_BYTES {
+            if Limit::ModelBytes.permit(extent.bytes as u64).is_err() {
                 return Err((ModelError::ModelSize, *span));
             }
         }
@@ -213,10 +213,10 @@ impl<'t> Models<'t> {
                 continue;
             }
             let row = !first.starts_with('.');
-            if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && word.len() > MOST_NAME_BYTES) {
+            if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && is_long(word)) {
                 let start = Span { end: span.start + 20, ..span };
                 let bytes = (span.end - span.start) as usize;
-                self.fault(TextError::LongName { bytes, most: MOST_NAME_BYTES }, start);
+                self.fault(TextError::LongName { bytes, most: Limit::FileNameBytes.most() }, start);
                 return;
             }
             if first.starts_with('.') {

@@ -6,6 +6,7 @@ use crate::formats::design::{Design, Register, RegisterKind};
 use crate::formats::wording::TextError;
 use crate::proof::prove;
 use crate::{NetId, Netlist};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::Function;
 use nbc_base::source::Span;
@@ -73,12 +74,6 @@ pub struct Draft {
     size: usize,
 }
 
-/// The most nets and pins of gates together.
-pub const MOST_PINS: usize = 16_000_000;
-
-/// The longest name of a net, in bytes.
-pub const MOST_NAME_BYTES: usize = 1_000;
-
 /// The most errors that are reported.
 pub const MOST_ERRORS: usize = 20;
 
@@ -115,9 +110,9 @@ impl Draft {
     /// Defines a net, or reports its second definition.
     pub fn define(&mut self, name: NetName, definition: Definition, span: Span) {
         self.size += 1 + definition.size();
-        if self.size > MOST_PINS {
+        if Limit::FilePins.permit(self.size as u64).is_err() {
             if self.errors.last().is_none_or(|fault| fault.code != Code::TooLarge) {
-                self.errors.push(TextError::TooLarge { most: MOST_PINS }.at(span));
+                self.errors.push(TextError::TooLarge { most: Limit::FilePins.most() }.at(span));
             }
             return;
         }
@@ -208,7 +203,7 @@ impl Draft {
     /// # Errors
     /// Nets that are used and not defined, defined twice, or that depend on themselves.
     pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
-        if self.size > MOST_PINS {
+        if Limit::FilePins.permit(self.size as u64).is_err() {
             return Err(self.errors);
         }
         self.resolve_clocks();

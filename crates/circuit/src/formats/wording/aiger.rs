@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::diag::{Code, Diagnostic, counted};
 
 /// A place in a file. Gates of a binary file have no lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -38,9 +38,9 @@ pub enum AigerError {
     /// Something of the header that is not part of a circuit.
     Property { what: &'static str, number: usize },
     /// A number of the header above the limit.
-    TooLarge { number: usize, most: usize },
+    TooLarge { number: usize, most: u64 },
     /// Too many ports or latches.
-    TooManyPorts { most: usize },
+    TooManyPorts { most: u64 },
     /// Numbers of the header that do not add up.
     Sum { inputs: usize, latches: usize, ands: usize, variables: usize, binary: bool },
     /// A header that announces more than the file contains.
@@ -91,13 +91,13 @@ impl AigerError {
             Self::TooManyPorts { most } => format!("expected at most {most} inputs and {most} latches"),
             Self::Sum { inputs, latches, ands, variables, binary } => {
                 let relation = if binary { "must equal" } else { "exceed" };
-                format!(
-                    "{inputs} inputs, {latches} latches and {ands} gates {relation} the {variables} variables of the \
-                     header"
-                )
+                let [inputs, latches, gates, variables] =
+                    [(inputs, "input"), (latches, "latch"), (ands, "gate"), (variables, "variable")]
+                        .map(|(count, noun)| counted(count, noun));
+                format!("{inputs}, {latches} and {gates} {relation} the {variables} of the header")
             }
             Self::TooShort { outputs, ands } => {
-                format!("the file is too short for {outputs} outputs and {ands} gates")
+                format!("the file is too short for {} and {}", counted(outputs, "output"), counted(ands, "gate"))
             }
             Self::NotNumbers { found } => format!("expected numbers, found `{found}`"),
             Self::PortLiterals { what, found } => format!("expected one literal for {what}, found {found}"),

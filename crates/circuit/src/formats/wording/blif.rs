@@ -77,7 +77,7 @@ impl BlifError {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ModelError {
     /// Models that are nested too deeply.
-    ModelDepth { most: usize },
+    ModelDepth { most: u64 },
     /// Models that take too much memory when they are expanded.
     ModelSize,
     /// A start value that a latch does not have.

@@ -14,9 +14,9 @@ pub enum TextError {
     /// A line of .bench that cannot be read.
     Bench(BenchError),
     /// A name that is too long.
-    LongName { bytes: usize, most: usize },
+    LongName { bytes: usize, most: u64 },
     /// A circuit with too many gates.
-    TooLarge { most: usize },
+    TooLarge { most: u64 },
     /// A net with two gates.
     DefinedTwice { net: String, first: Span },
     /// A clock that is neither an input nor a register.

@@ -1,6 +1,7 @@
 //! Macros: their definitions, and their bodies with arguments in the place of parameters.
 
 use crate::store::verilog::token::{Lexer, TokenPlace, VerilogToken, VerilogTokenKind};
+use nbc_base::budget::{Limit, WorkBudget};
 use nbc_base::source::VerilogFault;
 
 /// A macro.
@@ -151,30 +152,18 @@ pub(super) fn arguments(
     Ok(if is_empty { Vec::new() } else { lists })
 }
 
-/// What macros and included files may still become.
-#[derive(Debug)]
-pub(super) struct Budget {
-    /// Bytes of text.
-    bytes: usize,
-    /// Included files, each counted as often as it is included.
-    files: usize,
-}
+/// What macros and included files have become so far.
+#[derive(Debug, Default)]
+pub(super) struct Budget(WorkBudget);
 
 impl Budget {
-    const MEGABYTES: usize = 8;
-    const FILES: usize = 4096;
-
-    pub(super) fn new() -> Self {
-        Self { bytes: Self::MEGABYTES << 20, files: Self::FILES }
-    }
-
     /// Takes a file.
     ///
     /// # Errors
     /// When none is left.
     pub(super) fn include(&mut self) -> Result<(), VerilogFault> {
-        self.files = self.files.checked_sub(1).ok_or(VerilogFault::TooManyFiles { most: Self::FILES })?;
-        Ok(())
+        let most = Limit::VerilogFiles.most();
+        self.0.take(Limit::VerilogFiles, 1).map_err(|_| VerilogFault::TooManyFiles { most })
     }
 
     /// Takes bytes.
@@ -182,7 +171,7 @@ impl Budget {
     /// # Errors
     /// When they are more than are left.
     pub(super) fn spend(&mut self, bytes: usize) -> Result<(), VerilogFault> {
-        self.bytes = self.bytes.checked_sub(bytes).ok_or(VerilogFault::TooMuch { megabytes: Self::MEGABYTES })?;
-        Ok(())
+        let megabytes = Limit::VerilogBytes.most() >> 20;
+        self.0.take(Limit::VerilogBytes, bytes as u64).map_err(|_| VerilogFault::TooMuch { megabytes })
     }
 }

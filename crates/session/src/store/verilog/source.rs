@@ -10,11 +10,10 @@ use std::sync::Arc;
 use crate::store::verilog::conditions::Conditions;
 use crate::store::verilog::macros::{Budget, Macro, arguments};
 use crate::store::verilog::token::{Lexer, TokenPlace, VerilogToken, VerilogTokenKind};
+use nbc_base::budget::Limit;
 use nbc_base::source::{FileError, VerilogError, VerilogFault, VerilogFile, VerilogPlace};
 use nbc_circuit::CancelFlag;
 
-/// The most macros and included files inside each other.
-const DEPTH: usize = 64;
 /// The macros that Yosys defines.
 const DEFINED: [&str; 2] = ["SYNTHESIS", "YOSYS"];
 
@@ -59,7 +58,7 @@ impl<'a> Source<'a> {
             inputs: Vec::new(),
             macros: DEFINED.iter().map(|&name| (name.to_owned(), Macro::default())).collect(),
             conditions: Conditions::default(),
-            budget: Budget::new(),
+            budget: Budget::default(),
             is_off: false,
         };
         source.enter_next();
@@ -149,7 +148,7 @@ impl<'a> Source<'a> {
         let expected = || VerilogFault::Directive { word: token.text.clone(), expected: "a path in quotes" };
         let quoted = quoted.ok_or_else(|| self.fault(token.place, expected()))?;
         let path = quoted.text.trim_matches('"').to_owned();
-        if self.inputs.len() >= DEPTH {
+        if Limit::VerilogNesting.permit(self.inputs.len() as u64 + 1).is_err() {
             return Err(self.fault(token.place, VerilogFault::TooDeep));
         }
         let whole = beside(&self.files[token.place.file as usize], &path);
@@ -186,7 +185,7 @@ impl<'a> Source<'a> {
         let (word, place) = (&token.text, token.place);
         let undefined = || VerilogFault::Undefined { word: word.clone() };
         let known = self.macros.get(&word[1..]).cloned().ok_or_else(|| self.fault(place, undefined()))?;
-        if self.inputs.len() >= DEPTH {
+        if Limit::VerilogNesting.permit(self.inputs.len() as u64 + 1).is_err() {
             return Err(self.fault(place, VerilogFault::TooDeep));
         }
         let given = if known.parameters.is_some() { self.arguments(token)? } else { Vec::new() };
