@@ -1,4 +1,5 @@
-//! The commands and options of features that this program was built without. They say how to build it with them.
+//! The commands and options of features that this program was built without. They are not listed, and say how to build
+//! it with them.
 
 use std::ffi::OsString;
 
@@ -11,6 +12,7 @@ use crate::cli::{Context, Failure, Status};
 macro_rules! commands {
     ($missing:expr, $($(#[$about:meta])* $arguments:ident,)*) => {$(
         #[derive(Args)]
+        #[command(hide = true)]
         $(#[$about])*
         pub struct $arguments {
             #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]

@@ -236,6 +236,11 @@ fn options_of_features_that_are_not_there_are_not_listed_but_answered() {
         }
         assert_eq!(help.contains("--device"), cfg!(feature = "gpu"), "{command:?}: {help}");
     }
+    let listed = bench.run(&["--help"]).out;
+    for command in ["worker", "workers"] {
+        assert!(!listed.contains(&format!("\n  {command} ")), "{listed}");
+        bench.run(&[command]).expect_fault(&["built without work on several machines", "--features cluster"]);
+    }
     let ran = bench.run(&["test", "flip.nb", "--nats", "nats://localhost"]);
     ran.expect_fault(&["built without work on several machines", "--features cluster"]);
 }
@@ -304,7 +309,7 @@ fn a_robot_of_ones_own_is_measured_and_used() {
     assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
     let line = ran.out.starts_with("LLLL  zero        added     mine, clock ")
         && ran.out.contains(" % of the switches wrong\n");
-    assert!(line && ran.out.ends_with("1 of 1 robots were added to robots\n"), "{}", ran.out);
+    assert!(line && ran.out.ends_with("1 of 1 robot was added to robots\n"), "{}", ran.out);
     let shown = bench.run(&["library", "show", "mine", "robots", "--format", "json"]).expect_json();
     assert_eq!((&shown["name"], &shown["provenance"]["evolution"]), (&"mine".into(), &"by hand".into()));
 }

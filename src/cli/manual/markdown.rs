@@ -41,7 +41,9 @@ fn write_line(page: &mut String, line: std::fmt::Arguments<'_>) {
 }
 
 fn commands_of(command: &Command) -> impl Iterator<Item = &Command> {
-    command.get_subcommands().filter(|inner| inner.get_name() != "help" && !inner.is_hide_set())
+    let is_elsewhere = |name: &str| ELSEWHERE.iter().any(|(known, _)| *known == name);
+    let is_listed = move |inner: &&Command| !inner.is_hide_set() || is_elsewhere(inner.get_name());
+    command.get_subcommands().filter(|inner| inner.get_name() != "help").filter(is_listed)
 }
 
 /// Adds the section of a command, and those of the commands below it.

@@ -61,8 +61,9 @@ fn page_of(command: &Command) -> std::io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// Adds a command and those below it.
+/// Adds a command and those below it that this program has.
 fn collect(command: &Command, pages: &mut Vec<Command>) {
     pages.push(command.clone());
-    command.get_subcommands().filter(|inner| inner.get_name() != "help").for_each(|inner| collect(inner, pages));
+    let is_here = |inner: &&Command| inner.get_name() != "help" && !inner.is_hide_set();
+    command.get_subcommands().filter(is_here).for_each(|inner| collect(inner, pages));
 }
