@@ -51,6 +51,7 @@ export class App {
       this.#lessons,
       {
         open: (path, text) => this.#edit.begin(path, text),
+        openSaved: (saved, path, text) => void this.#openSaved(saved, path, text),
         replace: text => this.#edit.editor.replace(text),
         show: tab => this.#layout.show(tab),
       },
@@ -172,6 +173,15 @@ export class App {
       if (await this.#edit.open(origin)) {
         return;
       }
+    }
+  }
+
+  /** Opens a file if it is still there, and else a program without a file. */
+  async #openSaved(saved: string, path: string, text: string): Promise<void> {
+    const files = await this.#connection.request("files", {});
+    const isThere = files.some(file => file.path === saved);
+    if (!isThere || !(await this.#edit.open({ path: saved }))) {
+      this.#edit.begin(path, text);
     }
   }
 

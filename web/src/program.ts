@@ -30,6 +30,8 @@ export class Program {
   readonly choice = new Observable<Choice | null>(null);
   readonly stage = new Observable<Stage>({ state: "idle" });
   readonly unsaved = new Observable(false);
+  /** The program that was saved last: its path before, and where it is now. */
+  readonly saved = new Observable<{ from: string; path: string } | null>(null);
   /** The stamp of the file, null while there is none. */
   stamp: string | null = null;
   hello: Greeting | null = null;
@@ -152,12 +154,14 @@ export class Program {
   async save(path = this.path.value, stamp = path === this.path.value ? this.stamp : null): Promise<void> {
     const text = this.#text;
     const saved = await this.connection.request("save", { path, text, stamp });
-    keepDraft(this.folder, this.path.value, null);
+    const from = this.path.value;
+    keepDraft(this.folder, from, null);
     this.path.set(path);
     this.stamp = saved.stamp;
     this.#saved = text;
     this.#alone = false;
     this.unsaved.set(this.#text !== text);
+    this.saved.set({ from, path });
   }
 
   choose(choice: Choice): void {

@@ -63,6 +63,12 @@ export type ClassMember = {
   seconds: number,
 };
 
+/** The answer to `join`. */
+export type ClassName = {
+  /** With it, the page can join by this name again. */
+  key: string,
+};
+
 /** Where a learner is. */
 export type ClassPlace = {
   /** The name of the lesson. */
@@ -420,7 +426,7 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "evolve" } & EvolveRequest
   | { "do": "take", what: TakeKind, cycles: number, }
   | { "do": "export", path: string, circuit: string, swarm: string | null, }
-  | { "do": "join", name: string, }
+  | { "do": "join", name: string, key?: string, }
   | { "do": "progress", place: ClassPlace | null, finished: number, }
   | { "do": "leave" }
   | { "do": "cancel", of: number, });
@@ -492,7 +498,8 @@ export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { "to": "keep", "ok": KeptRobot }
   | { "to": "evolve", "ok": EvolutionEnd }
   | { "to": "take", "ok": TakenFile }
-  | { "to": "export", "ok": TakenFile })
+  | { "to": "export", "ok": TakenFile }
+  | { "to": "join", "ok": ClassName })
   | { id: number, ok: Nothing, }
   | { id: number, error: Refusal, }
   | { id: number, progress: [number, number], } | PlayEvent;

@@ -105,6 +105,24 @@ test("another lesson leaves the program of this one as it is", async () => {
   await here.page.locator(".strip").waitFor({ state: "hidden" });
 });
 
+test("a lesson goes on with its program where that was saved", async () => {
+  const shows = name => here.page.waitForFunction(file => document.querySelector(".file").textContent === file, name);
+  await begin("not");
+  await typeProgram(here.page, `${LATCH}\n// saved\n`);
+  await here.page.locator("[data-do=save]").click();
+  await here.page.getByLabel("Path within the folder").fill("mine.nb");
+  await here.page.locator("[data-do=save-as]").click();
+  await shows("mine.nb");
+  await begin("gate");
+  await here.page.locator("#tab-learn").click();
+  await here.page.locator('[data-lesson="not"] [data-do=begin]').click();
+  await shows("mine.nb");
+  assert.match(await here.page.locator(".cm-content").textContent(), /\/\/ saved/);
+  // From the beginning, it is the program of the lesson.
+  await here.page.locator(".strip [data-do=again]").click();
+  assert.doesNotMatch(await here.page.locator(".cm-content").textContent(), /\/\/ saved/);
+});
+
 test("a circuit that is too large has fewer stars, until it is smaller", async () => {
   const and = lessonsOf(SHIPPED).find(({ name }) => name === "and");
   const long = and.steps[0].program.replace("q = t nand t", "u = t nand t\n    v = u nand u\n    q = v nand v");

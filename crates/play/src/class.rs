@@ -1,5 +1,6 @@
 //! The class of a server: learners who have joined it with a name, and where they are. It is in memory only. A learner
-//! leaves it with the page's connection.
+//! is away without the page's connection, and keeps the name until they leave: only who has its key can join with it
+//! again.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
@@ -7,10 +8,13 @@ use std::time::Instant;
 
 use crate::message::{ClassMember, ClassPlace, ClassRoll};
 use crate::refusal::Refused;
+use crate::token::random_token;
 use nbc_base::diag::is_hidden;
 
 /// The most members.
 const MOST: usize = 60;
+/// The most names that are taken, those of learners who are away included.
+const MOST_NAMES: usize = 600;
 /// The most letters of a name, and bytes of the name of a lesson.
 const LONGEST: usize = 24;
 const LESSON: usize = 64;
@@ -28,6 +32,8 @@ struct Members {
     /// The number of the last member.
     last: u64,
     joined: BTreeMap<u64, Member>,
+    /// The keys of the names that are taken, by the ends of their files in small letters.
+    keys: BTreeMap<String, String>,
 }
 
 #[derive(Debug)]
@@ -38,13 +44,15 @@ struct Member {
     since: Instant,
 }
 
-/// The place of a learner in the class, who leaves when it is dropped.
+/// The place of a learner in the class, who is away when it is dropped.
 #[derive(Debug)]
 pub(super) struct Membership {
     class: Arc<Class>,
     number: u64,
     /// The end of the names of their files.
     ending: String,
+    /// What shows that the name is theirs.
+    key: String,
 }
 
 impl Class {
@@ -56,28 +64,34 @@ impl Class {
         self.members.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Takes a learner into the class.
+    /// Takes a learner into the class. Who has the key of a name takes it over from another page.
     ///
     /// # Errors
     /// When the name is none or taken, or the class is full.
-    pub(super) fn join(self: &Arc<Self>, name: &str) -> Result<Membership, Refused> {
+    pub(super) fn join(self: &Arc<Self>, name: &str, key: Option<&str>) -> Result<Membership, Refused> {
         let name = name.trim();
         if name.is_empty() || name.chars().count() > LONGEST || name.contains(|c| c == '\n' || is_hidden(c)) {
             return Err(Refused::ClassName { most: LONGEST });
         }
+        let ending = ending(name);
+        let own = ending.to_lowercase();
         let mut members = self.lock();
+        let key = match members.keys.get(&own) {
+            Some(known) if key == Some(known) => known.clone(),
+            Some(_) => return Err(Refused::ClassNameTaken { name: name.to_owned() }),
+            None if members.keys.len() >= MOST_NAMES => return Err(Refused::ClassFull { most: MOST }),
+            None => random_token().map_err(|_| Refused::Internal)?,
+        };
+        members.joined.retain(|_, member| self::ending(&member.name).to_lowercase() != own);
         if members.joined.len() >= MOST {
             return Err(Refused::ClassFull { most: MOST });
         }
-        let ending = ending(name);
-        if members.joined.values().any(|member| self::ending(&member.name).to_lowercase() == ending.to_lowercase()) {
-            return Err(Refused::ClassNameTaken { name: name.to_owned() });
-        }
+        members.keys.insert(own, key.clone());
         members.last += 1;
         let number = members.last;
         let member = Member { name: name.to_owned(), place: None, finished: 0, since: Instant::now() };
         members.joined.insert(number, member);
-        Ok(Membership { class: self.clone(), number, ending })
+        Ok(Membership { class: self.clone(), number, ending, key })
     }
 
     /// The members, for the teacher.
@@ -101,6 +115,19 @@ fn ending(name: &str) -> String {
 }
 
 impl Membership {
+    /// What shows that the name is the learner's.
+    pub(super) fn key(&self) -> &str {
+        &self.key
+    }
+
+    /// Gives up the name, which others can then have, unless another page has taken it over.
+    pub(super) fn leave(self) {
+        let mut members = self.class.lock();
+        if members.joined.contains_key(&self.number) {
+            members.keys.remove(&self.ending.to_lowercase());
+        }
+    }
+
     /// The path at which the learner saves what is at `path`. The class shares a folder, in which each learner has
     /// files of their own.
     pub(super) fn own_path(&self, path: &str) -> String {
@@ -138,14 +165,15 @@ mod tests {
     #[test]
     fn learners_join_with_a_name_of_their_own_and_leave() {
         let class = Arc::new(Class::new(String::new()));
-        let ada = class.join(" Ada ").unwrap();
-        let _ben = class.join("ben").unwrap();
+        let join = |name: &str| class.join(name, None);
+        let ada = join(" Ada ").unwrap();
+        let _ben = join("ben").unwrap();
         assert_eq!(names(&class), ["Ada", "ben"]);
-        assert!(matches!(class.join("ada"), Err(Refused::ClassNameTaken { .. })));
+        assert!(matches!(join("ada"), Err(Refused::ClassNameTaken { .. })));
         for name in ["", " ", "a\nb", "a\u{202e}b", "\u{1b}[2J", &"x".repeat(LONGEST + 1)] {
-            assert!(matches!(class.join(name), Err(Refused::ClassName { .. })), "{name:?}");
+            assert!(matches!(join(name), Err(Refused::ClassName { .. })), "{name:?}");
         }
-        assert!(class.join(&"é".repeat(LONGEST)).is_ok());
+        assert!(join(&"é".repeat(LONGEST)).is_ok());
         let place = ClassPlace { lesson: "gate".to_owned(), done: 1, size: None };
         ada.progress(Some(place.clone()), 3);
         assert_eq!(class.roll().members[0].place, Some(place));
@@ -156,22 +184,49 @@ mod tests {
     }
 
     #[test]
+    fn the_name_of_a_learner_who_is_away_stays_theirs() {
+        let class = Arc::new(Class::new(String::new()));
+        let ada = class.join("Ada", None).unwrap();
+        let key = ada.key().to_owned();
+        drop(ada);
+        for other in [None, Some(""), Some("0123")] {
+            assert!(matches!(class.join("ADA", other), Err(Refused::ClassNameTaken { .. })), "{other:?}");
+        }
+        let first = class.join("Ada", Some(&key)).unwrap();
+        let reloaded = class.join("Ada", Some(&key)).unwrap();
+        assert_eq!(names(&class), ["Ada"], "a page that is reloaded comes before the old one has gone");
+        drop(first);
+        assert_eq!(names(&class), ["Ada"]);
+        reloaded.leave();
+        let other = class.join("ada", None).unwrap();
+        assert_ne!(other.key(), key, "the name was given up");
+        assert!(matches!(class.join("Ada", Some(&key)), Err(Refused::ClassNameTaken { .. })));
+        for number in 1..MOST_NAMES {
+            drop(class.join(&number.to_string(), None).unwrap());
+        }
+        assert!(matches!(class.join("one more", None), Err(Refused::ClassFull { most: MOST })));
+    }
+
+    #[test]
     fn each_learner_has_paths_of_their_own() {
         let class = Arc::new(Class::new(String::new()));
-        let ada = class.join("Ada L.").unwrap();
+        let ada = class.join("Ada L.", None).unwrap();
         for path in ["a/latch.nb", "a/latch.Ada_L_.nb"] {
             assert_eq!(ada.own_path(path), "a/latch.Ada_L_.nb");
         }
-        assert_eq!(class.join("A. b").unwrap().own_path("latch.Ada_L_.nb"), "latch.Ada_L_.A__b.nb");
-        assert!(matches!(class.join("ada/l?"), Err(Refused::ClassNameTaken { .. })), "their files would be the same");
+        assert_eq!(class.join("A. b", None).unwrap().own_path("latch.Ada_L_.nb"), "latch.Ada_L_.A__b.nb");
+        assert!(
+            matches!(class.join("ada/l?", None), Err(Refused::ClassNameTaken { .. })),
+            "their files would be the same"
+        );
     }
 
     #[test]
     fn a_class_has_an_end() {
         let class = Arc::new(Class::new(String::new()));
-        let all: Vec<_> = (0..MOST).map(|number| class.join(&number.to_string()).unwrap()).collect();
-        assert!(matches!(class.join("one more"), Err(Refused::ClassFull { most: MOST })));
+        let all: Vec<_> = (0..MOST).map(|number| class.join(&number.to_string(), None).unwrap()).collect();
+        assert!(matches!(class.join("one more", None), Err(Refused::ClassFull { most: MOST })));
         drop(all);
-        assert!(class.join("one more").is_ok());
+        assert!(class.join("one more", None).is_ok());
     }
 }

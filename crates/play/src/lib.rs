@@ -26,6 +26,7 @@ mod takes;
 mod taking;
 mod teacher;
 mod text_checker;
+mod token;
 #[cfg(test)]
 mod typescript;
 mod visit;
@@ -45,19 +46,19 @@ use tokio::sync::Semaphore;
 
 pub use export::{ExportedPage, export};
 pub use lessons::LessonSource;
+pub use token::is_token;
 pub use wording::PlayError;
 
 use class::Class;
 use page::Page;
 use served::Served;
+use token::random_token;
 
 /// The time between two checks of the request to stop.
 const LOOK: Duration = Duration::from_millis(100);
 /// The start and the end of the name of the file that a browser opens. With a file, the token is not in the arguments
 /// of the browser, which other users can list.
 const REDIRECT: (&str, &str) = ("open-", ".html");
-/// Bytes of a random token.
-const TOKEN: usize = 16;
 
 /// The options of a server.
 #[derive(Clone, Debug, Default)]
@@ -195,11 +196,6 @@ pub fn faults_of_lesson(text: &str) -> Diagnostics {
     lessons::faults_of(text)
 }
 
-/// Whether a text can be the secret part of an address.
-pub fn is_token(text: &str) -> bool {
-    text.len() >= 16 && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
-}
-
 fn system(error: io::Error) -> PlayError {
     PlayError::System { reason: io_words(&error) }
 }
@@ -230,10 +226,4 @@ fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), PlayError
     };
     let path = whole.strip_prefix(folder.root()).ok().map(|path| path.to_string_lossy().into_owned());
     Ok((folder, path))
-}
-
-fn random_token() -> Result<String, PlayError> {
-    let mut bytes = [0; TOKEN];
-    getrandom::fill(&mut bytes).map_err(|error| PlayError::System { reason: error.to_string() })?;
-    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
 }

@@ -101,6 +101,9 @@ pub(super) enum Verb {
     },
     Join {
         name: String,
+        // That of the name, if this browser has had it before.
+        #[cfg_attr(test, ts(optional))]
+        key: Option<String>,
     },
     Progress {
         place: Option<ClassPlace>,

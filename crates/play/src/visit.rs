@@ -14,7 +14,7 @@ use crate::files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, JobKind, Jobs};
 use crate::message::finding::findings;
-use crate::message::{Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
+use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
@@ -120,16 +120,13 @@ impl Visit {
                 .and_then(|()| self.files.save(path, &text, stamp.as_deref()))
                 .map(RequestResult::Save),
             Verb::Program { path, text } => return self.check(id, path, text),
-            Verb::Join { name } => {
-                let done = self.join(&name);
-                return self.outbox.done(id, done);
-            }
+            Verb::Join { name, key } => self.join(&name, key).map(RequestResult::Join),
             Verb::Progress { place, finished } => {
                 let done = self.membership.as_ref().ok_or(Refused::NoClass);
                 return self.outbox.done(id, done.map(|membership| membership.progress(place, finished)));
             }
             Verb::Leave => {
-                self.membership = None;
+                self.membership.take().into_iter().for_each(Membership::leave);
                 return self.outbox.done(id, Ok(()));
             }
             Verb::Cancel { of } => {
@@ -141,12 +138,16 @@ impl Visit {
         self.outbox.answer(id, answer);
     }
 
-    /// Joins the class. A page that has joined it takes another name.
-    fn join(&mut self, name: &str) -> Result<(), Refused> {
+    /// Joins the class. A page that has joined it takes another name, and gives up the one before.
+    fn join(&mut self, name: &str, key: Option<String>) -> Result<ClassName, Refused> {
         let class = self.served.class.as_ref().ok_or(Refused::NoClass)?;
-        self.membership = None;
-        self.membership = Some(class.join(name)?);
-        Ok(())
+        let key = key.or_else(|| self.membership.as_ref().map(|own| own.key().to_owned()));
+        let joined = class.join(name, key.as_deref())?;
+        let key = joined.key().to_owned();
+        if let Some(before) = self.membership.replace(joined).filter(|before| before.key() != key) {
+            before.leave();
+        }
+        Ok(ClassName { key })
     }
 
     /// Whether the page may save at a path: learners of a class only have files of their own.

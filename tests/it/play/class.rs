@@ -35,13 +35,16 @@ fn a_learner_is_in_the_class_until_the_page_leaves() {
     assert_eq!(members(&server)[0]["name"], "Ada");
     page.done(json!({ "do": "leave" }));
     assert!(members(&server).is_empty());
-    twin.done(json!({ "do": "join", "name": "Ben" }));
+    let key = twin.done(json!({ "do": "join", "name": "Ben" }))["key"].clone();
     drop(twin);
     let start = std::time::Instant::now();
     while !members(&server).is_empty() {
         assert!(start.elapsed().as_secs() < 30, "a page that is closed is still in the class");
         std::thread::sleep(std::time::Duration::from_millis(50));
     }
+    let refused = page.ask(json!({ "do": "join", "name": "ben" })).unwrap_err();
+    assert_eq!(refused["message"], "somebody else is called ben", "Ben is away, and his files are his");
+    assert_eq!(page.done(json!({ "do": "join", "name": "ben", "key": key }))["key"], key);
 }
 
 #[test]

@@ -1,5 +1,6 @@
 // The teacher's page: who is at which lesson and step. Names are text and nothing else.
 
+import { counted } from "../counted";
 import { element, fill } from "../element";
 import { prose } from "../learn/prose";
 import type { ClassCourse, ClassLesson, ClassMember, ClassRoll } from "../protocol";
@@ -82,7 +83,7 @@ function stepText(lesson: ClassLesson | undefined, done: number): string {
     return "";
   }
   const { length } = lesson.steps;
-  return done === length ? `all ${length} steps done` : `step ${done + 1} of ${length}`;
+  return done === length ? `${counted(length, "step")} done` : `step ${done + 1} of ${length}`;
 }
 
 function timeText(seconds: number): string {

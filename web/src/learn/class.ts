@@ -2,6 +2,7 @@
 
 import type { Connection } from "../connection";
 import { button, element, fill } from "../element";
+import { recall, remember } from "../memory";
 import { RequestError } from "../request";
 
 /** Where a learner is. */
@@ -52,7 +53,9 @@ export class ClassPanel {
   async #join(name: string): Promise<void> {
     this.#problem.textContent = "";
     try {
-      await this.connection.request("join", { name });
+      const key = keyOf(name);
+      const joined = await this.connection.request("join", key === null ? { name } : { name, key });
+      keepKey(name, joined.key);
       this.#joined = name;
       keepName(name);
       this.#send();
@@ -67,6 +70,9 @@ export class ClassPanel {
 
   #leave(): void {
     this.connection.tell("leave", {});
+    if (this.#joined !== null) {
+      keepKey(this.#joined, null);
+    }
     this.#joined = null;
     keepName(null);
     this.#show();
@@ -113,6 +119,20 @@ const SEEN =
   "The teacher's page shows your name, the lesson and step at which you are, the size of your smallest circuit in it, " +
   "and how many lessons you have finished. It may be on a projector, so that the whole class sees it. Your programs " +
   "are not shown. You can leave the class at any time.";
+
+const KEYS = "class-keys";
+/** The most names of this browser whose keys are kept. */
+const MOST_KEYS = 20;
+
+/** The key of a name that this browser has had before. */
+function keyOf(name: string): string | null {
+  return (recall<[string, string][]>(KEYS) ?? []).find(([other]) => other === name)?.[1] ?? null;
+}
+
+function keepKey(name: string, key: string | null): void {
+  const others = (recall<[string, string][]>(KEYS) ?? []).filter(([other]) => other !== name);
+  remember(KEYS, [...(key === null ? [] : [[name, key]]), ...others].slice(0, MOST_KEYS));
+}
 
 /** The name in this tab, until it is closed. */
 function remembered(): string | null {

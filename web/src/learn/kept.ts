@@ -1,4 +1,5 @@
-// The programs that a learner wrote in a lesson and that were replaced, remembered by the browser.
+// The programs that a learner wrote in a lesson and that were replaced, and where they were saved, remembered by the
+// browser.
 
 import { recall, remember } from "../memory";
 
@@ -24,4 +25,14 @@ export function keepProgram(folder: string, lesson: string, program: KeptProgram
 
 function name(folder: string, lesson: string): string {
   return `kept:${folder}:${lesson}`;
+}
+
+/** The file in which the program of a lesson was saved last. */
+export function savedFile(folder: string, lesson: string): string | null {
+  return recall<string>(`lesson-file:${folder}:${lesson}`);
+}
+
+/** Notes it; null forgets it. */
+export function noteSavedFile(folder: string, lesson: string, path: string | null): void {
+  remember(`lesson-file:${folder}:${lesson}`, path);
 }

@@ -1,5 +1,6 @@
 // What a step of a lesson still needs, in words.
 
+import { counted } from "../counted";
 import type { LessonCheck, LessonEntry } from "../protocol";
 import { holds } from "./checks";
 import type { Situation } from "./situation";
@@ -63,11 +64,12 @@ function valuesText(values: { [port: string]: number | undefined }): string {
 }
 
 function countText({ what, than, number }: Extract<LessonCheck, { is: "counts" }>): string {
-  const amount = { "<=": `at most ${number}`, ">=": `at least ${number}`, "=": `exactly ${number}` }[than];
+  const limit = { "<=": "at most", ">=": "at least", "=": "exactly" }[than];
+  const amount = (noun: string): string => `${limit} ${counted(number, noun)}`;
   return {
-    robots: `the circuit has ${amount} robots`,
-    cycles: `${amount} cycles have passed`,
-    niches: `the evolution has found ${amount} kinds`,
-    threads: `the wave machine has ${amount} threads`,
+    robots: `the circuit has ${amount("robot")}`,
+    cycles: `${amount("cycle")} ${number === 1 ? "has" : "have"} passed`,
+    niches: `the evolution has found ${amount("kind")}`,
+    threads: `the wave machine has ${amount("thread")}`,
   }[what];
 }

@@ -10,7 +10,7 @@ import type { RobotsPanel } from "../robots/panel";
 import type { TestsPanel } from "../tests/panel";
 import { prefersStillness } from "../theme";
 import type { ClassPanel } from "./class";
-import { keepProgram } from "./kept";
+import { keepProgram, noteSavedFile, savedFile } from "./kept";
 import { isLessonPath, lessonPath, type Lessons } from "./lessons";
 import { Progress } from "./progress";
 import { missing } from "./missing";
@@ -29,6 +29,8 @@ export interface LearnParts {
 export interface LearnDoors {
   /** Opens a program without a file. */
   open: (path: string, text: string) => void;
+  /** Opens a file, or, if it is gone, a program without a file. */
+  openSaved: (saved: string, path: string, text: string) => void;
   /** Replaces the text of the program. */
   replace: (text: string) => void;
   show: (tab: TabName) => void;
@@ -64,6 +66,7 @@ export class LearnPanel {
     parts.tests.states.on(check);
     parts.program.checked.on(check);
     parts.program.stage.on(check);
+    parts.program.saved.on(saved => saved !== null && this.#noteFile(saved.from, saved.path));
     parts.robots.designer.design.on(check);
     parts.robots.evolution.search.on(check);
     lessons.list.on(() => {
@@ -96,7 +99,8 @@ export class LearnPanel {
   }
 
   #isOpen(lesson: LessonEntry): boolean {
-    return isLessonPath(lesson, this.parts.program.path.value);
+    const { folder, path } = this.parts.program;
+    return isLessonPath(lesson, path.value) || path.value === savedFile(folder, lesson.name);
   }
 
   /** Notes what a step still needs. */
@@ -116,10 +120,20 @@ export class LearnPanel {
       return;
     }
     if (lesson.program !== null) {
-      this.#open(lesson, lesson.program);
+      this.#open(lesson, lesson.program, savedFile(this.parts.program.folder, lesson.name));
     }
     this.doors.show(lesson.tab);
     this.#show();
+  }
+
+  /** Notes where the program of a lesson was saved, to go on with it. */
+  #noteFile(from: string, path: string): void {
+    const { folder } = this.parts.program;
+    const isOf = (lesson: LessonEntry): boolean =>
+      isLessonPath(lesson, from) || isLessonPath(lesson, path) || savedFile(folder, lesson.name) === from;
+    for (const lesson of this.lessons.list.value.filter(isOf)) {
+      noteSavedFile(folder, lesson.name, path);
+    }
   }
 
   /** Starts a lesson again: its program, its swarm and its steps. What was written is kept. */
@@ -131,6 +145,10 @@ export class LearnPanel {
       const wasOpen = this.#isOpen(lesson);
       this.#open(lesson, lesson.program);
       this.#replace(lesson, lesson.program);
+      const { folder, path } = this.parts.program;
+      if (path.value !== savedFile(folder, lesson.name)) {
+        noteSavedFile(folder, lesson.name, null);
+      }
       if (wasOpen) {
         swarm.setClock(null);
         swarm.setInputs(swarm.inputs.value.replaceAll("1", "0"));
@@ -144,14 +162,21 @@ export class LearnPanel {
     this.#show();
   }
 
-  /** Opens the program of a lesson. Its swarm runs, with all inputs off, so that no step is done before it is begun. */
-  #open(lesson: LessonEntry, text: string): void {
+  /**
+   * Opens the program of a lesson, or the file in which it was saved. Its swarm runs, with all inputs off, so that no
+   * step is done before it is begun.
+   */
+  #open(lesson: LessonEntry, text: string, saved: string | null = null): void {
     const { program, swarm } = this.parts;
     if (!this.#isOpen(lesson)) {
       swarm.setClock(null);
       swarm.setInputs(swarm.inputs.value.replaceAll("1", "0"));
       program.plays = !prefersStillness();
-      this.doors.open(lessonPath(lesson), text);
+      if (saved === null) {
+        this.doors.open(lessonPath(lesson), text);
+      } else {
+        this.doors.openSaved(saved, lessonPath(lesson), text);
+      }
     } else if (!prefersStillness()) {
       swarm.play();
     }

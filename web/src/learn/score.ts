@@ -1,5 +1,6 @@
 // How small a circuit is, next to the best one known.
 
+import { counted } from "../counted";
 import type { LessonEntry, LessonGoal } from "../protocol";
 import { holds } from "./checks";
 import type { Situation } from "./situation";
@@ -29,6 +30,6 @@ export function starsOf(size: number, best: number): number {
 
 /** A size in words. The compiler may build what is written of fewer robots, or of more. */
 export function sizeText(size: number, of: LessonGoal["of"]): string {
-  const noun = size === 1 ? of.slice(0, -1) : of;
-  return of === "gates" ? `${size} ${noun} in the text` : `${size} ${noun}`;
+  const text = counted(size, of.slice(0, -1));
+  return of === "gates" ? `${text} in the text` : text;
 }

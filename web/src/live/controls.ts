@@ -1,5 +1,6 @@
 // Play, pause, step, reset, the speed, and the slider that rewinds.
 
+import { counted } from "../counted";
 import { button, changeIcon, element, iconButton } from "../element";
 import type { View } from "./animation";
 import { REAL_TIME, type LiveSwarm } from "./swarm";
@@ -73,7 +74,7 @@ export class Controls implements View {
       const step = definition?.waves?.step ?? 0;
       this.#cycles = step;
       this.#waveStep.hidden = step === 0 || step > MOST_CYCLES;
-      this.#waveStep.title = step === 1 ? "A step has one cycle" : `A step has ${step} cycles`;
+      this.#waveStep.title = `A step has ${counted(step, "cycle")}`;
     });
     swarm.frame.on(() => this.draw());
   }

@@ -1,5 +1,6 @@
 // The tab with the swarm: which circuit it is, how far it is compiled, and its views.
 
+import { counted } from "../counted";
 import { button, element, fill } from "../element";
 import type { Choice, Program, Stage as CompileStage } from "../program";
 import { recall, remember } from "../memory";
@@ -69,10 +70,7 @@ export class SwarmPanel {
         );
         return;
       case "errors":
-        fill(
-          this.#status,
-          `${stage.count === 1 ? "1 error" : `${stage.count} errors`} in the program; these robots are from before`,
-        );
+        fill(this.#status, `${counted(stage.count, "error")} in the program; these robots are from before`);
         return;
       case "failed":
         fill(

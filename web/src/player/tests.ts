@@ -1,5 +1,6 @@
 // The rows of the tests, which the page runs through its own logic.
 
+import { counted } from "../counted";
 import { button, element, fill } from "../element";
 import { offsetOf, toNumber } from "../ports";
 import type { ExportedTest, PortEntry } from "../protocol";
@@ -22,7 +23,7 @@ export class TestTable {
       () => {
         const ends = runRows(this.machine, test);
         const passed = ends.filter(end => end.passed).length;
-        verdict.textContent = `${passed} of ${ends.length} rows are as expected`;
+        verdict.textContent = `${passed} of ${counted(ends.length, "row")} as expected`;
         verdict.className = passed === ends.length ? "verdict pass" : "verdict fail";
         show(ends);
       },

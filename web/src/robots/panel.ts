@@ -1,5 +1,6 @@
 // The tab with robots: the designer, and the cards of all that there are.
 
+import { counted } from "../counted";
 import type { Connection } from "../connection";
 import { element } from "../element";
 import type { Program } from "../program";
@@ -85,7 +86,7 @@ export class RobotsPanel {
     try {
       const robots = await this.connection.request("robots", { path: this.program.path.value || null });
       this.#loaded = key;
-      this.#status.textContent = `${robots.robots.length} robots`;
+      this.#status.textContent = counted(robots.robots.length, "robot");
       // Cards of the same robots stay as they are, and go on walking.
       const shown = JSON.stringify(robots);
       if (shown !== this.#shown) {

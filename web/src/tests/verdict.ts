@@ -1,5 +1,6 @@
 // The rows of a test with what was expected and observed.
 
+import { counted } from "../counted";
 import { button, element } from "../element";
 import type { RowResult, TestResult } from "../protocol";
 
@@ -32,7 +33,7 @@ export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
       head(verdict),
       element("tbody", {}, ...rows.map(row => tableRow(row, leads, hasThreads(verdict)))),
     ),
-    left > 0 && element("p", { class: "dim" }, `${left} more ${left === 1 ? "row" : "rows"}`),
+    left > 0 && element("p", { class: "dim" }, counted(left, "more row")),
   );
 }
 

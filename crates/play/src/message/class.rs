@@ -16,6 +16,14 @@ pub(crate) struct ClassPlace {
     pub(crate) size: Option<u32>,
 }
 
+/// The answer to `join`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ClassName {
+    /// With it, the page can join by this name again.
+    pub(crate) key: String,
+}
+
 /// The answer to `lessons` of the teacher's page.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]

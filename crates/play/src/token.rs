@@ -1,0 +1,21 @@
+//! Secrets that are a part of an address, or that show that a name is a learner's.
+
+use crate::wording::PlayError;
+
+/// Bytes of a random token.
+const TOKEN: usize = 16;
+
+/// Whether a text can be the secret part of an address.
+pub fn is_token(text: &str) -> bool {
+    text.len() >= 16 && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
+}
+
+/// A token that nobody can guess.
+///
+/// # Errors
+/// When the system has no random numbers.
+pub(super) fn random_token() -> Result<String, PlayError> {
+    let mut bytes = [0; TOKEN];
+    getrandom::fill(&mut bytes).map_err(|error| PlayError::System { reason: error.to_string() })?;
+    Ok(bytes.iter().map(|byte| format!("{byte:02x}")).collect())
+}
