@@ -32,7 +32,7 @@ BODY = np.full((1, 2, 3), 3, dtype=np.uint8)
         (BODY * 0, ValueError, r"bodies\[0\]: the body has no voxels"),
         (np.zeros((2, 0, 0), dtype=np.uint8), ValueError, "has no voxels"),
         ([["30", "03"]] * 3, ValueError, r"bodies\[0\]: the body is not in one piece \(all 3|and 2 more bodies"),
-        ([["33", "3"]], ValueError, r"bodies\[0\]: row 2 has 1 voxels, expected 2 as in row 1"),
+        ([["33", "3"]], ValueError, r"bodies\[0\]: row 2 has 1 voxel, expected 2 as in row 1"),
         ([["3!"]], ValueError, "`!` is not a material code"),
         ([[[3, 3], [3]]], ValueError, r"bodies\[0\]"),
         ([[3, 3]], ValueError, r"bodies\[0\]: the body has the shape \(2,\), expected \(H, W\)"),

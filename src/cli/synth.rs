@@ -11,7 +11,7 @@ use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::options::new_path::new_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::source::Simulated;
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
@@ -228,7 +228,7 @@ impl UnreachableReport {
             _ => format!("{} relations between registers hold in every reachable state", self.relations.len()),
         };
         let limit = if self.cells_saved > 0 { "; the result is right in reachable states only" } else { "" };
-        format!("{known}: {} cells fewer{limit}\n", self.cells_saved)
+        format!("{known}: {} fewer{limit}\n", counted(self.cells_saved, "cell"))
     }
 }
 
@@ -360,12 +360,12 @@ impl Report {
 
     fn text(&self) -> String {
         let parts: Vec<_> = self.by_function.iter().map(|(name, count)| format!("{count} {name}")).collect();
-        let latches = if self.latches > 0 { format!(", {} registers", self.latches) } else { String::new() };
+        let latches = if self.latches > 0 { format!(", {}", counted(self.latches, "register")) } else { String::new() };
         let mut text = format!(
-            "{} cells ({}), {} levels{latches}, proved from {}, {:.2} s\n",
-            self.cells,
+            "{} ({}), {}{latches}, proved from {}, {:.2} s\n",
+            counted(self.cells, "cell"),
             parts.join(", "),
-            self.depth,
+            counted(self.depth as usize, "level"),
             self.proof.words(),
             self.seconds
         );
@@ -373,7 +373,8 @@ impl Report {
         text.push_str(&self.removed.text());
         text.extend(self.unreachable.iter().map(UnreachableReport::text));
         for (name, saved) in &self.what_if {
-            text.push_str(&format!("with `{name}`: {saved} cells fewer\n"));
+            let cells = counted(saved.unsigned_abs() as usize, "cell");
+            text.push_str(&format!("with `{name}`: {cells} {}\n", if *saved < 0 { "more" } else { "fewer" }));
         }
         text
     }

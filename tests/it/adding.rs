@@ -80,7 +80,7 @@ fn the_folder_of_a_run_stands_for_its_seeds_and_a_function_for_its_behavior() {
     let ran = bench.run(&[&whole[..], &["--behavior", "zero", "--max-error", "0.8"]].concat());
     assert_eq!(ran.status, 0, "{}", ran.err);
     assert!(ran.out.starts_with("LLLL  zero        added     zero_3x1, clock "), "{}", ran.out);
-    assert!(ran.out.ends_with("\n1 of 1 behaviors have a robot in robots\n"), "{}", ran.out);
+    assert!(ran.out.ends_with("\n1 of 1 behavior has a robot in robots\n"), "{}", ran.out);
     assert_eq!(written(&bench), ["zero_3x1.yaml"]);
     add(&bench, &["--behavior", "nnad"])
         .expect_fault(&["expected four or eight letters such as `RRRL`", "did you mean `nand`?"]);

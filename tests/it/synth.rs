@@ -272,7 +272,7 @@ fn errors_in_an_aiger_file_have_their_line() {
     told("aag 1 1 0\n", "expected five to nine numbers in the header, found 3", 1);
     told("aag a 1 0 0 0\n", "expected a header such as `aag 3 2 0 1 1`, found `aag a 1 0 0 0`", 1);
     told("blif\n", "expected `aag` or `aig`, found `blif`", 1);
-    told("aag 1 2 0 0 0\n2\n4\n", "2 inputs, 0 latches and 0 gates exceed the 1 variables of the header", 1);
+    told("aag 1 2 0 0 0\n2\n4\n", "2 inputs, 0 latches and 0 gates exceed the 1 variable of the header", 1);
     told("aag 2 1 0 1 1\n2 4\n4\n4 2 2\n", "expected one literal for an input, found 2", 2);
     told("aag 2 2 0 1 0\n2\n2\n4\n", "literal 2 cannot be an input or a latch", 3);
     told("aag 2 1 1 1 0\n2\n4 2 7\n4\n", "expected the start value 0, 1 or 4 (any) of a latch, found 7", 3);

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::cli::Failure;
 use crate::cli::bench::speed::{cycle_substeps, on_one_thread, per_second, processor_seconds, race};
+use nbc_base::diag::counted;
 use nbc_base::model::Column;
 use nbc_base::source::MemoryWorld;
 use nbc_session::{Choice, CompileOptions, Session};
@@ -60,12 +61,14 @@ impl SwarmFigures {
         let Self { robots, one_core, different, all_threads, threads } = self;
         let (share, thousand) = (100.0 * one_core / different, 1e3);
         format!(
-            "\na swarm of {robots} robots: {:.0}k lane-substeps per second on one core, {share:.0} % of different \
+            "\na swarm of {}: {:.0}k lane-substeps per second on one core, {share:.0} % of different \
              bodies side by side \
-             ({:.0}k); {:.0}k on {threads} threads\n",
+             ({:.0}k); {:.0}k on {}\n",
+            counted(*robots, "robot"),
             one_core / thousand,
             different / thousand,
             all_threads / thousand,
+            counted(*threads, "thread"),
         )
     }
 }

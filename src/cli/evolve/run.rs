@@ -14,6 +14,7 @@ use crate::cli::evolution_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_p
 use crate::cli::evolve::arguments::EvolveArguments;
 use crate::cli::evolve::wording::{EvolveError, ProgressGaps, ResumedUntil};
 use crate::cli::options::timings::{TimedStage, Timer};
+use nbc_base::diag::counted;
 use nbc_base::model::Evolution;
 use nbc_session::report::{EvolutionLine, History, evolution_table};
 use nbc_session::store::{self, Checkpoint, FolderLock, LockFault};
@@ -191,8 +192,8 @@ impl<'a> EvolutionRun<'a> {
     fn message(&self, line: &EvolutionLine) -> String {
         let made = (line.counts.evaluations - self.evaluations_before) as f64;
         let rate = made / self.started.elapsed().as_secs_f64().max(1e-9);
-        let behaviors = line.behaviors;
-        format!("{rate:.1} evaluations/s, {behaviors} behaviors, {:.1} % of niches", 100.0 * line.coverage)
+        let behaviors = counted(line.behaviors, "behavior");
+        format!("{rate:.1} evaluations/s, {behaviors}, {:.1} % of niches", 100.0 * line.coverage)
     }
 
     pub(super) fn archive_stats(&self) -> ArchiveStats {

@@ -160,9 +160,13 @@ impl AddArguments {
             }
             OutputFormat::Text => {
                 let folder = self.into.display();
-                let what =
-                    if self.files().next().is_some() { "robots were added to" } else { "behaviors have a robot in" };
-                context.print(format_args!("{added} of {asked} {what} {folder}\n"))?;
+                let (noun, are, have) = if self.files().next().is_some() {
+                    ("robot", "was added to", "were added to")
+                } else {
+                    ("behavior", "has a robot in", "have a robot in")
+                };
+                let (asked, does) = (counted(asked, noun), if asked == 1 { are } else { have });
+                context.print(format_args!("{added} of {asked} {does} {folder}\n"))?;
             }
         }
         let is_each_wanted = !self.behavior.is_empty() || self.files().next().is_some();

@@ -9,7 +9,7 @@ use crate::cli::robots::robot_paths;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::budget::Limit;
-use nbc_base::diag::Diagnostic;
+use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::source::Sources;
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
@@ -59,7 +59,7 @@ impl RewriteArguments {
             OutputFormat::Json => context.print_json(Schema::Rewritten, &serde_json::json!({ "files": done }))?,
             OutputFormat::Text => {
                 let changed = done.iter().filter(|file| file.changed).count();
-                context.print(format_args!("{changed} of {} robot files rewritten\n", done.len()))?;
+                context.print(format_args!("{changed} of {} rewritten\n", counted(done.len(), "robot file")))?;
             }
         }
         Ok(Status::Done)

@@ -9,6 +9,7 @@ use crate::cli::options::new_path::new_path;
 use crate::cli::options::number::number;
 use crate::cli::world_runs::{Experiment, WorldRuns};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use nbc_base::diag::counted;
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};
 use nbc_session::store;
@@ -129,7 +130,7 @@ impl WorldsArguments {
         };
         let curves: Vec<YieldCurve> = found.chunks(scales).enumerate().map(curve).collect();
         let change = if common.is_some() { "largest change in %" } else { "times the given changes" };
-        let title = format!("Yield in {} worlds", self.count());
+        let title = format!("Yield in {}", counted(self.count() as usize, "world"));
         report::draw_yields(&title, change, &curves)
     }
 

@@ -110,7 +110,7 @@ fn bodies_that_cannot_walk_are_refused_with_the_reason() {
     for (body, message) in [
         (json!([]), "the body has no voxels"),
         (json!(["000"]), "the body has no voxels"),
-        (json!(["33", "3"]), "row 2 has 1 voxels, expected 2 as in row 1"),
+        (json!(["33", "3"]), "row 2 has 1 voxel, expected 2 as in row 1"),
         (json!(["30b"]), "row 1, column 3: `b` is not a material code; expected 0 to a"),
         (json!(["111"]), "the body has 0 actuators, expected at least 3"),
         (json!(["33033"]), "the body is not in one piece"),

@@ -197,7 +197,7 @@ mod tests {
     fn invalid_rows_are_reported() {
         check(&[], Err("the body has no voxels"));
         check(&["000", "000"], Err("the body has no voxels"));
-        check(&["33", "3"], Err("row 2 has 1 voxels, expected 2 as in row 1"));
+        check(&["33", "3"], Err("row 2 has 1 voxel, expected 2 as in row 1"));
         check(&["39"], Err("row 1, column 2: `9` is not a material code; expected 0 to 8"));
     }
 

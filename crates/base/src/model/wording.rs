@@ -57,7 +57,8 @@ impl fmt::Display for BodyError {
         match self {
             Self::Empty => f.write_str("the body has no voxels"),
             Self::Ragged { row, found, expected } => {
-                write!(f, "row {row} has {found} voxels, expected {expected} as in row 1")
+                let voxels = if *found == 1 { "voxel" } else { "voxels" };
+                write!(f, "row {row} has {found} {voxels}, expected {expected} as in row 1")
             }
             Self::UnknownCode { row, column, digit, highest } => {
                 write!(f, "row {row}, column {column}: `{digit}` is not a material code; expected 0 to {highest}")

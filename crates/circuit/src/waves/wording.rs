@@ -90,7 +90,8 @@ impl fmt::Display for WaveError {
             }
             Self::ClockIsRead { clock } => write!(f, "the clock `{clock}` is also read as data"),
             Self::UnevenStep { wanted, beat } => {
-                write!(f, "a step of {wanted} cycles is no whole number of beats of {beat} cycles")
+                let [wanted, beat] = [*wanted, *beat].map(|cycles| counted(cycles as usize, "cycle"));
+                write!(f, "a step of {wanted} is no whole number of beats of {beat}")
             }
             Self::ShortStep { wanted, least } => {
                 write!(f, "a step of {} is too short, expected at least {least}", counted(*wanted as usize, "cycle"))

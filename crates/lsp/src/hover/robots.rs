@@ -5,6 +5,7 @@ use std::collections::BTreeSet;
 use crate::files::Files;
 use crate::hover::picture::image;
 use crate::spot::Spot;
+use nbc_base::diag::counted;
 use nbc_base::model::{Behavior, Function, Library, Robot};
 use nbc_lang::syntax::tree::{Declaration, DeclarationKind};
 use nbc_session::report::{self, Listing, Portrait, Scheme};
@@ -15,8 +16,8 @@ pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictu
     let library = session.robots(files.checked, Some(name), &CompileOptions::default()).ok()?;
     let mut seen = BTreeSet::new();
     let best: Vec<&Robot> = library.robots.iter().filter(|robot| seen.insert(robot.function())).collect();
-    let count = library.robots.len();
-    let mut text = format!("{} robots for {} functions; the best for each:\n\n{}", count, best.len(), table(&best));
+    let (robots, functions) = (counted(library.robots.len(), "robot"), counted(best.len(), "function"));
+    let mut text = format!("{robots} for {functions}; the best for each:\n\n{}", table(&best));
     if pictures && !best.is_empty() {
         let portrait = |robot: &&Robot| Portrait {
             title: robot.function().name().to_owned(),

@@ -5,6 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
+use nbc_base::diag::counted;
 use nbc_base::model::{Behavior, SearchObjective};
 use nbc_swarm::Work;
 use nbc_swarm::evolve::{ArchiveStats, Counts, Search};
@@ -67,14 +68,14 @@ pub fn evolution_table(search: &Search, work: Work) -> String {
     let counts = search.counts();
     let _ = writeln!(
         text,
-        "{} generations, {} evaluations ({} left early, {} inconsistent, {} faults), {} invalid bodies drawn; {} of \
-         {} niches ({:.1} %), {} of {} behaviors, QD-score {:.2}",
-        search.generation(),
-        counts.evaluations,
+        "{}, {} ({} left early, {} inconsistent, {}), {} drawn; {} of {} niches ({:.1} %), {} of {} behaviors, \
+         QD-score {:.2}",
+        counted(search.generation() as usize, "generation"),
+        counted(counts.evaluations as usize, "evaluation"),
         counts.surpassed,
         counts.inconsistent,
-        counts.faults,
-        counts.undeveloped,
+        counted(counts.faults as usize, "fault"),
+        counted(counts.undeveloped as usize, "invalid body"),
         stats.filled,
         stats.niches,
         100.0 * stats.coverage,

@@ -115,7 +115,10 @@ fn archive(results: &EvolutionResults, left_out: usize) -> String {
     let axes = if counted.is_empty() { String::new() } else { choice("across", 0) + &choice("upwards", 1) };
     let missing = match left_out {
         0 => String::new(),
-        _ => format!("<p class=\"dim\">{left_out} elites have no gait here, because the page is full.</p>\n"),
+        _ => {
+            let elites = nbc_base::diag::counted(left_out, "elite");
+            format!("<p class=\"dim\">Without a gait here, because the page is full: {elites}.</p>\n")
+        }
     };
     format!(
         "<section id=\"archive\">\n<h2>Archive</h2>\n<p>Each square is a niche, colored by the best {unit} found \

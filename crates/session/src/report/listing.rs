@@ -135,7 +135,7 @@ pub fn describe_robot(robot: &Robot) -> String {
          settles       {settles}\n\
          worlds        {worlds}\n\
          made by       {program} {version}, evolution {evolution}, seed {seed}, generation {generation}, \
-         {evaluations} evaluations\n",
+         {evaluations}\n",
         name = robot.name,
         function = robot.function(),
         behavior = robot.behavior,
@@ -151,7 +151,7 @@ pub fn describe_robot(robot: &Robot) -> String {
         evolution = provenance.evolution,
         seed = provenance.seed,
         generation = provenance.generation,
-        evaluations = provenance.evaluations,
+        evaluations = counted(provenance.evaluations as usize, "evaluation"),
     )
 }
 

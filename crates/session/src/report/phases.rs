@@ -173,8 +173,10 @@ impl PulseReport {
             _ => format!("; {} delay data", counted(*padding, "robot")),
         };
         format!(
-            "pulse    {net} opens {registers} for {width} cycles at least, of {needed} needed; inputs are stable \
-             before {clock} {edge} and {ends} cycles after{padding}\n"
+            "pulse    {net} opens {registers} for {} at least, of {needed} needed; inputs are stable before {clock} \
+             {edge} and {} after{padding}\n",
+            counted(*width as usize, "cycle"),
+            counted(*ends as usize, "cycle")
         )
     }
 }
@@ -182,14 +184,16 @@ impl PulseReport {
 impl ClockReport {
     fn describe(&self) -> String {
         let Self { clock, high, low, period, borrowed, inputs, paths, races } = self;
-        let mut text = format!("clock    {clock}: high {high}, low {low}, period {period} cycles at least");
+        let period = counted(*period as usize, "cycle");
+        let mut text = format!("clock    {clock}: high {high}, low {low}, period {period} at least");
         if *borrowed > 0 {
             text += &format!("; data arrive up to {} after a latch has opened", counted(*borrowed as usize, "cycle"));
         }
         text.push('\n');
         for InputReport { input, rises, setup, hold } in inputs {
             let edge = if *rises { "rises" } else { "falls" };
-            text += &format!("input    {input}: stable {setup} cycles before {clock} {edge}, {hold} after\n");
+            let setup = counted(*setup as usize, "cycle");
+            text += &format!("input    {input}: stable {setup} before {clock} {edge}, {hold} after\n");
         }
         for PathReport { ends, cycles, nets } in paths {
             text += &format!("path     {ends} {}: {}\n", counted(*cycles as usize, "cycle"), nets.join(" -> "));

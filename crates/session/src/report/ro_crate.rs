@@ -5,6 +5,7 @@
 
 use std::collections::BTreeSet;
 
+use nbc_base::diag::counted;
 use serde_json::{Value, json};
 
 /// The name that the metadata file of an RO-Crate must have.
@@ -53,13 +54,13 @@ pub struct CrateRun {
 /// The metadata of a folder of runs.
 pub fn ro_crate(title: &str, license: Option<&str>, runs: &[CrateRun]) -> Value {
     let published = runs.iter().map(|run| run.ended.as_str()).max().unwrap_or_default();
-    let seeds = runs.len();
+    let seeds = counted(runs.len(), "seed");
     let mut root = json!({
         "@id": "./",
         "@type": "Dataset",
         "conformsTo": { "@id": PROCESS },
         "name": title,
-        "description": format!("Evolution runs of soft robots as logic gates: {seeds} seeds, with their archives"),
+        "description": format!("Evolution runs of soft robots as logic gates: {seeds}, with their archives"),
         "datePublished": published.split('T').next(),
         "hasPart": runs.iter().flat_map(CrateRun::parts).collect::<Vec<_>>(),
         "mentions": runs.iter().map(|run| json!({ "@id": run.action() })).collect::<Vec<_>>(),
@@ -115,7 +116,7 @@ impl CrateRun {
     /// The run, its settings, its folder and its files.
     fn entities(&self) -> Vec<Value> {
         let (action, Self { evolution, seed, generations, .. }) = (self.action(), self);
-        let title = format!("{evolution}, seed {seed}, {generations} generations");
+        let title = format!("{evolution}, seed {seed}, {}", counted(*generations as usize, "generation"));
         let setting = |name: &str, value: Value| {
             let id = format!("{action}/{name}");
             json!({ "@id": id, "@type": "PropertyValue", "name": name, "value": value })

@@ -46,7 +46,8 @@ fn yield_of(passed: Proportion) -> String {
     let Proportion { successes, attempts } = passed;
     let [low, high] = passed.interval().map(|end| end * 100.0);
     let share = passed.share() * 100.0;
-    format!("{successes} of {attempts} worlds pass, yield {share:.1} % (95 % interval {low:.1} to {high:.1} %)")
+    let worlds = counted(attempts, "world");
+    format!("{successes} of {worlds} pass, yield {share:.1} % (95 % interval {low:.1} to {high:.1} %)")
 }
 
 fn margin(margin: &RobotMargin) -> String {

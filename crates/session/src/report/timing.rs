@@ -154,7 +154,8 @@ impl MemoryTimes {
     /// The times as a line for people.
     pub fn describe(&self) -> String {
         let Self { nets, pulse, setup, hold } = self;
-        format!("memory   {}: pulse {pulse}, set-up {setup}, hold {hold} cycles\n", nets.join(" "))
+        let hold = counted(*hold as usize, "cycle");
+        format!("memory   {}: pulse {pulse}, set-up {setup}, hold {hold}\n", nets.join(" "))
     }
 }
 
