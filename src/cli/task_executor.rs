@@ -7,20 +7,19 @@ use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::{Context, Failure, Interrupt, Progress};
-use nbc_sim::{LaneBackend, Simulator};
-use nbc_swarm::Executor;
+use nbc_sim::LaneBackend;
+use nbc_swarm::{Executor, LocalExecutor};
 
 /// The most calls for workers at once: each has a thread here that waits, and a run also keeps a file open.
 const MOST_WAITING: usize = 500;
 
-/// The most runs whose robots are on a device at once: 22 of the paper kept the card of docs/gpu.md busy. Each has a
-/// thread here.
-const MOST_ON_DEVICE: usize = 32;
+/// The most runs whose robots are simulated together: 22 of the paper kept the card of docs/gpu.md busy.
+const MOST_TOGETHER: usize = 32;
 
 /// Does the tasks of a command. If workers are chosen, they do all tasks; otherwise the device does.
 pub struct TaskExecutor {
     device: OpenDevice,
-    simulator: Simulator,
+    local: LocalExecutor,
     queue: Option<QueueExecutor>,
     interrupt: Interrupt,
 }
@@ -38,7 +37,7 @@ impl TaskExecutor {
         note: impl Fn(String) + Send + 'static,
     ) -> Result<Self, Failure> {
         let queue = open_queue(queue, interrupt, note)?;
-        Ok(Self { simulator: device.simulator(), device, queue, interrupt: interrupt.clone() })
+        Ok(Self { local: LocalExecutor::new(device.simulator()), device, queue, interrupt: interrupt.clone() })
     }
 
     /// The same on the device that the user chose. Notes are shown by `bar`.
@@ -61,7 +60,7 @@ impl TaskExecutor {
     pub fn executor(&self) -> &dyn Executor {
         match &self.queue {
             Some(queue) => queue,
-            None => &self.simulator,
+            None => &self.local,
         }
     }
 
@@ -75,12 +74,19 @@ impl TaskExecutor {
         threads(self.queue.as_ref())
     }
 
-    /// The same for the runs of searches. On this processor they are made one after the other, each on all cores. A
-    /// device has room for the robots of many, and each takes as long as its simulations one after another.
-    pub fn threads_for_runs(&self) -> usize {
+    /// The most runs of searches whose tasks should be handed over together. Workers have those of a run at a time;
+    /// here the robots of several runs fill the lanes of the processor or the device.
+    pub fn most_together(&self) -> usize {
+        if self.is_elsewhere() { 1 } else { MOST_TOGETHER }
+    }
+
+    /// The number of threads for sets of at most so many runs. The processor makes them one after the other, each on
+    /// all cores. A device has room for the robots of several, and each takes as long as its simulations one after
+    /// another.
+    pub fn threads_for_sets(&self, runs: usize) -> usize {
         match self.queue {
             Some(_) => MOST_WAITING,
-            None if self.device.is_device() => MOST_ON_DEVICE,
+            None if self.device.is_device() => (MOST_TOGETHER / runs.max(1)).max(1),
             None => 1,
         }
     }

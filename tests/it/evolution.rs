@@ -111,6 +111,42 @@ fn the_same_seed_gives_the_same_archive_after_being_killed() {
 }
 
 #[test]
+fn seeds_that_advance_together_leave_the_files_of_each_alone() {
+    let bench = bench();
+    bench.runs("runs.nb", RUNS.replace("seed:        3", "seed:        1..3"));
+    let evolve = |arguments: &[&str]| {
+        let ended = bench.run(&[&["evolve", "runs.nb"], arguments].concat());
+        assert_eq!(ended.status, 0, "{}", ended.err);
+        ended.out
+    };
+    evolve(&["--out", "together"]);
+    // One of them is ahead of the others when they continue.
+    evolve(&["--run", "walks", "--seed", "2", "--generations", "5", "--out", "late"]);
+    let said = evolve(&["--run", "walks", "--out", "late", "--resume"]);
+    let order: Vec<&str> = said.lines().filter(|line| line.starts_with("walks, seed")).collect();
+    assert_eq!(order, ["walks, seed 1", "walks, seed 2", "walks, seed 3"]);
+    for seed in ["1", "2", "3"] {
+        evolve(&["--seed", seed, "--out", "alone"]);
+        for run in ["walks", "turns"] {
+            let read = |out: &str, name: &str| {
+                fs::read_to_string(bench.path().join(out).join(run).join(format!("seed-{seed}")).join(name)).unwrap()
+            };
+            // A checkpoint also has the seeds that were declared.
+            let contents = |out: &str| {
+                let text = read(out, "checkpoint.nbc");
+                let whole: serde_json::Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
+                let parts = ["state", "env_steps", "left_out"].map(|part| whole[part].to_string());
+                (parts, read(out, "progress.jsonl"))
+            };
+            assert!(contents("together") == contents("alone"), "{run}, seed {seed}");
+            if run == "walks" {
+                assert!(contents("late") == contents("alone"), "seed {seed}");
+            }
+        }
+    }
+}
+
+#[test]
 #[cfg(unix)]
 fn a_signal_ends_a_run_with_a_checkpoint() {
     let bench = bench();

@@ -29,7 +29,7 @@ impl PhysicsId {
             numbers.for_each(|number| hash.add(&number.to_bits().to_le_bytes()));
         }
         let tasks: Vec<EvaluationTask> =
-            bodies.into_iter().map(|body| EvaluationTask { body, rivals: Rivals::none(2) }).collect();
+            bodies.into_iter().map(|body| EvaluationTask { body, rivals: Rivals::none(2), expected: None }).collect();
         let (objective, behaviors, world) = (SearchObjective::Distance, Vec::new(), PhysicsWorld::default());
         let protocol = EvaluationProtocol {
             stimuli: 2,

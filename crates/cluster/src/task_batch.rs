@@ -176,8 +176,8 @@ mod tests {
     fn batch() -> (TaskBatch, Vec<AnswerMessage>) {
         let search = Search::new(&evolution(), 1);
         let protocol = Arc::new(EvaluationProtocol::of(&evolution()));
-        let task = |body| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, body));
-        let tasks: Vec<Task> = search.ask().iter().take(2).map(|candidate| task(&candidate.body)).collect();
+        let task = |candidate| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, candidate));
+        let tasks: Vec<Task> = search.ask().iter().take(2).map(task).collect();
         let done = perform(&Simulator::default(), &tasks, &|| ());
         let key = |index| TaskKey { run: 0, generation: 0, index };
         let answers = (0..).zip(done).map(|(index, result)| AnswerMessage { key: key(index), result }).collect();

@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 use crate::bits::{pack, unpack};
 use crate::message::{MessageFault, TaskKey, decode, encode};
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, GroundProfile, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds, Schedule,
-    SearchObjective, Spell, WorldFactors, WorldNoise,
+    Behavior, Body, CYCLE_STEPS, Displacements, GroundProfile, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds,
+    Schedule, SearchObjective, Spell, WorldFactors, WorldNoise,
 };
 use nbc_swarm::evolve::{Rivals, validate};
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
@@ -76,6 +76,8 @@ struct EvaluationRecord {
     fronts: Vec<Vec<[f64; 2]>>,
     /// The places of those that a body must beat, for each behavior.
     rivals: Vec<Vec<u16>>,
+    /// The displacements of its parent.
+    expected: Option<Vec<f64>>,
 }
 
 /// The stimuli of a behavior, and the bits of its function.
@@ -215,6 +217,7 @@ impl EvaluationRecord {
             },
             fronts,
             rivals,
+            expected: task.expected.map(Vec::from),
         }
     }
 
@@ -245,7 +248,12 @@ impl EvaluationRecord {
         let protocol = EvaluationProtocol { stimuli, objective, behaviors, variable, fixed_steps, world, others };
         let front = |place: &u16| self.fronts.get(usize::from(*place)).cloned();
         let rivals = self.rivals.iter().map(|places| places.iter().map(front).collect());
-        let task = EvaluationTask { body, rivals: Rivals::new(niche, rivals.collect::<Option<_>>()?) };
+        let rivals = Rivals::new(niche, rivals.collect::<Option<_>>()?);
+        let expected = self.expected.map(Displacements::try_from).transpose().ok()?;
+        if expected.is_some_and(|expected| expected.len() != 1 << stimuli) {
+            return None;
+        }
+        let task = EvaluationTask { body, rivals, expected };
         Some(Task::Evaluation(Arc::new(protocol), task))
     }
 }
@@ -443,9 +451,8 @@ pub(super) mod tests {
         let of = EvaluationProtocol::of(search.evolution());
         let protocol = EvaluationProtocol { world: world(), others: vec![PhysicsWorld::default(), world()], ..of };
         let protocol = Arc::new(protocol);
-        let evaluation = |candidate: Candidate| {
-            Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, &candidate.body))
-        };
+        let evaluation =
+            |candidate: Candidate| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, &candidate));
         let mut all: Vec<Task> = search.ask().into_iter().map(evaluation).collect();
         let body = Body::parse(&["34", "43"], &Palette::paper()).unwrap();
         all.push(Task::Screening { body: body.clone(), behavior: "RRRL".parse().unwrap(), most: 1 });

@@ -30,6 +30,11 @@ impl Simulator {
         Self::new(LaneBackend { monitor: Some(monitor), ..LaneBackend::default() })
     }
 
+    /// The number of robots that are simulated in about the time of one.
+    pub fn at_once(&self) -> usize {
+        self.backend.at_once()
+    }
+
     /// Robots that are advanced step by step, one for each body; see [`Backend::flock`].
     pub fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
         self.backend.flock(setting, bodies)

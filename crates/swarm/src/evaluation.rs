@@ -1,9 +1,9 @@
 //! The input and the result of an evaluation as plain data, so that it can be done on any machine.
 
-use crate::evolve::{CandidateOutcome, Rivals, Search};
+use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, WorldSample};
-use nbc_base::model::{Behavior, Body, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
+use nbc_base::model::{Behavior, Body, Displacements, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
 
 /// The simulations of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,6 +42,9 @@ pub struct EvaluationTask {
     pub body: Body,
     /// The elites that it must beat. An evaluation ends early when the body cannot beat them.
     pub rivals: Rivals,
+    /// The displacements of its parent in the fixed simulations, if it has one. The order of simulations depends on
+    /// them, and so does how many are left out.
+    pub expected: Option<Displacements>,
 }
 
 /// The result of an evaluation.
@@ -81,8 +84,9 @@ impl EvaluationProtocol {
 }
 
 impl EvaluationTask {
-    /// The evaluation of a body for the current archive of a search.
-    pub fn of(search: &Search, body: &Body) -> Self {
-        Self { body: body.clone(), rivals: search.rivals(body) }
+    /// The evaluation of a candidate for the current archive of a search.
+    pub fn of(search: &Search, candidate: &Candidate) -> Self {
+        let Candidate { body, .. } = candidate;
+        Self { body: body.clone(), rivals: search.rivals(body), expected: search.expected(candidate) }
     }
 }

@@ -1,6 +1,8 @@
 //! The interface to what does tasks: the simulator of this program, or workers on other machines.
 
-use crate::{SwarmBits, Task, TaskResult, evaluate_tasks, measure, screen};
+use crate::evaluate::{evaluate_remembering, evaluate_tasks};
+use crate::walks::WalkMemory;
+use crate::{SwarmBits, Task, TaskResult, measure, screen};
 use nbc_sim::Simulator;
 
 /// Does tasks. The results depend on the tasks alone, not on the machine. Any thread can call it.
@@ -11,15 +13,45 @@ pub trait Executor: Sync {
     fn perform(&self, run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>>;
 }
 
-impl Executor for Simulator {
+/// Does tasks on this machine, and remembers what it has simulated of the bodies that it evaluated.
+#[derive(Debug, Default)]
+pub struct LocalExecutor {
+    simulator: Simulator,
+    memory: WalkMemory,
+}
+
+impl LocalExecutor {
+    /// Does tasks with a simulator.
+    pub fn new(simulator: Simulator) -> Self {
+        Self { simulator, memory: WalkMemory::default() }
+    }
+
+    /// The number of bodies that it remembers.
+    #[cfg(test)]
+    pub(crate) fn remembered(&self) -> usize {
+        self.memory.len()
+    }
+}
+
+impl Executor for LocalExecutor {
     fn perform(&self, _run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>> {
-        Some(perform(self, tasks, observe))
+        Some(perform_remembering(&self.simulator, &self.memory, tasks, observe))
     }
 }
 
 /// The result of each task, simulated here. Evaluations by the same protocol are done together. Calls `observe` after
 /// each task.
 pub fn perform(simulator: &Simulator, tasks: &[Task], observe: &dyn Fn()) -> Vec<TaskResult> {
+    perform_remembering(simulator, &WalkMemory::default(), tasks, observe)
+}
+
+/// The same, without the simulations that the memory has.
+fn perform_remembering(
+    simulator: &Simulator,
+    memory: &WalkMemory,
+    tasks: &[Task],
+    observe: &dyn Fn(),
+) -> Vec<TaskResult> {
     let mut results: Vec<Option<TaskResult>> = vec![None; tasks.len()];
     for first in 0..tasks.len() {
         if results[first].is_some() {
@@ -35,7 +67,7 @@ pub fn perform(simulator: &Simulator, tasks: &[Task], observe: &dyn Fn()) -> Vec
             _ => None,
         });
         let (places, group): (Vec<usize>, Vec<_>) = alike.unzip();
-        for (place, evaluated) in places.into_iter().zip(evaluate_tasks(simulator, protocol, &group)) {
+        for (place, evaluated) in places.into_iter().zip(evaluate_remembering(simulator, memory, protocol, &group)) {
             results[place] = Some(TaskResult::Evaluation(evaluated));
             observe();
         }
@@ -67,8 +99,8 @@ mod tests {
     fn evaluations(objective: SearchObjective) -> Vec<Task> {
         let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
         let (search, protocol) = (Search::new(&evolution, 3), Arc::new(EvaluationProtocol::of(&evolution)));
-        let task = |body: &Body| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, body));
-        search.ask().iter().take(3).map(|candidate| task(&candidate.body)).collect()
+        let task = |candidate| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, candidate));
+        search.ask().iter().take(3).map(task).collect()
     }
 
     #[test]
@@ -80,7 +112,7 @@ mod tests {
         gates.into_iter().for_each(|task| tasks.insert(2, task));
         let (simulator, done) = (Simulator::default(), Cell::new(0));
         let alone = tasks.iter().map(|task| perform_one(&simulator, task)).collect();
-        let together = simulator.perform(0, &tasks, &|| done.set(done.get() + 1));
+        let together = LocalExecutor::default().perform(0, &tasks, &|| done.set(done.get() + 1));
         assert_eq!((together, done.get()), (Some(alone), tasks.len()));
     }
 }

@@ -1,7 +1,7 @@
 //! All measurements of a body for its robot file.
 
 use crate::characterize::characterize;
-use crate::evaluate::fixed_displacements;
+use crate::distance::fixed_displacements;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Setting};
 use nbc_sim::Simulator;
 

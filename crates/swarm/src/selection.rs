@@ -175,7 +175,7 @@ mod tests {
     use std::cell::Cell;
 
     use super::*;
-    use crate::measure;
+    use crate::{LocalExecutor, measure};
     use nbc_base::model::{Body, Displacements, Palette};
     use nbc_sim::Simulator;
 
@@ -211,10 +211,10 @@ mod tests {
         let candidates = [candidate(&["33"], 1.0), candidate(&["3"], 2.0), candidate(&["34"], 0.0)];
         let done = Cell::new(0);
         let observe = |more| done.set(done.get() + more);
-        SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &candidates, &observe);
+        SELECTION.select(&LocalExecutor::default(), 0, "RRRR".parse().unwrap(), &candidates, &observe);
         assert_eq!(done.get(), SELECTION.cost(candidates.len()));
-        let found =
-            SELECTION.select(&Simulator::default(), 0, "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
+        let found = SELECTION
+            .select(&LocalExecutor::default(), 0, "RRRR".parse().unwrap(), &[], &|_| panic!("there is no work"));
         assert_eq!((found, SELECTION.cost(0)), (Some(Selected::Missing), 0));
     }
 

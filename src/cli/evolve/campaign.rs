@@ -1,4 +1,5 @@
-//! All runs of a command: one at a time on this machine, or many at once if workers do the tasks.
+//! All runs of a command: the seeds of a declaration advance together on this machine, and each run by itself if
+//! workers do the tasks.
 
 use std::sync::Arc;
 
@@ -12,7 +13,11 @@ use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, Interrupt, context};
 use nbc_base::model::Evolution;
 use nbc_base::source::Sources;
+use nbc_swarm::Task;
 use nbc_swarm::evolve::Champion;
+
+/// Seeds of a declaration whose runs are made together.
+type RunSet<'a> = (&'a Evolution, &'a [u64]);
 
 /// The runs of a command, and what does their tasks.
 pub(super) struct Campaign<'a> {
@@ -47,60 +52,82 @@ impl<'a> Campaign<'a> {
         context: &mut Context,
         hand_on: &mut dyn FnMut(MadeRun<'a>, &mut Context) -> Result<(), Failure>,
     ) -> Result<bool, Failure> {
-        let seeds = |evolution: &'a Evolution| evolution.seeds.iter().map(move |&seed| (evolution, seed));
-        let plan: Vec<(&Evolution, u64)> = evolutions.iter().flat_map(seeds).collect();
+        let sets: Vec<RunSet> = evolutions
+            .iter()
+            .flat_map(|evolution| {
+                evolution.seeds.chunks(self.executor.most_together()).map(move |seeds| (evolution, seeds))
+            })
+            .collect();
+        let threads = self.executor.threads_for_sets(sets.iter().map(|(_, seeds)| seeds.len()).max().unwrap_or(0));
         let color = context.color;
-        let work = |place: usize, &(evolution, seed): &(&'a Evolution, u64)| {
-            // The first run is begun in any case, so that an interruption leaves a checkpoint.
+        let work = |place: usize, &set: &RunSet<'a>| {
+            // The first runs are begun in any case, so that an interruption leaves a checkpoint.
             let is_begun = place == 0 || !self.interrupt.is_raised();
-            is_begun.then(|| self.make_run(place, evolution, seed, color)).transpose()
+            is_begun.then(|| self.make_set(place, set, color)).transpose()
         };
         // The first run that was not finished, and those after it.
-        let mut rest = Vec::new();
-        let mut keep = |made: Option<MadeRun<'a>>| match made {
-            Some(run) if run.finished && rest.is_empty() => hand_on(run, context),
-            made => {
-                rest.push(made);
+        let (mut rest, mut finished) = (Vec::new(), true);
+        let mut keep = |made: Option<Vec<MadeRun<'a>>>| {
+            finished &= made.is_some();
+            made.into_iter().flatten().try_for_each(|run| {
+                finished &= run.finished;
+                if finished {
+                    return hand_on(run, context);
+                }
+                rest.push(run);
                 Ok(())
-            }
+            })
         };
-        let keep_or_stop = |made: Result<Option<MadeRun<'a>>, Failure>| {
+        let keep_or_stop = |made: Result<Option<Vec<MadeRun<'a>>>, Failure>| {
             made.and_then(&mut keep).inspect_err(|_| self.interrupt.raise())
         };
-        let made = in_order(self.executor.threads_for_runs(), &plan, work, keep_or_stop);
+        let made = in_order(threads, &sets, work, keep_or_stop);
         let ended = self.executor.end(context);
         made.and(ended)?;
-        let finished = rest.is_empty();
-        rest.into_iter().flatten().try_for_each(|run| hand_on(run, context))?;
+        rest.into_iter().try_for_each(|run| hand_on(run, context))?;
         Ok(finished)
     }
 
-    /// Makes a run until it is finished or stopped. After an error, the other runs are stopped.
-    fn make_run(&self, place: usize, evolution: &'a Evolution, seed: u64, color: bool) -> Result<MadeRun<'a>, Failure> {
+    /// Makes runs until they are finished or stopped. After an error, the other runs are stopped.
+    fn make_set(&self, place: usize, (evolution, seeds): RunSet<'a>, color: bool) -> Result<Vec<MadeRun<'a>>, Failure> {
         let warn = |warning: ProgressGaps| context::tell(&[warning.into()], &Sources::default(), color);
-        let made = EvolutionRun::open(self.arguments, evolution, seed, self.timer, &warn).and_then(|mut run| {
-            self.open.begin(run.generation(), evolution.generations);
-            let evolved = self.evolve(&mut run, place);
-            self.open.end();
-            run.save_timed()?;
-            evolved.map(|()| made_run(evolution, seed, &run))
+        let open = |&seed: &u64| EvolutionRun::open(self.arguments, evolution, seed, self.timer, &warn);
+        let opened: Result<Vec<EvolutionRun>, Failure> = seeds.iter().map(open).collect();
+        let made = opened.and_then(|mut runs| {
+            runs.iter().for_each(|run| self.open.begin(run.generation(), evolution.generations));
+            let evolved = self.evolve(&mut runs, place);
+            runs.iter().for_each(|_| self.open.end());
+            // Each is saved, whatever becomes of the others.
+            let saved: Vec<Result<(), Failure>> = runs.iter().map(EvolutionRun::save_timed).collect();
+            saved.into_iter().collect::<Result<(), Failure>>()?;
+            evolved.map(|()| runs.iter().zip(seeds).map(|(run, &seed)| made_run(evolution, seed, run)).collect())
         });
         made.inspect_err(|_| self.interrupt.raise())
     }
 
-    /// Makes generations until all are made, or a signal arrives.
-    fn evolve(&self, run: &mut EvolutionRun<'a>, place: usize) -> Result<(), Failure> {
-        while !run.is_done() && !self.interrupt.is_raised() {
-            let tasks = run.ask();
-            let results = self.executor.executor().perform(place, &tasks, &|| ());
+    /// Makes generations of all runs together until all are made, or a signal arrives.
+    fn evolve(&self, runs: &mut [EvolutionRun<'a>], place: usize) -> Result<(), Failure> {
+        while !self.interrupt.is_raised() {
+            let mut open: Vec<&mut EvolutionRun> = runs.iter_mut().filter(|run| !run.is_done()).collect();
+            if open.is_empty() {
+                break;
+            }
+            let asked: Vec<Vec<Task>> = open.iter_mut().map(|run| run.ask()).collect();
+            let results = self.executor.executor().perform(place, &asked.concat(), &|| ());
             self.executor.check()?;
             let Some(results) = results else {
                 // Without workers, no other run can be made either.
                 self.interrupt.raise();
                 break;
             };
-            let note = run.tell(results)?;
-            self.open.advance((!self.executor.is_elsewhere()).then_some(note));
+            let mut results = results.into_iter();
+            for (run, asked) in open.into_iter().zip(asked) {
+                let note = run.tell(results.by_ref().take(asked.len()).collect())?;
+                if run.is_done() {
+                    run.save_timed()?;
+                }
+                self.open.advance((!self.executor.is_elsewhere()).then_some(note));
+            }
         }
         Ok(())
     }

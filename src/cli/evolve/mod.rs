@@ -95,7 +95,7 @@ impl EvolveArguments {
         let open = Arc::clone(open);
         let executor = TaskExecutor::open(device, &self.queue, interrupt, move |note| open.note(note))?;
         if executor.is_elsewhere() {
-            let cores = counted(cores(declared, executor.threads_for_runs()), "core");
+            let cores = counted(cores(declared, executor.threads()), "core");
             context.log(&format!("keeps about {cores} busy\n"));
         } else {
             self.tell_duration(declared, context);

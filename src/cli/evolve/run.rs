@@ -124,7 +124,7 @@ impl<'a> EvolutionRun<'a> {
         self.candidates = self.timer.time(TimedStage::Development, || self.search.ask());
         let protocol = Arc::new(EvaluationProtocol::of(self.search.evolution()));
         let task = |candidate: &Candidate| {
-            Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&self.search, &candidate.body))
+            Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&self.search, candidate))
         };
         let tasks = self.timer.time(TimedStage::Archive, || self.candidates.iter().map(task).collect());
         self.searching += started.elapsed().as_secs_f64();

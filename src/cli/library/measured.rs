@@ -172,7 +172,7 @@ mod tests {
 
     use super::*;
     use nbc_base::model::{Body, Palette};
-    use nbc_sim::Simulator;
+    use nbc_swarm::LocalExecutor;
 
     /// Counts what it does, and raises the interrupt after some tasks.
     struct Counting<'a> {
@@ -186,7 +186,7 @@ mod tests {
             if self.done.fetch_add(tasks.len(), Ordering::Relaxed) + tasks.len() >= self.most {
                 self.interrupt.raise();
             }
-            Simulator::default().perform(run, tasks, observe)
+            LocalExecutor::default().perform(run, tasks, observe)
         }
     }
 
@@ -207,7 +207,7 @@ mod tests {
             (found, counting.done.into_inner())
         };
         assert_eq!(perform(2), (None, 2));
-        let alone = Simulator::default().perform(0, &tasks, &|| ());
+        let alone = LocalExecutor::default().perform(0, &tasks, &|| ());
         assert_eq!(perform(9), (alone, 1), "the third only, with the same bits");
         assert!(!folder.path().join(FILE).exists());
     }

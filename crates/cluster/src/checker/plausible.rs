@@ -93,7 +93,7 @@ mod tests {
             let evolution = Evolution { objective, ..evolution() };
             let search = Search::new(&evolution, 1);
             let tasks: Vec<EvaluationTask> =
-                search.ask().iter().take(6).map(|candidate| EvaluationTask::of(&search, &candidate.body)).collect();
+                search.ask().iter().take(6).map(|candidate| EvaluationTask::of(&search, candidate)).collect();
             let protocol = EvaluationProtocol::of(&evolution);
             for (done, task) in evaluate_tasks(&Simulator::default(), &protocol, &tasks).iter().zip(&tasks) {
                 assert!(can_be(done, &protocol, task), "{done:?}");

@@ -15,6 +15,9 @@ use nbc_base::model::{Body, Fault, Pattern, Setting, Trajectory, Trial};
 
 /// An implementation of the physics.
 pub trait Backend: Debug + Send + Sync {
+    /// The number of robots that it simulates in about the time of one.
+    fn at_once(&self) -> usize;
+
     /// Opens a world with a robot for each body, at rest at the setting's start, its clock at zero.
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock>;
 

@@ -89,6 +89,11 @@ impl Archive {
         self.niches.iter().map(|(key, elites)| (key, elites.as_slice()))
     }
 
+    /// The elites of a niche.
+    pub fn elites_of(&self, key: &NicheKey) -> &[Elite] {
+        self.niches.get(key).map_or(&[], Vec::as_slice)
+    }
+
     /// All elites, niche by niche.
     pub fn elites(&self) -> impl Iterator<Item = &Elite> {
         self.niches.values().flatten()

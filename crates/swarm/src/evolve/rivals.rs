@@ -1,6 +1,6 @@
 //! The elites that a body must beat to enter an archive, as plain data.
 
-use nbc_base::model::{Behavior, Niche};
+use nbc_base::model::{Behavior, Direction, Niche};
 
 /// The fitnesses of the elites in the niches that a body could enter, one entry for each behavior that it may show.
 /// This is all that an evaluation needs to know of an archive.
@@ -43,6 +43,19 @@ impl Rivals {
         let niches = &self.behaviors[usize::from(behavior.function().bits())];
         niches.is_empty() || niches.iter().any(|rivals| has_room(self.niche, rivals, bound))
     }
+
+    /// Whether a body with these displacements could enter the archive, whatever its first fitness and its
+    /// displacements under the other patterns are. There is an entry for each pattern, in their order. If it could not,
+    /// then neither could it with more of them known: its second fitness, the smallest distance, can only decrease.
+    pub fn admit_any(&self, known: &[Option<f64>]) -> bool {
+        let least = known.iter().flatten().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
+        let may_show = |behavior: Behavior| {
+            let mut each = behavior.patterns().zip(known);
+            each.all(|(pattern, known)| known.is_none_or(|d| Direction::of(d) == behavior.direction(pattern)))
+        };
+        Behavior::all(known.len().ilog2() as usize)
+            .any(|behavior| may_show(behavior) && self.admit(behavior, &[f64::INFINITY, least]))
+    }
 }
 
 /// Whether a body with fitnesses of at most `bound` could enter a niche with these fitnesses.
@@ -83,5 +96,26 @@ mod tests {
         assert!(Rivals::none(2).admit(nand, &[0.0, 0.0]));
         let front = rivals(Niche::Pareto(3), &[&[[1.0, 0.0], [0.0, 1.0]]]);
         assert!(front.admit(nand, &[0.5, 0.5]) && !front.admit(nand, &[1.0, 0.0]));
+    }
+
+    #[test]
+    fn a_body_is_admitted_as_long_as_a_behavior_that_it_may_show_has_room() {
+        // Right under 00 leads to niches with elites of 2, left to those of 5; LLLL is open.
+        let elite = |behavior: Behavior| match behavior.to_string().as_str() {
+            "LLLL" => Vec::new(),
+            word if word.starts_with('R') => vec![vec![[9.0, 2.0]]],
+            _ => vec![vec![[9.0, 5.0]]],
+        };
+        let rivals = Rivals::new(Niche::Dominance, Behavior::all(2).map(elite).collect());
+        let check = |known: [Option<f64>; 4], expected| assert_eq!(rivals.admit_any(&known), expected, "{known:?}");
+        check([None; 4], true);
+        check([Some(2.0), None, None, None], false);
+        check([Some(2.1), None, None, None], true);
+        check([Some(2.1), None, Some(-1.9), None], false);
+        check([Some(-0.1), None, None, None], true);
+        check([Some(-0.1), None, None, Some(4.0)], false);
+        check([None, None, None, Some(1.0)], false);
+        check([Some(-9.0), Some(-9.0), Some(-9.0), Some(5.1)], true);
+        check([Some(-0.0), Some(0.0), Some(-9.0), Some(-9.0)], true);
     }
 }

@@ -237,7 +237,8 @@ mod tests {
         let scores = |rows: [&str; 5], others: &[PhysicsWorld]| {
             let body = Body::parse(&rows, &Palette::paper()).unwrap();
             let protocol = EvaluationProtocol { others: others.to_vec(), ..EvaluationProtocol::of(&evolution) };
-            let done = evaluate(&Simulator::default(), &protocol, &[EvaluationTask { body, rivals: Rivals::none(2) }]);
+            let task = EvaluationTask { body, rivals: Rivals::none(2), expected: None };
+            let done = evaluate(&Simulator::default(), &protocol, &[task]);
             assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(&protocol));
             let CandidateOutcome::Measured(scores) = done[0].outcome else { panic!("{:?}", done[0]) };
             (scores.fitness, done[0].work.env_steps)
@@ -260,7 +261,11 @@ mod tests {
     #[test]
     fn a_body_is_scored_as_the_nearest_behavior_that_is_asked_for() {
         let evolution = Evolution { objective: SearchObjective::Wave, ..crate::evolve::tests::evolution() };
-        let task = |candidate: &Candidate| EvaluationTask { body: candidate.body.clone(), rivals: Rivals::none(2) };
+        let task = |candidate: &Candidate| EvaluationTask {
+            body: candidate.body.clone(),
+            rivals: Rivals::none(2),
+            expected: None,
+        };
         let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(4).map(task).collect();
         let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
         let scores = |behaviors: &[Behavior]| {

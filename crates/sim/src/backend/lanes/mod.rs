@@ -71,6 +71,10 @@ impl LaneBackend {
 }
 
 impl Backend for LaneBackend {
+    fn at_once(&self) -> usize {
+        self.kernel.lanes() * threads::count()
+    }
+
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
         Box::new(LaneFlock::new(self.world(setting), setting, bodies))
     }

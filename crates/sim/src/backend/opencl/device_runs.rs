@@ -23,7 +23,7 @@ const FIRST_WINDOW: u32 = 4;
 const PATIENCE: u64 = 200_000_000;
 
 /// Robots that a multiprocessor simulates side by side.
-const AT_ONCE: usize = 4;
+pub const AT_ONCE: usize = 4;
 
 /// The kernel's code for a robot that became unstable.
 const UNSTABLE: u32 = 1;

@@ -24,6 +24,7 @@ pub use error::DeviceError;
 pub use listing::{DeviceKind, OpenClDevice};
 pub use self_test::{BoxComparison, SelfTest};
 
+use device_runs::AT_ONCE;
 use fallback_device::FallbackDevice;
 use flock::DeviceFlock;
 
@@ -88,6 +89,13 @@ impl OpenClBackend {
 }
 
 impl Backend for OpenClBackend {
+    fn at_once(&self) -> usize {
+        match self.failure() {
+            Some(_) => self.processor().at_once(),
+            None => AT_ONCE * self.device().multiprocessors.max(1),
+        }
+    }
+
     fn flock(&self, setting: &Setting, bodies: &[Body]) -> Box<dyn Flock> {
         Box::new(DeviceFlock::new(&self.device, setting, bodies))
     }

@@ -201,6 +201,13 @@ impl Search {
         Rivals::new(self.archive.niche(), Behavior::all(self.evolution.palette.inputs()).map(niches).collect())
     }
 
+    /// The displacements that a candidate of the current archive probably has: those of the elite of its parent's niche
+    /// that was there first.
+    pub fn expected(&self, candidate: &Candidate) -> Option<Displacements> {
+        let CandidateOrigin::Offspring(key) = &candidate.origin else { return None };
+        Some(self.archive.elites_of(key).first()?.displacement)
+    }
+
     fn take(&mut self, candidate: &Candidate, scores: &Scores) {
         let elite = Elite {
             fitness: scores.fitness,
