@@ -1,45 +1,58 @@
-//! Substeps per second for bodies of the paper's three boxes: one simulation alone, and eight in parallel with each
-//! instruction set of the processor, with one body or eight different ones.
-//!
-//! `cargo bench --bench substeps` prints, for each, elements (lane-substeps) per second of one core.
+//! Lane-substeps per second of one core for bodies of the paper's three boxes, with each kernel of the processor, one
+//! body in all lanes or different ones: `cargo bench --bench substeps`. It prints medians of the rounds with their
+//! range, in CPU time.
 
-use std::hint::black_box;
 use std::time::Duration;
 
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use nbc_sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
 
-fn substeps(criterion: &mut Criterion) {
-    let setting = Setting::default();
+const ROUNDS: usize = 15;
+
+fn main() {
     // One thread, because the figures are for one core.
     let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("a pool of one thread");
-    let mut group = criterion.benchmark_group("substeps");
-    group.sample_size(10).warm_up_time(Duration::from_millis(300)).measurement_time(Duration::from_secs(2));
-    let wide = InstructionSet::available().into_iter().filter_map(|set| Kernel::new(set, 8));
-    let kernels: Vec<Kernel> = [Kernel::SCALAR].into_iter().chain(wide).collect();
     for side in [5, 7, 10] {
-        for &kernel in &kernels {
-            for bodies in ["one body", "different bodies"] {
-                let shift = |lane| if bodies == "one body" { 0 } else { lane };
-                let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
-                let trial = |lane| Trial { body: Body::patchwork(side, shift(lane)), schedule: schedule.clone() };
-                let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
-                if kernel.lanes() == 1 && bodies != "one body" {
-                    continue;
-                }
-                let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
-                let substeps = u64::from(CYCLE_STEPS * Constants::default().substeps);
-                group.throughput(Throughput::Elements(kernel.lanes() as u64 * substeps));
-                let name = format!("{} lanes, {}, {bodies}", kernel.lanes(), kernel.set().name());
-                group.bench_function(BenchmarkId::new(format!("{side}x{side}"), name), |bencher| {
-                    bencher.iter(|| pool.install(|| black_box(simulator.run_trials(&setting, &trials))));
-                });
-            }
-        }
+        pool.install(|| race(side));
     }
-    group.finish();
 }
 
-criterion_group!(benches, substeps);
-criterion_main!(benches);
+/// Times each kernel with bodies of a full box.
+fn race(side: usize) {
+    let wide = InstructionSet::available().into_iter().flat_map(|set| [4, 8].map(|lanes| Kernel::new(set, lanes)));
+    let kernels: Vec<Kernel> = [Some(Kernel::SCALAR)].into_iter().chain(wide).flatten().collect();
+    let cases = kernels.into_iter().flat_map(|kernel| [(kernel, 0), (kernel, 1)]);
+    let mut found: Vec<(Kernel, usize, Vec<f64>)> = cases
+        .filter(|&(kernel, shift)| kernel.lanes() > 1 || shift == 0)
+        .map(|(k, shift)| (k, shift, vec![]))
+        .collect();
+    for _ in 0..ROUNDS {
+        for (kernel, shift, rates) in &mut found {
+            rates.push(rate(side, *kernel, *shift));
+        }
+    }
+    for (kernel, shift, mut rates) in found {
+        rates.sort_by(f64::total_cmp);
+        let bodies = if shift == 0 { "one body" } else { "different bodies" };
+        let (set, lanes) = (kernel.set().name(), kernel.lanes());
+        let (median, least, most) = (rates[ROUNDS / 2], rates[0], rates[ROUNDS - 1]);
+        println!("{side}x{side} {lanes} lanes, {set:8} {bodies:16} {median:9.0} ({least:.0} to {most:.0})");
+    }
+}
+
+/// Lane-substeps per second of CPU time in a cycle from a fresh start. The bodies of two lanes are `shift` apart.
+fn rate(side: usize, kernel: Kernel, shift: usize) -> f64 {
+    let schedule = Schedule::constant(Pattern::PAIRS[1], CYCLE_STEPS);
+    let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
+    let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
+    let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
+    let start = spent();
+    std::hint::black_box(simulator.run_trials(&Setting::default(), &trials));
+    f64::from(CYCLE_STEPS * Constants::default().substeps) * trials.len() as f64 / (spent() - start).as_secs_f64()
+}
+
+/// CPU time of this thread (Linux).
+fn spent() -> Duration {
+    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux tells the time of a thread");
+    Duration::from_nanos(statistics.split_whitespace().next().and_then(|time| time.parse().ok()).expect("a number"))
+}

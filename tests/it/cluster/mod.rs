@@ -3,6 +3,7 @@
 mod access;
 mod answers;
 mod commands;
+mod keys;
 mod kills;
 mod listing;
 mod many_workers;

@@ -3,12 +3,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use batsat::SolverInterface;
+use batsat::{BasicSolver, Lit, SolverInterface, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
-use rustsat::solvers::{Solve, SolveIncremental, SolverResult};
-use rustsat::types::{Lit, TernaryVal};
-use rustsat_batsat::BasicSolver;
 
 use crate::network::{Gate, Network, Signal, word};
 use crate::proof::method::Method;
@@ -255,8 +252,8 @@ impl SatSweep {
 #[derive(Default)]
 struct Cones {
     solver: BasicSolver,
-    /// The variable of each signal that the solver has.
-    variable: BTreeMap<Signal, u32>,
+    /// The variable of each signal that the solver has, as the literal that is true where the signal is 1.
+    variable: BTreeMap<Signal, Lit>,
     /// The signals whose gates the solver has.
     defined: BTreeSet<Signal>,
     calls: usize,
@@ -264,7 +261,7 @@ struct Cones {
 
 impl Cones {
     fn propagations(&self) -> u64 {
-        self.solver.batsat_ref().num_propagations()
+        self.solver.num_propagations()
     }
 
     /// Whether signals can have these values. `gate` knows the gate of each signal that is no source.
@@ -285,27 +282,25 @@ impl Cones {
             }
         }
         let assumed: Vec<Lit> = wanted.iter().map(|&wanted| self.literal(wanted)).collect();
-        match self.solver.solve_assumps(&assumed) {
-            Ok(SolverResult::Sat) => true,
-            Ok(SolverResult::Unsat) => false,
-            other => unreachable!("the solver runs without limits, and gave {other:?}"),
-        }
+        let solved = self.solver.solve_limited(&assumed);
+        assert!(solved != lbool::UNDEF, "the solver runs without limits");
+        solved == lbool::TRUE
     }
 
     /// Whether a signal is 1 in what was found last. One that the solver does not have may be either.
     fn is_on(&self, signal: Signal) -> bool {
-        let value = |&variable| self.solver.lit_val(Lit::new(variable, false));
-        self.variable.get(&signal).is_some_and(|variable| matches!(value(variable), Ok(TernaryVal::True)))
+        self.variable.get(&signal).is_some_and(|&literal| self.solver.value_lit(literal) == lbool::TRUE)
     }
 
     fn literal(&mut self, (signal, value): (Signal, bool)) -> Lit {
         let next = self.variable.len() as u32;
-        Lit::new(*self.variable.entry(signal).or_insert(next), !value)
+        let positive = *self.variable.entry(signal).or_insert_with(|| Lit::new(self.solver.var_of_int(next), true));
+        if value { positive } else { !positive }
     }
 
     fn clause(&mut self, clause: &[(Signal, bool)]) {
-        let literals: Vec<Lit> = clause.iter().map(|&one| self.literal(one)).collect();
-        self.solver.add_clause(literals.into_iter().collect()).expect("clauses fit into memory");
+        let mut literals: Vec<Lit> = clause.iter().map(|&one| self.literal(one)).collect();
+        self.solver.add_clause_reuse(&mut literals);
     }
 
     /// The clauses of a gate: one for each pattern of its pins.
