@@ -85,6 +85,7 @@ impl BuildArguments {
             Some(cells) => session.map_onto(&checked, &circuit, &cells, &options)?,
             None => session.map(&checked, &circuit, &options)?,
         };
+        context.origins(&checked);
         let is_short = !hardened.tried.is_empty() && !hardened.reached;
         let text = emit(kind, mapping, hardened);
         match &self.output {

@@ -11,8 +11,8 @@ use serde_json::ser::Formatter;
 use crate::cli::Status;
 use crate::cli::failure::{Failure, unprintable};
 use crate::cli::output::Output;
-use nbc_base::diag::{Diagnostic, Diagnostics, is_hidden, render, visible};
-use nbc_base::source::Sources;
+use nbc_base::diag::{Diagnostic, Diagnostics, alternatives, is_hidden, render, visible};
+use nbc_base::source::{ForeignCircuit, ProofOrigin, Sources};
 use nbc_session::Checked;
 use nbc_session::report::{Document, Schema};
 use nbc_session::store;
@@ -168,6 +168,25 @@ impl Context {
             told.extend(is_new.then(|| warning.clone()));
         }
         self.tell(&told, &source.sources);
+    }
+
+    /// Logs what the proofs of circuits of other tools' files begin with, a line for each file.
+    pub fn origins(&self, source: &Checked) {
+        let mut lines: Vec<(&str, String, Vec<String>)> = Vec::new();
+        for ForeignCircuit { file, circuit, origin } in &source.foreign {
+            let file = file.as_str();
+            let words = match origin {
+                ProofOrigin::File => origin.to_string(),
+                ProofOrigin::Yosys { version, .. } => format!("{origin} (Yosys {version})"),
+            };
+            match lines.iter_mut().find(|(known, same, _)| *known == file && *same == words) {
+                Some((_, _, circuits)) => circuits.push(circuit.clone()),
+                None => lines.push((file, words, vec![circuit.clone()])),
+            }
+        }
+        for (file, words, circuits) in lines {
+            self.log(&format!("{file}: {} proved from {words}\n", alternatives(&circuits, "and")));
+        }
     }
 
     /// Reports a failure, and returns the exit status.

@@ -95,6 +95,7 @@ impl RunArguments {
         let (all, left) = (list.len(), report.left);
         let runs = CompleteRun::complete(report);
         context.warn(&file, file.diagnostics.iter().chain(runs.iter().flat_map(CompleteRun::warnings)));
+        context.origins(&file);
         if interrupt.is_raised() {
             context.log(&format!("interrupted: {} of {all} tests and simulations complete\n", all - left));
             if runs.is_empty() {

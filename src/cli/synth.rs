@@ -11,10 +11,12 @@ use crate::cli::options::mapping::{MappingArguments, functions};
 use crate::cli::options::new_path::new_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
-use nbc_base::diag::{Diagnostic, counted};
-use nbc_base::source::Simulated;
+use nbc_base::diag::counted;
+use nbc_base::diag::suggest::alternatives;
+use nbc_base::source::{ProofOrigin, Simulated};
 use nbc_circuit::correspondence::{self, Removed};
-use nbc_circuit::formats::Design;
+use nbc_circuit::formats::buses::renumbered;
+use nbc_circuit::formats::{CircuitFormat, Design};
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
 use nbc_circuit::{CellLibrary, MapOptions, Netlist, levels, registers};
 use nbc_session::report::Schema;
@@ -93,9 +95,6 @@ struct Report {
     unreachable: Option<UnreachableReport>,
     proved: bool,
     proof: ProofReport,
-    /// The version of the Yosys that read the file, in the text only.
-    #[serde(skip)]
-    yosys: Option<String>,
     seconds: f64,
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     what_if: BTreeMap<String, i64>,
@@ -106,6 +105,9 @@ struct Report {
 struct ProofReport {
     /// `file`, or `yosys` for its netlist.
     from: &'static str,
+    /// The version of Yosys.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<String>,
     /// The simulator that compared the netlist with the file, and the steps that were equal.
     #[serde(skip_serializing_if = "Option::is_none")]
     simulator: Option<&'static str>,
@@ -114,39 +116,24 @@ struct ProofReport {
     /// Why it compared nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_simulated: Option<&'static str>,
+    /// All this in words.
+    #[serde(skip)]
+    words: String,
 }
 
-impl From<Option<Simulated>> for ProofReport {
-    fn from(simulated: Option<Simulated>) -> Self {
-        let from = if simulated.is_some() { "yosys" } else { "file" };
-        let (steps, not_simulated) = match simulated {
-            None => (None, None),
-            Some(Simulated::Equal { steps }) => (Some(steps), None),
-            Some(Simulated::NoSimulator) => (None, Some("iverilog is not installed")),
-            Some(Simulated::NotRun) => (None, Some("iverilog cannot read it or takes too long")),
-            Some(Simulated::NotComparable) => {
-                (None, Some("it has feedback, registers that clock each other, or nothing defined"))
-            }
+impl From<ProofOrigin> for ProofReport {
+    fn from(origin: ProofOrigin) -> Self {
+        let words = origin.to_string();
+        let ProofOrigin::Yosys { version, simulated } = origin else {
+            return Self { from: "file", version: None, simulator: None, steps: None, not_simulated: None, words };
         };
-        Self { from, simulator: steps.map(|_| "iverilog"), steps, not_simulated }
+        let steps = match simulated {
+            Simulated::Equal { steps } => Some(steps),
+            _ => None,
+        };
+        let (simulator, not_simulated) = (steps.map(|_| "iverilog"), simulated.why_not());
+        Self { from: "yosys", version: Some(version), simulator, steps, not_simulated, words }
     }
-}
-
-impl ProofReport {
-    fn words(&self) -> String {
-        match (self.from, self.steps, self.not_simulated) {
-            ("file", ..) => "the file".to_owned(),
-            (_, Some(steps), _) => format!("yosys' netlist, {} steps equal in iverilog", grouped(steps)),
-            (_, None, why) => format!("yosys' netlist, which was not simulated: {}", why.unwrap_or_default()),
-        }
-    }
-}
-
-/// A number with commas, such as 4,096.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));
-    groups.collect::<Vec<_>>().join(",")
 }
 
 /// Registers that the circuit does not need.
@@ -251,13 +238,12 @@ impl SynthArguments {
         let top = TopModule { name: self.top, parameters: self.param.into_iter().collect() };
         let (path, others) = self.input.split_first().expect("a file is required");
         let file = CircuitFile { path, others, clock: self.clock.as_deref(), top: &top };
-        let CircuitRead { design: read, mut warnings, simulated, yosys } = store::read_circuit(&file)?;
-        warnings.list.extend(yosys.as_deref().and_then(Diagnostic::old_yosys));
+        let CircuitRead { design: read, warnings, origin } = store::read_circuit(&file)?;
         context.tell(&warnings.list, &warnings.sources);
         let (design, removed) = correspondence::reduce(&read);
         let expand = match self.registers {
             Some(word) => word == RegisterWord::Expand,
-            None => target == Some(nbc_circuit::formats::CircuitFormat::Dot),
+            None => target == Some(CircuitFormat::Dot),
         };
         let options = self.mapping.options();
         let whole = Made::of(design, expand, &library, &options)?;
@@ -274,9 +260,14 @@ impl SynthArguments {
         if let (Some(path), Some(target)) = (&self.output, target) {
             let bytes = store::encode_circuit(&result, target).map_err(Failure::plain)?;
             context.write(path, &bytes)?;
+            let others = if target == CircuitFormat::Nb { renumbered(&result) } else { Vec::new() };
+            if !others.is_empty() {
+                let them = alternatives(&others, "and");
+                context.log(&format!("the bits of {them} are numbered from 0 at the right in .nb\n"));
+            }
         }
-        let proof = simulated.into();
-        let mut report = Report { unreachable, proof, yosys, ..Report::of(&design, removed, &result.logic, started) };
+        let proof = origin.into();
+        let mut report = Report { unreachable, proof, ..Report::of(&design, removed, &result.logic, started) };
         for function in what_if {
             let mut more = library.clone();
             more.insert(function, nbc_circuit::CellKind::uniform(1, 1.0));
@@ -351,8 +342,7 @@ impl Report {
             unreachable: None,
             // A circuit that is not proved is never reported.
             proved: true,
-            proof: None.into(),
-            yosys: None,
+            proof: ProofOrigin::File.into(),
             seconds: started.elapsed().as_secs_f64(),
             what_if: BTreeMap::new(),
         }
@@ -366,10 +356,10 @@ impl Report {
             counted(self.cells, "cell"),
             parts.join(", "),
             counted(self.depth as usize, "level"),
-            self.proof.words(),
+            self.proof.words,
             self.seconds
         );
-        text.extend(self.yosys.iter().map(|version| format!("read by Yosys {version}\n")));
+        text.extend(self.proof.version.iter().map(|version| format!("read by Yosys {version}\n")));
         text.push_str(&self.removed.text());
         text.extend(self.unreachable.iter().map(UnreachableReport::text));
         for (name, saved) in &self.what_if {
@@ -388,8 +378,8 @@ fn parameter(text: &str) -> Result<(String, ParameterValue), String> {
 }
 
 /// The format for a file's extension.
-fn format(path: &Path) -> Result<nbc_circuit::formats::CircuitFormat, Failure> {
+fn format(path: &Path) -> Result<CircuitFormat, Failure> {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    nbc_circuit::formats::CircuitFormat::of_ending(&ending)
+    CircuitFormat::of_ending(&ending)
         .ok_or_else(|| UsageError::CircuitFormat { path: path.display().to_string() }.into())
 }

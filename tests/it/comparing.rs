@@ -44,7 +44,10 @@ fn a_result_says_what_it_was_proved_from() {
     let ran = bench.run(&["synth", "counter.v", "--cells", "nand,not"]);
     assert!(ran.out.contains("proved from yosys' netlist, 4,096 steps equal in iverilog,"), "{}{}", ran.out, ran.err);
     let report = bench.run(&["synth", "counter.v", "--cells", "nand,not", "--format", "json"]).expect_json();
-    assert_eq!(report["proof"], serde_json::json!({"from": "yosys", "simulator": "iverilog", "steps": 4096}));
+    let version = report["proof"]["version"].as_str().unwrap();
+    let expected = serde_json::json!({"from": "yosys", "version": version, "simulator": "iverilog", "steps": 4096});
+    assert_eq!(report["proof"], expected);
+    assert!(ran.out.contains(&format!("read by Yosys {version}\n")), "{}", ran.out);
     let without = only(&bench, &[yosys]);
     let (is_done, said) = synth(&bench, "counter.v", without.to_str().unwrap());
     let words = "proved from yosys' netlist, which was not simulated: iverilog is not installed";
@@ -52,6 +55,35 @@ fn a_result_says_what_it_was_proved_from() {
     bench.file("and.blif", ".model m\n.inputs a b\n.outputs y\n.names a b y\n11 1\n.end\n");
     let ran = bench.run(&["synth", "and.blif", "--cells", "nand,not"]);
     assert!(ran.out.contains("proved from the file,"), "{}", ran.out);
+}
+
+#[test]
+fn programs_say_what_their_used_circuits_were_proved_from() {
+    if !YOSYS.is_there() || !IVERILOG.is_there() {
+        return;
+    }
+    let bench = Bench::new();
+    bench.file("m.v", "module one(input a, output y); assign y = ~a; endmodule\nmodule two(input a, output y); assign y = a; endmodule\n");
+    bench.file("both.blif", ".model both\n.inputs a b\n.outputs y\n.names a b y\n11 1\n.end\n");
+    bench.file("p.nb", "use \"m.v\"\nuse \"both.blif\"\n\ntest one { a | y\n    0 | 1 }\n");
+    let version =
+        bench.run(&["synth", "m.v", "--top", "one", "--format", "json"]).expect_json()["proof"]["version"].clone();
+    let verilog = format!(
+        "m.v: `one` and `two` proved from yosys' netlist, 4,096 steps equal in iverilog (Yosys {})\n",
+        version.as_str().unwrap()
+    );
+    for arguments in [&["test", "p.nb", "--logic"][..], &["build", "p.nb", "--circuit", "one"]] {
+        let ran = bench.run(arguments);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+        let lines = format!("{verilog}both.blif: `both` proved from the file\n");
+        assert!(ran.err.contains(&lines) && !ran.out.contains("proved from"), "{arguments:?}: {}", ran.err);
+    }
+    // An old version is told once, at its first use.
+    let is_old = version.as_str().unwrap().split_once('.').is_some_and(|(_, minor)| minor.parse() < Ok(60));
+    bench.file("q.nb", "use \"m.v\"\nuse \"n.v\"\n");
+    bench.file("n.v", "module n(input a, output y); assign y = ~a; endmodule\n");
+    let said = bench.run(&["check", "q.nb"]).err;
+    assert_eq!(said.matches("which is old").count(), usize::from(is_old), "{said}");
 }
 
 /// A program that takes the place of Yosys and gives this netlist for every text.
@@ -171,7 +203,10 @@ fn ranges_that_count_upwards_keep_their_direction() {
     // The leftmost bit is the highest.
     let rows = "test ranges {\n    clk a b c | y z w s\n    0 4'd1 4'd2 4'd3 | 4'd2 4'd2 4'd3 4'd0\n    \
                 1 4'd1 4'd2 4'd3 | 4'd2 4'd2 4'd3 4'd1\n}\n";
-    assert_eq!(bench.run(&["synth", "ranges.v", "--cells", "nand,not", "-o", "made.nb"]).status, 0);
+    let note = "are numbered from 0 at the right in .nb";
+    assert!(!ran.err.contains(note), "{}", ran.err);
+    let ran = bench.run(&["synth", "ranges.v", "--cells", "nand,not", "-o", "made.nb"]);
+    assert!(ran.err.contains(&format!("the bits of `a`, `b`, `c`, `y`, `z`, `w` and `s` {note}")), "{}", ran.err);
     for file in ["ranges.v", "out.v", "made.nb"] {
         bench.file("used.nb", format!("use \"{file}\"\n\n{rows}"));
         let ran = bench.run(&["test", "used.nb", "--logic"]);

@@ -37,6 +37,15 @@ fn check_laws(text: &str) {
 }
 
 #[test]
+fn a_long_list_of_used_files_has_a_line_for_each() {
+    assert_eq!(formatted("use  \"a.v\" ,\n \"b.v\""), "use \"a.v\", \"b.v\"\n");
+    let (one, two) = ("long/".repeat(10), "folders/".repeat(6));
+    let text = format!("use \"{one}a.v\",\n    \"{two}b.v\"\n");
+    assert_eq!(formatted(&text), text);
+    check_laws(&text.replace("\n    ", ""));
+}
+
+#[test]
 fn every_program_of_the_repository_is_formatted() {
     let update = std::env::var_os("NBC_UPDATE_UI").is_some();
     for path in programs("circuits").into_iter().chain(programs("library")) {

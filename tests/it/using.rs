@@ -101,6 +101,40 @@ fn a_circuit_of_another_tool_calls_the_standard_register() {
 }
 
 #[test]
+fn a_list_of_files_is_one_design_of_verilog_and_each_other_file_by_itself() {
+    let bench = Bench::new();
+    bench.file("a.nb", "circuit inverted(a) -> (q) { q = not a }\n");
+    bench.file("b.nb", "circuit same(a) -> (q) { q = a }\n");
+    bench.file("alu.blif", BLIF);
+    bench.file(
+        "p.nb",
+        format!("use \"a.nb\", \"alu.blif\",\n    \"b.nb\"\n{CALLS}\ntest same {{ a | q\n    1 | 1 }}\n"),
+    );
+    let ran = bench.run(&["test", "--logic", "p.nb"]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.file("q.nb", "use \"a.nb\", \"c.nb\"\n");
+    bench.run(&["check", "q.nb"]).expect_fault(&["cannot read `c.nb`", "q.nb:1:13", "a.nb"]);
+    if !YOSYS.is_there() {
+        return;
+    }
+    bench.file("top.v", "module top(input [3:0] a, output [3:0] y);\n  add #(4) u(a, `ONE, y);\nendmodule\n");
+    bench.file("one.v", "`define ONE 4'd1\n");
+    std::fs::create_dir(bench.path().join("parts")).unwrap();
+    bench.file(
+        "parts/add.v",
+        "module add #(parameter N = 2) (input [N-1:0] a, b, output [N-1:0] y);\n  assign y = a + b;\nendmodule\n",
+    );
+    let rows = "test top {\n    a    | y\n    4'd3 | 4'd4\n    4'd15 | 4'd0\n}\n";
+    for list in ["\"one.v\", \"top.v\", \"parts/add.v\"", "\"one.v\", \"parts\", \"top.v\", \"b.nb\""] {
+        bench.file("v.nb", format!("use {list}\n\n{rows}"));
+        let ran = bench.run(&["test", "--logic", "v.nb"]);
+        assert_eq!(ran.status, 0, "{list}: {}{}", ran.out, ran.err);
+    }
+    bench.file("w.nb", "use \"one.v\", \"top.v\"\n");
+    bench.run(&["check", "w.nb"]).expect_fault(&["Module `add`", "Give its file, too", "top.v:2"]);
+}
+
+#[test]
 fn a_file_without_names_of_circuits_is_called_by_its_own_name() {
     let bench = Bench::new();
     let text = "aag 3 2 0 1 1\n2\n4\n6\n6 4 2\ni0 x[0]\ni1 x[1]\no0 y\n";

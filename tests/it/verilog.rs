@@ -56,6 +56,63 @@ fn passes_its_bench(bench: &Bench, module: &str) {
 }
 
 #[test]
+fn a_module_without_content_or_outputs_is_named() {
+    if !YOSYS.is_there() {
+        return;
+    }
+    let bench = Bench::new();
+    bench.file("empty.v", "\nmodule e(input a, output q);\nendmodule\n");
+    bench.file(
+        "inside.v",
+        "module e(input a, output q);\nendmodule\nmodule m(input a, output q);\n  e u(a, q);\nendmodule\n",
+    );
+    let help = "write its logic, or give the file that has it";
+    for (file, place) in [("empty.v", "empty.v:2:1"), ("inside.v", "inside.v:1:1")] {
+        bench.file("p.nb", format!("use \"{file}\"\n"));
+        for arguments in [&["synth", file][..], &["check", "p.nb"]] {
+            bench.run(arguments).expect_fault(&["the module `e` has no content", place, help]);
+        }
+    }
+    bench.file("none.v", "module bench;\n  reg a = 1;\nendmodule\n");
+    bench.run(&["synth", "none.v", "-o", "none.nb"]).expect_fault(&["`bench` has no outputs", "none.v:1:1"]);
+    bench.file("none.blif", ".model b\n.inputs a\n.end\n");
+    bench.run(&["synth", "none.blif"]).expect_fault(&["`b` has no outputs"]);
+    assert!(!bench.path().join("none.nb").exists());
+}
+
+/// A register with assertions of each kind.
+const ASSERTED: &str = "\
+module m(input clk, a, b, output reg q);
+  property p; @(posedge clk) a |-> ##1 q; endproperty
+  always @(posedge clk) begin
+    l: assert (a == b) else $error(\"differ\");
+    if (b) assert (a) q <= 0; else q <= 1; else q <= a;
+    cover (q);
+  end
+  c: assert property (p) else begin $display(\"no\"); end
+  assume property (@(posedge clk) disable iff (b) a);
+endmodule
+";
+
+#[test]
+fn assertions_are_left_out_with_a_warning() {
+    if !YOSYS.is_there() {
+        return;
+    }
+    let bench = Bench::new();
+    bench.file("m.v", ASSERTED);
+    let rows = "test m {\n    clk a b | q\n    ^   1 0 | 1\n    ^   0 1 | 1\n    ^   0 0 | 0\n}\n";
+    bench.file("m.nb", format!("use \"m.v\"\n\n{rows}"));
+    let ran = bench.run(&["test", "m.nb", "--logic"]);
+    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let ran = bench.run(&["synth", "m.v", "--cells", "nand,not"]);
+    for word in ["assert", "cover", "assume"] {
+        assert!(ran.status == 0 && ran.err.contains(&format!("`{word}` is ignored")), "{}", ran.err);
+    }
+    assert_eq!(ran.out.contains(" steps equal in iverilog"), IVERILOG.is_there(), "{}", ran.out);
+}
+
+#[test]
 fn the_original_bench_fits_what_is_written() {
     if !YOSYS.is_there() || !IVERILOG.is_there() {
         return;

@@ -10,16 +10,16 @@ use nbc_lang::syntax::tree::{DeclarationKind, RecordKeyword, ValueKind};
 /// The links of a file to others that exist.
 pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {
     let declarations = files.checked.tree(file).into_iter().flat_map(|tree| &tree.declarations);
-    let named = declarations.filter_map(|declaration| match &declaration.kind {
-        DeclarationKind::Use(path) => Some((path.text.as_str(), path.span)),
+    let named = declarations.flat_map(|declaration| match &declaration.kind {
+        DeclarationKind::Use(paths) => paths.iter().map(|path| (path.text.as_str(), path.span)).collect(),
         DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => {
-            let from = record.record.field("from")?;
-            match &from.value.kind {
-                ValueKind::Text(folder) => Some((folder.as_str(), from.value.span)),
-                _ => None,
+            let from = record.record.field("from").map(|from| (&from.value.kind, from.value.span));
+            match from {
+                Some((ValueKind::Text(folder), span)) => vec![(folder.as_str(), span)],
+                _ => Vec::new(),
             }
         }
-        _ => None,
+        _ => Vec::new(),
     });
     named.filter_map(|(path, place)| link(files, path, place)).collect()
 }

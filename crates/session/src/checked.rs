@@ -5,7 +5,7 @@ use serde_json::Value;
 use crate::contents;
 use nbc_base::diag::{Diagnostic, Diagnostics, json};
 use nbc_base::model::{Instance, Program};
-use nbc_base::source::{FileId, MemoryWorld, SourceWorld, Sources, Span};
+use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, SourceWorld, Sources, Span};
 use nbc_circuit::NetWidths;
 use nbc_lang::check::{self, Analysis, NameUses};
 use nbc_lang::syntax::tree::Tree;
@@ -33,6 +33,8 @@ pub struct Checked {
     pub(super) trees: Vec<Tree>,
     /// The circuits that were built, with the values of their parameters, those of the prelude included.
     pub instances: Vec<Instance>,
+    /// The circuits of other tools' files, and what their proofs begin with.
+    pub foreign: Vec<ForeignCircuit>,
     /// Whether nobody waited for the result any more, so that a part of it is missing.
     pub(super) is_cancelled: bool,
 }
@@ -45,9 +47,22 @@ impl Checked {
             Ok(file) => (Some(file), check::check(world, &mut sources, file)),
             Err(fault) => (None, Analysis { diagnostics: vec![fault], ..Analysis::default() }),
         };
-        let Analysis { program, diagnostics, uses, widths, trees, instances, is_cancelled } = analysis;
+        let Analysis { program, diagnostics, uses, widths, trees, instances, foreign, is_cancelled } = analysis;
         let path = path.to_owned();
-        Self { path, revision, sources, file, program, diagnostics, uses, widths, trees, instances, is_cancelled }
+        Self {
+            path,
+            revision,
+            sources,
+            file,
+            program,
+            diagnostics,
+            uses,
+            widths,
+            trees,
+            instances,
+            foreign,
+            is_cancelled,
+        }
     }
 
     /// The tree of a file; `None` if nothing could be parsed.

@@ -11,7 +11,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::{Pass, Sweep};
-use nbc_circuit::{CellLibrary, MapError, MapOptions, Netlist, Timing, elaborate, elaborate_net, map_with, prove};
+use nbc_circuit::{CellLibrary, MapOptions, Netlist, Timing, elaborate, elaborate_net, map_with, prove};
 use nbc_swarm::{Assembly, WeakRobot};
 
 /// A circuit compiled to a swarm.
@@ -122,11 +122,12 @@ pub(super) fn map_net(
     net: Span,
     options: MapOptions,
 ) -> Result<Mapping, Vec<Diagnostic>> {
-    let mut source = elaborate_net(program, &plan.circuit, net)?;
-    let swept = Sweep.run(&mut source).map_err(|error| ChoiceError::Unmapped(MapError::Netlist(error)));
-    swept.map_err(|error| vec![for_circuit(error.into(), net)])?;
+    let source = elaborate_net(program, &plan.circuit, net)?;
     let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options);
-    mapping.map_err(|fault| vec![for_circuit(fault, net)])
+    let mut mapping = mapping.map_err(|fault| vec![for_circuit(fault, net)])?;
+    // The proof was of all that was elaborated. What is shown is the part of the net.
+    Sweep.run(&mut mapping.source).expect("sweeping only removes");
+    Ok(mapping)
 }
 
 /// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.

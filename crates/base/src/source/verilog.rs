@@ -91,6 +91,8 @@ pub struct VerilogDrivers {
     pub net: String,
     /// What drives it, each with its place, if it is known.
     pub drivers: [(String, Option<VerilogPlace>); 2],
+    /// The place of its declaration, if it is known.
+    pub place: Option<VerilogPlace>,
 }
 
 /// A Verilog file that was read.
@@ -126,6 +128,15 @@ pub enum VerilogError {
     NoFolder(String),
     /// Yosys ended without a result.
     NoResult,
+    /// Yosys crashed.
+    Crashed,
+    /// A module without content, so that nothing drives its outputs.
+    Empty {
+        /// The module.
+        module: String,
+        /// Its place, if it is known.
+        place: Option<VerilogPlace>,
+    },
     /// Yosys took too much time.
     TooLong {
         /// The limit, in seconds of a processor.

@@ -2,6 +2,9 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use crate::NetId;
+use crate::formats::Design;
+
 /// A port or a net of one bit or several, made of the bits of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bus {
@@ -42,6 +45,20 @@ pub fn buses(names: &[String], ascending: &BTreeSet<String>) -> Vec<Bus> {
         }
     }
     all
+}
+
+/// The ports of a design whose bits are numbered otherwise than from 0 at the right. A program of the language numbers
+/// them so.
+pub fn renumbered(design: &Design) -> Vec<String> {
+    let logic = &design.logic;
+    let names = |ids: &[NetId]| ids.iter().map(|&id| logic.net_name(id)).collect::<Vec<_>>();
+    let ports = [names(&logic.inputs()[..design.inputs()]), names(&logic.outputs()[..design.outputs()])];
+    let of_ports = |names: &Vec<String>| {
+        let is_other = |bus: &Bus| bit_number(&names[bus.bits[0]]).is_some_and(|(_, number)| number != 0);
+        let found = buses(names, &design.ascending).into_iter().filter(|bus| bus.bits.len() > 1 && is_other(bus));
+        found.map(|bus| bus.name).collect::<Vec<_>>()
+    };
+    ports.iter().flat_map(of_ports).collect()
 }
 
 /// The name of a bus and the number of its bit, from the name of the bit: `a` and -1 for `a[-1]`. `None` for other

@@ -4,6 +4,7 @@ use crate::check::uses::NameUses;
 use crate::syntax::tree::Tree;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, Program};
+use nbc_base::source::ForeignCircuit;
 use nbc_circuit::NetWidths;
 
 /// A program and its diagnostics.
@@ -21,6 +22,8 @@ pub struct Analysis {
     pub trees: Vec<Tree>,
     /// The circuits that were built, with the values of their parameters, those of the prelude included.
     pub instances: Vec<Instance>,
+    /// The circuits of other tools' files, and what their proofs begin with.
+    pub foreign: Vec<ForeignCircuit>,
     /// Whether nobody waited for the result any more, so that a part of it is missing.
     pub is_cancelled: bool,
 }

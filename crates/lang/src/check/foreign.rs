@@ -2,7 +2,9 @@
 
 use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::source::{SourceFile, SourceWorld, Span, VerilogFile, VerilogModules};
+use nbc_base::source::{
+    ForeignCircuit, ProofOrigin, Simulated, SourceFile, SourceWorld, Span, VerilogFile, VerilogModules,
+};
 use nbc_circuit::correspondence;
 use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, verilog_module};
 
@@ -13,6 +15,16 @@ pub(super) struct Foreign<'a> {
     pub(super) name: &'a str,
     /// The path in the program.
     pub(super) place: Span,
+}
+
+/// The circuits of Verilog files.
+pub(super) struct ForeignDesign {
+    /// Source text of the language.
+    pub(super) text: String,
+    pub(super) warnings: Vec<Diagnostic>,
+    /// A warning about an old version of the translator.
+    pub(super) old: Option<Diagnostic>,
+    pub(super) circuits: Vec<ForeignCircuit>,
 }
 
 impl Foreign<'_> {
@@ -27,8 +39,8 @@ impl Foreign<'_> {
         Ok((text, blif::ignored(&source.text, source.id)))
     }
 
-    /// The circuits of Verilog files as source text of the language, and warnings.
-    pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
+    /// The circuits of Verilog files.
+    pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<ForeignDesign, Vec<Diagnostic>> {
         let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
         let modules = self.world.translate_verilog(&given);
         let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(files, &error), self.place)])?;
@@ -38,8 +50,22 @@ impl Foreign<'_> {
         let circuit = |name: &String| self.circuit(&self.module(&modules, files, name)?);
         let texts: Result<Vec<String>, _> = modules.tops.iter().map(circuit).collect();
         let undriven = modules.undriven.iter().map(|wire| Diagnostic::undriven_wire(files, wire));
-        let warnings = modules.hints.iter().map(|hint| Diagnostic::hint(files, hint)).chain(undriven);
-        Ok((texts?.join("\n"), warnings.map(|warning| at_use(warning, self.place)).collect()))
+        let hints = modules.hints.iter().map(|hint| Diagnostic::hint(files, hint));
+        let warnings = hints.chain(undriven);
+        let origin = |name: &String| ForeignCircuit {
+            file: self.name.to_owned(),
+            circuit: name.clone(),
+            origin: ProofOrigin::Yosys {
+                version: modules.yosys.clone(),
+                simulated: modules.simulated.get(name).copied().unwrap_or(Simulated::NotComparable),
+            },
+        };
+        Ok(ForeignDesign {
+            text: texts?.join("\n"),
+            warnings: warnings.map(|warning| at_use(warning, self.place)).collect(),
+            old: Diagnostic::old_yosys(&modules.yosys).map(|old| at_use(old, self.place)),
+            circuits: modules.tops.iter().map(origin).collect(),
+        })
     }
 
     /// The circuit of an AIGER file as source text of the language.

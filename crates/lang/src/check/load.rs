@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::foreign::Foreign;
+use crate::check::foreign::{Foreign, ForeignDesign};
 use crate::check::names::Home;
 use crate::check::wording::LoadError;
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, Text, Tree};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Suggestion, similar_file};
-use nbc_base::source::{FileError, FileId, SourceWorld, Sources, Span};
+use nbc_base::source::{FileError, FileId, ForeignCircuit, ProofOrigin, SourceWorld, Sources, Span};
 use nbc_circuit::formats::CircuitSource;
 
 /// The declarations available to every program: the paper's setting and the standard circuits.
@@ -37,11 +37,14 @@ impl UsedKind {
 }
 
 /// The trees of a program: the prelude's first, the checked file's last.
+#[derive(Default)]
 pub(crate) struct Loaded {
     pub(crate) trees: Vec<(Home, Tree)>,
     pub(crate) faults: Vec<Diagnostic>,
     /// The files that use others which cannot be read.
     pub(crate) incomplete: BTreeSet<FileId>,
+    /// The circuits of other tools' files.
+    pub(crate) foreign: Vec<ForeignCircuit>,
 }
 
 /// Reads a file named on the command line into `sources`.
@@ -57,12 +60,7 @@ pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Resul
 
 /// Parses a file and all files it uses.
 pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Loaded {
-    let mut loader = Loader {
-        world,
-        loaded: Loaded { trees: Vec::new(), faults: Vec::new(), incomplete: BTreeSet::new() },
-        open: Vec::new(),
-        done: Vec::new(),
-    };
+    let mut loader = Loader { world, loaded: Loaded::default(), open: Vec::new(), done: Vec::new() };
     for (name, text) in PRELUDE {
         let id = sources.add(name, text);
         loader.parse(sources, id, Home::Prelude);
@@ -98,12 +96,58 @@ impl Loader<'_> {
         self.loaded.faults.extend(parsed.errors);
         self.open.push((identity, name));
         for declaration in &parsed.tree.declarations {
-            if let DeclarationKind::Use(path) = &declaration.kind {
-                self.used(sources, id, path);
+            if let DeclarationKind::Use(paths) = &declaration.kind {
+                self.list(sources, id, paths);
             }
         }
         self.done.extend(self.open.pop().map(|(identity, _)| identity));
         self.loaded.trees.push((home, parsed.tree));
+    }
+
+    /// Reads the files of a list. Those of Verilog, and folders of them, are one design.
+    fn list(&mut self, sources: &mut Sources, from: FileId, paths: &[Text]) {
+        let is_of_design = |path: &&Text| {
+            matches!(UsedKind::of_path(&path.text), None | Some(UsedKind::Circuit(CircuitSource::Verilog)))
+        };
+        let (design, others): (Vec<&Text>, Vec<&Text>) = paths.iter().partition(is_of_design);
+        others.into_iter().for_each(|path| self.used(sources, from, path));
+        match design[..] {
+            [] => {}
+            [path] => self.used(sources, from, path),
+            _ => self.design(sources, from, &design),
+        }
+    }
+
+    /// Reads the files of one design at their first use together.
+    fn design(&mut self, sources: &mut Sources, from: FileId, paths: &[&Text]) {
+        let own = sources.file(from).name.clone();
+        let names: Vec<String> = paths.iter().map(|path| beside(&own, &path.text)).collect();
+        let identities: Vec<String> = names.iter().map(|name| self.world.identity(name)).collect();
+        let identity = identities.join("\n");
+        if self.done.contains(&identity) {
+            return;
+        }
+        let mut files: Vec<(String, &Text)> = Vec::new();
+        let mut faults = Vec::new();
+        for ((name, identity), path) in names.iter().zip(&identities).zip(paths) {
+            let found = self.design_files(name, identity);
+            if found.is_empty() {
+                faults.push(LoadError::NotUsable { file: name.clone() }.at(path.span));
+            }
+            for file in found {
+                if !files.iter().any(|(known, _)| *known == file) {
+                    files.push((file, path));
+                }
+            }
+        }
+        let result = if faults.is_empty() { self.verilog(sources, &names.join(", "), &files) } else { Err(faults) };
+        self.finish(identity, from, result);
+    }
+
+    /// The Verilog files at a path: one, or those of a folder.
+    fn design_files(&self, name: &str, identity: &str) -> Vec<String> {
+        let is_verilog = |path| UsedKind::of_path(path) == Some(UsedKind::Circuit(CircuitSource::Verilog));
+        if is_verilog(name) && is_verilog(identity) { vec![name.to_owned()] } else { self.verilog_of(name) }
     }
 
     fn used(&mut self, sources: &mut Sources, from: FileId, path: &Text) {
@@ -128,12 +172,17 @@ impl Loader<'_> {
             Some(UsedKind::Circuit(format)) => self.circuits(sources, format, &name, path),
             None => match self.verilog_of(&name) {
                 files if files.is_empty() => Err(vec![LoadError::NotUsable { file: name }.at(path.span)]),
-                files => self.verilog(sources, &name, &files, path),
+                files => self.verilog(sources, &name, &files.into_iter().map(|file| (file, path)).collect::<Vec<_>>()),
             },
         };
+        self.finish(identity, path.span.file, result);
+    }
+
+    /// Notes that a file, or a design of several, was read, and its faults.
+    fn finish(&mut self, identity: String, from: FileId, result: Result<(), Vec<Diagnostic>>) {
         self.done.push(identity);
         if result.is_err() {
-            self.loaded.incomplete.insert(path.span.file);
+            self.loaded.incomplete.insert(from);
         }
         for fault in result.err().into_iter().flatten() {
             // There may be thousands more after the first file above the limit.
@@ -179,9 +228,17 @@ impl Loader<'_> {
                 self.loaded.faults.extend(warnings);
                 Ok(text)
             }
-            CircuitSource::Verilog => return self.verilog(sources, name, &[name.to_owned()], path),
+            CircuitSource::Verilog => return self.verilog(sources, name, &[(name.to_owned(), path)]),
         }?;
-        self.add_circuits(sources, name, text, path)
+        self.add_circuits(sources, name, text, path)?;
+        let circuits = self.loaded.trees.last().into_iter().flat_map(|(_, tree)| &tree.declarations);
+        let circuits = circuits.filter_map(|declaration| match &declaration.kind {
+            DeclarationKind::Circuit(circuit) => Some(circuit.name.text.clone()),
+            _ => None,
+        });
+        let origin = |circuit| ForeignCircuit { file: name.to_owned(), circuit, origin: ProofOrigin::File };
+        self.loaded.foreign.extend(circuits.map(origin));
+        Ok(())
     }
 
     /// The Verilog files in a folder, in the order of their names.
@@ -191,19 +248,20 @@ impl Loader<'_> {
         names.filter(is_verilog).map(|name| format!("{folder}/{name}")).collect()
     }
 
-    /// Translates Verilog files as one design to circuits of the language, and parses them.
-    fn verilog(
-        &mut self,
-        sources: &mut Sources,
-        name: &str,
-        files: &[String],
-        path: &Text,
-    ) -> Result<(), Vec<Diagnostic>> {
-        let ids = files.iter().map(|file| self.text(sources, file, path)).collect::<Result<Vec<_>, _>>()?;
+    /// Translates Verilog files, each with the path of its use, as one design to circuits of the language, and parses
+    /// them.
+    fn verilog(&mut self, sources: &mut Sources, name: &str, files: &[(String, &Text)]) -> Result<(), Vec<Diagnostic>> {
+        let ids = files.iter().map(|(file, path)| self.text(sources, file, path)).collect::<Result<Vec<_>, _>>()?;
+        let path = files[0].1;
         let files: Vec<_> = ids.iter().map(|&id| sources.file(id)).collect();
         let foreign = Foreign { world: self.world, format: CircuitSource::Verilog, name, place: path.span };
-        let (text, warnings) = foreign.verilog(&files)?;
+        let ForeignDesign { text, warnings, old, circuits } = foreign.verilog(&files)?;
         self.loaded.faults.extend(warnings);
+        // Every design of a program is read by the same Yosys.
+        let is_known = |old: &Diagnostic| self.loaded.faults.iter().any(|known| known.message == old.message);
+        let old = old.filter(|old| !is_known(old));
+        self.loaded.faults.extend(old);
+        self.loaded.foreign.extend(circuits);
         self.add_circuits(sources, name, text, path)
     }
 

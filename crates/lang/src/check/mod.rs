@@ -53,6 +53,7 @@ pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> An
     consequences::forget(diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));
     diagnostics.extend(loaded.faults);
+    analysis.foreign = loaded.foreign;
     analysis.trees = loaded.trees.into_iter().map(|(_, tree)| tree).collect();
     diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
     diagnostics.dedup();

@@ -42,7 +42,7 @@ impl Converter<'_> {
         let pair = solid(pairs).next().expect("a parsed declaration has a pair");
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
-            Rule::use_file => DeclarationKind::Use(self.quoted(parts(pair).next().expect("a path"))),
+            Rule::use_file => DeclarationKind::Use(parts(pair).map(|path| self.quoted(path)).collect()),
             Rule::stimulus => DeclarationKind::Stimulus(parts(pair).map(|name| self.name(&name)).collect()),
             Rule::material => self.record_declaration(RecordKeyword::Material, pair),
             Rule::evolution => self.record_declaration(RecordKeyword::Evolution, pair),

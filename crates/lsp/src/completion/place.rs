@@ -117,7 +117,8 @@ impl<'t> Before<'t> {
     /// Whether the declaration has ended on an earlier line.
     fn is_complete(&self, offset: usize) -> bool {
         let has_braces = self.tokens.iter().any(|token| &self.text[token.range.clone()] == "{");
-        let has_ended = self.open.is_empty() && (has_braces || matches!(self.word(0), "use" | "stimulus"));
+        let has_ended =
+            self.open.is_empty() && self.last() != "," && (has_braces || matches!(self.word(0), "use" | "stimulus"));
         has_ended && self.is_first(offset)
     }
 
@@ -257,7 +258,7 @@ mod tests {
     #[test]
     fn places_of_other_declarations() {
         assert_eq!([place("$"), place("use \"a\"\n$"), place("circuit f(a) -> (q) { q = a }\n\n$")], ["Outside"; 3]);
-        assert_eq!(place("use $"), "UsedFile");
+        assert_eq!([place("use $"), place("use \"a\",\n    $")], ["UsedFile"; 2]);
         assert_eq!([place("test $"), place("test f for all inputs against $")], ["Circuit"; 2]);
         assert_eq!(place("test f {\n    a $"), "Columns(\"f\")");
         assert_eq!(place("test f {\n    a | q\n    0 $"), "Row");

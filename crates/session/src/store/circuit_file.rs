@@ -7,7 +7,7 @@ use crate::store::wording::StoreError;
 use crate::store::{DiskWorld, disk};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, Simulated, Sources, VerilogFile, VerilogModules};
+use nbc_base::source::{FileError, FileId, ProofOrigin, Simulated, Sources, VerilogFile, VerilogModules, VerilogPlace};
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
 use nbc_lang::syntax;
@@ -32,23 +32,41 @@ pub struct CircuitRead {
     pub design: Design,
     /// Warnings about it.
     pub warnings: Diagnostics,
-    /// If Yosys translated it, what a simulation beside the source has shown.
-    pub simulated: Option<Simulated>,
-    /// The version of the Yosys that translated it, if one did.
-    pub yosys: Option<String>,
+    /// What a proof of it begins with.
+    pub origin: ProofOrigin,
 }
 
 impl CircuitRead {
     fn plain(design: Design, warnings: Diagnostics) -> Self {
-        Self { design, warnings, simulated: None, yosys: None }
+        Self { design, warnings, origin: ProofOrigin::File }
     }
 }
 
 /// Reads a circuit.
 ///
 /// # Errors
-/// A file that cannot be read, of an unknown format, or damaged; or a module that it does not have.
+/// A file that cannot be read, of an unknown format, or damaged; a module that it does not have; or no outputs.
 pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+    let read = read(from)?;
+    if read.design.outputs() > 0 {
+        return Ok(read);
+    }
+    let circuit = read.design.logic.name.clone();
+    let files: Vec<_> = read.warnings.sources.iter().collect();
+    let declares = |line: &str| {
+        let mut words = line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        words.any(|word| matches!(word, "module" | "model")) && words.any(|word| word == circuit)
+    };
+    let place = files.iter().find_map(|file| {
+        let line = file.text.lines().position(declares)? + 1;
+        Some(VerilogPlace { file: file.name.as_str().into(), line })
+    });
+    let fault = Diagnostic::from(StoreError::NoOutputs { circuit: circuit.clone() });
+    let list = vec![fault.of_verilog(&files, place.as_ref())];
+    Err(Diagnostics { list, sources: read.warnings.sources })
+}
+
+fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let &CircuitFile { path, others, clock, top } = from;
     let name = path.display().to_string();
     let format = CircuitSource::of_path(&name);
@@ -115,15 +133,17 @@ fn verilog(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
         let left_out = left_out.iter().map(|module| Diagnostic::left_out(&files, module));
         let hints = hints.iter().map(|hint| Diagnostic::hint(&files, hint));
         let undriven = undriven.iter().map(|wire| Diagnostic::undriven_wire(&files, wire));
-        let warnings = left_out.chain(hints).chain(undriven).collect();
+        let old = Diagnostic::old_yosys(&modules.yosys);
+        let warnings = left_out.chain(hints).chain(undriven).chain(old).collect();
         let design = verilog_module(&modules, &modules.tops[0], &files, from.clock)?;
         Ok((design, warnings, modules))
     });
     match read {
         Ok((design, list, modules)) => {
             let simulated = modules.simulated.get(&modules.tops[0]).copied();
-            let simulated = Some(simulated.unwrap_or(Simulated::NotComparable));
-            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, simulated, yosys: Some(modules.yosys) })
+            let simulated = simulated.unwrap_or(Simulated::NotComparable);
+            let origin = ProofOrigin::Yosys { version: modules.yosys, simulated };
+            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, origin })
         }
         Err(list) => Err(Diagnostics { list, sources }),
     }

@@ -47,8 +47,8 @@ pub(crate) fn program(files: &dyn SourceWorld, trees: &[(Home, Tree)], sources: 
     assembly.faults.extend(diagnostics);
     assembly.forget_redeclared();
     let uses = assembly.uses();
-    let trees = Vec::new();
-    Analysis { program: assembly.program, diagnostics: assembly.faults, uses, widths, trees, instances, is_cancelled }
+    let (program, diagnostics) = (assembly.program, assembly.faults);
+    Analysis { program, diagnostics, uses, widths, instances, is_cancelled, ..Analysis::default() }
 }
 
 /// A program under construction.

@@ -8,8 +8,9 @@ mod printer;
 mod record;
 mod rows;
 
+use crate::syntax::format::layout::WIDTH;
 use crate::syntax::format::printer::Printer;
-use crate::syntax::tree::{Declaration, DeclarationKind, SizeSyntaxId, Tree};
+use crate::syntax::tree::{Declaration, DeclarationKind, SizeSyntaxId, Text, Tree};
 use nbc_base::source::{FileId, Sources};
 
 /// The formatted text of a file that was parsed without errors.
@@ -49,7 +50,7 @@ impl Printer<'_> {
 
     fn declaration(&mut self, declaration: &Declaration) {
         match &declaration.kind {
-            DeclarationKind::Use(path) => self.write(&format!("use \"{}\"", path.text)),
+            DeclarationKind::Use(paths) => self.used(paths),
             DeclarationKind::Stimulus(names) => self.write(&format!("stimulus {}", rows::names(names))),
             DeclarationKind::Record(record) => self.record_declaration(record),
             DeclarationKind::Schedule(schedule) => self.schedule(schedule, declaration.span),
@@ -63,6 +64,14 @@ impl Printer<'_> {
             DeclarationKind::File(file) => self.write(&format!("file {} = \"{}\"", file.name.text, file.path.text)),
             DeclarationKind::Test(test) => self.test(test, declaration.span),
         }
+    }
+
+    /// A list of used files: in one line if it fits, else a line for each.
+    fn used(&mut self, paths: &[Text]) {
+        let paths: Vec<String> = paths.iter().map(|path| format!("\"{}\"", path.text)).collect();
+        let flat = format!("use {}", paths.join(", "));
+        let is_short = paths.len() == 1 || flat.chars().count() <= WIDTH;
+        self.write(&if is_short { flat } else { format!("use {}", paths.join(",\n    ")) });
     }
 }
 

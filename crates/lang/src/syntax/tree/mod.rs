@@ -52,8 +52,8 @@ pub struct Declaration {
 /// A declaration, by its keyword.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DeclarationKind {
-    /// `use "file.nb"`
-    Use(Text),
+    /// `use "file.nb"`, or several files
+    Use(Vec<Text>),
     /// `stimulus s1, s2`
     Stimulus(Vec<NameSyntax>),
     /// `material`, `evolution`, `library`, `swarm`, `world`: a name and a record.

@@ -133,7 +133,8 @@ impl TokenChecker {
                 self.is_label = ended.is_some();
             }
             ";" => self.is_label = true,
-            "," => self.is_label = was_label,
+            // A label may be made of several constants.
+            "," | "{" | "}" => self.is_label = was_label,
             _ => {}
         }
     }
@@ -203,6 +204,7 @@ mod tests {
             ("casez (s) 2'b1z: q = 1'bz; endcase", "'bz"),
             ("casez (s) 2'b1z: q = {f(a), 1'bz}; endcase", "'bz"),
             ("casez (s) 2'b1z: q = a ? b : 1'bz; endcase", "'bz"),
+            ("casez (s) 2'b1z: {q, r} = {a, 1'bz}; endcase", "'bz"),
             ("casez (s) 2'b1z: begin q = 1; end endcase assign q = 1'bz;", "'bz"),
             ("tri1 q;", "tri1"),
         ] {
@@ -214,7 +216,7 @@ mod tests {
     fn wildcards_of_labels_and_arguments_of_tasks_are_left_alone() {
         for text in [
             "casez (f(s)) 4'b1???, 4'b01zz: begin q = 1; end 2'd3: r = 1; 4'b001?: q = 2; default: q = 1'bx; endcase",
-            "casex ({a, b}) 2'b?1: case (c) 1: q = 1; endcase 2'bz0: q = 0; endcase",
+            "casex ({a, b}) {1'b1, 2'b?0}, 2'b?1: case (c) 1: q = 1; endcase 2'bz0: q = 0; endcase",
             "task t(input a); endtask module m(input a, output b); assign b = $signed(a) > $clog2(8); endmodule",
         ] {
             assert_eq!(judged(text), Ok(()), "{text}");

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
+use crate::store::verilog::assertions::{AssertionFilter, Kept};
 use crate::store::verilog::checker::{TokenChecker, TokenFault};
 use crate::store::verilog::modules::ModuleList;
 use crate::store::verilog::parameter::ParameterValue;
@@ -60,13 +61,30 @@ impl VerilogListing {
             assigned: BTreeMap::new(),
         };
         let mut modules = ModuleList::default();
-        let mut last = None;
-        while let Some(token) = source.next()? {
+        let mut assertions = AssertionFilter::default();
+        let (mut last, mut written) = (None, [0..0, 0..0]);
+        while let Some(mut token) = source.next()? {
+            match assertions.see(&token, filter.is_in_procedure()) {
+                Kept::As => {}
+                Kept::Not => continue,
+                Kept::Instead { text, has_label } => {
+                    listing.note(&token.text, &token, &source);
+                    if has_label {
+                        written.iter().for_each(|label| listing.blank(label.clone()));
+                    }
+                    if text.is_empty() {
+                        continue;
+                    }
+                    let kind = if text == ";" { VerilogTokenKind::Sign } else { VerilogTokenKind::Word };
+                    token = VerilogToken { kind, text: text.to_owned(), ..token };
+                }
+            }
             if filter.leaves_out(&token) {
                 continue;
             }
             listing.hint(&token, &source);
             let start = listing.write(&token, &mut last, &source);
+            written = [start..listing.text.len(), written[0].clone()];
             modules.see(&token, start..listing.text.len(), |at| source.place(at.place));
             if let Err(fault) = checker.see(&token) {
                 modules.fault(refused(fault, source.place(token.place)))?;
@@ -104,10 +122,21 @@ impl VerilogListing {
             _ => return,
         };
         for hint in hints.into_iter().map(str::to_owned).collect::<Vec<_>>() {
-            if !self.hints.iter().any(|known| known.name == hint) {
-                self.hints.push(VerilogName { name: hint, place: Some(source.place(token.place)) });
-            }
+            self.note(&hint, token, source);
         }
+    }
+
+    /// Notes that a word of a token is taken otherwise than a simulator takes it, each word once.
+    fn note(&mut self, hint: &str, token: &VerilogToken, source: &Source<'_>) {
+        if !self.hints.iter().any(|known| known.name == hint) {
+            self.hints.push(VerilogName { name: hint.to_owned(), place: Some(source.place(token.place)) });
+        }
+    }
+
+    /// Writes spaces in the place of a token, which has no lines.
+    fn blank(&mut self, token: Range<usize>) {
+        let spaces = " ".repeat(token.len());
+        self.text.replace_range(token, &spaces);
     }
 
     /// Writes values in the place of other texts. Lines stay where they are.

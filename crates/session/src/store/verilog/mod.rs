@@ -4,6 +4,7 @@
 //! that was preprocessed and checked here, in a folder of its own, with limits of time and memory. It ends when the
 //! caller ends.
 
+mod assertions;
 mod checker;
 mod conditions;
 mod drivers;

@@ -50,6 +50,11 @@ struct Procedure {
 }
 
 impl PrintFilter {
+    /// Whether the next token is in a statement of a procedure.
+    pub(super) fn is_in_procedure(&self) -> bool {
+        self.procedure.as_ref().is_some_and(|open| !open.may_end)
+    }
+
     /// Whether the next token is part of such a statement.
     pub(super) fn leaves_out(&mut self, token: &VerilogToken) -> bool {
         let text = token.text.as_str();

@@ -148,9 +148,13 @@ fn yowasp_cache() -> Option<PathBuf> {
 }
 
 fn outcome(status: ExitStatus, said: String, limits: Limits) -> Result<Result<(), String>, VerilogError> {
-    /// The exit codes of a shell for a missing program, and for signal 24, which the limit of processor time sends.
+    /// The exit codes of a shell for a missing program, for a program that a signal ended, and for signal 24, which the
+    /// limit of processor time sends.
     const MISSING: i32 = 127;
-    const LATE: i32 = 128 + 24;
+    const SIGNAL: i32 = 128;
+    const LATE: i32 = SIGNAL + 24;
+    /// Illegal instruction, abort, bus error, arithmetic fault, segmentation fault.
+    const CRASHES: [i32; 5] = [4, 6, 7, 8, 11];
     match status.code() {
         Some(0) => Ok(Ok(())),
         Some(MISSING) => Err(VerilogError::NoYosys),
@@ -158,6 +162,7 @@ fn outcome(status: ExitStatus, said: String, limits: Limits) -> Result<Result<()
         _ if said.contains("bad_alloc") || said.contains("Out of memory") => {
             Err(VerilogError::TooLarge { megabytes: limits.megabytes })
         }
+        Some(code) if CRASHES.contains(&(code - SIGNAL)) => Err(VerilogError::Crashed),
         _ => Ok(Err(said)),
     }
 }
@@ -240,6 +245,7 @@ mod tests {
         assert_eq!(ended(late, limits, &cancel), Err(VerilogError::TooLong { seconds: 7 }));
         let large = "[ \"$(ulimit -v)\" = 655360 ] && echo 'ERROR: Out of memory' >&2; exit 1";
         assert_eq!(ended(large, limits, &cancel), Err(VerilogError::TooLarge { megabytes: 640 }));
+        assert_eq!(ended("kill -SEGV $$", limits, &cancel), Err(VerilogError::Crashed));
         assert_eq!(ended("echo no >&2; exit 1", limits, &cancel), Ok(Err("no\n".to_owned())));
         assert_eq!(ended("exit 0", limits, &cancel), Ok(Ok(())));
     }

@@ -10,9 +10,14 @@ pub(super) fn rejected(said: &str, listing: &VerilogListing) -> VerilogError {
         Some((place, reason)) => (verilog_line(place).filter(|line| *line > 0), reason),
         None => (None, said),
     };
-    let reason = plain(reason.trim_start_matches("ERROR:").trim_start());
+    let reason = with_advice(plain(reason.trim_start_matches("ERROR:").trim_start()));
     let place = line.and_then(|line| listing.place(line)).or_else(|| named(&reason, listing));
     VerilogError::Rejected { reason, place }
+}
+
+/// A message with what to do about it.
+fn with_advice(reason: String) -> String {
+    if reason.ends_with("is not part of the design.") { reason + " Give its file, too." } else { reason }
 }
 
 /// A message without the names that only Yosys knows.

@@ -15,11 +15,12 @@ use crate::store::verilog::misread;
 use crate::store::verilog::parameter::ParameterValue;
 use crate::store::verilog::process::{self, Limits};
 use crate::store::verilog::reason::rejected;
-use crate::store::verilog::rtlil::{RtlilLines, tops, undriven, unknown_label, version};
+use crate::store::verilog::rtlil::{RtlilLines, empty_module, tops, undriven, unknown_label, version};
 use nbc_base::budget::Limit;
 use nbc_base::diag::io_words;
 use nbc_base::source::{
     FileError, SourceWorld, VERILOG_SOURCE, VerilogDrivers, VerilogError, VerilogFile, VerilogModules, VerilogName,
+    VerilogPlace,
 };
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::blif::is_register_cell;
@@ -81,8 +82,10 @@ impl<W: VerilogFiles> Verilog<'_, W> {
         };
         let folder = self.run(&listing, &command)?;
         let blif = result(&folder, BLIF)?;
-        // Yosys writes the top module first.
-        let model = blif.lines().find_map(|line| line.strip_prefix(".model ")).ok_or(VerilogError::NoResult)?;
+        // Yosys writes the top module first, and none that is empty.
+        let Some(model) = blif.lines().find_map(|line| line.strip_prefix(".model ")) else {
+            return Err(empty(&folder, &listing.tops, &listing)?.unwrap_or(VerilogError::NoResult));
+        };
         let written = listing.text.clone();
         let modules = translated(&folder, vec![model.trim().to_owned()], blif, listing)?;
         icarus::simulated(folder.path(), &written, modules, self.cancel)
@@ -182,15 +185,20 @@ fn translated(
     listing: VerilogListing,
 ) -> Result<VerilogModules, VerilogError> {
     let flat = result(folder, FLAT)?;
+    if let Some(empty) = empty(folder, &tops, &listing)? {
+        return Err(empty);
+    }
     if let Some((label, line)) = unknown_label(&result(folder, CHOSEN)?) {
         return Err(VerilogError::UnknownLabel { label, place: line.and_then(|line| listing.place(line)) });
     }
-    let twice: Vec<_> = driven_twice(&flat, &tops).into_iter().map(|twice| drivers(twice, &listing)).collect();
+    let RtlilLines { nets, ascending, cells } = RtlilLines::of(&flat, &tops);
+    let place = |line: Option<usize>| listing.place(line?);
+    let declared = |twice: &DrivenTwice| nets.get(&(twice.module.clone(), twice.net.clone())).copied();
+    let twice = driven_twice(&flat, &tops).into_iter();
+    let twice: Vec<_> = twice.map(|twice| drivers(place(declared(&twice)), twice, &listing)).collect();
     if !twice.is_empty() {
         return Err(VerilogError::DrivenTwice { nets: twice });
     }
-    let RtlilLines { nets, ascending, cells } = RtlilLines::of(&flat, &tops);
-    let place = |line: Option<usize>| listing.place(line?);
     let models: BTreeSet<&str> = blif.lines().filter_map(|line| line.strip_prefix(".model ")).collect();
     let mut kinds = blif.lines().filter_map(|line| line.strip_prefix(".subckt ")?.split(' ').next());
     if let Some(kind) = kinds.find(|kind| kind.starts_with('$') && !models.contains(kind) && !is_register_cell(kind)) {
@@ -212,8 +220,18 @@ fn translated(
     Ok(VerilogModules { yosys, undriven, blif, tops, nets, ascending, left_out, hints, lines, simulated })
 }
 
+/// The error of the first module without content that is one of `tops` or part of another.
+fn empty(
+    folder: &tempfile::TempDir,
+    tops: &[String],
+    listing: &VerilogListing,
+) -> Result<Option<VerilogError>, VerilogError> {
+    let found = empty_module(&result(folder, CHOSEN)?, tops);
+    Ok(found.map(|(module, line)| VerilogError::Empty { module, place: line.and_then(|line| listing.place(line)) }))
+}
+
 /// A net with two drivers, in words and with places.
-fn drivers(twice: DrivenTwice, listing: &VerilogListing) -> VerilogDrivers {
+fn drivers(place: Option<VerilogPlace>, twice: DrivenTwice, listing: &VerilogListing) -> VerilogDrivers {
     let DrivenTwice { module, net, bit, drivers } = twice;
     let assigned = listing.assigned.get(&(module, net.clone()));
     let driver = |at: usize| {
@@ -228,13 +246,12 @@ fn drivers(twice: DrivenTwice, listing: &VerilogListing) -> VerilogDrivers {
         (what, known.or_else(|| listing.place(line?)))
     };
     let net = bit.map_or(net.clone(), |bit| format!("{net}[{bit}]"));
-    VerilogDrivers { net, drivers: [driver(0), driver(1)] }
+    VerilogDrivers { net, drivers: [driver(0), driver(1)], place }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::source::VerilogPlace;
 
     fn listing(text: &str) -> VerilogListing {
         VerilogListing::of(&ListingRequest {

@@ -15,6 +15,8 @@ pub(in crate::store) enum StoreError {
     NoParameters { file: String },
     /// A clock for registers without one, in a file that has none.
     NoUnclocked { file: String, clock: String },
+    /// A circuit without outputs.
+    NoOutputs { circuit: String },
     /// A circuit whose text would be too large to be read again.
     NbTooLarge { bytes: usize, most: u64 },
 }
@@ -40,6 +42,10 @@ impl From<StoreError> for Diagnostic {
             StoreError::NoUnclocked { file, clock } => {
                 let message = format!("`{file}` has no registers without a clock, which `--clock {clock}` is for");
                 Self::without_place(Code::BadValue, message).with_help("leave out `--clock`")
+            }
+            StoreError::NoOutputs { circuit } => {
+                let message = format!("`{circuit}` has no outputs, but a circuit needs one");
+                Self::without_place(Code::CircuitFile, message)
             }
             StoreError::NbTooLarge { bytes, most } => {
                 Self::without_place(Code::TooLarge, format!("the circuit takes {bytes} bytes as a .nb file"))
