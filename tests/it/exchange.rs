@@ -195,7 +195,8 @@ fn through_yosys(design: &Design) -> Design {
     let (top, clock) = (&TopModule::default(), None);
     let read = store::read_circuit(&CircuitFile { path: &path, others: &[], clock, top });
     let store::CircuitRead { design, warnings, .. } = read.unwrap_or_else(|faults| panic!("{:?}", faults.list));
-    assert!(warnings.list.is_empty(), "{:?}", warnings.list);
+    // Only an old Yosys is told.
+    assert!(warnings.list.iter().all(|warning| warning.message.contains("which is old")), "{:?}", warnings.list);
     design
 }
 
