@@ -33,6 +33,7 @@ fn the_prelude_is_read_extended_and_redeclared() {
     let extended = sound(
         "a.nb",
         "stimulus s3
+         material ear { kind: sensor, stimulus: s3, absent: 0.6, present: 1.6 }
          material whisk { kind: actuator, drive: sine, period: 42 steps, range: 0.8..1.4 }
          evolution wide { box: 7 x 7, materials: [bone, whisk], seed: 2 }
          evolution wider { from: wide, box: 9 x 7 }",

@@ -23,7 +23,7 @@ use crate::check::wording::{CircuitError, EvolutionError};
 use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 use nbc_base::budget::WorkBudget;
-use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation};
 use nbc_base::source::{CancelFlag, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
@@ -371,7 +371,7 @@ impl<'a> Assembly<'a> {
     /// Warns of a file's own stimuli that no material senses and no schedule gives, unless they are all that it has.
     fn unused_stimuli(&mut self) {
         let is_other = |declaration: &tree::Declaration| !matches!(declaration.kind, DeclarationKind::Stimulus(_));
-        if !self.declarations.own().any(is_other) || self.faults.iter().any(|fault| fault.code == Code::Unknown) {
+        if !self.declarations.own().any(is_other) || self.faults.iter().any(Diagnostic::is_error) {
             return;
         }
         let names = self.declarations.own().filter_map(|declaration| match &declaration.kind {
