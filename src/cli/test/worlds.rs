@@ -130,7 +130,7 @@ impl WorldsArguments {
         };
         let curves: Vec<YieldCurve> = found.chunks(scales).enumerate().map(curve).collect();
         let change = if common.is_some() { "largest change in %" } else { "times the given changes" };
-        let title = format!("Yield in {}", counted(self.count() as usize, "world"));
+        let title = format!("Yield in {}", counted(self.count(), "world"));
         report::draw_yields(&title, change, &curves)
     }
 
