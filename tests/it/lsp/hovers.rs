@@ -109,7 +109,7 @@ fn a_function_is_shown_as_the_robot_that_computes_it() {
         assert!(shown.contains(header) && pictures(&shown).len() == 1, "{word}: {shown}");
     }
     let shown = hover(&mut client, &uri, &text, "few {");
-    assert!(shown.contains("robots for 1 functions") && pictures(&shown).len() == 1, "{shown}");
+    assert!(shown.contains("robots for 1 function") && pictures(&shown).len() == 1, "{shown}");
     let shown = settled(&mut client, &uri, &text, "s {", "**1 robot** as `s`");
     assert!(shown.contains("swarm s"), "{shown}");
     client.goodbye();
