@@ -104,7 +104,7 @@ impl Look<'_> {
         let cells = nbc_swarm::cells(&robots);
         if !cells.is_complete() {
             let options = MapOptions { effort: Effort::Fast, ..self.options() };
-            self.note(map_onto(self.program, circuit, &cells, &options, (place, Limit::SwarmGates)).map(drop));
+            self.note(map_onto(self.program, circuit, &cells, &options, place, Limit::SwarmGates).map(drop));
         }
     }
 

@@ -75,7 +75,8 @@ pub(super) fn map_onto(
     circuit: &Instance,
     cells: &CellLibrary,
     options: &MapOptions,
-    (place, gates): (Span, Limit),
+    place: Span,
+    gates: Limit,
 ) -> Result<Mapping, Vec<Diagnostic>> {
     let source = elaborate(program, circuit)?;
     permit(&source, gates, place)?;
@@ -96,9 +97,10 @@ pub(super) fn map(
     program: &Program,
     plan: &Plan,
     options: &MapOptions,
-    (place, gates): (Span, Limit),
+    place: Span,
+    gates: Limit,
 ) -> Result<Mapping, Vec<Diagnostic>> {
-    let map = || map_onto(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, (place, gates));
+    let map = || map_onto(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, place, gates);
     match plan.registers {
         RegisterStyle::MasterSlave => map(),
         RegisterStyle::Pulsed => map().map(Mapping::pulsed),
@@ -140,7 +142,7 @@ pub(super) fn compile(
     options: &MapOptions,
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let mapping = map(program, &plan, options, (place, Limit::SwarmGates))?;
+    let mapping = map(program, &plan, options, place, Limit::SwarmGates)?;
     permit(&mapping.netlist, Limit::Robots, place)?;
     let timing = mapping.timing();
     let assembly = match &mapping.waves {

@@ -156,7 +156,7 @@ impl Session {
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
-        let mapping = compile::map(&checked.program, &plan, &options.mapping(), (checked.place(circuit), Limit::Cells));
+        let mapping = compile::map(&checked.program, &plan, &options.mapping(), checked.place(circuit), Limit::Cells);
         mapping.map_err(|faults| checked.fail(faults))
     }
 
@@ -189,7 +189,7 @@ impl Session {
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
         let place = checked.place(circuit);
-        let mapping = compile::map_onto(&checked.program, circuit, cells, &options.mapping(), (place, Limit::Cells));
+        let mapping = compile::map_onto(&checked.program, circuit, cells, &options.mapping(), place, Limit::Cells);
         mapping.map_err(|faults| checked.fail(faults))
     }
 

@@ -16,6 +16,7 @@ use crate::report::page_bodies::{look_data, materials, voxel_data};
 use crate::report::scheme::Scheme;
 use crate::report::stage::Stage;
 use crate::report::svg::Svg;
+use nbc_base::diag::counted;
 use nbc_base::model::{Axis, Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Setting, Spell};
 use nbc_swarm::evolve::{Elite, NicheKey};
 use nbc_swarm::{Recorded, Room};
@@ -102,22 +103,22 @@ fn record(entries: &[Entry<'_>], stimuli: usize) -> (u32, Vec<Recorded>) {
 }
 
 fn archive(results: &EvolutionResults, left_out: usize) -> String {
-    let counted: Vec<usize> =
+    let counts: Vec<usize> =
         (0..results.axes.len()).filter(|&i| matches!(results.axes[i], Axis::Count { .. })).collect();
     let choice = |label: &str, place: usize| {
         let option = |&i: &usize| {
-            let chosen = if counted.get(place.min(counted.len() - 1)) == Some(&i) { " selected" } else { "" };
+            let chosen = if counts.get(place.min(counts.len() - 1)) == Some(&i) { " selected" } else { "" };
             format!("<option value=\"{i}\"{chosen}>{}</option>", axis_word(results.axes[i]))
         };
-        let options: String = counted.iter().map(option).collect();
+        let options: String = counts.iter().map(option).collect();
         format!("<label>{label} <select class=\"axis\">{options}</select></label>")
     };
-    let axes = if counted.is_empty() { String::new() } else { choice("across", 0) + &choice("upwards", 1) };
+    let axes = if counts.is_empty() { String::new() } else { choice("across", 0) + &choice("upwards", 1) };
     let missing = match left_out {
         0 => String::new(),
         _ => {
-            let elites = nbc_base::diag::counted(left_out, "elite");
-            format!("<p class=\"dim\">Without a gait here, because the page is full: {elites}.</p>\n")
+            let elites = counted(left_out, "elite");
+            format!("<p class=\"dim\">The page is full, so it has no gait of {elites}.</p>\n")
         }
     };
     format!(

@@ -1,6 +1,7 @@
 //! Circuit files.
 
 use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::source::{FileId, Span};
 
 /// A circuit file that cannot be read or written.
 #[derive(Debug)]
@@ -45,7 +46,8 @@ impl From<StoreError> for Diagnostic {
             }
             StoreError::NoOutputs { circuit } => {
                 let message = format!("`{circuit}` has no outputs, but a circuit needs one");
-                Self::without_place(Code::CircuitFile, message)
+                // The label moves to the place of the design, if it is known.
+                Self::new(Code::CircuitFile, message, Span::new(FileId(0), 0, 0), "expected an output port")
             }
             StoreError::NbTooLarge { bytes, most } => {
                 Self::without_place(Code::TooLarge, format!("the circuit takes {bytes} bytes as a .nb file"))
