@@ -9,8 +9,8 @@ use std::process::ExitCode;
 
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::MemoryWorld;
-use nbc_circuit::{CellLibrary, MapOptions, correspondence};
-use nbc_session::{Choice, CompileOptions, Session, store, synthesize};
+use nbc_circuit::CellLibrary;
+use nbc_session::{Choice, CompileOptions, Session, Synthesis, SynthesisOptions, store};
 
 use aims::Aims;
 use designs::{files, read};
@@ -60,10 +60,10 @@ fn robots(file: &str, circuit: &str, fields: &str) -> Result<usize, String> {
 /// The cells of each benchmark circuit in two libraries, as `nbc synth --library` finds them.
 fn benchmarks(libraries: [&CellLibrary; 2]) -> Vec<(String, [usize; 2])> {
     let cells = |path: &std::path::PathBuf| {
-        let (design, _) = correspondence::reduce(&read(path));
+        let design = read(path);
         let mapped = libraries.map(|library| {
-            let mapped = synthesize(design.logic.clone(), library, &MapOptions::default());
-            mapped.expect("the library is complete").netlist.cells().count()
+            let made = Synthesis::of(&design, &SynthesisOptions::onto(library.clone()));
+            made.expect("the library is complete").cells()
         });
         (path.file_stem().unwrap().display().to_string(), mapped)
     };

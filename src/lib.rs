@@ -300,6 +300,48 @@ pub use {
     nbc_session::{TestOptions, TestRun},
 };
 
+/// Tests in samples of worlds. A door makes the runs on its threads; here they follow each other.
+///
+/// ```
+/// use nbc::{Experiment, Level, Robustness, TestCase, TestOptions, WorldResult, WorldRun, YieldTally, Yields};
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }\ntest f {\n    a | q\n    0 | 1\n}");
+/// let checked = session.open("a.nb")?;
+/// let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
+/// let cases: Vec<TestCase> = session.cases(&checked, &checked.program.tests[0], &options)?;
+/// let variation: nbc::Variation = "friction=10%".parse().unwrap();
+/// let yields = Yields::of(&cases, &[variation], &[1.0], 2, 1);
+/// let experiment: &Experiment = &yields.experiments[0];
+/// assert_eq!(experiment.scale, 1.0);
+/// let mut tally: YieldTally = yields.tally();
+/// let runs: Vec<WorldRun> = yields.runs();
+/// let run = |run| -> WorldResult { session.run_in_world(&yields, run, &mut ()).unwrap() };
+/// let found: Vec<Robustness> = runs.into_iter().filter_map(|one| tally.tell(run(one))).collect();
+/// assert_eq!(found[0].passed.attempts, 2);
+/// assert!(nbc::describe_robustness(&found[0]).starts_with("f"));
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use {
+    nbc_base::model::Variation,
+    nbc_session::report::describe_robustness,
+    nbc_session::{Experiment, TestCase, WorldResult, WorldRun, YieldTally, Yields},
+    nbc_swarm::Robustness,
+};
+
+/// ```no_run
+/// use nbc::{Hardened, Hardening, HardeningStep};
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// # let checked = session.open("a.nb")?;
+/// # fn run(yields: &nbc::Yields) -> Result<Vec<nbc::Robustness>, nbc::Diagnostics> { Ok(Vec::new()) }
+/// let hardening = Hardening { variation: "20%".parse().unwrap(), worlds: 40, seed: 1, least_yield: 0.95 };
+/// let mut tell = |step: &HardeningStep| eprintln!("{step}");
+/// let options = nbc::CompileOptions::default();
+/// let found: Option<Hardened> = session.harden(&checked, &"f".into(), &options, hardening, &mut run, &mut tell)?;
+/// println!("{}", found.unwrap());
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use nbc_session::{Hardened, Hardening, HardeningStep};
+
 /// ```no_run
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 /// # let checked = session.open("a.nb")?;
@@ -410,6 +452,32 @@ pub use nbc_session::store::DiskWorld;
 /// ```
 #[cfg(feature = "disk")]
 pub use nbc_session::store::GuardedWorld;
+
+/// A circuit of another tool, mapped onto cells and proved.
+///
+/// ```
+/// use std::path::Path;
+/// use nbc::{CellLibrary, CircuitFile, CircuitFormat, CircuitRead, Synthesis, SynthesisOptions, SynthesisReport};
+/// let top = nbc::TopModule::default();
+/// let file = CircuitFile { path: Path::new("tests/benchmarks/c17.aig"), others: &[], clock: None, top: &top };
+/// let CircuitRead { design, origin, .. } = nbc::read_circuit(&file)?;
+/// let cells: CellLibrary = nbc::cell_library(&["nand".to_owned(), "not".to_owned()])?;
+/// let what_if = nbc::named_functions(&["xor".to_owned()])?;
+/// let options = SynthesisOptions { what_if, ..SynthesisOptions::onto(cells) };
+/// let made = Synthesis::of(&design, &options)?;
+/// assert_eq!(made.cells(), 6);
+/// let report = SynthesisReport::of(&made, origin, 0.1);
+/// assert!(report.text().starts_with("6 cells (6 nand), 3 levels, proved"));
+/// assert!(nbc::encode_circuit(&made.result, CircuitFormat::Blif)?.starts_with(b".model"));
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+#[cfg(feature = "disk")]
+pub use {
+    nbc_circuit::CellLibrary,
+    nbc_circuit::formats::CircuitFormat,
+    nbc_session::store::{CircuitFile, CircuitRead, ParameterValue, TopModule, encode_circuit, read_circuit},
+    nbc_session::{Synthesis, SynthesisOptions, SynthesisReport, cell_library, named_functions, robot_cells},
+};
 
 /// ```no_run
 /// use std::path::Path;

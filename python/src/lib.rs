@@ -14,8 +14,10 @@ mod scenes;
 mod search;
 mod slot;
 mod swarm;
+mod synthesis;
 mod threads;
 mod work;
+mod worlds;
 
 use pyo3::prelude::*;
 
@@ -44,6 +46,7 @@ fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(physics::read_schedule, module)?)?;
     module.add_function(wrap_pyfunction!(physics::simulate, module)?)?;
     module.add_function(wrap_pyfunction!(search::read_checkpoint, module)?)?;
+    module.add_function(wrap_pyfunction!(synthesis::synthesize, module)?)?;
     module.add_function(wrap_pyfunction!(threads::most_threads, module)?)?;
     module.add_function(wrap_pyfunction!(threads::set_threads, module)?)?;
     Ok(())

@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use nbc::{Checked, Choice, CompileOptions, DiskWorld, Effort, GuardedWorld, Level, MappingObjective, Room, RunReport};
-use nbc::{Session, TestOptions, TestRun};
+use nbc::{Checked, Choice, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening, Level};
+use nbc::{MappingObjective, Room, RunReport, Session, TestOptions, TestRun, Yields};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
@@ -12,6 +12,7 @@ use crate::circuits::Compiled;
 use crate::errors::{bad_word, diagnosed, internal, without_place};
 use crate::evolution::Evolution;
 use crate::work::{self, Watch, at_once};
+use crate::worlds::{self, Sampling};
 
 /// A source file without errors.
 #[pyclass(frozen)]
@@ -37,19 +38,7 @@ impl Compiling {
             None => None,
             Some(folder) => Some(session.library(folder).map_err(|found| diagnosed(py, &found))?),
         };
-        let objective = match self.objective.as_str() {
-            "area" => MappingObjective::Area,
-            "delay" => MappingObjective::Delay,
-            "margin" => MappingObjective::Margin,
-            "sturdy" => MappingObjective::Sturdy,
-            word => return Err(bad_word("objective", word, &["area", "delay", "margin", "sturdy"])),
-        };
-        let effort = match self.effort.as_str() {
-            "fast" => Effort::Fast,
-            "normal" => Effort::Normal,
-            "high" => Effort::High,
-            word => return Err(bad_word("effort", word, &["fast", "normal", "high"])),
-        };
+        let (objective, effort) = (read_objective(&self.objective)?, read_effort(&self.effort)?);
         let cancel = watch.cancel.clone();
         let runs = self.runs;
         Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs, cancel, ..CompileOptions::default() })
@@ -142,6 +131,55 @@ impl Program {
         runs.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>().map(|records| records.to_string())
     }
 
+    /// Runs tests in samples of worlds: their yields as JSON, each with its text.
+    fn yields(
+        &self,
+        py: Python<'_>,
+        tests: Vec<usize>,
+        sampling: Sampling,
+        compiling: Compiling,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let (watch, sample) = (Watch::over(0), sampling.read()?);
+        let compile = compiling.options(py, &self.session, &watch)?;
+        let options = TestOptions { level: Some(Level::Physics), compile };
+        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
+            worlds::yields(&session, &checked, &tests, &options, &sample, watch)
+        })?;
+        ran.or_partial(py, |found| {
+            let found = found.map_err(|found| diagnosed(py, &found))?;
+            found.iter().map(|one| worlds::record(py, one)).collect::<PyResult<Value>>().map(|all| all.to_string())
+        })
+    }
+
+    /// Finds the robots to leave out of a circuit's swarm: the choice as JSON, with its text.
+    fn harden(
+        &self,
+        py: Python<'_>,
+        circuit: Option<String>,
+        sampling: Sampling,
+        least_yield: f64,
+        compiling: Compiling,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let (watch, sample) = (Watch::over(0), sampling.read()?);
+        let options = compiling.options(py, &self.session, &watch)?;
+        let choice = Choice { circuit, swarm: options.swarm.clone() };
+        let circuit = self.checked.circuit(&choice).map_err(|found| diagnosed(py, &found))?;
+        let hardening = Hardening { variation: sample.vary[0], worlds: sample.worlds, seed: sample.seed, least_yield };
+        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
+            let mut run = |yields: &Yields<'_, '_>| Ok(worlds::runs(&session, yields, watch));
+            session.harden(&checked, &circuit, &options, hardening, &mut run, &mut |_| ())
+        })?;
+        let found: Result<Option<Hardened>, Diagnostics> = ran.finished()?;
+        let found = found.map_err(|found| diagnosed(py, &found))?;
+        let hardened = found.ok_or_else(|| internal(py, &"the work was stopped"))?;
+        let data = serde_json::to_value(&hardened).map_err(|error| internal(py, &error.to_string()))?;
+        Ok(json!({ "data": data, "text": hardened.to_string() }).to_string())
+    }
+
     /// Runs every test and simulation in physics: the page, the results as JSON, and whether all passed.
     fn run(
         &self,
@@ -174,6 +212,27 @@ impl Program {
             let warnings = nbc::Diagnostics { list: run.warnings.clone(), sources: self.checked.sources.clone() };
             Ok(json!({ "verdict": verdict, "text": run.to_string(), "warnings": warnings.json() }))
         })
+    }
+}
+
+/// What mapping minimizes.
+pub fn read_objective(word: &str) -> PyResult<MappingObjective> {
+    match word {
+        "area" => Ok(MappingObjective::Area),
+        "delay" => Ok(MappingObjective::Delay),
+        "margin" => Ok(MappingObjective::Margin),
+        "sturdy" => Ok(MappingObjective::Sturdy),
+        word => Err(bad_word("objective", word, &["area", "delay", "margin", "sturdy"])),
+    }
+}
+
+/// How much mapping searches.
+pub fn read_effort(word: &str) -> PyResult<Effort> {
+    match word {
+        "fast" => Ok(Effort::Fast),
+        "normal" => Ok(Effort::Normal),
+        "high" => Ok(Effort::High),
+        word => Err(bad_word("effort", word, &["fast", "normal", "high"])),
     }
 }
 

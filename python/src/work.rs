@@ -57,6 +57,17 @@ impl Watch {
         Observing(self)
     }
 
+    /// Sets the amount of work, of which none is done.
+    pub fn expect(&self, all: u64) {
+        self.done.store(0, Ordering::Relaxed);
+        self.all.store(all, Ordering::Relaxed);
+    }
+
+    /// An observer for one of several calls at the same time, whose progress is added up.
+    pub fn part(&self) -> impl Observer + '_ {
+        Part { watch: self, done: 0 }
+    }
+
     /// Parts done, and all parts.
     fn progress(&self) -> (u64, u64) {
         (self.done.load(Ordering::Relaxed).max(self.monitor.env_steps()), self.all.load(Ordering::Relaxed))
@@ -73,6 +84,22 @@ impl Observer for Observing<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.0.is_stopped()
+    }
+}
+
+struct Part<'a> {
+    watch: &'a Watch,
+    done: u64,
+}
+
+impl Observer for Part<'_> {
+    fn progress(&mut self, done: u64, _: u64) {
+        self.watch.done.fetch_add(done - self.done, Ordering::Relaxed);
+        self.done = done;
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.watch.is_stopped()
     }
 }
 

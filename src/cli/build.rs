@@ -6,7 +6,7 @@ use std::path::PathBuf;
 use clap::{Args, ValueEnum};
 use serde_json::json;
 
-use crate::cli::harden::{HardenArguments, Hardened};
+use crate::cli::harden::HardenArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::mapping::CellsArguments;
 use crate::cli::options::new_path::new_path;
@@ -19,7 +19,7 @@ use nbc_circuit::timing::fan_out;
 use nbc_circuit::{CellLibrary, NetId, Netlist, Race, levels, races, rings};
 use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema, WaveTiming};
 use nbc_session::store::DiskWorld;
-use nbc_session::{CompileOptions, Mapping, Session};
+use nbc_session::{CompileOptions, Hardened, Mapping, Session};
 
 const EXAMPLES: &str = "\
 Examples:

@@ -33,14 +33,10 @@ pub(in crate::cli) enum UsageError {
     CircuitFormat { path: String },
     /// An unknown code.
     UnknownCode { word: String, meant: Suggestion },
-    /// An unknown function.
-    UnknownFunction { name: String, known: Vec<&'static str> },
     /// A robot that the library does not have.
     UnknownRobot { name: String, meant: Suggestion },
     /// A file that is named twice.
     TwoFiles { name: String },
-    /// A circuit without tests that is to be hardened by them.
-    NoTest { circuit: String },
     /// A folder without robot files.
     NoRobots { path: String },
     /// A number of threads that is not a number.
@@ -102,17 +98,10 @@ impl From<UsageError> for Diagnostic {
             UsageError::UnknownCode { word, meant } => bad(format!("no message has the code `{word}`"))
                 .with_help("`nbc explain` lists the codes")
                 .with_near(&meant),
-            UsageError::UnknownFunction { name, known } => bad(format!("`{name}` is not a function of two inputs"))
-                .with_help(format!("the functions are {}", known.join(", ")))
-                .with_near(&Suggestion::near(&name, known)),
             UsageError::UnknownRobot { name, meant } => {
                 Self::without_place(Code::UnknownRobot, format!("no robot of the library is called `{name}`"))
                     .with_help("`nbc library list` lists the robots; a function such as `nand` means its best one")
                     .with_near(&meant)
-            }
-            UsageError::NoTest { circuit } => {
-                Self::without_place(Code::Empty, format!("the file has no test of `{circuit}`"))
-                    .with_help("`--harden` runs the tests of the circuit in many worlds")
             }
             UsageError::NoRobots { path } => {
                 Self::without_place(Code::Empty, format!("`{path}` contains no robot files (.yaml)"))
@@ -201,37 +190,4 @@ pub(in crate::cli) fn no_such(message: String, name: &str, known: &[String]) -> 
     Diagnostic::without_place(Code::Unknown, message)
         .with_help(format!("there are {}", alternatives(known, "and")))
         .with_near(&Suggestion::near(name, known.iter().map(String::as_str)))
-}
-
-/// What hardening tells on the way.
-pub(in crate::cli) enum HardenNote<'a> {
-    /// A choice of robots and in how many worlds its tests pass.
-    Step { without: &'a [String], robots: usize, passed: usize, worlds: usize },
-    /// The result, and whether its tests pass in enough worlds.
-    End { without: &'a [String], reached: bool },
-}
-
-impl HardenNote<'_> {
-    /// The line.
-    pub(in crate::cli) fn text(&self) -> String {
-        let names = |without: &[String]| match without {
-            [] => "all robots of the library".to_owned(),
-            _ => format!("without {}", without.join(", ")),
-        };
-        match self {
-            Self::Step { without, robots, passed, worlds } => {
-                let (robots, worlds) = (counted(*robots, "robot"), counted(*worlds, "world"));
-                format!("{}: {robots}, {passed} of {worlds} pass", names(without))
-            }
-            Self::End { without, reached } => {
-                let short = if *reached { "" } else { "no choice of robots passes in enough worlds; " };
-                match &without[..] {
-                    [] => format!("{short}no robot is left out"),
-                    _ => {
-                        format!("{short}to use these robots, write `without: [{}]` in the library", without.join(", "))
-                    }
-                }
-            }
-        }
-    }
 }

@@ -57,7 +57,7 @@ impl Compiled {
 ///
 /// # Panics
 /// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
-pub fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
+pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
     let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
     match prove(&source, &netlist) {
         Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None, waves: None }),

@@ -75,6 +75,35 @@ impl From<ChoiceError> for Diagnostic {
     }
 }
 
+/// A name that no function of a robot has.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct UnknownFunction {
+    pub name: String,
+    pub known: Vec<&'static str>,
+}
+
+impl From<UnknownFunction> for Diagnostic {
+    fn from(UnknownFunction { name, known }: UnknownFunction) -> Self {
+        Self::without_place(Code::BadValue, format!("`{name}` is not a function of two inputs"))
+            .with_help(format!("the functions are {}", known.join(", ")))
+            .with_near(&Suggestion::near(&name, known))
+    }
+}
+
+/// A circuit that cannot be hardened.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum HardenError {
+    /// It has no tests.
+    NoTest { circuit: String },
+}
+
+impl From<HardenError> for Diagnostic {
+    fn from(HardenError::NoTest { circuit }: HardenError) -> Self {
+        Self::without_place(Code::Empty, format!("the file has no test of `{circuit}`"))
+            .with_help("hardening runs the tests of the circuit in many worlds")
+    }
+}
+
 /// Shows an error of a circuit's mapping at the place that asks for the circuit.
 pub(super) fn for_circuit(error: Diagnostic, place: Span) -> Diagnostic {
     error.with_label(place, "for this circuit")

@@ -8,7 +8,7 @@
 - Physics: `simulate` and `Flock`.
 - Evaluation: `evaluate` with an `Evolution`.
 - Search: `Search` (ask and tell), `evolve`, `Archive`.
-- Circuits: `load`, `Program`, `Compiled`, `Swarm`.
+- Circuits: `load`, `Program`, `Compiled`, `Swarm`; `synthesize` for those of other tools.
 - Interchange with Evolution Gym: `nbc.evogym`.
 - A pytest plugin that collects ``.nb`` files.
 
@@ -20,11 +20,12 @@ from __future__ import annotations
 from . import evogym
 from ._nbc import __version__
 from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows
-from .circuits import Circuit, Compiled, Port, Program, Report, Swarm, TestResult, load, loads
+from .circuits import Circuit, Compiled, Hardened, Port, Program, Report, Swarm, TestResult, Yield, load, loads
 from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, RobotFault, Span
 from .evolution import Evaluation, Evolution, evaluate
 from .physics import CYCLE_STEPS, Flock, Trajectories, simulate
 from .search import Archive, Candidates, Search, evolve, read_archive
+from .synthesis import Synthesis, synthesize
 from .threads import set_threads
 
 __all__ = [
@@ -38,6 +39,7 @@ __all__ = [
     "Evaluation",
     "Evolution",
     "Flock",
+    "Hardened",
     "InternalError",
     "Interrupted",
     "InvalidBodyWarning",
@@ -50,9 +52,11 @@ __all__ = [
     "Search",
     "Span",
     "Swarm",
+    "Synthesis",
     "THREE_MATERIALS",
     "TestResult",
     "Trajectories",
+    "Yield",
     "__version__",
     "evaluate",
     "evogym",
@@ -65,4 +69,5 @@ __all__ = [
     "rows",
     "set_threads",
     "simulate",
+    "synthesize",
 ]

@@ -27,6 +27,24 @@ class _Trials(TypedDict):
     record_com: bool
     stride: Optional[int]
 
+class _Sampling(TypedDict):
+    vary: Sequence[str]
+    times: Sequence[float]
+    worlds: int
+    seed: int
+
+class _Synthesizing(TypedDict):
+    cells: Sequence[str]
+    library: Optional[str]
+    objective: str
+    effort: str
+    top: Optional[str]
+    parameters: Sequence[Tuple[str, str]]
+    clock: Optional[str]
+    expand: bool
+    reachable_only: bool
+    what_if: Sequence[str]
+
 class Candidates:
     generation: int
     def __len__(self) -> int: ...
@@ -72,6 +90,15 @@ class Program:
     def evolutions(self) -> List[Tuple[str, Evolution]]: ...
     def compile(self, circuit: Optional[str], compiling: _Options) -> Compiled: ...
     def test(self, test: int, level: Optional[str], compiling: _Options, progress: _Report) -> str: ...
+    def yields(self, tests: Sequence[int], sampling: _Sampling, compiling: _Options, progress: _Report) -> str: ...
+    def harden(
+        self,
+        circuit: Optional[str],
+        sampling: _Sampling,
+        least_yield: float,
+        compiling: _Options,
+        progress: _Report,
+    ) -> str: ...
     def run(self, compiling: _Options, safe_colors: bool, progress: _Report) -> Tuple[str, str, bool]: ...
 
 class Scenes:
@@ -133,5 +160,6 @@ def read_schedule(schedule: _Schedule) -> List[Tuple[str, int]]: ...
 def robots(library: str) -> str: ...
 def set_threads(threads: int) -> None: ...
 def simulate(trials: _Trials, progress: _Report) -> Dict[str, Any]: ...
+def synthesize(files: Sequence[str], output: Optional[str], synthesizing: _Synthesizing) -> str: ...
 def three_materials() -> str: ...
 def write_file(path: str, text: str) -> None: ...

@@ -232,7 +232,8 @@ def read(body: OneBody, name: str) -> Codes:
 def _of_rows(body: Sequence[str], name: str) -> Codes:
     for number, row in enumerate(body, start=1):
         if len(row) != len(body[0]):
-            raise ValueError(f"{name}: row {number} has {len(row)} voxels, expected {len(body[0])} as in row 1")
+            voxels = "1 voxel" if len(row) == 1 else f"{len(row)} voxels"
+            raise ValueError(f"{name}: row {number} has {voxels}, expected {len(body[0])} as in row 1")
         wrong = next((digit for digit in row if digit not in "0123456789abcdefghijklmnopqrstuvwxyz"), None)
         if wrong is not None:
             raise ValueError(f"{name}: row {number}: `{wrong}` is not a material code; expected a digit")

@@ -22,7 +22,19 @@ from .progress import Progress, reporting
 if TYPE_CHECKING:
     from typing_extensions import Unpack
 
-__all__ = ["Circuit", "Compiled", "Port", "Program", "Report", "Swarm", "TestResult", "load", "loads"]
+__all__ = [
+    "Circuit",
+    "Compiled",
+    "Hardened",
+    "Port",
+    "Program",
+    "Report",
+    "Swarm",
+    "TestResult",
+    "Yield",
+    "load",
+    "loads",
+]
 
 Path = Union[str, "os.PathLike[str]"]
 Row = Union[Mapping[str, int], Sequence[int], npt.NDArray[Any]]
@@ -83,6 +95,56 @@ class TestResult:
     def _repr_html_(self) -> str:
         color = "#1a7f37" if self.passed else "#b42318"
         return f'<pre style="border-left:4px solid {color};padding-left:1em">{html.escape(self.text)}</pre>'
+
+
+@dataclass(frozen=True)
+class Yield:
+    """In how many worlds of a sample a test passes."""
+
+    circuit: str
+    title: str
+    swarm: Optional[str]
+    """The declared swarm that was tested, if there is one."""
+    robots: int
+    """The number of its robots."""
+    vary: Mapping[str, float]
+    """The largest changes of the worlds."""
+    passed: int
+    """The number of worlds in which the test passes."""
+    worlds: int
+    interval: Tuple[float, float]
+    """The 95 % interval of the share of worlds in which it passes."""
+    fails_first: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    """The robots that fail first, those of most worlds first: ``net``, ``robot``, ``worlds``."""
+    failures: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    """The worlds in which the test fails: ``world``, ``physics``, ``row``, ``line``, ``first``, ``fault``."""
+    text: str = field(repr=False)
+    """All this in lines."""
+
+    @property
+    def share(self) -> float:
+        """The share of worlds in which the test passes."""
+        return self.passed / self.worlds
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True)
+class Hardened:
+    """The robots to leave out of a swarm, so that its tests pass in more worlds."""
+
+    without: Tuple[str, ...]
+    """The names of the robots to leave out."""
+    reached: bool
+    """Whether the tests then pass in enough worlds."""
+    tried: Tuple[Mapping[str, Any], ...] = field(repr=False)
+    """The choices in their order: ``without``, ``robots``, ``yield``, ``fails_first``."""
+    text: str = field(repr=False)
+    """What to write in the library."""
+
+    def __str__(self) -> str:
+        return self.text
 
 
 @dataclass(frozen=True)
@@ -198,6 +260,87 @@ class Program:
         except KeyboardInterrupt:
             raise Interrupted(results) from None
         return results
+
+    def yields(
+        self,
+        name: Optional[str] = None,
+        *,
+        vary: Union[str, Sequence[str]] = "10%",
+        worlds: int = 100,
+        times: Sequence[float] = (1.0,),
+        seed: int = 1,
+        library: Optional[Path] = None,
+        swarm: Optional[str] = None,
+        objective: str = "area",
+        effort: str = "normal",
+        runs: Path = "out",
+        progress: Progress = False,
+    ) -> List[Yield]:
+        """Runs the tests of the file in physics in samples of worlds, as ``nbc test --worlds`` does.
+
+        Args:
+            name: only tests of this circuit or title.
+            vary: the largest changes of the worlds, such as ``friction=10%,gravity=5%``; ``10%`` alone is that of all
+                factors. Each of several is a sample of its own.
+            worlds: the number of worlds of each sample.
+            times: the changes times each of these numbers are samples of their own.
+            seed: the seed of the worlds.
+
+        The other arguments are those of `test`.
+
+        Raises:
+            KeyError: when no test has that name.
+            Interrupted: on Ctrl-C, with the yields that are complete.
+        """
+        options = _options(library, swarm, objective, effort, runs)
+        sampling = _sampling([vary] if isinstance(vary, str) else vary, times, worlds, seed)
+        with reporting(progress, " cycles") as report:
+            try:
+                return _yields(self._native.yields(self._chosen(name), sampling, options, report))
+            except Interrupted as interrupt:
+                interrupt.result = _yields(interrupt.result)
+                raise
+
+    def harden(
+        self,
+        circuit: Optional[str] = None,
+        *,
+        vary: str = "20%",
+        worlds: int = 40,
+        seed: int = 1,
+        least_yield: float = 0.95,
+        library: Optional[Path] = None,
+        swarm: Optional[str] = None,
+        objective: str = "area",
+        effort: str = "normal",
+        runs: Path = "out",
+        progress: Progress = False,
+    ) -> Hardened:
+        """Finds the robots to leave out of a circuit's swarm, as ``nbc build --harden`` does.
+
+        The robots that fail first in other worlds are left out one by one, until the tests of the circuit pass in
+        enough worlds.
+
+        Args:
+            circuit: its name, by default the last one of the file.
+            vary: the largest changes of the worlds, as in `yields`.
+            worlds: the number of worlds.
+            seed: the seed of the worlds.
+            least_yield: the share of worlds in which each test must pass.
+
+        The other arguments are those of `compile`.
+
+        Raises:
+            NbcError: when the circuit has no test.
+        """
+        options = _options(library, swarm, objective, effort, runs)
+        if not 0.0 <= least_yield <= 1.0:
+            raise ValueError(f"least_yield is {least_yield}, expected 0 to 1")
+        sampling = _sampling([vary], [1.0], worlds, seed)
+        with reporting(progress, " cycles") as report:
+            found = json.loads(self._native.harden(circuit, sampling, least_yield, options, report))
+        data = found["data"]
+        return Hardened(tuple(data["without"]), data["reached"], tuple(data["tried"]), found["text"])
 
     def run(
         self,
@@ -548,6 +691,42 @@ def loads(text: str, path: str = "program.nb") -> Program:
     unknown program.nb:1:27
     """
     return Program(path, text)
+
+
+def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: int) -> _nbc._Sampling:
+    """A sample of worlds for the native half."""
+    if not vary or not times:
+        raise ValueError("vary and times need a value at least")
+    if not all(0.0 <= factor <= 1000.0 for factor in times):
+        raise ValueError("expected numbers from 0 to 1000 in times")
+    return {
+        "vary": [str(changes) for changes in vary],
+        "times": [float(factor) for factor in times],
+        "worlds": count(worlds, "worlds", least=1),
+        "seed": count(seed, "seed", most=2**64 - 1),
+    }
+
+
+def _yields(records: str) -> List[Yield]:
+    """The yields of the native half."""
+    return [_yield(record["data"], record["text"]) for record in json.loads(records)]
+
+
+def _yield(data: Dict[str, Any], text: str) -> Yield:
+    passed = data["yield"]
+    return Yield(
+        circuit=data["circuit"],
+        title=data["title"],
+        swarm=data["swarm"],
+        robots=data["robots"],
+        vary=data["variation"],
+        passed=passed["passed"],
+        worlds=passed["worlds"],
+        interval=(passed["low"], passed["high"]),
+        fails_first=tuple(data["fails_first"]),
+        failures=tuple(data["failures"]),
+        text=text,
+    )
 
 
 def _options(

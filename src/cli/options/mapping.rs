@@ -3,9 +3,7 @@
 use clap::{Args, ValueEnum};
 
 use crate::cli::options::robots::RobotsArguments;
-use crate::cli::wording::UsageError;
 use crate::cli::{Failure, robots};
-use nbc_base::model::Function;
 use nbc_circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
 use nbc_session::CompileOptions;
 use nbc_session::store;
@@ -67,18 +65,8 @@ impl CellsArguments {
     /// # Errors
     /// When a function is unknown.
     pub(in crate::cli) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
-        Ok(Some(match &self.cells[..] {
-            [] => return Ok(None),
-            [all] if all == "all" => CellLibrary::uniform(every_gate()),
-            [all] if all == "all3" => {
-                CellLibrary::uniform(every_gate().chain(Function::all_of(3).filter(|function| function.arity() == 3)))
-            }
-            // A robot of three stimuli can be wired in any order.
-            names => {
-                let arranged = |one: Function| if one.inputs() == 3 { one.arrangements() } else { vec![one] };
-                CellLibrary::uniform(functions(names)?.into_iter().flat_map(arranged))
-            }
-        }))
+        let chosen = (!self.cells.is_empty()).then(|| nbc_session::cell_library(&self.cells));
+        chosen.transpose().map_err(Failure::plain)
     }
 }
 
@@ -93,7 +81,7 @@ impl MappingArguments {
         }
         let robots = self.library.library.as_deref().map(robots::robots_of).transpose()?;
         let robots = robots.unwrap_or_else(store::shipped_library);
-        Ok(nbc_swarm::cells(&nbc_swarm::prefer(robots, self.options().objective)))
+        Ok(nbc_session::robot_cells(robots, self.options().objective))
     }
 
     /// How to map.
@@ -145,20 +133,4 @@ impl From<EffortWord> for Effort {
             EffortWord::High => Self::High,
         }
     }
-}
-
-/// The functions of two inputs, and the inverter.
-fn every_gate() -> impl Iterator<Item = Function> {
-    Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT)
-}
-
-/// The functions of these names.
-pub(in crate::cli) fn functions(names: &[String]) -> Result<Vec<Function>, Failure> {
-    let parse = |name: &String| {
-        Function::parse(name.trim()).ok_or_else(|| {
-            UsageError::UnknownFunction { name: name.clone(), known: Function::named().map(Function::name).collect() }
-                .into()
-        })
-    };
-    names.iter().map(parse).collect()
 }

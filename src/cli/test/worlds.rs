@@ -7,13 +7,13 @@ use clap::Args;
 use crate::cli::draw::wording::DrawError;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::number::number;
-use crate::cli::world_runs::{Experiment, WorldRuns};
+use crate::cli::world_runs::world_runs;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};
 use nbc_session::store;
-use nbc_session::{Session, TestCase};
+use nbc_session::{Session, TestCase, Yields};
 use nbc_swarm::{Proportion, Robustness};
 
 /// The number of worlds of a sample.
@@ -25,7 +25,8 @@ pub(super) struct WorldsArguments {
     /// The number of worlds in which each test runs [default: 100]
     #[arg(long, value_name = "N", requires = "vary", value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     worlds: Option<u32>,
-    /// The largest changes of the worlds, such as `friction=10%,gravity=5%`, or `all=10%`; may be given several times
+    /// The largest changes of the worlds, such as `friction=10%,gravity=5%`, or `10%` of all factors; may be given
+    /// several times
     #[arg(long, value_name = "CHANGES", conflicts_with_all = ["logic", "nats"])]
     vary: Vec<Variation>,
     /// Repeat with the changes times each of these numbers
@@ -60,16 +61,16 @@ impl WorldsArguments {
         context: &mut Context,
     ) -> Result<Status, Failure> {
         self.check_picture()?;
-        let experiments = self.experiments(cases);
-        let runs = WorldRuns { session, interrupt, worlds: self.count(), seed: self.seed };
-        let found = runs.run(&experiments, |robustness| {
+        let times = if self.times.is_empty() { &[1.0][..] } else { &self.times };
+        let yields = Yields::of(cases, &self.vary, times, self.count(), self.seed);
+        let found = world_runs(session, &yields, interrupt, |robustness| {
             if context.format == OutputFormat::Text {
                 context.print(report::describe_robustness(robustness))?;
                 context.flush()?;
             }
             Ok(())
         })?;
-        let left = experiments.len() - found.len();
+        let left = yields.experiments.len() - found.len();
         if context.format == OutputFormat::Json {
             let mut value = serde_json::json!({ "worlds": self.count(), "seed": self.seed, "tests": found });
             if left > 0 {
@@ -102,19 +103,6 @@ impl WorldsArguments {
         }
         let expected = vec!["`.svg`".to_owned(), "`.png`".to_owned()];
         Err(DrawError::Extension { path: path.display().to_string(), expected, kind: "yields" }.into())
-    }
-
-    /// Each case under each variation times each number.
-    fn experiments<'c, 'a>(&self, cases: &'c [TestCase<'a>]) -> Vec<Experiment<'c, 'a>> {
-        let scales = if self.times.is_empty() { &[1.0][..] } else { &self.times };
-        let mut experiments = Vec::new();
-        for case in cases {
-            for variation in &self.vary {
-                let scaled = |&scale| Experiment { case, variation: variation.times(scale), scale };
-                experiments.extend(scales.iter().map(scaled));
-            }
-        }
-        experiments
     }
 
     /// The yields against the size of the change: a curve for each test and variation.

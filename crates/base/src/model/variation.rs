@@ -152,9 +152,12 @@ impl TryFrom<BTreeMap<String, f64>> for Variation {
 impl FromStr for Variation {
     type Err = VariationError;
 
-    /// Reads `friction=10%,start=0.2`, or `all=10%`, which is all factors.
+    /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself.
     fn from_str(text: &str) -> Result<Self, VariationError> {
         let mut amounts = [0.0; COUNT];
+        if text.ends_with('%') && !text.contains('=') {
+            return format!("{}={text}", Self::ALL).parse();
+        }
         for part in text.split(',') {
             let (name, amount) = part.split_once('=').ok_or_else(|| VariationError::NoAmount(part.to_owned()))?;
             if name.trim() == Self::ALL {

@@ -1,0 +1,161 @@
+//! Designs of other tools, mapped onto cells of few robots and proved.
+
+use crate::compile::synthesize;
+use crate::wording::UnknownFunction;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Function, Library};
+use nbc_circuit::correspondence::{self, Removed};
+use nbc_circuit::formats::Design;
+use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
+use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, registers};
+
+/// How a design is mapped.
+#[derive(Clone, Debug)]
+pub struct SynthesisOptions {
+    /// The available cells.
+    pub cells: CellLibrary,
+    /// The goal of mapping.
+    pub map: MapOptions,
+    /// Whether registers become cells.
+    pub expand: bool,
+    /// Whether the result need only be right in reachable states.
+    pub reachable_only: bool,
+    /// Functions of which it is asked how many cells a robot for each would save.
+    pub what_if: Vec<Function>,
+}
+
+impl SynthesisOptions {
+    /// The design as it is, mapped onto few of these cells.
+    pub fn onto(cells: CellLibrary) -> Self {
+        Self { cells, map: MapOptions::default(), expand: false, reachable_only: false, what_if: Vec::new() }
+    }
+}
+
+/// A design as cells.
+#[derive(Clone, Debug)]
+pub struct Synthesis {
+    /// The design that was mapped, without the registers that it does not need.
+    pub design: Design,
+    /// The cells, and the registers that are left.
+    pub result: Design,
+    /// The registers that the design does not need.
+    pub removed: Removed,
+    /// What was assumed of its states; `None` if the result is right in every state by request.
+    pub states: Option<AssumedStates>,
+    /// The cells that a robot for each of the functions would save; negative if it needs more.
+    pub what_if: Vec<(Function, i64)>,
+}
+
+/// The states of a design in which a result is right.
+#[derive(Clone, Debug)]
+pub enum AssumedStates {
+    /// All of them, for this reason.
+    Every(WhyEveryState),
+    /// The reachable ones, which saves so many cells. If it saves none, the result is right in all states.
+    Reachable(Reachable, usize),
+}
+
+impl Synthesis {
+    /// Maps a design as it was read, and proves the result.
+    ///
+    /// # Errors
+    /// When the design cannot be mapped onto the cells.
+    ///
+    /// # Panics
+    /// When the result is not equal to the design, which is a fault of the compiler.
+    pub fn of(read: &Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
+        let (design, removed) = correspondence::reduce(read);
+        let whole = Made::of(design, options)?;
+        // The result with its registers is proved to be what was read, too. For registers made of cells, the design
+        // without needless registers was proved, and then its cells.
+        if !options.expand
+            && let Err(error) = correspondence::prove(read, &whole.result, &removed)
+        {
+            panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
+        }
+        let (Made { design, source, result }, states) =
+            if options.reachable_only { whole.within_reach(options)? } else { (whole, None) };
+        let mut synthesis = Self { design, result, removed, states, what_if: Vec::new() };
+        for &function in &options.what_if {
+            let mut more = options.cells.clone();
+            more.insert(function, CellKind::uniform(1, 1.0));
+            let found = synthesize(source.clone(), &more, &options.map)?.netlist.cells().count();
+            synthesis.what_if.push((function, synthesis.cells() as i64 - found as i64));
+        }
+        Ok(synthesis)
+    }
+
+    /// The number of cells.
+    pub fn cells(&self) -> usize {
+        self.result.logic.cells().count()
+    }
+}
+
+/// The functions of these names.
+///
+/// # Errors
+/// When one of them is unknown.
+pub fn named_functions(names: &[String]) -> Result<Vec<Function>, Diagnostic> {
+    let parse = |name: &String| {
+        Function::parse(name.trim()).ok_or_else(|| {
+            let known = Function::named().map(Function::name).collect();
+            UnknownFunction { name: name.clone(), known }.into()
+        })
+    };
+    names.iter().map(parse).collect()
+}
+
+/// Cells of these functions, which cost the same. `all` alone is all functions of two inputs, and `all3` those of two
+/// and three.
+///
+/// # Errors
+/// When a function is unknown.
+pub fn cell_library(names: &[String]) -> Result<CellLibrary, Diagnostic> {
+    let of_two = || Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
+    Ok(match names {
+        [all] if all == "all" => CellLibrary::uniform(of_two()),
+        [all] if all == "all3" => {
+            CellLibrary::uniform(of_two().chain(Function::all_of(3).filter(|function| function.arity() == 3)))
+        }
+        // A robot of three stimuli can be wired in any order.
+        names => {
+            let arranged = |one: Function| if one.inputs() == 3 { one.arrangements() } else { vec![one] };
+            CellLibrary::uniform(named_functions(names)?.into_iter().flat_map(arranged))
+        }
+    })
+}
+
+/// The cells of robots, of which the goal prefers one for each function.
+pub fn robot_cells(robots: Library, objective: MappingObjective) -> CellLibrary {
+    nbc_swarm::cells(&nbc_swarm::prefer(robots, objective))
+}
+
+/// A design and what it became.
+struct Made {
+    design: Design,
+    /// Its logic, with its registers if they are expanded.
+    source: Netlist,
+    result: Design,
+}
+
+impl Made {
+    fn of(design: Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
+        let source = if options.expand { registers::expand(&design) } else { design.logic.clone() };
+        let logic = synthesize(source.clone(), &options.cells, &options.map)?.netlist;
+        let registers = if options.expand { Vec::new() } else { design.registers.clone() };
+        let ascending = design.ascending.clone();
+        Ok(Self { design, source, result: Design { logic, registers, ascending } })
+    }
+
+    /// The same design where only reachable states count, if that saves cells.
+    fn within_reach(self, options: &SynthesisOptions) -> Result<(Self, Option<AssumedStates>), Diagnostic> {
+        let (simpler, reachable) = match reachable::simplify(&self.design, &options.cells, &options.map) {
+            Ok(found) => found,
+            Err(why) => return Ok((self, Some(AssumedStates::Every(why)))),
+        };
+        let other = Self::of(simpler, options)?;
+        let cells = |made: &Self| made.result.logic.cells().count();
+        let saved = cells(&self).saturating_sub(cells(&other));
+        Ok((if saved > 0 { other } else { self }, Some(AssumedStates::Reachable(reachable, saved))))
+    }
+}

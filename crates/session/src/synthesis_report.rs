@@ -1,0 +1,200 @@
+//! The result of a synthesis as text and as data.
+
+use std::collections::BTreeMap;
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use crate::synthesis::{AssumedStates, Synthesis};
+use nbc_base::diag::counted;
+use nbc_base::source::{ProofOrigin, Simulated};
+use nbc_circuit::correspondence::Removed;
+use nbc_circuit::levels;
+
+/// The most registers that are named in a line.
+const SHOWN: usize = 8;
+
+/// The result of a synthesis.
+#[derive(Debug, Serialize)]
+pub struct SynthesisReport {
+    cells: usize,
+    by_function: BTreeMap<&'static str, usize>,
+    depth: u32,
+    inputs: usize,
+    outputs: usize,
+    latches: usize,
+    removed: RemovedReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unreachable: Option<StatesReport>,
+    proved: bool,
+    proof: ProofReport,
+    seconds: f64,
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    what_if: BTreeMap<String, i64>,
+}
+
+/// What the proof begins with.
+#[derive(Debug, Serialize)]
+struct ProofReport {
+    /// `file`, or `yosys` for its netlist.
+    from: &'static str,
+    /// The version of Yosys.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    version: Option<String>,
+    /// The simulator that compared the netlist with the file, and the steps that were equal.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulator: Option<&'static str>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    steps: Option<usize>,
+    /// Why it compared nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_simulated: Option<&'static str>,
+    /// All this in words.
+    #[serde(skip)]
+    words: String,
+}
+
+/// Registers that the circuit does not need.
+#[derive(Debug, Serialize)]
+struct RemovedReport {
+    constant: BTreeMap<String, u8>,
+    equal: BTreeMap<String, String>,
+    unused: Vec<String>,
+}
+
+/// What was assumed of the states of a design.
+#[derive(Debug, Default, Serialize)]
+struct StatesReport {
+    /// Why nothing is assumed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    unused: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reachable_states: Option<u64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    states: Option<u64>,
+    relations: Vec<BTreeMap<String, u8>>,
+    cells_saved: usize,
+}
+
+impl SynthesisReport {
+    /// The report of a synthesis that took so many seconds; `origin` is what its proof begins with.
+    pub fn of(synthesis: &Synthesis, origin: ProofOrigin, seconds: f64) -> Self {
+        let Synthesis { design, result, removed, states, what_if } = synthesis;
+        Self {
+            cells: synthesis.cells(),
+            by_function: result.logic.by_function(),
+            depth: levels::depth(&result.logic),
+            inputs: design.inputs(),
+            outputs: design.outputs(),
+            latches: design.registers.len(),
+            removed: RemovedReport::of(removed),
+            unreachable: states.as_ref().map(StatesReport::of),
+            // A circuit that is not proved is never reported.
+            proved: true,
+            proof: ProofReport::of(origin),
+            seconds,
+            what_if: what_if.iter().map(|&(function, saved)| (function.name().to_owned(), saved)).collect(),
+        }
+    }
+
+    /// The report in lines.
+    pub fn text(&self) -> String {
+        let parts: Vec<_> = self.by_function.iter().map(|(name, count)| format!("{count} {name}")).collect();
+        let latches = if self.latches > 0 { format!(", {}", counted(self.latches, "register")) } else { String::new() };
+        let mut text = format!(
+            "{} ({}), {}{latches}, proved from {}, {:.2} s\n",
+            counted(self.cells, "cell"),
+            parts.join(", "),
+            counted(self.depth as usize, "level"),
+            self.proof.words,
+            self.seconds
+        );
+        text.extend(self.proof.version.iter().map(|version| format!("read by Yosys {version}\n")));
+        text.push_str(&self.removed.text());
+        text.extend(self.unreachable.iter().map(StatesReport::text));
+        for (name, saved) in &self.what_if {
+            let cells = counted(saved.unsigned_abs() as usize, "cell");
+            let _ = writeln!(text, "with `{name}`: {cells} {}", if *saved < 0 { "more" } else { "fewer" });
+        }
+        text
+    }
+}
+
+impl ProofReport {
+    fn of(origin: ProofOrigin) -> Self {
+        let words = origin.to_string();
+        let ProofOrigin::Yosys { version, simulated } = origin else {
+            return Self { from: "file", version: None, simulator: None, steps: None, not_simulated: None, words };
+        };
+        let steps = match simulated {
+            Simulated::Equal { steps } => Some(steps),
+            _ => None,
+        };
+        let (simulator, not_simulated) = (steps.map(|_| "iverilog"), simulated.why_not());
+        Self { from: "yosys", version: Some(version), simulator, steps, not_simulated, words }
+    }
+}
+
+impl RemovedReport {
+    fn of(removed: &Removed) -> Self {
+        Self {
+            constant: removed.constant.iter().map(|(name, value)| (name.clone(), (*value).into())).collect(),
+            equal: removed.equal.iter().cloned().collect(),
+            unused: removed.unused.clone(),
+        }
+    }
+
+    /// A line for each reason that applies.
+    fn text(&self) -> String {
+        let constant: Vec<_> = self.constant.iter().map(|(name, value)| format!("{name} = {value}")).collect();
+        let equal: Vec<_> = self.equal.iter().map(|(name, other)| format!("{name} = {other}")).collect();
+        let line = |(what, names): (&str, &[String])| match names.len() {
+            0 => String::new(),
+            _ => format!("{what}: {}\n", listed(names)),
+        };
+        [
+            ("registers that never change", &constant[..]),
+            ("registers that equal another", &equal),
+            ("registers that no output needs", &self.unused),
+        ]
+        .map(line)
+        .concat()
+    }
+}
+
+impl StatesReport {
+    fn of(states: &AssumedStates) -> Self {
+        let (reachable, cells_saved) = match states {
+            AssumedStates::Every(why) => return Self { unused: Some(why.to_string()), ..Self::default() },
+            AssumedStates::Reachable(reachable, saved) => (reachable, *saved),
+        };
+        let relation = |relation: &Vec<(String, bool)>| {
+            relation.iter().map(|(name, value)| (name.clone(), u8::from(*value))).collect()
+        };
+        Self {
+            unused: None,
+            reachable_states: reachable.states.map(|(reached, _)| reached),
+            states: reachable.states.map(|(_, all)| all),
+            relations: reachable.relations.iter().map(relation).collect(),
+            cells_saved,
+        }
+    }
+
+    fn text(&self) -> String {
+        if let Some(why) = &self.unused {
+            return format!("every state counts: {why}\n");
+        }
+        let known = match (self.reachable_states, self.states) {
+            (Some(reached), Some(all)) => format!("{reached} of {all} states are reachable"),
+            _ => format!("{} relations between registers hold in every reachable state", self.relations.len()),
+        };
+        let limit = if self.cells_saved > 0 { "; the result is right in reachable states only" } else { "" };
+        format!("{known}: {} fewer{limit}\n", counted(self.cells_saved, "cell"))
+    }
+}
+
+/// The first of these names, and how many more there are.
+fn listed(names: &[String]) -> String {
+    let shown = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }
+}

@@ -1,0 +1,113 @@
+//! Tests in samples of worlds: in how many each passes, and which robots fail first.
+
+use crate::{Observer, RunEnd, Session, TestCase};
+use nbc_base::model::Variation;
+use nbc_swarm::{Robustness, TestVerdict, WorldSample, WorldTrial};
+
+/// A test in a sample of worlds.
+#[derive(Clone, Debug)]
+pub struct Experiment<'c, 'a> {
+    /// The test, in physics.
+    pub case: &'c TestCase<'a>,
+    /// How much the worlds vary.
+    pub variation: Variation,
+    /// The factor of the requested variation.
+    pub scale: f64,
+}
+
+/// Experiments, each in the same number of worlds. The runs do not depend on each other, so a door makes them in any
+/// order, on any threads, and passes their results to [`YieldTally::tell`] in order.
+#[derive(Clone, Debug)]
+pub struct Yields<'c, 'a> {
+    /// The experiments.
+    pub experiments: Vec<Experiment<'c, 'a>>,
+    /// The number of worlds.
+    pub worlds: usize,
+    /// The seed of the worlds.
+    pub seed: u64,
+}
+
+/// A run: the numbers of an experiment and of a world.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorldRun {
+    experiment: usize,
+    world: usize,
+}
+
+/// The result of a run.
+#[derive(Clone, Debug)]
+pub struct WorldResult {
+    verdict: TestVerdict,
+    trial: WorldTrial,
+}
+
+impl<'c, 'a> Yields<'c, 'a> {
+    /// Each case under each variation, times each of the numbers.
+    pub fn of(cases: &'c [TestCase<'a>], vary: &[Variation], times: &[f64], worlds: usize, seed: u64) -> Self {
+        let mut experiments = Vec::new();
+        for case in cases {
+            for variation in vary {
+                let scaled = |&scale: &f64| Experiment { case, variation: variation.times(scale), scale };
+                experiments.extend(times.iter().map(scaled));
+            }
+        }
+        Self { experiments, worlds, seed }
+    }
+
+    /// The runs, in the order of their experiments and worlds.
+    pub fn runs(&self) -> Vec<WorldRun> {
+        let worlds = |experiment: usize| (0..self.worlds).map(move |world| WorldRun { experiment, world });
+        (0..self.experiments.len()).flat_map(worlds).collect()
+    }
+
+    /// The amount of work of all runs, as [`TestCase::work`].
+    pub fn work(&self) -> u64 {
+        let work: u64 = self.experiments.iter().map(|experiment| experiment.case.work()).sum();
+        work * self.worlds as u64
+    }
+
+    /// The sums of results, of which there are none yet.
+    pub fn tally(&self) -> YieldTally<'_> {
+        YieldTally { yields: self, trials: Vec::new(), done: 0 }
+    }
+}
+
+/// The results of runs, summed up as they come.
+#[derive(Debug)]
+pub struct YieldTally<'y> {
+    yields: &'y Yields<'y, 'y>,
+    /// Those of the experiment that is not complete.
+    trials: Vec<WorldTrial>,
+    /// The number of complete experiments.
+    done: usize,
+}
+
+impl YieldTally<'_> {
+    /// Takes the result of the next run. Returns the sum of an experiment's results after the last of them.
+    pub fn tell(&mut self, WorldResult { verdict, trial }: WorldResult) -> Option<Robustness> {
+        self.trials.push(trial);
+        if self.trials.len() < self.yields.worlds {
+            return None;
+        }
+        let Experiment { case, variation, scale } = &self.yields.experiments[self.done];
+        self.done += 1;
+        let trials = std::mem::take(&mut self.trials);
+        Some(Robustness::of(&verdict, case.robots(), (*variation, *scale), &trials))
+    }
+}
+
+impl Session {
+    /// Makes one of the runs; `None` if the observer cancelled it.
+    pub fn run_in_world(
+        &self,
+        yields: &Yields<'_, '_>,
+        run: WorldRun,
+        observer: &mut dyn Observer,
+    ) -> Option<WorldResult> {
+        let Experiment { case, variation, .. } = &yields.experiments[run.experiment];
+        let world = WorldSample { variation: *variation, seed: yields.seed }.world(&case.world(), run.world);
+        let run = self.run_case(case.trial_in(world), observer);
+        let trial = (run.end == RunEnd::Complete).then(|| run.world_trial()).flatten()?;
+        Some(WorldResult { verdict: run.verdict, trial })
+    }
+}

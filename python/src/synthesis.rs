@@ -1,0 +1,112 @@
+//! Circuits of other tools, mapped onto cells and proved.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use nbc::{
+    CircuitFile, CircuitFormat, CircuitRead, Diagnostics, Session, Synthesis, SynthesisOptions, SynthesisReport,
+};
+use nbc::{TopModule, cell_library, encode_circuit, named_functions, read_circuit, robot_cells};
+use pyo3::prelude::*;
+use serde_json::json;
+
+use crate::errors::{bad_value, diagnosed, internal};
+use crate::program::{read_effort, read_objective};
+use crate::work::{self, Watch};
+
+/// How a circuit is mapped, as Python gives it.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Synthesizing {
+    cells: Vec<String>,
+    library: Option<String>,
+    objective: String,
+    effort: String,
+    top: Option<String>,
+    parameters: Vec<(String, String)>,
+    clock: Option<String>,
+    expand: bool,
+    reachable_only: bool,
+    what_if: Vec<String>,
+}
+
+/// What a synthesis needs.
+struct Job {
+    files: Vec<PathBuf>,
+    output: Option<(PathBuf, CircuitFormat)>,
+    top: TopModule,
+    clock: Option<String>,
+    options: SynthesisOptions,
+}
+
+impl Synthesizing {
+    fn options(&self, py: Python<'_>, watch: &Watch) -> PyResult<SynthesisOptions> {
+        let (objective, effort) = (read_objective(&self.objective)?, read_effort(&self.effort)?);
+        let plain = |found| diagnosed(py, &Diagnostics::from(found));
+        let cells = if self.cells.is_empty() {
+            let folder = self.library.as_deref().unwrap_or("shipped");
+            let robots = Session::new(nbc::DiskWorld).library(folder).map_err(|found| diagnosed(py, &found))?;
+            robot_cells(robots, objective)
+        } else {
+            cell_library(&self.cells).map_err(plain)?
+        };
+        let mut options = SynthesisOptions::onto(cells);
+        (options.map.objective, options.map.effort) = (objective, effort);
+        options.map.cancel = watch.cancel.clone();
+        (options.expand, options.reachable_only) = (self.expand, self.reachable_only);
+        options.what_if = named_functions(&self.what_if).map_err(plain)?;
+        Ok(options)
+    }
+
+    fn top(&self) -> PyResult<TopModule> {
+        let read = |(name, value): &(String, String)| {
+            let value = value.parse().map_err(|expected| bad_value(format!("the parameter `{name}`: {expected}")))?;
+            Ok((name.clone(), value))
+        };
+        Ok(TopModule { name: self.top.clone(), parameters: self.parameters.iter().map(read).collect::<PyResult<_>>()? })
+    }
+}
+
+impl Job {
+    /// Reads, maps, proves and writes.
+    fn run(self) -> Result<(SynthesisReport, Diagnostics), Diagnostics> {
+        let started = Instant::now();
+        let (path, others) = self.files.split_first().expect("there is a file");
+        let file = CircuitFile { path, others, clock: self.clock.as_deref(), top: &self.top };
+        let CircuitRead { design, warnings, origin } = read_circuit(&file)?;
+        let made = Synthesis::of(&design, &self.options)?;
+        if let Some((path, format)) = self.output {
+            nbc::write_file(&path, &encode_circuit(&made.result, format)?)?;
+        }
+        Ok((SynthesisReport::of(&made, origin, started.elapsed().as_secs_f64()), warnings))
+    }
+}
+
+/// Maps a circuit file, and writes the result if a file is named: the report as JSON, with its text and warnings.
+#[pyfunction]
+pub fn synthesize(
+    py: Python<'_>,
+    files: Vec<String>,
+    output: Option<String>,
+    synthesizing: Synthesizing,
+) -> PyResult<String> {
+    let watch = Watch::over(0);
+    let format = |path: String| {
+        let ending = Path::new(&path).extension().map(|ending| ending.to_string_lossy().to_lowercase());
+        let format = ending.and_then(|ending| CircuitFormat::of_ending(&ending));
+        let expected = "expected .blif, .aig, .aag, .v, .dot or .nb";
+        let format = format.ok_or_else(|| bad_value(format!("unrecognized circuit format of `{path}`; {expected}")))?;
+        Ok::<_, PyErr>((PathBuf::from(path), format))
+    };
+    let job = Job {
+        files: files.into_iter().map(PathBuf::from).collect(),
+        output: output.map(format).transpose()?,
+        top: synthesizing.top()?,
+        clock: synthesizing.clock.clone(),
+        options: synthesizing.options(py, &watch)?,
+    };
+    let made = work::run(py, &watch, None, move |_| job.run())?.finished()?;
+    let (report, warnings) = made.map_err(|found| diagnosed(py, &found))?;
+    let data = serde_json::to_value(&report).map_err(|error| internal(py, &error.to_string()))?;
+    Ok(json!({ "data": data, "text": report.text(), "warnings": warnings.json() }).to_string())
+}

@@ -1,0 +1,78 @@
+//! Tests in samples of worlds, and hardening.
+
+use std::fmt::Display;
+use std::str::FromStr;
+
+use nbc::{Checked, Diagnostics, Robustness, Session, TestCase, TestOptions, Variation, WorldResult, Yields};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::errors::{bad_value, internal};
+use crate::work::Watch;
+
+/// The worlds of a sample, as Python gives them.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Sampling {
+    vary: Vec<String>,
+    times: Vec<f64>,
+    worlds: usize,
+    seed: u64,
+}
+
+/// The worlds of a sample.
+pub struct Sample {
+    /// How much the worlds vary, each apart.
+    pub vary: Vec<Variation>,
+    times: Vec<f64>,
+    /// The number of worlds.
+    pub worlds: usize,
+    /// Their seed.
+    pub seed: u64,
+}
+
+impl Sampling {
+    /// # Errors
+    /// `ValueError` when changes are invalid.
+    pub fn read(self) -> PyResult<Sample> {
+        let vary = self.vary.iter().map(|text| read_as(text)).collect::<PyResult<_>>()?;
+        Ok(Sample { vary, times: self.times, worlds: self.worlds, seed: self.seed })
+    }
+}
+
+fn read_as<T: FromStr<Err: Display>>(text: &str) -> PyResult<T> {
+    text.parse().map_err(|error: T::Err| bad_value(error.to_string()))
+}
+
+/// The yields of these tests of a program. After an interrupt, those that are complete.
+pub fn yields(
+    session: &Session,
+    checked: &Checked,
+    tests: &[usize],
+    options: &TestOptions,
+    sample: &Sample,
+    watch: &Watch,
+) -> Result<Vec<Robustness>, Diagnostics> {
+    let mut cases: Vec<TestCase<'_>> = Vec::new();
+    for &test in tests {
+        cases.extend(session.cases(checked, &checked.program.tests[test], options)?);
+    }
+    let Sample { vary, times, worlds, seed } = sample;
+    Ok(runs(session, &Yields::of(&cases, vary, times, *worlds, *seed), watch))
+}
+
+/// Makes the runs on the threads of the package. After an interrupt, only results that are complete are there.
+pub fn runs(session: &Session, yields: &Yields<'_, '_>, watch: &Watch) -> Vec<Robustness> {
+    watch.expect(yields.work());
+    let run = |run| if watch.is_stopped() { None } else { session.run_in_world(yields, run, &mut watch.part()) };
+    let results: Vec<Option<WorldResult>> = yields.runs().into_par_iter().map(run).collect();
+    let mut tally = yields.tally();
+    results.into_iter().map_while(|result| result).filter_map(|result| tally.tell(result)).collect()
+}
+
+/// A yield as data, with its text.
+pub fn record(py: Python<'_>, found: &Robustness) -> PyResult<Value> {
+    let data = serde_json::to_value(found).map_err(|error| internal(py, &error.to_string()))?;
+    Ok(json!({ "data": data, "text": nbc::describe_robustness(found) }))
+}
