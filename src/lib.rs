@@ -528,6 +528,53 @@ pub use nbc_swarm::RobotFault;
 /// ```
 pub use nbc_swarm::evolve_generation;
 
+/// The best robot of a behavior among the elites of a run, measured.
+///
+/// ```no_run
+/// use std::path::Path;
+/// use nbc::{Behavior, Checkpoint, LocalExecutor, OwnBody, RobotRequest, Selected, Selection};
+/// let run = Checkpoint::open(Path::new("out/gates/seed-1/checkpoint.nbc")).unwrap().unwrap();
+/// let selection = Selection { tries: 8, finalists: 2, max_error: 0.0, wide_margin: 0.0 };
+/// let nand: Behavior = nbc::behavior("nand").unwrap();
+/// let executor = LocalExecutor::new(nbc::Simulator::default());
+/// for request in RobotRequest::of_runs([&run], &[nand], &selection) {
+///     if let Some(Selected::Robot(robot)) = request.select(&selection, &executor, 0, &|_| ()) {
+///         println!("{}", nbc::print_robot(&robot));
+///     }
+/// }
+/// let body = nbc::Body::parse(&["343", "563"], &nbc::Palette::paper()).unwrap();
+/// let own = RobotRequest::Own(Box::new(OwnBody::by_hand("mine".to_owned(), body)));
+/// assert!(own.select(&selection, &executor, 0, &|_| ()).is_some());
+/// ```
+#[cfg(feature = "disk")]
+pub use {
+    nbc_session::store::print_robot,
+    nbc_session::{OwnBody, RobotRequest, behavior},
+    nbc_swarm::{Selected, Selection},
+};
+
+/// A run of an evolution whose work is counted, with an executor that remembers the bodies it has simulated.
+///
+/// ```
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// session.update("run.nb", 1, "evolution mine { from: gates, box: 3 x 2, batch: 2, generations: 2 }");
+/// let checked = session.open("run.nb")?;
+/// use nbc::{EvolutionLine, EvolutionRun, Executor, LocalExecutor, Task, TaskResult};
+/// let executor = LocalExecutor::new(nbc::Simulator::default());
+/// let mut run = EvolutionRun::new(checked.program.evolution("mine").unwrap(), 1);
+/// let candidates = run.ask();
+/// let tasks: Vec<Task> = run.tasks(&candidates);
+/// let results: Vec<TaskResult> = executor.perform(0, &tasks, &|| ()).unwrap();
+/// let line: EvolutionLine = run.tell(&candidates, results);
+/// assert_eq!((line.generation, line.work), (1, run.work()));
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use {
+    nbc_session::EvolutionRun,
+    nbc_session::report::EvolutionLine,
+    nbc_swarm::{Executor, LocalExecutor, Task, TaskResult},
+};
+
 /// ```
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 /// # session.update("run.nb", 1, "evolution mine { from: gates, box: 3 x 2, fixed: 1 cycles }");

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use nbc::{Body, DiskWorld, Palette, Scheme, Session};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use serde_json::{Value, json};
 
 use crate::errors::{bad_value, diagnosed, offering};
 use crate::memory::{VOXEL_BYTES, reserved};
@@ -168,21 +169,24 @@ pub fn three_materials() -> String {
 /// The robots of a library, `shipped`, `three` or a folder, as JSON.
 #[pyfunction]
 pub fn robots(py: Python<'_>, library: &str) -> PyResult<String> {
-    let record = |robot: &nbc::Robot| {
-        serde_json::json!({
-            "name": robot.name,
-            "function": robot.function().name(),
-            "behavior": robot.behavior,
-            "body": robot.body.rows(),
-            "materials": &**robot.body.palette(),
-            "displacement": robot.displacement,
-            "character": robot.character,
-            "provenance": robot.provenance,
-        })
-    };
     at_once(py, || {
         let read = Session::new(DiskWorld).library(library).map_err(|found| diagnosed(py, &found))?;
-        Ok(read.robots.iter().map(record).collect::<serde_json::Value>().to_string())
+        Ok(read.robots.iter().map(robot_record).collect::<Value>().to_string())
+    })
+}
+
+/// A robot as JSON, with the text of its file.
+pub fn robot_record(robot: &nbc::Robot) -> Value {
+    json!({
+        "name": robot.name,
+        "function": robot.function().name(),
+        "behavior": robot.behavior,
+        "body": robot.body.rows(),
+        "materials": &**robot.body.palette(),
+        "displacement": robot.displacement,
+        "character": robot.character,
+        "provenance": robot.provenance,
+        "file": nbc::print_robot(robot),
     })
 }
 

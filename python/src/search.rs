@@ -4,32 +4,45 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use nbc::{Candidate, CandidateOutcome, Checkpoint, Elite, NicheKey, Palette, Work};
+use nbc::{Behavior, Candidate, CandidateOutcome, Checkpoint, Elite, EvolutionRun, Executor, LocalExecutor, NicheKey};
+use nbc::{Palette, RobotRequest, Selected, Selection, Simulator};
 use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
+use rayon::prelude::*;
+use serde_json::Value;
+
+use crate::bodies::robot_record;
 use crate::errors::{bad_value, without_place};
 use crate::evaluation;
 use crate::evolution::{Evolution, axes, no_checkpoint};
 use crate::slot::Slot;
-use crate::work::{Watch, at_once};
+use crate::work::{self, Watch, at_once};
 
 /// The number of the next search, so that its candidates are known as its own.
 static NEXT: AtomicU64 = AtomicU64::new(0);
 
-/// A search with the work it has done.
-struct Course {
-    search: nbc::Search,
-    work: Work,
-}
-
 /// A MAP-Elites search in progress.
 #[pyclass(frozen)]
 pub struct Search {
-    course: Slot<Course>,
+    run: Slot<EvolutionRun>,
     evolution: nbc::Evolution,
     number: u64,
+}
+
+/// How robots are chosen, as Python gives it.
+#[derive(FromPyObject)]
+#[pyo3(from_item_all)]
+pub struct Choosing {
+    tries: usize,
+    finalists: usize,
+    max_error: f64,
+    wide_margin: f64,
+}
+
+fn read_behavior(word: &str) -> PyResult<Behavior> {
+    nbc::behavior(word).map_err(|expected| bad_value(format!("invalid behavior `{word}`; {expected}")))
 }
 
 /// The candidates of a generation.
@@ -61,18 +74,17 @@ impl Candidates {
 }
 
 impl Search {
-    fn of(search: nbc::Search, work: Work) -> Self {
-        let evolution = search.evolution().clone();
+    fn of(run: EvolutionRun) -> Self {
+        let evolution = run.search().evolution().clone();
         let number = NEXT.fetch_add(1, Ordering::Relaxed);
-        Self { course: Slot::new("search", Course { search, work }), evolution, number }
+        Self { run: Slot::new("search", run), evolution, number }
     }
 
     /// The search of the checkpoint that is called `name`.
     fn continued(py: Python<'_>, checkpoint: Checkpoint, name: &str, evolution: &Evolution) -> PyResult<Self> {
-        let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
         let seed = checkpoint.state.seed;
-        let search = checkpoint.resume(name, &evolution.0, seed).map_err(|found| without_place(py, found))?;
-        Ok(Self::of(search, work))
+        let run = EvolutionRun::resume(checkpoint, name, &evolution.0, seed);
+        Ok(Self::of(run.map_err(|found| without_place(py, found))?))
     }
 
     fn check(&self, candidates: &Candidates, search: &nbc::Search) -> PyResult<()> {
@@ -91,7 +103,7 @@ impl Search {
 impl Search {
     #[new]
     fn new(py: Python<'_>, evolution: &Evolution, seed: u64) -> PyResult<Self> {
-        at_once(py, || Ok(Self::of(nbc::Search::new(&evolution.0, seed), Work::default())))
+        at_once(py, || Ok(Self::of(EvolutionRun::new(&evolution.0, seed))))
     }
 
     /// The search of a checkpoint.
@@ -106,17 +118,12 @@ impl Search {
 
     /// Writes a checkpoint.
     fn save(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        self.course.with(py, |Course { search, work }| {
-            let saved = Checkpoint::save(&path, search, work.env_steps, work.left_out);
-            saved.map_err(|found| without_place(py, found))
-        })
+        self.run.with(py, |run| nbc::write_file(&path, &run.checkpoint()).map_err(|found| without_place(py, found)))
     }
 
     /// The bytes of a checkpoint.
     fn to_bytes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyBytes>> {
-        self.course.with(py, |Course { search, work }| {
-            Ok(PyBytes::new(py, &Checkpoint::print(search, work.env_steps, work.left_out)))
-        })
+        self.run.with(py, |run| Ok(PyBytes::new(py, &run.checkpoint())))
     }
 
     /// The search of a checkpoint's bytes.
@@ -138,19 +145,19 @@ impl Search {
     /// The candidates of the next generation.
     fn ask(&self, py: Python<'_>) -> PyResult<Candidates> {
         let watch = Watch::over(0);
-        let asked = self.course.run(py, &watch, None, |course, _| (course.search.ask(), course.search.generation()))?;
+        let asked = self.run.run(py, &watch, None, |run, _| (run.ask(), run.search().generation()))?;
         let (list, generation) = asked.finished()?;
         Ok(Candidates { list: Arc::new(list), generation, search: self.number })
     }
 
     /// Evaluates candidates for the archive as it is.
     fn evaluate<'py>(&self, py: Python<'py>, candidates: &Candidates) -> PyResult<Bound<'py, PyDict>> {
-        self.course.with(py, |course| self.check(candidates, &course.search))?;
+        self.run.with(py, |run| self.check(candidates, run.search()))?;
         let (watch, list) = (Watch::over(0), candidates.list.clone());
-        let evaluated = self.course.run(py, &watch, None, move |course, watch| {
-            let (outcomes, work) = nbc::evaluate(&watch.simulator(), &course.search, &list);
+        let evaluated = self.run.run(py, &watch, None, move |run, watch| {
+            let (outcomes, work) = nbc::evaluate(&watch.simulator(), run.search(), &list);
             if !watch.is_stopped() {
-                course.work = course.work.plus(work);
+                run.add_work(work);
             }
             outcomes
         })?;
@@ -177,21 +184,21 @@ impl Search {
             let (found, expected) = (outcomes.len(), candidates.list.len());
             return Err(bad_value(format!("{found} outcomes, expected {expected}: one for each candidate")));
         }
-        self.course.with(py, |course| {
-            self.check(candidates, &course.search)?;
-            course.search.tell(&candidates.list, &outcomes);
+        self.run.with(py, |run| {
+            self.check(candidates, run.search())?;
+            run.tell_outcomes(&candidates.list, &outcomes);
             Ok(())
         })
     }
 
     /// Makes a generation; one that is interrupted has not happened.
     fn step(&self, py: Python<'_>) -> PyResult<()> {
-        let made = self.course.run(py, &Watch::over(0), None, |course, watch| {
-            let candidates = course.search.ask();
-            let (outcomes, work) = nbc::evaluate(&watch.simulator(), &course.search, &candidates);
-            if !watch.is_stopped() {
-                course.search.tell(&candidates, &outcomes);
-                course.work = course.work.plus(work);
+        let made = self.run.run(py, &Watch::over(0), None, |run, watch| {
+            let candidates = run.ask();
+            let executor = LocalExecutor::new(watch.simulator());
+            let results = executor.perform(0, &run.tasks(&candidates), &|| ());
+            if let Some(results) = results.filter(|_| !watch.is_stopped()) {
+                run.tell(&candidates, results);
             }
         })?;
         made.finished()
@@ -199,7 +206,8 @@ impl Search {
 
     /// Seed, generation, counts, and the archive at one glance, as JSON.
     fn summary(&self, py: Python<'_>) -> PyResult<String> {
-        self.course.with(py, |Course { search, work }| {
+        self.run.with(py, |run| {
+            let (search, work) = (run.search(), run.work());
             let summary = serde_json::json!({
                 "seed": search.seed(),
                 "generation": search.generation(),
@@ -216,8 +224,8 @@ impl Search {
 
     /// The archive.
     fn archive<'py>(&self, py: Python<'py>) -> PyResult<ArchiveOnAxes<'py>> {
-        self.course.with(py, |course| {
-            let niches = course.search.archive().niches();
+        self.run.with(py, |run| {
+            let niches = run.search().archive().niches();
             let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
             let nbc::Evolution { descriptors, palette, .. } = &self.evolution;
             let arrays = archive(py, elites, descriptors.len(), palette)?;
@@ -225,9 +233,44 @@ impl Search {
         })
     }
 
+    /// The best robots of these behaviors in the archive, measured, as JSON; of all behaviors if none is named.
+    fn robots(
+        &self,
+        py: Python<'_>,
+        behaviors: Vec<String>,
+        choosing: Choosing,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let behaviors: Vec<Behavior> = behaviors.iter().map(|word| read_behavior(word)).collect::<PyResult<_>>()?;
+        let Choosing { tries, finalists, max_error, wide_margin } = choosing;
+        let selection = Selection { tries, finalists, max_error, wide_margin };
+        let name = "the search";
+        let checkpoint = self
+            .run
+            .with(py, |run| Checkpoint::read(name, &run.checkpoint()).map_err(|found| without_place(py, found)))?;
+        let requests = RobotRequest::of_runs([&checkpoint], &behaviors, &selection);
+        let watch = Watch::over(requests.iter().map(|request| request.cost(&selection)).sum());
+        let found = work::run(py, &watch, progress.as_ref(), move |watch| {
+            let executor = LocalExecutor::new(Simulator::default());
+            let select = |(place, request): (usize, &RobotRequest)| {
+                if watch.is_stopped() {
+                    None
+                } else {
+                    request.select(&selection, &executor, place, &|more| watch.add(more))
+                }
+            };
+            requests.par_iter().enumerate().map(select).collect::<Vec<Option<Selected>>>()
+        })?;
+        let robots = found.finished()?.into_iter().filter_map(|selected| match selected {
+            Some(Selected::Robot(robot)) => Some(robot_record(&robot)),
+            _ => None,
+        });
+        Ok(robots.collect::<Value>().to_string())
+    }
+
     /// Ends the search.
     fn close(&self, py: Python<'_>) -> PyResult<()> {
-        self.course.close(py)
+        self.run.close(py)
     }
 }
 

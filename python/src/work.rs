@@ -63,6 +63,11 @@ impl Watch {
         self.all.store(all, Ordering::Relaxed);
     }
 
+    /// Counts work that is done.
+    pub fn add(&self, more: u64) {
+        self.done.fetch_add(more, Ordering::Relaxed);
+    }
+
     /// An observer for one of several calls at the same time, whose progress is added up.
     pub fn part(&self) -> impl Observer + '_ {
         Part { watch: self, done: 0 }
@@ -94,7 +99,7 @@ struct Part<'a> {
 
 impl Observer for Part<'_> {
     fn progress(&mut self, done: u64, _: u64) {
-        self.watch.done.fetch_add(done - self.done, Ordering::Relaxed);
+        self.watch.add(done - self.done);
         self.done = done;
     }
 

@@ -258,3 +258,20 @@ def test_archives_that_do_not_fit_pyribs_are_refused():
     classes = nbc.Evolution(**{**RUN, "descriptors": ["voxels in 2 bins", "class"]})
     with pytest.raises(ValueError, match="pyribs has no archive with the axis `class`"):
         nbc.Search(classes).archive.to_ribs()
+
+
+def test_robots_are_those_that_the_program_adds(program, tmp_path):
+    search = nbc.evolve(nbc.Evolution(shape=(3, 3), generations=1, batch=16), seed=2)
+    behavior = str(search.archive.elites["behavior"][0])
+    folder = tmp_path / "runs" / "seed-2"
+    folder.mkdir(parents=True)
+    search.save(folder / "checkpoint.nbc")
+    found = search.robots([behavior], max_error=1.0, tries=1, finalists=1)
+    options = ["--max-error", "1", "--tries", "1", "--finalists", "1", "--behavior", behavior]
+    program("library", "add", folder, "--into", tmp_path / "robots", *options)
+    assert [robot.behavior for robot in found] == [behavior]
+    assert nbc.library(tmp_path / "robots") == tuple(found)
+    path = found[0].save(tmp_path / "mine")
+    assert nbc.library(tmp_path / "mine") == (found[0],) and path.endswith(f"{found[0].name}.yaml")
+    with pytest.raises(ValueError, match="did you mean `nand`"):
+        search.robots(["nandd"])

@@ -6,9 +6,8 @@ use crate::cli::Failure;
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::wording::UsageError;
 use nbc_base::budget::Limit;
-use nbc_base::diag::suggest::nearest;
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::model::{Behavior, Body, Function, Library, Robot};
+use nbc_base::model::{Body, Function, Library, Robot};
 use nbc_base::source::{FileError, Sources};
 use nbc_session::store::{self, DiskWorld};
 
@@ -21,17 +20,6 @@ pub(super) fn named(name: &str, library: Option<&Path>) -> Result<Robot, Failure
     }
     let library = library.map_or_else(|| Ok(store::shipped_library()), robots_of)?;
     find(&library, name).cloned()
-}
-
-/// A behavior by its letters such as `RRRL`, or by its function such as `nand`.
-pub(super) fn behavior(word: &str) -> Result<Behavior, String> {
-    let function = || Function::parse(word).map(Behavior::from);
-    let expected = || {
-        let near = nearest(word, Function::named().map(Function::name));
-        let near = near.map_or(String::new(), |near| format!("; did you mean `{near}`?"));
-        format!("expected four or eight letters such as `RRRL`, or a function such as `nand`{near}")
-    };
-    word.parse().ok().or_else(function).ok_or_else(expected)
 }
 
 /// The robots that the user named, else the built-in ones.

@@ -111,6 +111,40 @@ fn the_core_touches_nothing_outside() {
 }
 
 #[test]
+fn doors_repeat_no_step_of_a_session() {
+    // What remembers results must know the tasks, and the messages of the cluster are tasks. The page's search draws
+    // neighbors of one body, which no declaration can.
+    let allowed = ["cli/library/measured.rs", "play/src/evolving.rs", "src/lib.rs"];
+    let steps = [
+        "EvaluationProtocol",
+        "EvaluationTask",
+        "Robustness::of",
+        "Search::new",
+        "Search::resume",
+        "Task::Measurement",
+        "Task::Screening",
+        "WorldSample",
+        "assemble(",
+        "candidates_of",
+        "correspondence::",
+        "elaborate(",
+        "map_with",
+        "reachable::",
+        "safe_radius",
+    ];
+    let is_allowed = |path: &Path| {
+        !is_door(path) || place(path).0 == "nbc_cluster" || allowed.iter().any(|name| path.ends_with(name))
+    };
+    forbid("a door calls the session, and repeats none of its steps", &steps, is_allowed);
+    for file in fs::read_dir(root().join("python/src")).unwrap() {
+        let path = file.unwrap().path();
+        let text = fs::read_to_string(&path).unwrap();
+        let found: Vec<_> = steps.iter().filter(|step| text.contains(**step)).collect();
+        assert!(found.is_empty(), "{} repeats steps of the session: {found:?}", path.display());
+    }
+}
+
+#[test]
 fn the_core_has_no_statics() {
     let mut found: Vec<String> = Vec::new();
     for module in modules() {

@@ -27,6 +27,12 @@ class _Trials(TypedDict):
     record_com: bool
     stride: Optional[int]
 
+class _Choosing(TypedDict):
+    tries: int
+    finalists: int
+    max_error: float
+    wide_margin: float
+
 class _Sampling(TypedDict):
     vary: Sequence[str]
     times: Sequence[float]
@@ -139,6 +145,7 @@ class Search:
     def step(self) -> None: ...
     def summary(self) -> str: ...
     def archive(self) -> _ArchiveOnAxes: ...
+    def robots(self, behaviors: Sequence[str], choosing: _Choosing, progress: _Report) -> str: ...
     def close(self) -> None: ...
 
 class Swarm:

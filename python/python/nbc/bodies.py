@@ -56,6 +56,15 @@ class Robot:
     """The evolution that made it, with seed and version."""
     materials: Tuple[Material, ...] = field(repr=False)
     """The materials of its codes."""
+    file: str = field(default="", repr=False)
+    """The text of its robot file."""
+
+    def save(self, folder: Union[str, "os.PathLike[str]"]) -> str:
+        """Writes its robot file into a folder, which a library of a program can name, and returns the path."""
+        os.makedirs(folder, exist_ok=True)
+        path = os.path.join(os.fspath(folder), f"{self.name}.yaml")
+        _nbc.write_file(path, self.file)
+        return path
 
     def __eq__(self, other: object) -> bool:
         if not isinstance(other, Robot):
@@ -263,4 +272,5 @@ def _robot(record: Mapping[str, Any]) -> Robot:
         character=record["character"],
         provenance=record["provenance"],
         materials=tuple(record["materials"]),
+        file=record["file"],
     )

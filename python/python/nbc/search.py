@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
-from .bodies import PAPER_MATERIALS, Material, rows
+from .bodies import PAPER_MATERIALS, Material, Robot, _robot, rows
 from .errors import Interrupted
 from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
 from .names import unknown
@@ -288,6 +288,37 @@ class Search:
         """The archive as it is now."""
         arrays, axes, materials = self._native.archive()
         return Archive(arrays, axes_of(axes), json.loads(materials))
+
+    def robots(
+        self,
+        behaviors: Sequence[str] = (),
+        *,
+        tries: int = 8,
+        finalists: int = 2,
+        max_error: float = 0.0,
+        wide_margin: float = 0.0,
+        progress: Progress = False,
+    ) -> List[Robot]:
+        """The best robot of each behavior in the archive, measured as ``nbc library add`` does. A behavior without a
+        robot that is good enough is left out.
+
+        Args:
+            behaviors: behaviors such as ``RRRL``, or their functions such as ``nand``; by default all.
+            tries: the number of elites of each behavior that are screened.
+            finalists: the number of these that are measured in full.
+            max_error: the highest accepted share of wrong switches.
+            wide_margin: robots with at least this margin are better than quicker ones with less, in voxels per cycle.
+            progress: whether to show a tqdm bar, or a function of the work done and all work.
+        """
+        choosing: _nbc._Choosing = {
+            "tries": count(tries, "tries", least=1),
+            "finalists": count(finalists, "finalists", least=1),
+            "max_error": float(max_error),
+            "wide_margin": float(wide_margin),
+        }
+        with reporting(progress, " screenings") as report:
+            found = self._native.robots(list(behaviors), choosing, report)
+        return [_robot(record) for record in json.loads(found)]
 
     def close(self) -> None:
         """Frees the search. Later calls raise ValueError."""

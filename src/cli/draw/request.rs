@@ -7,8 +7,8 @@ use crate::cli::Failure;
 use crate::cli::draw::wording::DrawError;
 use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::making::MakingArguments;
-use crate::cli::robots::behavior;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Spell};
+use nbc_session::behavior;
 use nbc_session::read_schedule;
 use nbc_session::report::{FRAMES_PER_CYCLE, Scheme};
 

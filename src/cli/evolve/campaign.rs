@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::cli::evolve::arguments::EvolveArguments;
 use crate::cli::evolve::open_runs::OpenRuns;
-use crate::cli::evolve::run::{Ended, EvolutionRun};
+use crate::cli::evolve::run::{Ended, RunFolder};
 use crate::cli::evolve::wording::ProgressGaps;
 use crate::cli::in_order::in_order;
 use crate::cli::options::timings::Timer;
@@ -91,14 +91,14 @@ impl<'a> Campaign<'a> {
     /// Makes runs until they are finished or stopped. After an error, the other runs are stopped.
     fn make_set(&self, place: usize, (evolution, seeds): RunSet<'a>, color: bool) -> Result<Vec<MadeRun<'a>>, Failure> {
         let warn = |warning: ProgressGaps| context::tell(&[warning.into()], &Sources::default(), color);
-        let open = |&seed: &u64| EvolutionRun::open(self.arguments, evolution, seed, self.timer, &warn);
-        let opened: Result<Vec<EvolutionRun>, Failure> = seeds.iter().map(open).collect();
+        let open = |&seed: &u64| RunFolder::open(self.arguments, evolution, seed, self.timer, &warn);
+        let opened: Result<Vec<RunFolder>, Failure> = seeds.iter().map(open).collect();
         let made = opened.and_then(|mut runs| {
-            runs.iter().for_each(|run| self.open.begin(run.generation(), evolution.generations));
+            runs.iter().for_each(|run| self.open.begin(run.run().search().generation(), evolution.generations));
             let evolved = self.evolve(&mut runs, place);
             runs.iter().for_each(|_| self.open.end());
             // Each is saved, whatever becomes of the others.
-            let saved: Vec<Result<(), Failure>> = runs.iter().map(EvolutionRun::save_timed).collect();
+            let saved: Vec<Result<(), Failure>> = runs.iter().map(RunFolder::save_timed).collect();
             saved.into_iter().collect::<Result<(), Failure>>()?;
             evolved.map(|()| runs.iter().zip(seeds).map(|(run, &seed)| made_run(evolution, seed, run)).collect())
         });
@@ -106,9 +106,9 @@ impl<'a> Campaign<'a> {
     }
 
     /// Makes generations of all runs together until all are made, or a signal arrives.
-    fn evolve(&self, runs: &mut [EvolutionRun<'a>], place: usize) -> Result<(), Failure> {
+    fn evolve(&self, runs: &mut [RunFolder<'a>], place: usize) -> Result<(), Failure> {
         while !self.interrupt.is_raised() {
-            let mut open: Vec<&mut EvolutionRun> = runs.iter_mut().filter(|run| !run.is_done()).collect();
+            let mut open: Vec<&mut RunFolder> = runs.iter_mut().filter(|run| !run.is_done()).collect();
             if open.is_empty() {
                 break;
             }
@@ -133,8 +133,9 @@ impl<'a> Campaign<'a> {
     }
 }
 
-fn made_run<'a>(evolution: &'a Evolution, seed: u64, run: &EvolutionRun) -> MadeRun<'a> {
-    let (finished, champions) = (run.is_done(), run.archive_stats().champions);
+fn made_run<'a>(evolution: &'a Evolution, seed: u64, run: &RunFolder) -> MadeRun<'a> {
+    let archive = run.run().search().archive();
+    let (finished, champions) = (run.is_done(), archive.stats().champions);
     let (ended, summary) = (run.ended(finished), run.summary(finished));
-    MadeRun { evolution, seed, finished, has_robots: run.has_robots(), ended, summary, champions }
+    MadeRun { evolution, seed, finished, has_robots: archive.elites().next().is_some(), ended, summary, champions }
 }

@@ -24,13 +24,13 @@ use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Evolution, SearchObjective};
 use nbc_base::source::Sources;
-use nbc_session::Session;
 use nbc_session::report::{
     BehaviorGroup, GroupComparison, Schema, Scheme, behavior_groups, compare_groups, describe_groups,
 };
 use nbc_session::store;
-use nbc_sim::Simulator;
-use nbc_swarm::evolve::{Champion, Search};
+use nbc_session::{EvolutionRun, Session};
+use nbc_swarm::evolve::Champion;
+use nbc_swarm::{Executor, LocalExecutor};
 
 pub(super) use arguments::EvolveArguments;
 
@@ -251,11 +251,11 @@ fn cores(declared: &[Evolution], most_runs: usize) -> usize {
 
 /// Seconds of one full evaluation on this machine.
 fn seconds_each(evolution: &Evolution) -> f64 {
-    let search = Search::new(evolution, 0);
-    let candidates: Vec<_> = search.ask().into_iter().take(SAMPLE).collect();
-    let started = Instant::now();
-    nbc_swarm::evaluate(&Simulator::default(), &search, &candidates);
-    started.elapsed().as_secs_f64() / candidates.len().max(1) as f64
+    let run = EvolutionRun::new(evolution, 0);
+    let candidates: Vec<_> = run.ask().into_iter().take(SAMPLE).collect();
+    let (tasks, started) = (run.tasks(&candidates), Instant::now());
+    LocalExecutor::default().perform(0, &tasks, &|| ());
+    started.elapsed().as_secs_f64() / tasks.len().max(1) as f64
 }
 
 /// Whether the paper's comparison of behaviors is possible: it needs several runs with its objective.

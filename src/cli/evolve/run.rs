@@ -1,9 +1,8 @@
-//! One declaration with one seed, in its folder: its checkpoint, its progress, its summary.
+//! A run of an evolution in its folder: its checkpoint, its progress, its summary.
 
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use serde::Serialize;
@@ -16,10 +15,11 @@ use crate::cli::evolve::wording::{EvolveError, ProgressGaps, ResumedUntil};
 use crate::cli::options::timings::{TimedStage, Timer};
 use nbc_base::diag::counted;
 use nbc_base::model::Evolution;
+use nbc_session::EvolutionRun;
 use nbc_session::report::{EvolutionLine, History, evolution_table};
-use nbc_session::store::{self, Checkpoint, FolderLock, LockFault};
-use nbc_swarm::evolve::{ArchiveStats, Candidate, CandidateOutcome, Search};
-use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Task, TaskResult, Work};
+use nbc_session::store::{self, FolderLock, LockFault};
+use nbc_swarm::evolve::Candidate;
+use nbc_swarm::{Task, TaskResult, Work};
 
 /// How one run ended.
 #[derive(Serialize)]
@@ -33,13 +33,12 @@ pub(super) struct Ended {
     line: EvolutionLine,
 }
 
-/// One declaration with one seed, in its folder.
-pub(super) struct EvolutionRun<'a> {
-    search: Search,
+/// A run in its folder.
+pub(super) struct RunFolder<'a> {
+    run: EvolutionRun,
     /// The candidates that are being evaluated.
     candidates: Vec<Candidate>,
     timer: &'a Timer,
-    work: Work,
     folder: PathBuf,
     checkpoint_every: Duration,
     started: Instant,
@@ -52,7 +51,7 @@ pub(super) struct EvolutionRun<'a> {
     _lock: FolderLock,
 }
 
-impl<'a> EvolutionRun<'a> {
+impl<'a> RunFolder<'a> {
     /// A new run, or one that continues from its checkpoint. `warn` shows what is wrong with its history.
     ///
     /// # Errors
@@ -68,8 +67,8 @@ impl<'a> EvolutionRun<'a> {
         let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
         let _lock = store::lock_folder(&folder).map_err(|fault| not_ours(&folder, fault))?;
         let path = folder.join(CHECKPOINT);
-        let (search, work) = match read_checkpoint(&path)? {
-            None => (Search::new(evolution, seed), Work::default()),
+        let run = match read_checkpoint(&path)? {
+            None => EvolutionRun::new(evolution, seed),
             Some(_) if !arguments.resume => return Err(would_overwrite(&path)),
             Some(checkpoint) => {
                 let until = ResumedUntil {
@@ -79,54 +78,42 @@ impl<'a> EvolutionRun<'a> {
                     now: evolution.generations,
                 };
                 context::log(&until.text());
-                let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };
-                let resumed = checkpoint.resume(&path.display().to_string(), evolution, seed);
-                (resumed.map_err(Failure::plain)?, work)
+                let resumed = EvolutionRun::resume(checkpoint, &path.display().to_string(), evolution, seed);
+                resumed.map_err(Failure::plain)?
             }
         };
-        let evaluations_before = search.counts().evaluations;
-        let run = Self {
-            search,
+        let opened = Self {
+            evaluations_before: run.search().counts().evaluations,
+            work_before: run.work(),
+            run,
             candidates: Vec::new(),
             timer,
-            work,
             folder,
             checkpoint_every: Duration::from_secs(arguments.checkpoint_every),
             started: Instant::now(),
             saved: Instant::now(),
-            evaluations_before,
-            work_before: work,
             searching: 0.0,
             _lock,
         };
-        run.trim_progress(warn)?;
-        Ok(run)
+        opened.trim_progress(warn)?;
+        Ok(opened)
     }
 
-    /// Whether the archive has a robot.
-    pub(super) fn has_robots(&self) -> bool {
-        self.search.archive().elites().next().is_some()
-    }
-
-    /// Generations done.
-    pub(super) fn generation(&self) -> u32 {
-        self.search.generation()
+    /// The run.
+    pub(super) fn run(&self) -> &EvolutionRun {
+        &self.run
     }
 
     /// Whether all generations are done.
     pub(super) fn is_done(&self) -> bool {
-        self.search.is_done()
+        self.run.search().is_done()
     }
 
     /// The tasks of the next generation. The time of everything except simulation is counted.
     pub(super) fn ask(&mut self) -> Vec<Task> {
         let started = Instant::now();
-        self.candidates = self.timer.time(TimedStage::Development, || self.search.ask());
-        let protocol = Arc::new(EvaluationProtocol::of(self.search.evolution()));
-        let task = |candidate: &Candidate| {
-            Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&self.search, candidate))
-        };
-        let tasks = self.timer.time(TimedStage::Archive, || self.candidates.iter().map(task).collect());
+        self.candidates = self.timer.time(TimedStage::Development, || self.run.ask());
+        let tasks = self.timer.time(TimedStage::Archive, || self.run.tasks(&self.candidates));
         self.searching += started.elapsed().as_secs_f64();
         tasks
     }
@@ -134,13 +121,9 @@ impl<'a> EvolutionRun<'a> {
     /// Takes the results of a generation, in order of its candidates, and writes a checkpoint if one is due. Returns a
     /// note for the progress display.
     pub(super) fn tell(&mut self, results: Vec<TaskResult>) -> Result<String, Failure> {
-        let results: Vec<Evaluated> = results.into_iter().map(TaskResult::evaluated).collect();
-        let outcomes: Vec<CandidateOutcome> = results.iter().map(|evaluated| evaluated.outcome).collect();
         let (candidates, started) = (std::mem::take(&mut self.candidates), Instant::now());
-        self.timer.time(TimedStage::Archive, || self.search.tell(&candidates, &outcomes));
+        let line = self.timer.time(TimedStage::Archive, || self.run.tell(&candidates, results));
         self.searching += started.elapsed().as_secs_f64();
-        self.work = results.iter().fold(self.work, |sum, evaluated| sum.plus(evaluated.work));
-        let line = EvolutionLine::of(&self.search, self.work);
         self.timer.time(TimedStage::Output, || self.append(&line))?;
         if self.saved.elapsed() >= self.checkpoint_every {
             self.save_timed()?;
@@ -156,8 +139,7 @@ impl<'a> EvolutionRun<'a> {
 
     fn save(&self) -> Result<(), Failure> {
         let path = self.folder.join(CHECKPOINT);
-        let bytes = Checkpoint::print(&self.search, self.work.env_steps, self.work.left_out);
-        store::write_result(&path, &bytes).map_err(|error| Failure::unwritable(&path, &error))
+        store::write_result(&path, &self.run.checkpoint()).map_err(|error| Failure::unwritable(&path, &error))
     }
 
     fn append(&self, line: &EvolutionLine) -> Result<(), Failure> {
@@ -176,7 +158,7 @@ impl<'a> EvolutionRun<'a> {
         let path = self.folder.join(PROGRESS);
         let bytes = read_progress(&path)?;
         let text = String::from_utf8_lossy(&bytes);
-        let history = History::read(&text, self.search.generation());
+        let history = History::read(&text, self.run.search().generation());
         if let Some(damage) = history.damage() {
             let aside = path.with_extension("jsonl.damaged");
             let mut kept = None;
@@ -196,24 +178,20 @@ impl<'a> EvolutionRun<'a> {
         format!("{rate:.1} evaluations/s, {behaviors}, {:.1} % of niches", 100.0 * line.coverage)
     }
 
-    pub(super) fn archive_stats(&self) -> ArchiveStats {
-        self.search.archive().stats()
-    }
-
     pub(super) fn ended(&self, finished: bool) -> Ended {
         Ended {
-            run: self.search.evolution().name.clone(),
-            seed: self.search.seed(),
+            run: self.run.search().evolution().name.clone(),
+            seed: self.run.search().seed(),
             folder: self.folder.display().to_string(),
             finished,
             seconds: self.started.elapsed().as_secs_f64(),
-            line: EvolutionLine::of(&self.search, self.work),
+            line: self.run.line(),
         }
     }
 
     pub(super) fn summary(&self, finished: bool) -> String {
         let Ended { run, seed, folder, .. } = self.ended(finished);
-        let table = evolution_table(&self.search, self.work);
+        let table = evolution_table(self.run.search(), self.run.work());
         let left = if finished { "" } else { "interrupted; `--resume` continues the run\n" };
         let speed = self.speed();
         format!("{run}, seed {seed}\n{table}{speed}results in {folder}\n{left}\n")
@@ -222,9 +200,10 @@ impl<'a> EvolutionRun<'a> {
     /// The speed since this program took over; empty if there was nothing left to do.
     fn speed(&self) -> String {
         let seconds = self.started.elapsed().as_secs_f64().max(1e-9);
-        let rate = (self.search.counts().evaluations - self.evaluations_before) as f64 / seconds;
-        let simulated = (self.work.env_steps - self.work_before.env_steps) as f64;
-        let left_out = (self.work.left_out - self.work_before.left_out) as f64;
+        let rate = (self.run.search().counts().evaluations - self.evaluations_before) as f64 / seconds;
+        let work = self.run.work();
+        let simulated = (work.env_steps - self.work_before.env_steps) as f64;
+        let left_out = (work.left_out - self.work_before.left_out) as f64;
         if simulated == 0.0 {
             return String::new();
         }

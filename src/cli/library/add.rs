@@ -1,6 +1,6 @@
 //! `nbc library add`: the best gates of evolution runs, and robots written by hand, as robot files.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -14,18 +14,17 @@ use crate::cli::library::measured::Measured;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::queue::QueueArguments;
-use crate::cli::robots::behavior;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, counted};
-use nbc_base::model::{Axis, Behavior, Body, Genotype, Provenance, Robot};
+use nbc_base::model::{Behavior, Robot};
 use nbc_base::source::Sources;
 use nbc_session::report::{Answer, Schema};
 use nbc_session::store::{self, Checkpoint, DiskWorld, ResultPlace};
-use nbc_swarm::evolve::{self, Elite};
-use nbc_swarm::{Executor, MEASUREMENT_COST, Measurement, RobotCandidate, Selected, Selection, Task};
+use nbc_session::{OwnBody, RobotRequest, behavior};
+use nbc_swarm::{Selected, Selection};
 
 /// Measure the best gates of evolution runs, or robots of your own, and write them as robot files
 #[derive(Args)]
@@ -74,33 +73,15 @@ struct Answers {
     answers: Vec<Answer>,
 }
 
-/// What is to be measured.
-enum Asked {
-    /// The best robot of a behavior among candidates.
-    Behavior(Behavior, Vec<RobotCandidate>),
-    /// A body in a file, and the highest accepted error rate.
-    Own { own: Box<OwnRobot>, max_error: f64 },
-}
-
-/// A body in a file, which becomes a robot with the name of the file.
-#[derive(Clone)]
-struct OwnRobot {
-    path: PathBuf,
-    name: String,
-    body: Body,
-    provenance: Provenance,
-    genotype: Option<Genotype>,
-}
-
-/// What was asked for.
-enum Wanted {
-    Behavior(Behavior),
-    Own(PathBuf),
+/// A robot that is asked for, and the file of its body, if it is of one.
+struct Asked {
+    path: Option<PathBuf>,
+    request: RobotRequest,
 }
 
 /// What was found for it.
-struct Found {
-    wanted: Wanted,
+struct Found<'a> {
+    asked: &'a Asked,
     selected: Selected,
 }
 
@@ -114,7 +95,7 @@ impl AddArguments {
         let asked = self.asked(&selection)?;
         let into = ResultPlace::new(Some(&self.into), &self.into, "");
         into.probe().map_err(|error| Failure::unwritable(&self.into, &error))?;
-        let work = asked.iter().map(|asked| asked.cost(&selection)).sum();
+        let work = asked.iter().map(|asked| asked.request.cost(&selection)).sum();
         let bar = Arc::new(Progress::new("measuring", work));
         let interrupt = Interrupt::watch()?;
         let tasks = TaskExecutor::choose(self.device, &self.queue, &interrupt, &bar, context)?;
@@ -122,10 +103,14 @@ impl AddArguments {
         if measured.len() > 0 {
             context.log(&format!("{} known from an earlier command\n", counted(measured.len(), "result")));
         }
-        let select = |place: usize, asked: &Asked| asked.select(&selection, &measured, place, &|more| bar.add(more));
+        let select = |place: usize, asked: &Asked| {
+            let selected = asked.request.select(&selection, &measured, place, &|more| bar.add(more))?;
+            Some((place, selected))
+        };
         let mut answers = Vec::new();
-        let mut tell = |found: Option<Found>| {
-            let Some(found) = found else { return Ok(()) };
+        let mut tell = |found: Option<(usize, Selected)>| {
+            let Some((place, selected)) = found else { return Ok(()) };
+            let found = Found { asked: &asked[place], selected };
             if let Selected::Robot(robot) = &found.selected {
                 write(&self.into, robot)?;
             }
@@ -199,183 +184,75 @@ impl AddArguments {
 
     /// What is to be measured: the bodies in files, and the requested behaviors of runs.
     fn asked(&self, selection: &Selection) -> Result<Vec<Asked>, Failure> {
-        let own = self.files().map(|path| own_robot(path)).collect::<Result<Vec<_>, _>>()?;
-        for (at, robot) in own.iter().enumerate() {
-            if own[..at].iter().any(|other| other.name == robot.name) {
-                return Err(UsageError::SameRobot { name: robot.name.clone() }.into());
+        let own = self.files().map(|path| self.own_body(path)).collect::<Result<Vec<_>, _>>()?;
+        for (at, body) in own.iter().enumerate() {
+            if own[..at].iter().any(|other| other.name == body.name) {
+                return Err(UsageError::SameRobot { name: body.name.clone() }.into());
             }
         }
         if !own.is_empty() && !self.behavior.is_empty() && own.len() == self.runs.len() {
             return Err(UsageError::BehaviorOfFile.into());
         }
-        let max_error = self.max_error.unwrap_or(1.0);
-        let own = own.into_iter().map(|robot| Asked::Own { own: Box::new(robot), max_error });
-        Ok(own.chain(self.asked_of_runs(selection)?).collect())
-    }
-
-    /// The requested behaviors, in order of their functions, with the elites to screen. An archive of classes has an
-    /// elite for all behaviors of its class.
-    fn asked_of_runs(&self, selection: &Selection) -> Result<Vec<Asked>, Failure> {
+        let of_file = |(own, path): (OwnBody, &PathBuf)| Asked {
+            path: Some(path.clone()),
+            request: RobotRequest::Own(Box::new(own)),
+        };
+        let mut asked: Vec<Asked> = own.into_iter().zip(self.files()).map(of_file).collect();
         let checkpoints = self.checkpoints()?;
-        if checkpoints.is_empty() {
-            return Ok(Vec::new());
+        let read = |path: &PathBuf| read_checkpoint(path)?.ok_or_else(|| missing(path));
+        let runs = checkpoints.iter().map(read).collect::<Result<Vec<Checkpoint>, _>>()?;
+        if !runs.is_empty() {
+            let requests = RobotRequest::of_runs(&runs, &self.behavior, selection);
+            asked.extend(requests.into_iter().map(|request| Asked { path: None, request }));
         }
-        let mut candidates: BTreeMap<Behavior, Vec<RobotCandidate>> =
-            self.behavior.iter().map(|&behavior| (behavior, Vec::new())).collect();
-        for path in checkpoints {
-            let checkpoint = read_checkpoint(&path)?.ok_or_else(|| missing(&path))?;
-            if self.behavior.is_empty() {
-                for behavior in Behavior::all(checkpoint.declared.palette.inputs()).filter(|one| is_usual(*one)) {
-                    candidates.entry(behavior).or_default();
-                }
-            }
-            let has_classes = checkpoint.declared.axes.contains(&Axis::Class);
-            for elite in checkpoint.state.niches.iter().flat_map(|(_, elites)| elites) {
-                let shown = if has_classes { evolve::images(elite) } else { vec![elite.clone()] };
-                for elite in shown {
-                    if let Some(found) = candidates.get_mut(&elite.behavior) {
-                        let provenance = provenance(&checkpoint, &elite);
-                        found.push(RobotCandidate { elite, provenance });
-                    }
-                }
-            }
+        Ok(asked)
+    }
+
+    /// The body in a file that somebody wrote, or in a robot file.
+    fn own_body(&self, path: &Path) -> Result<OwnBody, Failure> {
+        let name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default().to_owned();
+        if !store::is_robot_name(&name) {
+            return Err(UsageError::RobotName { path: path.display().to_string() }.into());
         }
-        let mut asked: Vec<_> =
-            candidates.into_iter().map(|(behavior, found)| (behavior, selection.candidates_of(found))).collect();
-        asked.sort_by_key(|(behavior, _)| behavior.function());
-        Ok(asked.into_iter().map(|(behavior, candidates)| Asked::Behavior(behavior, candidates)).collect())
+        let shown = path.display().to_string();
+        let text = store::read_text(path, Limit::RobotBytes.most());
+        let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &shown, &error)))?;
+        let mut sources = Sources::default();
+        let is_robot = text.lines().any(|line| line.starts_with("format:"));
+        let id = sources.add(&shown, text);
+        let read = if is_robot {
+            store::read_robot(sources.file(id)).map(|robot| {
+                let Robot { body, provenance, genotype, .. } = robot;
+                OwnBody { provenance, genotype, ..OwnBody::by_hand(name, body) }
+            })
+        } else {
+            store::read_body(sources.file(id)).map(|body| OwnBody::by_hand(name, body))
+        };
+        let own = read.map_err(|fault| Failure::input(vec![fault], sources))?;
+        Ok(OwnBody { max_error: self.max_error.unwrap_or(own.max_error), ..own })
     }
 }
 
-impl Asked {
-    /// The amount of work, as [`Selection::cost`].
-    fn cost(&self, selection: &Selection) -> u64 {
-        match self {
-            Self::Behavior(_, candidates) => selection.cost(candidates.len()),
-            Self::Own { .. } => MEASUREMENT_COST,
-        }
-    }
-
-    /// The best robot, measured; `None` if the work was stopped.
-    fn select(
-        &self,
-        selection: &Selection,
-        executor: &dyn Executor,
-        run: usize,
-        observe: &dyn Fn(u64),
-    ) -> Option<Found> {
-        match self {
-            Self::Behavior(behavior, candidates) => {
-                let selected = selection.select(executor, run, *behavior, candidates, observe)?;
-                Some(Found { wanted: Wanted::Behavior(*behavior), selected })
-            }
-            Self::Own { own, max_error } => {
-                let task = Task::Measurement(own.body.clone());
-                let measured = executor.perform(run, &[task], &|| observe(MEASUREMENT_COST))?.pop()?.measured();
-                let selected = match measured {
-                    Err(fault) => Selected::Faulty(fault),
-                    Ok(measurement) => {
-                        let robot = Box::new(own.measured(measurement));
-                        let is_right = robot.character.error_rate <= *max_error;
-                        if is_right { Selected::Robot(robot) } else { Selected::Erring(robot) }
-                    }
-                };
-                Some(Found { wanted: Wanted::Own(own.path.clone()), selected })
-            }
-        }
-    }
-}
-
-impl Found {
+impl Found<'_> {
     /// The answer for the output.
     ///
     /// # Errors
     /// When the simulation of a body in a file failed: it has no behavior.
     fn answer(&self, max_error: f64) -> Result<Answer, Failure> {
-        let behavior = match (&self.wanted, &self.selected) {
-            (Wanted::Behavior(behavior), _) => *behavior,
-            (_, Selected::Robot(robot) | Selected::Erring(robot)) => robot.behavior,
-            (Wanted::Own(path), Selected::Faulty(fault)) => {
-                return Err(UsageError::Unstable { path: path.display().to_string(), env_step: fault.env_step }.into());
+        match (self.asked.request.behavior(&self.selected), &self.selected, &self.asked.path) {
+            (Some(behavior), selected, _) => Ok(Answer::of(behavior, selected, max_error)),
+            (None, Selected::Faulty(fault), Some(path)) => {
+                Err(UsageError::Unstable { path: path.display().to_string(), env_step: fault.env_step }.into())
             }
-            (Wanted::Own(_), Selected::Other(_) | Selected::Missing) => unreachable!("any behavior is right"),
-        };
-        Ok(Answer::of(behavior, &self.selected, max_error))
+            (None, ..) => unreachable!("any behavior of a body is right"),
+        }
     }
-}
-
-impl OwnRobot {
-    /// The robot with its measurements.
-    fn measured(&self, Measurement { displacement, behavior, character }: Measurement) -> Robot {
-        let Self { name, body, provenance, genotype, .. } = self.clone();
-        Robot { name, behavior, body, displacement, character, provenance, genotype }
-    }
-}
-
-/// The body in a file that somebody wrote, or in a robot file.
-fn own_robot(path: &Path) -> Result<OwnRobot, Failure> {
-    let name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default().to_owned();
-    if !store::is_robot_name(&name) {
-        return Err(UsageError::RobotName { path: path.display().to_string() }.into());
-    }
-    let shown = path.display().to_string();
-    let text = store::read_text(path, Limit::RobotBytes.most());
-    let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &shown, &error)))?;
-    let mut sources = Sources::default();
-    let is_robot = text.lines().any(|line| line.starts_with("format:"));
-    let id = sources.add(&shown, text);
-    let path = path.to_owned();
-    let read = if is_robot {
-        store::read_robot(sources.file(id)).map(|robot| {
-            let Robot { body, provenance, genotype, .. } = robot;
-            OwnRobot { path, name, body, provenance, genotype }
-        })
-    } else {
-        store::read_body(sources.file(id)).map(|body| OwnRobot {
-            path,
-            name,
-            body,
-            provenance: by_hand(),
-            genotype: None,
-        })
-    };
-    read.map_err(|fault| Failure::input(vec![fault], sources))
-}
-
-/// The provenance of a body that no run made.
-fn by_hand() -> Provenance {
-    Provenance {
-        program: nbc_base::PROGRAM.to_owned(),
-        version: nbc_base::VERSION.to_owned(),
-        evolution: "by hand".to_owned(),
-        seed: 0,
-        generation: 0,
-        evaluations: 0,
-    }
-}
-
-/// Whether a behavior is asked for if none is named: all of two stimuli; of those of three, those that depend on all of
-/// them, and one of each that differ in the order of their stimuli.
-fn is_usual(behavior: Behavior) -> bool {
-    let function = behavior.function();
-    behavior.stimuli() == 2 || function.arity() == 3 && function.arranged() == function
 }
 
 /// A share between 0 and 1.
 fn share(text: &str) -> Result<f64, String> {
     let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
     share.ok_or_else(|| "expected a number from 0 to 1, such as 0.01 for one per cent".to_owned())
-}
-
-fn provenance(checkpoint: &Checkpoint, elite: &Elite) -> Provenance {
-    Provenance {
-        program: nbc_base::PROGRAM.to_owned(),
-        version: checkpoint.version.clone(),
-        evolution: checkpoint.declared.name.clone(),
-        seed: checkpoint.state.seed,
-        generation: elite.generation,
-        evaluations: elite.evaluations,
-    }
 }
 
 fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {

@@ -74,8 +74,8 @@ impl LibraryArguments {
             Action::Show { name, path } => show(&named(&name, path.as_deref())?, context),
             Action::Verify { path, radius, device, queue } => {
                 let library = library(path.as_deref())?;
-                match radius.sample() {
-                    Some(sample) => radius.run(&library, path.as_deref(), sample, context),
+                match radius.changes() {
+                    Some(changes) => radius.run(&library, path.as_deref(), changes, context),
                     None => verify::verify(&library, device, &queue, context),
                 }
             }

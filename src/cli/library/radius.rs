@@ -4,17 +4,16 @@ use std::path::Path;
 
 use clap::Args;
 use rayon::prelude::*;
-use serde::Serialize;
 
 use crate::cli::options::number::number;
 use crate::cli::robots::{robot_paths, robots};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
-use nbc_base::model::{Character, Library, Robot, SafeRadius, Variation};
+use nbc_base::model::{Character, Library, SafeRadius, Variation};
+use nbc_session::Reach;
 use nbc_session::report::Schema;
 use nbc_session::store;
 use nbc_sim::Simulator;
-use nbc_swarm::WorldSample;
 
 /// The worlds in which robots are tried.
 #[derive(Args)]
@@ -34,32 +33,10 @@ pub(super) struct RadiusArguments {
     write: bool,
 }
 
-/// The result for one robot.
-#[derive(Serialize)]
-struct Reach<'a> {
-    name: &'a str,
-    #[serde(flatten)]
-    found: SafeRadius,
-    /// Whether its file has no such radius, or the same one.
-    verified: bool,
-}
-
-impl<'a> Reach<'a> {
-    fn of(robot: &'a Robot, found: SafeRadius) -> Self {
-        let worlds = |of: &SafeRadius| (of.vary.clone(), of.worlds, of.seed);
-        let is_same = |known: &SafeRadius| {
-            let is_same_rate = known.error_rate.is_none() || known.error_rate == found.error_rate;
-            worlds(known) != worlds(&found) || (known.radius == found.radius && is_same_rate)
-        };
-        let verified = robot.character.radius.as_ref().is_none_or(is_same);
-        Self { name: &robot.name, found, verified }
-    }
-}
-
 impl RadiusArguments {
     /// The changes of the worlds, if robots are to be tried in other worlds.
-    pub(super) fn sample(&self) -> Option<WorldSample> {
-        self.vary.map(|variation| WorldSample { variation, seed: self.seed })
+    pub(super) fn changes(&self) -> Option<Variation> {
+        self.vary
     }
 
     /// Measures the radius of every robot; a robot fails if its file has another radius for the same worlds.
@@ -70,14 +47,14 @@ impl RadiusArguments {
         &self,
         library: &Library,
         path: Option<&Path>,
-        sample: WorldSample,
+        changes: Variation,
         context: &mut Context,
     ) -> Result<Status, Failure> {
         let (simulator, bar) = (Simulator::default(), Progress::new("trying", library.robots.len() as u64));
         let reach = |robot| {
-            let found = nbc_swarm::safe_radius(&simulator, robot, &sample, self.worlds);
+            let reach = Reach::of(&simulator, robot, changes, self.worlds, self.seed);
             bar.add(1);
-            Reach::of(robot, found)
+            reach
         };
         let found: Vec<Reach<'_>> = library.robots.par_iter().map(reach).collect();
         drop(bar);
@@ -96,7 +73,7 @@ impl RadiusArguments {
                     context.print(format_args!("{name:<24} radius {radius}{errors}{differs}\n"))?;
                 }
                 let (robots, worlds) = (counted(found.len(), "robot"), counted(self.worlds as usize, "world"));
-                context.print(format_args!("{robots}, radius 1 is {} in {worlds}\n", sample.variation))?;
+                context.print(format_args!("{robots}, radius 1 is {changes} in {worlds}\n"))?;
             }
         }
         Ok(if failed == 0 { Status::Done } else { Status::TestFailed })

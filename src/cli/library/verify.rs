@@ -2,34 +2,15 @@
 
 use std::sync::Arc;
 
-use serde::Serialize;
-
 use crate::cli::in_order::in_order;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
-use nbc_base::model::{Character, Fault, Library, Robot};
+use nbc_base::model::{Library, Robot};
+use nbc_session::Verified;
 use nbc_session::report::Schema;
-use nbc_swarm::{Executor, Measurement, Task};
-
-/// The result for one robot.
-#[derive(Serialize)]
-struct Finding<'a> {
-    name: &'a str,
-    verified: bool,
-    /// The differences from the file.
-    differs: Vec<String>,
-}
-
-impl<'a> Finding<'a> {
-    /// Measures a robot again; `None` if the work was stopped.
-    fn of(executor: &dyn Executor, place: usize, robot: &'a Robot) -> Option<Self> {
-        let differs = differences(executor, place, robot)?;
-        Some(Self { name: &robot.name, verified: differs.is_empty(), differs })
-    }
-}
 
 /// Measures every robot again; a robot fails if its file has another value.
 ///
@@ -55,7 +36,7 @@ pub fn verify(
         Ok::<(), Failure>(())
     };
     let executor = tasks.executor();
-    in_order(tasks.threads(), &robots, |place, robot| Finding::of(executor, place, robot), keep)?;
+    in_order(tasks.threads(), &robots, |place, robot| Verified::of(executor, place, robot), keep)?;
     drop(bar);
     let stopped = tasks.is_stopped();
     tasks.end(context)?;
@@ -76,20 +57,4 @@ pub fn verify(
         }
     }
     Ok(if failed == 0 { Status::Done } else { Status::TestFailed })
-}
-
-/// The differences between a new measurement and the file; `None` if the work was stopped.
-fn differences(executor: &dyn Executor, place: usize, robot: &Robot) -> Option<Vec<String>> {
-    let task = Task::Measurement(robot.body.clone());
-    let measured = executor.perform(place, &[task], &|| ())?.remove(0).measured();
-    let Measurement { displacement, behavior, character } = match measured {
-        Ok(measurement) => measurement,
-        Err(Fault { env_step, kind }) => return Some(vec![format!("the robot {kind} in env step {env_step}")]),
-    };
-    let same = [
-        ("displacement", displacement == robot.displacement),
-        ("behavior", behavior == robot.behavior),
-        ("character", character == Character { radius: None, ..robot.character.clone() }),
-    ];
-    Some(same.into_iter().filter(|(_, same)| !same).map(|(name, _)| name.to_owned()).collect())
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::store::atomic::write_file;
 use crate::store::declared::Declared;
 use crate::store::disk::read;
 use crate::store::first_checkpoint::FirstRecord;
@@ -58,14 +57,6 @@ impl Checkpoint {
             left_out,
         };
         framed(MAGIC, FORMAT, &serde_json::to_string(&record).expect("a search can be written as JSON"))
-    }
-
-    /// Writes a search's checkpoint file, whole or not at all.
-    ///
-    /// # Errors
-    /// When the file cannot be written.
-    pub fn save(path: &Path, search: &Search, env_steps: u64, left_out: u64) -> Result<(), Diagnostic> {
-        write_file(path, &Self::print(search, env_steps, left_out))
     }
 
     /// Reads the checkpoint file at `path`; `None` if there is no such file.

@@ -1,0 +1,65 @@
+//! Robots compared with their files: simulated again in the paper's world, and tried in other worlds.
+
+use serde::Serialize;
+
+use nbc_base::model::{Character, Fault, Robot, SafeRadius, Variation};
+use nbc_sim::Simulator;
+use nbc_swarm::{Executor, Measurement, Task, WorldSample, safe_radius};
+
+/// What a measurement of a robot says of its file.
+#[derive(Clone, Debug, Serialize)]
+pub struct Verified<'a> {
+    /// The robot's name.
+    pub name: &'a str,
+    /// Whether nothing differs.
+    pub verified: bool,
+    /// The differences from the file.
+    pub differs: Vec<String>,
+}
+
+/// How far worlds may differ before a robot makes errors.
+#[derive(Clone, Debug, Serialize)]
+pub struct Reach<'a> {
+    /// The robot's name.
+    pub name: &'a str,
+    /// What was found.
+    #[serde(flatten)]
+    pub found: SafeRadius,
+    /// Whether its file has no such radius, or the same one.
+    pub verified: bool,
+}
+
+impl<'a> Verified<'a> {
+    /// Measures a robot again; `None` if the work was stopped. `run` is the number that the executor asks for.
+    pub fn of(executor: &dyn Executor, run: usize, robot: &'a Robot) -> Option<Self> {
+        let task = Task::Measurement(robot.body.clone());
+        let measured = executor.perform(run, &[task], &|| ())?.remove(0).measured();
+        let differs = match measured {
+            Err(Fault { env_step, kind }) => vec![format!("the robot {kind} in env step {env_step}")],
+            Ok(Measurement { displacement, behavior, character }) => [
+                ("displacement", displacement == robot.displacement),
+                ("behavior", behavior == robot.behavior),
+                ("character", character == Character { radius: None, ..robot.character.clone() }),
+            ]
+            .into_iter()
+            .filter(|(_, same)| !same)
+            .map(|(name, _)| name.to_owned())
+            .collect(),
+        };
+        Some(Self { name: &robot.name, verified: differs.is_empty(), differs })
+    }
+}
+
+impl<'a> Reach<'a> {
+    /// Tries a robot in so many worlds of each radius; `variation` has the changes at radius 1.
+    pub fn of(simulator: &Simulator, robot: &'a Robot, variation: Variation, worlds: u32, seed: u64) -> Self {
+        let found = safe_radius(simulator, robot, &WorldSample { variation, seed }, worlds);
+        let sample = |of: &SafeRadius| (of.vary.clone(), of.worlds, of.seed);
+        let is_same = |known: &SafeRadius| {
+            let is_same_rate = known.error_rate.is_none() || known.error_rate == found.error_rate;
+            sample(known) != sample(&found) || (known.radius == found.radius && is_same_rate)
+        };
+        let verified = robot.character.radius.as_ref().is_none_or(is_same);
+        Self { name: &robot.name, found, verified }
+    }
+}
