@@ -1,7 +1,5 @@
 //! Robots that are advanced step by step. They keep their lanes from advance to advance.
 
-use std::collections::BTreeMap;
-
 use crate::backend::lanes::group::LaneGroup;
 use crate::backend::lanes::grouping::{LaneGrouping, LaneRequest};
 use crate::backend::lanes::threads;
@@ -32,16 +30,10 @@ impl LaneFlock {
         flock
     }
 
-    /// The best grouping of these runs. Bodies of similar shape are neighbors, because a batch has the springs of all.
+    /// The best grouping of these runs.
     fn grouping<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> LaneGrouping {
-        let runs: Vec<&Run> = runs.collect();
-        let lattices: BTreeMap<usize, &Lattice> = runs.iter().map(|run| (run.body, &*run.lattice)).collect();
-        let mut lattices: Vec<(usize, &Lattice)> = lattices.into_iter().collect();
-        lattices.sort_by(|(_, a), (_, b)| places(a).cmp(places(b)));
-        let ranks: BTreeMap<usize, usize> =
-            lattices.iter().enumerate().map(|(rank, &(body, _))| (body, rank)).collect();
         let candidates: Vec<LaneRequest> =
-            runs.iter().map(|run| LaneRequest { size: run.lattice.size(), body: ranks[&run.body] }).collect();
+            runs.map(|run| LaneRequest { size: run.lattice.size(), body: run.body }).collect();
         let kernel = self.world.kernel;
         LaneGrouping::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
     }
@@ -77,11 +69,6 @@ impl LaneFlock {
             |&(group, place): &(usize, usize)| runs[group][place].take().expect("a robot has a place of its own");
         self.places.iter().map(take).collect()
     }
-}
-
-/// The places of a lattice's points in its box.
-fn places(lattice: &Lattice) -> impl Iterator<Item = (usize, usize, bool)> + '_ {
-    lattice.points().iter().map(|point| (point.row, point.column, point.twin))
 }
 
 impl Flock for LaneFlock {
