@@ -1,11 +1,13 @@
 //! Env steps per second of different robots that are driven from outside, on flat ground and on stairs, with each
 //! kernel in turn: `cargo bench --bench driven`. It prints medians of the rounds with their range, in CPU time.
 
-use std::time::Duration;
-
 use nbc_sim::{Constants, Grid, InstructionSet, Kernel, Scene, SceneObject, Scenes};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
+
+use processor::processor_seconds;
+
+mod processor;
 
 /// Columns and rows of a body.
 const SIDE: usize = 5;
@@ -56,7 +58,7 @@ fn race(name: &str, heights: [usize; 4]) {
 fn rate(scenes: &mut Scenes, round: usize) -> f64 {
     (0..scenes.len()).for_each(|n| scenes.reset(n));
     let mut random = ChaCha8Rng::seed_from_u64(round as u64);
-    let start = spent();
+    let start = processor_seconds();
     for _ in 0..STEPS {
         for n in 0..scenes.len() {
             let targets: Vec<f64> = (0..scenes.scene(n).targets()).map(|_| random.random_range(0.6..1.6)).collect();
@@ -64,13 +66,7 @@ fn rate(scenes: &mut Scenes, round: usize) -> f64 {
         }
         scenes.advance(1);
     }
-    (STEPS * scenes.len()) as f64 / (spent() - start).as_secs_f64()
-}
-
-/// CPU time of this thread (Linux).
-fn spent() -> Duration {
-    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux tells the time of a thread");
-    Duration::from_nanos(statistics.split_whitespace().next().and_then(|time| time.parse().ok()).expect("a number"))
+    (STEPS * scenes.len()) as f64 / (processor_seconds() - start)
 }
 
 /// A random body in one piece with an actuator: two fifths of its cells are empty.

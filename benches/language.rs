@@ -12,6 +12,7 @@ use nbc_lang::check;
 
 use aims::Aims;
 use long_program::long_program;
+use processor::processor_seconds;
 use support::bench::Bench;
 use support::limits::InTime;
 use support::programs::programs;
@@ -19,6 +20,7 @@ use support::programs::programs;
 mod aims;
 #[path = "../tests/it/long_program.rs"]
 mod long_program;
+mod processor;
 #[path = "../tests/it/support/mod.rs"]
 mod support;
 
@@ -28,12 +30,6 @@ fn main() -> ExitCode {
     elaborate_gates(&mut aims);
     start_commands(&mut aims);
     aims.end()
-}
-
-/// CPU time of this thread in seconds, which does not depend on other programs.
-fn processor_seconds() -> f64 {
-    let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap();
-    text.split(' ').next().unwrap().parse::<f64>().unwrap() * 1e-9
 }
 
 /// The most memory that this process has held, in megabytes.

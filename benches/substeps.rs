@@ -2,10 +2,12 @@
 //! body in all lanes or different ones: `cargo bench --bench substeps`. It prints medians of the rounds with their
 //! range, in CPU time.
 
-use std::time::Duration;
-
 use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use nbc_sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
+
+use processor::processor_seconds;
+
+mod processor;
 
 const ROUNDS: usize = 15;
 
@@ -46,13 +48,7 @@ fn rate(side: usize, kernel: Kernel, shift: usize) -> f64 {
     let trial = |lane| Trial { body: Body::patchwork(side, lane * shift), schedule: schedule.clone() };
     let trials: Vec<Trial> = (0..kernel.lanes()).map(trial).collect();
     let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
-    let start = spent();
+    let start = processor_seconds();
     std::hint::black_box(simulator.run_trials(&Setting::default(), &trials));
-    f64::from(CYCLE_STEPS * Constants::default().substeps) * trials.len() as f64 / (spent() - start).as_secs_f64()
-}
-
-/// CPU time of this thread (Linux).
-fn spent() -> Duration {
-    let statistics = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux tells the time of a thread");
-    Duration::from_nanos(statistics.split_whitespace().next().and_then(|time| time.parse().ok()).expect("a number"))
+    f64::from(CYCLE_STEPS * Constants::default().substeps) * trials.len() as f64 / (processor_seconds() - start)
 }

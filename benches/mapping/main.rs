@@ -17,6 +17,7 @@ use aims::Aims;
 use designs::{files, libraries, read};
 use flows::fewest_of_abc;
 use generated::generated;
+use processor::processor_seconds;
 use support::root;
 
 #[path = "../aims/mod.rs"]
@@ -26,15 +27,10 @@ mod designs;
 #[path = "../../tests/it/flows.rs"]
 mod flows;
 mod generated;
+#[path = "../processor/mod.rs"]
+mod processor;
 #[path = "../../tests/it/support/mod.rs"]
 mod support;
-
-/// CPU time of this thread in seconds, which does not depend on the load of the machine; `None` where it is unknown
-/// (not Linux).
-fn seconds_used() -> f64 {
-    let told = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
-    told.split_whitespace().next().map_or(f64::NAN, |nanoseconds| nanoseconds.parse::<f64>().unwrap_or(f64::NAN) / 1e9)
-}
 
 /// The best results of ABC for a circuit that are known, and the optima proved by SAT, by library.
 fn reference(name: &str) -> Option<[[Option<u32>; 2]; 3]> {
@@ -68,10 +64,10 @@ impl Row {
         let known = reference(&name).unwrap_or_default();
         let mut row = Self { name, cells: [0; 3], seconds: [0.0; 3], abc: [None; 3], optimum: [None; 3] };
         for (i, (_, library)) in libraries().into_iter().enumerate() {
-            let started = seconds_used();
+            let started = processor_seconds();
             let mapped = map_with(&design.logic, &library, &MapOptions { effort, ..MapOptions::default() }).unwrap();
             prove(&design.logic, &mapped).unwrap();
-            row.seconds[i] = seconds_used() - started;
+            row.seconds[i] = processor_seconds() - started;
             row.cells[i] = mapped.cells().count();
             row.abc[i] = measured.map(|measured| measured[i]).into_iter().chain(known[i][0]).min();
             row.optimum[i] = known[i][1];

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import doctest
+import hashlib
 import importlib
+import json
 import os
 import pkgutil
 import re
@@ -44,6 +46,31 @@ def test_examples(example, tmp_path):
     environment = {**os.environ, "NBC_EXAMPLE": "short", "MPLBACKEND": "agg"}
     done = subprocess.run([sys.executable, str(example)], cwd=tmp_path, env=environment, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_research_object_names_what_is_there(tmp_path):
+    example = str(EXAMPLES / "ro_crate.py")
+    subprocess.run([sys.executable, example], cwd=tmp_path, check=True, capture_output=True)
+    graph = json.loads((tmp_path / "out/ro-crate-metadata.json").read_text())["@graph"]
+    entities = {entity["@id"]: entity for entity in graph}
+    assert entities["#run/small/seed-1/generations"]["value"] == 2
+    content = (tmp_path / "out/small/seed-1/checkpoint.nbc").read_bytes()
+    checkpoint = entities["small/seed-1/checkpoint.nbc"]
+    assert checkpoint["contentSize"] == str(len(content))
+    assert checkpoint["sha256"] == hashlib.sha256(content).hexdigest()
+
+    def references(value):
+        if isinstance(value, list):
+            return [name for one in value for name in references(one)]
+        if isinstance(value, dict):
+            return [value["@id"]] if set(value) == {"@id"} else references(list(value.values()))
+        return []
+
+    known = {name for name in references(graph) if not name.startswith("https://w3id.org/ro/crate/")}
+    assert known <= set(entities)
+    (tmp_path / "bare").mkdir()
+    none = subprocess.run([sys.executable, example, "bare", "MIT"], cwd=tmp_path, capture_output=True, text=True)
+    assert none.returncode == 1 and "no runs below bare" in none.stderr
 
 
 @pytest.mark.parametrize(("page", "least"), [("docs/python.md", 8), ("docs/evolution-gym.md", 3)])

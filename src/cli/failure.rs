@@ -4,7 +4,6 @@ use std::io;
 use std::path::Path;
 
 use crate::cli::draw::wording::DrawError;
-use crate::cli::evidence::wording::EvidenceError;
 use crate::cli::evolve::wording::EvolveError;
 #[cfg(feature = "gpu")]
 use crate::cli::gpu::wording::DeviceFailure;
@@ -75,7 +74,6 @@ failures! {
     #[cfg(feature = "gpu")]
     DeviceFailure,
     DrawError,
-    EvidenceError,
     EvolveError,
     #[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
     MissingFeature,

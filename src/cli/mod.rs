@@ -13,7 +13,6 @@ mod cluster;
 mod completions;
 mod context;
 mod draw;
-mod evidence;
 mod evolution_folder;
 mod evolve;
 mod explain;
@@ -95,7 +94,6 @@ commands! {
     Completions(completions::CompletionsArguments),
     Devices(gpu::DevicesArguments),
     Draw(draw::DrawArguments),
-    Evidence(evidence::EvidenceArguments),
     Evolve(evolve::EvolveArguments),
     Explain(explain::ExplainArguments),
     Export(export::ExportArguments),

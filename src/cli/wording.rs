@@ -43,12 +43,8 @@ pub(in crate::cli) enum UsageError {
     Threads { variable: &'static str, found: String },
     /// A path without a run and without robots.
     NothingToExport { path: String },
-    /// A folder without runs that should be described.
-    NoRuns { path: String },
     /// A choice of a circuit for a page that has all of them.
     OnlyExported,
-    /// A license of what no license is written to.
-    UnusedLicense,
     /// A file for a new program that is there already.
     Exists { file: String },
     /// A file for a new program whose name no circuit can have.
@@ -115,12 +111,8 @@ impl From<UsageError> for Diagnostic {
                 Self::without_place(Code::Empty, format!("`{path}` contains neither a run nor robots"))
                     .with_help("name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`")
             }
-            UsageError::NoRuns { path } => Self::without_place(Code::Empty, format!("no runs in `{path}` or below it"))
-                .with_help("name a folder that `nbc evolve` wrote, such as `out`"),
             UsageError::OnlyExported => bad("`--circuit` and `--swarm` choose what `--export` writes".to_owned())
                 .with_help("add `--export FILE`, or leave them out: the page shows every circuit of the file"),
-            UsageError::UnusedLicense => bad("only RO-Crates name a license".to_owned())
-                .with_help("add `--to ro-crate`, or leave out `--license`"),
             UsageError::Exists { file } => Self::without_place(Code::Unwritable, format!("`{file}` exists already"))
                 .with_help("choose another name, or remove the file"),
             UsageError::NoWord { file } => {

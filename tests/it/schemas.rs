@@ -122,10 +122,6 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "test", 1, &["test", "failing.nb", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "--physics"]);
     check(&bench, "bug-report", 0, &["bug-report"]);
-    let claim =
-        r#"[{ "claim": "c", "page": "flip.nb", "command": "nbc check flip.nb", "seconds": 1, "says": ["six"] }]"#;
-    bench.file("claims.json", claim);
-    check(&bench, "evidence", 1, &["evidence", "claims.json"]);
     for arguments in [["completions", "bash"], ["manual", "pages"]] {
         let rejected = bench.run(&[&arguments[..], &["--format", "json"]].concat());
         assert_eq!(rejected.status, 2);

@@ -145,6 +145,32 @@ fn doors_repeat_no_step_of_a_session() {
 }
 
 #[test]
+fn the_ways_through_pass_functions_that_exist() {
+    let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
+    let section = text.split("## Ways through").nth(1).unwrap().split("\n## ").next().unwrap();
+    let names: Vec<&str> = section.split('`').skip(1).step_by(2).collect();
+    assert!(names.len() > 40, "{names:?}");
+    let word = |pattern: String| Regex::new(&pattern).unwrap();
+    for name in names {
+        let (owner, function) = name.rsplit_once("::").map_or((None, name), |(owner, name)| (Some(owner), name));
+        let defined = word(format!(r"\bfn {function}\b"));
+        let owned = owner.map(|owner| word(format!(r"\bimpl\b[^{{]*\b{owner}\b|\btrait {owner}\b")));
+        let is_of = |module: &Module| match (&owned, owner) {
+            (Some(owned), Some(owner)) => {
+                let file = module.path.with_extension("");
+                let folder = file.ends_with("mod").then(|| file.parent().unwrap().to_owned());
+                folder.unwrap_or(file).ends_with(owner)
+                    || owned.is_match(&module.code)
+                    || module.path.parent().is_some_and(|folder| folder.ends_with(owner))
+            }
+            _ => true,
+        };
+        let found = modules().iter().any(|module| defined.is_match(&module.code) && is_of(module));
+        assert!(found, "ARCHITECTURE.md names `{name}`, which does not exist");
+    }
+}
+
+#[test]
 fn the_core_has_no_statics() {
     let mut found: Vec<String> = Vec::new();
     for module in modules() {

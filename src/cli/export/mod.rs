@@ -1,7 +1,5 @@
 //! `nbc export`: archives and libraries as data for other programs.
 
-mod ro_crate;
-
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
@@ -21,13 +19,10 @@ use nbc_session::store::RobotRecord;
   nbc export out/gates -o elites.csv        every elite of every seed
   nbc export out/gates/seed-1 --to json     one seed
   nbc export shipped --to csv               the built-in library
-  nbc export out --to ro-crate --license MIT -o out/ro-crate-metadata.json
-                                            what runs there are, for an archive of research data
 
 docs/export.md lists the columns and shows how pandas and pyribs read them.")]
 pub struct ExportArguments {
-    /// The folder of a run or of one of its seeds, a folder of robot files, a robot file, or `shipped`; for `--to
-    /// ro-crate`, also a folder of runs
+    /// The folder of a run or of one of its seeds, a folder of robot files, a robot file, or `shipped`
     what: String,
     /// The format [default: from the name of the file, else CSV]
     #[arg(long, value_enum)]
@@ -35,9 +30,6 @@ pub struct ExportArguments {
     /// The file to write instead of standard output
     #[arg(short, long, value_name = "FILE", value_parser = new_path())]
     output: Option<PathBuf>,
-    /// With `--to ro-crate`: the license of the runs, by its SPDX name
-    #[arg(long, value_name = "NAME")]
-    license: Option<String>,
 }
 
 /// The formats of an export.
@@ -47,8 +39,6 @@ enum Target {
     Csv,
     /// All data, described in docs/schema
     Json,
-    /// The metadata file of an RO-Crate: the runs in a folder, with the size and the SHA-256 of each file
-    RoCrate,
 }
 
 /// Robots with all their data.
@@ -64,11 +54,7 @@ impl ExportArguments {
     /// When there is no run and no robot of that name, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (target, what) = (self.target(context.format)?, Path::new(&self.what));
-        if target == Target::RoCrate {
-            self.describe(what, context)?;
-        } else if self.license.is_some() {
-            return Err(UsageError::UnusedLicense.into());
-        } else if is_run(what) {
+        if is_run(what) {
             let results = read_run(what, context)?;
             let elites = Elites::of(&results);
             self.write(target, Schema::Elites, &elites, || elites.csv(), context)?;
@@ -78,17 +64,6 @@ impl ExportArguments {
             self.write(target, Schema::Robots, &robots, || robots_csv(&library), context)?;
         }
         Ok(Status::Done)
-    }
-
-    /// Writes the metadata of the runs in a folder.
-    fn describe(&self, folder: &Path, context: &mut Context) -> Result<(), Failure> {
-        let Some(metadata) = ro_crate::describe(folder, self.license.as_deref())? else {
-            return Err(UsageError::NoRuns { path: self.what.clone() }.into());
-        };
-        match &self.output {
-            None => context.print(metadata),
-            Some(path) => context.write(path, metadata.as_bytes()),
-        }
     }
 
     fn write(
@@ -130,9 +105,6 @@ impl ExportArguments {
         match (self.to, by_format.or(by_name)) {
             (Some(Target::Csv), Some(Target::Json)) if by_format.is_some() => {
                 Err(UsageError::TwoFormats { option: "--to csv" }.into())
-            }
-            (Some(Target::RoCrate), _) if format == OutputFormat::Json => {
-                Err(UsageError::TwoFormats { option: "--to ro-crate" }.into())
             }
             (Some(target), _) | (None, Some(target)) => Ok(target),
             (None, None) => Ok(Target::Csv),

@@ -40,7 +40,6 @@ schemas! {
     Diagnostics = "diagnostics", 2: "Errors and warnings, of any command.";
     Drawn = "drawn", 1: "A picture that was written.";
     Elites = "elites", 1: "The archive of evolution runs.";
-    Evidence = "evidence", 1: "What the manual says, and whether its commands show it.";
     Evolve = "evolve", 1: "Evolution runs, and their comparison.";
     Explain = "explain", 1: "Codes of diagnostics with their pages, or the sources of the prelude.";
     Formatted = "formatted", 1: "Which files are in their canonical form.";

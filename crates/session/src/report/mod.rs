@@ -37,7 +37,6 @@ mod progress;
 #[cfg(feature = "pictures")]
 mod raster;
 mod result;
-mod ro_crate;
 mod robustness;
 mod run_page;
 mod schematic;
@@ -92,7 +91,6 @@ pub use progress::{Course, draw_progress};
 #[cfg(feature = "pictures")]
 pub use raster::{png, rasterize};
 pub use result::{RobotResult, RunResult, SwarmResult};
-pub use ro_crate::{CrateFile, CrateRun, ro_crate};
 pub use robustness::{YieldCurve, describe_robustness, draw_yields};
 pub use run_page::{PageSwarm, SwarmOutcome, draw_run_page};
 
