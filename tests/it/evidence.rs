@@ -2,11 +2,12 @@
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Stdio};
-use std::time::Instant;
+use std::process::Command;
+use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
+use crate::support::limits::{InTime, PATIENCE};
 use crate::support::root;
 
 /// What a page says, and the command that shows it.
@@ -85,7 +86,8 @@ fn what_the_manual_says_is_so() {
             Some("cargo") => Command::new("cargo"),
             other => panic!("claims start nbc or cargo, not {other:?}"),
         };
-        let ran = command.args(words).current_dir(root()).stdin(Stdio::null()).output().unwrap();
+        let patience = PATIENCE.max(Duration::from_secs(10 * u64::from(claim.seconds)));
+        let ran = command.args(words).current_dir(root()).output_within(patience);
         let missing = claim.missing(&claim.page(), &String::from_utf8_lossy(&ran.stdout));
         let word = if missing.is_empty() { "same" } else { "DIFFERS" };
         eprintln!("{word:8} {}: {} ({:.1} s)", claim.page, claim.claim, start.elapsed().as_secs_f64());

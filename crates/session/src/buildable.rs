@@ -104,7 +104,9 @@ impl Look<'_> {
         let cells = nbc_swarm::cells(&robots);
         if !cells.is_complete() {
             let options = MapOptions { effort: Effort::Fast, ..self.options() };
-            self.note(map_onto(self.program, circuit, &cells, &options, place, Limit::SwarmGates).map(drop));
+            let source = elaborate(self.program, circuit);
+            let made = source.and_then(|source| map_onto(source, &cells, &options, place, Limit::SwarmGates));
+            self.note(made.map(drop));
         }
     }
 

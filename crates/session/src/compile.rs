@@ -11,7 +11,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
 use nbc_circuit::passes::{Pass, Sweep};
-use nbc_circuit::{CellLibrary, MapOptions, Netlist, Timing, elaborate, elaborate_net, map_with, prove};
+use nbc_circuit::{CellLibrary, MapOptions, Netlist, Timing, elaborate_net, map_with, prove};
 use nbc_swarm::{Assembly, WeakRobot};
 
 /// A circuit compiled to a swarm.
@@ -65,20 +65,17 @@ pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOpti
     }
 }
 
-/// Elaborates a circuit of a program without errors, and maps it onto cells as requested at `place`. `gates` is what
-/// limits it before.
+/// Maps an elaborated circuit onto cells as requested at `place`. `gates` is what limits it before.
 ///
 /// # Errors
-/// When the circuit cannot be built or is too large, or the library lacks a function.
+/// When the circuit is too large, or the library lacks a function.
 pub(super) fn map_onto(
-    program: &Program,
-    circuit: &Instance,
+    source: Netlist,
     cells: &CellLibrary,
     options: &MapOptions,
     place: Span,
     gates: Limit,
 ) -> Result<Mapping, Vec<Diagnostic>> {
-    let source = elaborate(program, circuit)?;
     permit(&source, gates, place)?;
     synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
 }
@@ -88,25 +85,26 @@ fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagno
     limit.permit(netlist.cells().count() as u64).map_err(|over| vec![over.at(place)])
 }
 
-/// Elaborates a planned circuit of a program without errors, and maps it onto its robots as requested at `place`.
-/// `gates` is what limits it before.
+/// Maps a planned circuit that was elaborated onto its robots as requested at `place`. `gates` is what limits it
+/// before.
 ///
 /// # Errors
 /// As [`map_onto`], and when the circuit cannot be the wave machine that it is to be.
 pub(super) fn map(
-    program: &Program,
+    source: Netlist,
     plan: &Plan,
     options: &MapOptions,
     place: Span,
     gates: Limit,
 ) -> Result<Mapping, Vec<Diagnostic>> {
-    let map = || map_onto(program, &plan.circuit, &nbc_swarm::cells(&plan.library), options, place, gates);
+    let map = |source| map_onto(source, &nbc_swarm::cells(&plan.library), options, place, gates);
     match plan.registers {
-        RegisterStyle::MasterSlave => map(),
-        RegisterStyle::Pulsed => map().map(Mapping::pulsed),
-        RegisterStyle::Mux => map()?.held().ok_or_else(|| vec![for_circuit(ChoiceError::NoMultiplexer.into(), place)]),
+        RegisterStyle::MasterSlave => map(source),
+        RegisterStyle::Pulsed => map(source).map(Mapping::pulsed),
+        RegisterStyle::Mux => {
+            map(source)?.held().ok_or_else(|| vec![for_circuit(ChoiceError::NoMultiplexer.into(), place)])
+        }
         RegisterStyle::Waves => {
-            let source = elaborate(program, &plan.circuit)?;
             permit(&source, gates, place)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);
             mapping.map_err(|fault| vec![for_circuit(fault, place)])
@@ -117,7 +115,7 @@ pub(super) fn map(
 /// Maps the part of a planned circuit that drives the net declared at `net`.
 ///
 /// # Errors
-/// As [`map`].
+/// When the circuit cannot be built, and as [`map_onto`].
 pub(super) fn map_net(
     program: &Program,
     plan: &Plan,
@@ -132,17 +130,18 @@ pub(super) fn map_net(
     Ok(mapping)
 }
 
-/// Compiles a circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
+/// Compiles an elaborated circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
 ///
 /// # Errors
 /// As [`map`].
 pub(super) fn compile(
     program: &Program,
+    source: Netlist,
     plan: Plan,
     options: &MapOptions,
     place: Span,
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let mapping = map(program, &plan, options, place, Limit::SwarmGates)?;
+    let mapping = map(source, &plan, options, place, Limit::SwarmGates)?;
     permit(&mapping.netlist, Limit::Robots, place)?;
     let timing = mapping.timing();
     let assembly = match &mapping.waves {

@@ -18,7 +18,7 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostics;
 use nbc_base::model::{CircuitTest, Evolution, Instance, Library, Simulation};
 use nbc_base::source::{SourceWorld, Sources, Span};
-use nbc_circuit::CellLibrary;
+use nbc_circuit::{CellLibrary, elaborate};
 use nbc_sim::Simulator;
 use nbc_swarm::{Level, LiveSwarm, Room};
 
@@ -156,7 +156,8 @@ impl Session {
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
-        let mapping = compile::map(&checked.program, &plan, &options.mapping(), checked.place(circuit), Limit::Cells);
+        let source = elaborate(&checked.program, circuit).map_err(|faults| checked.fail(faults))?;
+        let mapping = compile::map(source, &plan, &options.mapping(), checked.place(circuit), Limit::Cells);
         mapping.map_err(|faults| checked.fail(faults))
     }
 
@@ -188,8 +189,9 @@ impl Session {
         cells: &CellLibrary,
         options: &CompileOptions,
     ) -> Result<Mapping, Diagnostics> {
+        let source = elaborate(&checked.program, circuit).map_err(|faults| checked.fail(faults))?;
         let place = checked.place(circuit);
-        let mapping = compile::map_onto(&checked.program, circuit, cells, &options.mapping(), place, Limit::Cells);
+        let mapping = compile::map_onto(source, cells, &options.mapping(), place, Limit::Cells);
         mapping.map_err(|faults| checked.fail(faults))
     }
 
@@ -204,9 +206,12 @@ impl Session {
         circuit: &Instance,
         options: &CompileOptions,
     ) -> Result<Compiled, Diagnostics> {
-        let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
-        let compiled =
-            plan.and_then(|plan| compile::compile(&checked.program, plan, &options.mapping(), checked.place(circuit)));
+        let (program, place) = (&checked.program, checked.place(circuit));
+        let plan = plan::plan(self.sources(checked), program, circuit, options);
+        let compiled = plan.and_then(|plan| {
+            let source = elaborate(program, &plan.circuit)?;
+            compile::compile(program, source, plan, &options.mapping(), place)
+        });
         compiled.map_err(|faults| checked.fail(faults))
     }
 

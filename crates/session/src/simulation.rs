@@ -8,6 +8,7 @@ use crate::robots::RobotSources;
 use crate::swarm_run::{Physics, RunEnd, SwarmRun};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Program, Simulation};
+use nbc_circuit::elaborate;
 use nbc_swarm::{SimulationResult, SwarmTrace};
 
 /// A simulation with its results.
@@ -43,7 +44,8 @@ pub(super) fn compiled(
     let swarm = program.swarm(&simulation.swarm);
     let mut plan = plan::of_swarm(sources, program, &simulation.circuit, swarm, options)?;
     plan.world = simulation.world.clone().unwrap_or(plan.world);
-    compile::compile(program, plan, &options.mapping(), simulation.span)
+    let source = elaborate(program, &plan.circuit)?;
+    compile::compile(program, source, plan, &options.mapping(), simulation.span)
 }
 
 /// Runs a simulation in full physics.

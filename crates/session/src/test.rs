@@ -113,7 +113,7 @@ pub(super) fn cases<'a>(
     for mut plan in plans {
         let worlds = if test.worlds.is_empty() { vec![plan.world.clone()] } else { test.worlds.clone() };
         plan.world.clone_from(&worlds[0]);
-        let mut compiled = compile(program, plan, &options.compile.mapping(), test.span)?;
+        let mut compiled = compile(program, netlist.clone(), plan, &options.compile.mapping(), test.span)?;
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return logic(netlist);
         }

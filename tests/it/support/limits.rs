@@ -21,12 +21,16 @@ pub struct Limit {
 
 impl Limit {
     pub fn of(program: &Child) -> Self {
+        Self::within(program, PATIENCE)
+    }
+
+    fn within(program: &Child, patience: Duration) -> Self {
         let (running, ended) = mpsc::channel();
         let process = program.id();
         let test = thread::current().name().unwrap_or("a test").to_owned();
         thread::spawn(move || {
-            if ended.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                eprintln!("{test}: a program is killed after {} s", PATIENCE.as_secs());
+            if ended.recv_timeout(patience) == Err(RecvTimeoutError::Timeout) {
+                eprintln!("{test}: a program is killed after {} s", patience.as_secs());
                 signal("KILL", process);
             }
         });
@@ -36,18 +40,28 @@ impl Limit {
 
 /// Waits until a program ends; what it wrote.
 pub fn end(program: Child) -> Output {
-    let _limit = Limit::of(&program);
+    end_within(program, PATIENCE)
+}
+
+fn end_within(program: Child, patience: Duration) -> Output {
+    let _limit = Limit::within(&program, patience);
     program.wait_with_output().unwrap()
 }
 
 pub trait InTime {
-    /// As [`Command::output`], with a limit.
-    fn output_in_time(&mut self) -> Output;
+    /// As [`Command::output`], with this limit.
+    fn output_within(&mut self, patience: Duration) -> Output;
+
+    /// As [`Command::output`], with the usual limit.
+    fn output_in_time(&mut self) -> Output {
+        self.output_within(PATIENCE)
+    }
 }
 
 impl InTime for Command {
-    fn output_in_time(&mut self) -> Output {
-        end(self.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap())
+    fn output_within(&mut self, patience: Duration) -> Output {
+        let program = self.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn();
+        end_within(program.unwrap(), patience)
     }
 }
 
