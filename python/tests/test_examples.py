@@ -80,7 +80,8 @@ def test_the_guides(root, tmp_path, page, least):
         pytest.importorskip("gymnasium")
     blocks = re.findall(r"```python\n(.*?)```", (root / page).read_text(), flags=re.DOTALL)
     assert len(blocks) >= least
-    for folder in ("circuits", "library"):
+    (tmp_path / "tests").mkdir()
+    for folder in ("circuits", "library", "tests/benchmarks"):
         (tmp_path / folder).symlink_to(root / folder)
     (tmp_path / "guide.py").write_text("\n".join(blocks))
     environment = {**os.environ, "MPLBACKEND": "agg"}
