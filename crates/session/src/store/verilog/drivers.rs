@@ -60,8 +60,9 @@ struct Cell<'t> {
 
 /// The bits of some modules that have two drivers and that their outputs depend on.
 pub(super) fn driven_twice(rtlil: &str, modules: &[String]) -> Vec<DrivenTwice> {
-    let texts: BTreeMap<&str, &str> =
-        rtlil.split("\nmodule \\").skip(1).map(|text| (text.lines().next().unwrap_or_default(), text)).collect();
+    // What follows the end of a module may be one with a name of Yosys.
+    let whole = rtlil.split("\nmodule \\").skip(1).filter_map(|text| text.split("\nend").next());
+    let texts: BTreeMap<&str, &str> = whole.map(|text| (text.lines().next().unwrap_or_default(), text)).collect();
     let outputs: BTreeMap<&str, BTreeSet<&str>> = texts.iter().map(|(name, text)| (*name, outputs(text))).collect();
     let found = modules.iter().filter_map(|name| Some((name, texts.get(name.as_str())?)));
     found.flat_map(|(name, text)| Module::of(text, &outputs).driven_twice(name)).collect()
@@ -305,6 +306,9 @@ mod tests {
             of("i", None, [logic, NetDriver::Net("a".to_owned())]),
         ];
         assert_eq!(driven_twice(rtlil, &["m".to_owned()]), expected);
+        // A module with a name of Yosys follows.
+        let derived = format!("{rtlil}module $paramod\\d\n  wire output 1 \\y\n  connect \\y \\a\nend\n");
+        assert_eq!(driven_twice(&derived, &["m".to_owned()]), expected);
         // What no output depends on does not count, such as the variable of two loops.
         let unread = rtlil.replace("  connect \\a \\i\n", "");
         assert_eq!(driven_twice(&unread, &["m".to_owned()]), expected[1..2]);

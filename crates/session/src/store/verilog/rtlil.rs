@@ -23,8 +23,9 @@ impl RtlilLines {
         for line in rtlil.lines().map(str::trim_start) {
             if let Some(place) = line.strip_prefix("attribute \\src ") {
                 source = source_line(place);
-            } else if let Some(name) = line.strip_prefix("module \\") {
-                (module, source) = (name, None);
+            } else if let Some(name) = line.strip_prefix("module ") {
+                // A module with values for its parameters has a name of Yosys, which begins with `$`.
+                (module, source) = (name.strip_prefix('\\').unwrap_or(name), None);
             } else if let Some(wire) = line.strip_prefix("wire ") {
                 let parts = wire.rsplit_once(" \\").map(|(about, name)| (about, Some(name)));
                 let (about, name) = parts.unwrap_or_else(|| ("", wire.strip_prefix('\\')));
@@ -149,7 +150,8 @@ mod tests {
     #[test]
     fn ranges_that_count_upwards_are_known() {
         let rtlil = "module \\m\n  wire width 4 upto input 1 \\a\n  wire width 4 upto offset -1 \\s\n  \
-                     wire width 4 \\b\nend\nmodule \\n\n  wire width 4 upto \\c\nend\n";
+                     wire width 4 \\b\nend\nmodule $paramod\\d\n  wire width 4 upto \\b\nend\n\
+                     module \\n\n  wire width 4 upto \\c\nend\n";
         let names = ["a", "s"].map(|name| ("m".to_owned(), name.to_owned()));
         assert_eq!(RtlilLines::of(rtlil, &["m".to_owned()]).ascending, BTreeSet::from(names));
     }
