@@ -80,8 +80,11 @@ def run_entities(root: Path, checkpoint: Path) -> List[Entity]:
         "result": [reference(file) for file in files],
         "endTime": ended.isoformat(timespec="seconds"),
     }
-    dataset = {"@id": f"{folder}/", "@type": "Dataset", "name": title, "hasPart": [reference(file) for file in files]}
-    return [action, *values, dataset, *files, program]
+    entities = [action, *values, *files, program]
+    if folder != ".":  # the files of a run in the crate's own folder are parts of the crate
+        parts = [reference(file) for file in files]
+        entities.append({"@id": f"{folder}/", "@type": "Dataset", "name": title, "hasPart": parts})
+    return entities
 
 
 def ro_crate(root: Path, license: str) -> Entity:
@@ -89,6 +92,8 @@ def ro_crate(root: Path, license: str) -> Entity:
     runs = [run_entities(root, checkpoint) for checkpoint in sorted(root.glob("**/checkpoint.nbc"))]
     if not runs:
         raise SystemExit(f"no runs below {root}")
+    kinds = [("Dataset" if any(entity["@type"] == "Dataset" for entity in run) else "File", run) for run in runs]
+    parts = [reference(entity) for kind, run in kinds for entity in run if entity["@type"] == kind]
     terms = {"@id": f"https://spdx.org/licenses/{license}", "@type": "CreativeWork", "name": license}
     crate = {
         "@id": "./",
@@ -98,7 +103,7 @@ def ro_crate(root: Path, license: str) -> Entity:
         "description": f"Evolution runs of soft robots as logic gates: {len(runs)} seeds, with their archives",
         "datePublished": max(run[0]["endTime"] for run in runs).split("T")[0],
         "license": reference(terms),
-        "hasPart": [reference(entity) for run in runs for entity in run if entity["@type"] == "Dataset"],
+        "hasPart": parts,
         "mentions": [reference(run[0]) for run in runs],
     }
     metadata = {

@@ -140,12 +140,12 @@ impl Program {
         compiling: Compiling,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<String> {
-        let (watch, sample) = (Watch::over(0), sampling.read()?);
+        let (watch, vary) = (Watch::over(0), sampling.vary()?);
         let compile = compiling.options(py, &self.session, &watch)?;
         let options = TestOptions { level: Some(Level::Physics), compile };
         let (session, checked) = (self.session.clone(), self.checked.clone());
         let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
-            worlds::yields(&session, &checked, &tests, &options, &sample, watch)
+            worlds::yields(&session, &checked, &tests, &options, &sampling, &vary, watch)
         })?;
         ran.or_partial(py, |found| {
             let found = found.map_err(|found| diagnosed(py, &found))?;
@@ -163,11 +163,11 @@ impl Program {
         compiling: Compiling,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<String> {
-        let (watch, sample) = (Watch::over(0), sampling.read()?);
+        let (watch, vary) = (Watch::over(0), sampling.vary()?);
         let options = compiling.options(py, &self.session, &watch)?;
         let choice = Choice { circuit, swarm: options.swarm.clone() };
         let circuit = self.checked.circuit(&choice).map_err(|found| diagnosed(py, &found))?;
-        let hardening = Hardening { variation: sample.vary[0], worlds: sample.worlds, seed: sample.seed, least_yield };
+        let hardening = Hardening { variation: vary[0], worlds: sampling.worlds, seed: sampling.seed, least_yield };
         let (session, checked) = (self.session.clone(), self.checked.clone());
         let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
             let mut run = |yields: &Yields<'_, '_>| Ok(worlds::runs(&session, yields, watch));

@@ -1,8 +1,5 @@
 //! Tests in samples of worlds, and hardening.
 
-use std::fmt::Display;
-use std::str::FromStr;
-
 use nbc::{Checked, Diagnostics, Robustness, Session, TestCase, TestOptions, Variation, WorldResult, Yields};
 use pyo3::prelude::*;
 use rayon::prelude::*;
@@ -17,15 +14,6 @@ use crate::work::Watch;
 pub struct Sampling {
     vary: Vec<String>,
     times: Vec<f64>,
-    worlds: usize,
-    seed: u64,
-}
-
-/// The worlds of a sample.
-pub struct Sample {
-    /// How much the worlds vary, each apart.
-    pub vary: Vec<Variation>,
-    times: Vec<f64>,
     /// The number of worlds.
     pub worlds: usize,
     /// Their seed.
@@ -33,16 +21,13 @@ pub struct Sample {
 }
 
 impl Sampling {
+    /// How much the worlds vary; each is a sample of its own.
+    ///
     /// # Errors
     /// `ValueError` when changes are invalid.
-    pub fn read(self) -> PyResult<Sample> {
-        let vary = self.vary.iter().map(|text| read_as(text)).collect::<PyResult<_>>()?;
-        Ok(Sample { vary, times: self.times, worlds: self.worlds, seed: self.seed })
+    pub fn vary(&self) -> PyResult<Vec<Variation>> {
+        self.vary.iter().map(|text| text.parse().map_err(|error| bad_value(format!("{error}")))).collect()
     }
-}
-
-fn read_as<T: FromStr<Err: Display>>(text: &str) -> PyResult<T> {
-    text.parse().map_err(|error: T::Err| bad_value(error.to_string()))
 }
 
 /// The yields of these tests of a program. After an interrupt, those that are complete.
@@ -51,14 +36,15 @@ pub fn yields(
     checked: &Checked,
     tests: &[usize],
     options: &TestOptions,
-    sample: &Sample,
+    sampling: &Sampling,
+    vary: &[Variation],
     watch: &Watch,
 ) -> Result<Vec<Robustness>, Diagnostics> {
     let mut cases: Vec<TestCase<'_>> = Vec::new();
     for &test in tests {
         cases.extend(session.cases(checked, &checked.program.tests[test], options)?);
     }
-    let Sample { vary, times, worlds, seed } = sample;
+    let Sampling { times, worlds, seed, .. } = sampling;
     Ok(runs(session, &Yields::of(&cases, vary, times, *worlds, *seed), watch))
 }
 

@@ -68,6 +68,10 @@ def test_a_research_object_names_what_is_there(tmp_path):
 
     known = {name for name in references(graph) if not name.startswith("https://w3id.org/ro/crate/")}
     assert known <= set(entities)
+    subprocess.run([sys.executable, example, "out/small/seed-1", "MIT"], cwd=tmp_path, check=True)
+    graph = json.loads((tmp_path / "out/small/seed-1/ro-crate-metadata.json").read_text())["@graph"]
+    own = next(entity for entity in graph if entity["@id"] == "./")
+    assert {"@id": "checkpoint.nbc"} in own["hasPart"] and own["mentions"]
     (tmp_path / "bare").mkdir()
     none = subprocess.run([sys.executable, example, "bare", "MIT"], cwd=tmp_path, capture_output=True, text=True)
     assert none.returncode == 1 and "no runs below bare" in none.stderr

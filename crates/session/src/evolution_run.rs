@@ -74,7 +74,7 @@ impl EvolutionRun {
         self.search.tell(candidates, outcomes);
     }
 
-    /// Counts the work of evaluations whose outcomes are told by themselves.
+    /// Adds the work of evaluations whose outcomes [`EvolutionRun::tell_outcomes`] takes.
     pub fn add_work(&mut self, work: Work) {
         self.work = self.work.plus(work);
     }
