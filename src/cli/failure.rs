@@ -78,7 +78,9 @@ failures! {
     #[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
     MissingFeature,
     #[cfg(feature = "play")]
-    nbc_play::PlayError,
+    nbc_play::ExportError,
+    #[cfg(feature = "play")]
+    nbc_play_server::PlayError,
     RunChoiceError,
     nbc_lsp::ServerError,
     UsageError,

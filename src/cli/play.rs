@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
-use nbc_play::{LessonSource, PlayOptions, PlayServer, is_token};
+use nbc_play_server::{LessonSource, PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
 use nbc_session::{Choice, Session};

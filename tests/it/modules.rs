@@ -72,7 +72,7 @@ pub fn place(path: &Path) -> (String, PathBuf) {
         Ok(inside) => {
             let name = inside.iter().next().unwrap().to_string_lossy().into_owned();
             let file = inside.strip_prefix(&name).unwrap().strip_prefix("src").unwrap().to_owned();
-            (format!("nbc_{name}"), file)
+            (format!("nbc_{}", name.replace('-', "_")), file)
         }
         Err(_) => ("nbc".to_owned(), inside.strip_prefix("src").unwrap().to_owned()),
     }

@@ -91,14 +91,17 @@ const DISK: [&str; 12] = [
 
 /// The program and the doors with crates of their own.
 fn is_door(path: &Path) -> bool {
-    matches!(place(path).0.as_str(), "nbc" | "nbc_lsp" | "nbc_play" | "nbc_cluster")
+    matches!(place(path).0.as_str(), "nbc" | "nbc_lsp" | "nbc_play" | "nbc_play_server" | "nbc_cluster")
 }
 
 /// The file that calls the driver of a device and waits for it.
 const DRIVER: &str = "backend/opencl/card.rs";
 
 fn is_shell(path: &Path) -> bool {
-    is_door(path) || path.ends_with(DRIVER) || DISK.iter().any(|name| path.ends_with(name))
+    // A visit of the page takes messages and the time from its shell.
+    is_door(path) && place(path).0 != "nbc_play"
+        || path.ends_with(DRIVER)
+        || DISK.iter().any(|name| path.ends_with(name))
 }
 
 #[test]

@@ -40,12 +40,15 @@ export type CircuitEntry = {
 
 /** The answer to `lessons` of the teacher's page. */
 export type ClassCourse = {
+  /** The lessons, in order. */
   lessons: Array<ClassLesson>,
 };
 
 /** A lesson of the course. */
 export type ClassLesson = {
+  /** The name, which is unique. */
   name: string,
+  /** The title, for people. */
   title: string,
   /** The tasks of its steps. */
   steps: Array<string>,

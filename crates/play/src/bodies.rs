@@ -1,14 +1,14 @@
 //! Robots and bodies for a page: the list of the library, measurements of a body, and robot files.
 
-use crate::files::PageFiles;
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobEnd};
 use crate::message::{
     CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RequestResult, RobotCard, RobotCards, looks,
 };
+use crate::page_files::PageFiles;
 use crate::refusal::Refused;
 use crate::request::KeepRequest;
-use crate::served::SCHEME;
+use crate::site::SCHEME;
 use nbc_base::model::{
     Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Library, Material, Origin, Palette, Pattern,
     Provenance, Robot, Schedule, Setting,
@@ -168,9 +168,9 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, jo
         return Err(Refused::RobotExists { path, free, is_replaceable: !is_shared });
     }
     // What can fail at once does so before the body is measured, which takes long.
-    files.folder_of(&path)?;
+    files.may_write(&folder)?;
     let text = robot_file(&request.name, body, job)?;
-    files.make_folder(&path)?;
+    files.make_folder(&folder)?;
     files.write(&path, &text)?;
     Ok(Some(RequestResult::Keep(KeptRobot { path, declaration: format!("library own {{ from: \"{FOLDER}\" }}") })))
 }

@@ -4,11 +4,11 @@
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+
+use core::time::Duration;
 
 use crate::message::{ClassMember, ClassPlace, ClassRoll};
 use crate::refusal::Refused;
-use crate::token::random_token;
 use nbc_base::diag::is_hidden;
 
 /// The most members.
@@ -21,9 +21,9 @@ const LESSON: usize = 64;
 
 /// The members of a class.
 #[derive(Debug)]
-pub(super) struct Class {
-    /// The secret in the address of the teacher's page.
-    pub(super) token: String,
+pub struct Class {
+    /// Gives a key that nobody can guess; `None` if the system has no random numbers.
+    new_key: fn() -> Option<String>,
     members: Mutex<Members>,
 }
 
@@ -41,7 +41,8 @@ struct Member {
     name: String,
     place: Option<ClassPlace>,
     finished: u32,
-    since: Instant,
+    /// When the place has changed.
+    since: Duration,
 }
 
 /// The place of a learner in the class, who is away when it is dropped.
@@ -56,8 +57,10 @@ pub(super) struct Membership {
 }
 
 impl Class {
-    pub(super) fn new(token: String) -> Self {
-        Self { token, members: Mutex::default() }
+    /// A class without members. `new_key` gives a key that nobody can guess, or `None` if the system has no random
+    /// numbers.
+    pub fn new(new_key: fn() -> Option<String>) -> Self {
+        Self { new_key, members: Mutex::default() }
     }
 
     fn lock(&self) -> MutexGuard<'_, Members> {
@@ -68,7 +71,7 @@ impl Class {
     ///
     /// # Errors
     /// When the name is none or taken, or the class is full.
-    pub(super) fn join(self: &Arc<Self>, name: &str, key: Option<&str>) -> Result<Membership, Refused> {
+    pub(super) fn join(self: &Arc<Self>, name: &str, key: Option<&str>, now: Duration) -> Result<Membership, Refused> {
         let name = name.trim();
         if name.is_empty() || name.chars().count() > LONGEST || name.contains(|c| c == '\n' || is_hidden(c)) {
             return Err(Refused::ClassName { most: LONGEST });
@@ -80,7 +83,7 @@ impl Class {
             Some(known) if key == Some(known) => known.clone(),
             Some(_) => return Err(Refused::ClassNameTaken { name: name.to_owned() }),
             None if members.keys.len() >= MOST_NAMES => return Err(Refused::ClassFull { most: MOST }),
-            None => random_token().map_err(|_| Refused::Internal)?,
+            None => (self.new_key)().ok_or(Refused::Internal)?,
         };
         members.joined.retain(|_, member| self::ending(&member.name).to_lowercase() != own);
         if members.joined.len() >= MOST {
@@ -89,18 +92,18 @@ impl Class {
         members.keys.insert(own, key.clone());
         members.last += 1;
         let number = members.last;
-        let member = Member { name: name.to_owned(), place: None, finished: 0, since: Instant::now() };
+        let member = Member { name: name.to_owned(), place: None, finished: 0, since: now };
         members.joined.insert(number, member);
         Ok(Membership { class: self.clone(), number, ending, key })
     }
 
-    /// The members, for the teacher.
-    pub(super) fn roll(&self) -> ClassRoll {
+    /// The members, for the teacher, at a time of the visits' clock.
+    pub fn roll(&self, now: Duration) -> ClassRoll {
         let seen = |member: &Member| ClassMember {
             name: member.name.clone(),
             place: member.place.clone(),
             finished: member.finished,
-            seconds: member.since.elapsed().as_secs(),
+            seconds: now.saturating_sub(member.since).as_secs(),
         };
         let mut members: Vec<_> = self.lock().joined.values().map(seen).collect();
         members.sort_by_cached_key(|member| member.name.to_lowercase());
@@ -136,12 +139,12 @@ impl Membership {
     }
 
     /// Notes where the learner is. A lesson with a name that no lesson can have is none.
-    pub(super) fn progress(&self, place: Option<ClassPlace>, finished: u32) {
+    pub(super) fn progress(&self, place: Option<ClassPlace>, finished: u32, now: Duration) {
         let is_name = |name: &str| name.len() <= LESSON && !name.contains(is_hidden);
         let place = place.filter(|place| is_name(&place.lesson));
         if let Some(member) = self.class.lock().joined.get_mut(&self.number) {
             if member.place != place {
-                member.since = Instant::now();
+                member.since = now;
             }
             (member.place, member.finished) = (place, finished);
         }
@@ -158,14 +161,22 @@ impl Drop for Membership {
 mod tests {
     use super::*;
 
+    const START: Duration = Duration::ZERO;
+
+    fn class() -> Arc<Class> {
+        use std::sync::atomic::{AtomicU64, Ordering};
+        static KEYS: AtomicU64 = AtomicU64::new(0);
+        Arc::new(Class::new(|| Some(KEYS.fetch_add(1, Ordering::Relaxed).to_string())))
+    }
+
     fn names(class: &Class) -> Vec<String> {
-        class.roll().members.into_iter().map(|member| member.name).collect()
+        class.roll(START).members.into_iter().map(|member| member.name).collect()
     }
 
     #[test]
     fn learners_join_with_a_name_of_their_own_and_leave() {
-        let class = Arc::new(Class::new(String::new()));
-        let join = |name: &str| class.join(name, None);
+        let class = class();
+        let join = |name: &str| class.join(name, None, START);
         let ada = join(" Ada ").unwrap();
         let _ben = join("ben").unwrap();
         assert_eq!(names(&class), ["Ada", "ben"]);
@@ -175,58 +186,58 @@ mod tests {
         }
         assert!(join(&"é".repeat(LONGEST)).is_ok());
         let place = ClassPlace { lesson: "gate".to_owned(), done: 1, size: None };
-        ada.progress(Some(place.clone()), 3);
-        assert_eq!(class.roll().members[0].place, Some(place));
-        ada.progress(Some(ClassPlace { lesson: "x".repeat(65), done: 1, size: None }), 3);
-        assert_eq!(class.roll().members[0].place, None);
+        ada.progress(Some(place.clone()), 3, START);
+        assert_eq!(class.roll(START).members[0].place, Some(place));
+        ada.progress(Some(ClassPlace { lesson: "x".repeat(65), done: 1, size: None }), 3, Duration::from_secs(9));
+        assert_eq!(class.roll(START).members[0].place, None);
         drop(ada);
         assert_eq!(names(&class), ["ben"]);
     }
 
     #[test]
     fn the_name_of_a_learner_who_is_away_stays_theirs() {
-        let class = Arc::new(Class::new(String::new()));
-        let ada = class.join("Ada", None).unwrap();
+        let class = class();
+        let ada = class.join("Ada", None, START).unwrap();
         let key = ada.key().to_owned();
         drop(ada);
         for other in [None, Some(""), Some("0123")] {
-            assert!(matches!(class.join("ADA", other), Err(Refused::ClassNameTaken { .. })), "{other:?}");
+            assert!(matches!(class.join("ADA", other, START), Err(Refused::ClassNameTaken { .. })), "{other:?}");
         }
-        let first = class.join("Ada", Some(&key)).unwrap();
-        let reloaded = class.join("Ada", Some(&key)).unwrap();
+        let first = class.join("Ada", Some(&key), START).unwrap();
+        let reloaded = class.join("Ada", Some(&key), START).unwrap();
         assert_eq!(names(&class), ["Ada"], "a page that is reloaded comes before the old one has gone");
         drop(first);
         assert_eq!(names(&class), ["Ada"]);
         reloaded.leave();
-        let other = class.join("ada", None).unwrap();
+        let other = class.join("ada", None, START).unwrap();
         assert_ne!(other.key(), key, "the name was given up");
-        assert!(matches!(class.join("Ada", Some(&key)), Err(Refused::ClassNameTaken { .. })));
+        assert!(matches!(class.join("Ada", Some(&key), START), Err(Refused::ClassNameTaken { .. })));
         for number in 1..MOST_NAMES {
-            drop(class.join(&number.to_string(), None).unwrap());
+            drop(class.join(&number.to_string(), None, START).unwrap());
         }
-        assert!(matches!(class.join("one more", None), Err(Refused::ClassFull { most: MOST })));
+        assert!(matches!(class.join("one more", None, START), Err(Refused::ClassFull { most: MOST })));
     }
 
     #[test]
     fn each_learner_has_paths_of_their_own() {
-        let class = Arc::new(Class::new(String::new()));
-        let ada = class.join("Ada L.", None).unwrap();
+        let class = class();
+        let ada = class.join("Ada L.", None, START).unwrap();
         for path in ["a/latch.nb", "a/latch.Ada_L_.nb"] {
             assert_eq!(ada.own_path(path), "a/latch.Ada_L_.nb");
         }
-        assert_eq!(class.join("A. b", None).unwrap().own_path("latch.Ada_L_.nb"), "latch.Ada_L_.A__b.nb");
+        assert_eq!(class.join("A. b", None, START).unwrap().own_path("latch.Ada_L_.nb"), "latch.Ada_L_.A__b.nb");
         assert!(
-            matches!(class.join("ada/l?", None), Err(Refused::ClassNameTaken { .. })),
+            matches!(class.join("ada/l?", None, START), Err(Refused::ClassNameTaken { .. })),
             "their files would be the same"
         );
     }
 
     #[test]
     fn a_class_has_an_end() {
-        let class = Arc::new(Class::new(String::new()));
-        let all: Vec<_> = (0..MOST).map(|number| class.join(&number.to_string(), None).unwrap()).collect();
-        assert!(matches!(class.join("one more", None), Err(Refused::ClassFull { most: MOST })));
+        let class = class();
+        let all: Vec<_> = (0..MOST).map(|number| class.join(&number.to_string(), None, START).unwrap()).collect();
+        assert!(matches!(class.join("one more", None, START), Err(Refused::ClassFull { most: MOST })));
         drop(all);
-        assert!(class.join("one more", None).is_ok());
+        assert!(class.join("one more", None, START).is_ok());
     }
 }

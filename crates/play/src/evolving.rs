@@ -1,10 +1,9 @@
 //! A search for gates around a body, shown while it runs.
 
 use rand::RngExt;
-use rayon::ThreadPool;
 
 use crate::bodies;
-use crate::jobs::{Job, JobEnd};
+use crate::jobs::{Job, PortionEnd};
 use crate::message::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry, PlayEvent, RequestResult};
 use crate::refusal::Refused;
 use crate::request::EvolveRequest;
@@ -25,33 +24,15 @@ const BATCH: u32 = 16;
 /// tried.
 const NEARBY: u32 = 3;
 
-/// Searches for gates.
-///
-/// # Errors
-/// When the body is not one, or the box is too small or too large.
-pub(super) fn evolve(request: &EvolveRequest, background: &ThreadPool, job: &mut Job) -> JobEnd {
-    let start = request.body.as_deref().map(bodies::body).transpose()?;
-    let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
-    if !SIDES.contains(&width) || !SIDES.contains(&height) {
-        return Err(Refused::Body(format!("expected a box of {} to {} voxels a side", SIDES.start(), SIDES.end())));
-    }
-    let generations = request.generations.clamp(1, MOST_GENERATIONS);
-    let mut evolution = declared(width, height, generations);
-    if let Some(start) = &start {
-        evolution.palette = start.palette().clone();
-    }
-    let mut tending = Tending { archive: Archive::new(&evolution), evolution, seed: request.seed, evaluations: 0 };
-    for generation in 0..generations {
-        if job.is_cancelled() {
-            break;
-        }
-        let simulator = job.simulator();
-        let changed = background.install(|| tending.advance(&simulator, generation, start.as_ref()));
-        job.outbox.event(PlayEvent::Archive(tending.change(job.id, generation + 1, &changed)));
-        job.progress(u64::from(generation) + 1, u64::from(generations));
-    }
-    job.check()?;
-    Ok(Some(RequestResult::Evolve(EvolutionEnd { generations, evaluations: tending.evaluations })))
+/// A search and its archive.
+pub(super) struct Evolving {
+    evolution: Evolution,
+    archive: Archive,
+    start: Option<Body>,
+    seed: u64,
+    /// The generations that are done.
+    generation: u32,
+    evaluations: u64,
 }
 
 /// The declaration of the search.
@@ -78,18 +59,48 @@ fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Sc
     both.filter(|((_, scores), walked)| is_steady(scores, *walked)).map(|(measured, _)| measured).collect()
 }
 
-/// The search and its archive.
-struct Tending {
-    evolution: Evolution,
-    archive: Archive,
-    seed: u64,
-    evaluations: u64,
-}
+impl Evolving {
+    /// A search that begins.
+    ///
+    /// # Errors
+    /// When the body is not one, or the box is too small or too large.
+    pub(super) fn new(request: &EvolveRequest) -> Result<Self, Refused> {
+        let start = request.body.as_deref().map(bodies::body).transpose()?;
+        let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
+        if !SIDES.contains(&width) || !SIDES.contains(&height) {
+            let sides = format!("expected a box of {} to {} voxels a side", SIDES.start(), SIDES.end());
+            return Err(Refused::Body(sides));
+        }
+        let mut evolution = declared(width, height, request.generations.clamp(1, MOST_GENERATIONS));
+        if let Some(start) = &start {
+            evolution.palette = start.palette().clone();
+        }
+        let archive = Archive::new(&evolution);
+        Ok(Self { evolution, archive, start, seed: request.seed, generation: 0, evaluations: 0 })
+    }
 
-impl Tending {
+    /// Does a generation, and reports the niches that have changed.
+    ///
+    /// # Errors
+    /// When it is stopped.
+    pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
+        job.check()?;
+        let changed = self.next_generation(&job.simulator());
+        self.generation += 1;
+        let (generation, generations) = (self.generation, self.evolution.generations);
+        job.outbox.event(PlayEvent::Archive(self.change(job.id, generation, &changed)));
+        job.progress(generation.into(), generations.into());
+        if generation < generations {
+            return Ok(PortionEnd::More);
+        }
+        job.check()?;
+        Ok(PortionEnd::Done(Some(RequestResult::Evolve(EvolutionEnd { generations, evaluations: self.evaluations }))))
+    }
+
     /// Does a generation, and returns the niches that have changed.
-    fn advance(&mut self, simulator: &Simulator, generation: u32, start: Option<&Body>) -> Vec<NicheKey> {
-        let mut bodies = self.candidates(generation, start);
+    fn next_generation(&mut self, simulator: &Simulator) -> Vec<NicheKey> {
+        let generation = self.generation;
+        let mut bodies = self.candidates();
         // A body without a third stimulus would have another behavior in the designer.
         bodies.retain(|body| bodies::body(&body.rows()).is_ok_and(|own| own.palette() == body.palette()));
         let outcomes = evaluate_bodies(simulator, &self.evolution, bodies.clone());
@@ -115,7 +126,8 @@ impl Tending {
     }
 
     /// The bodies of a generation: neighbors of elites; at first those of the start, or random ones.
-    fn candidates(&self, generation: u32, start: Option<&Body>) -> Vec<Body> {
+    fn candidates(&self) -> Vec<Body> {
+        let (generation, start) = (self.generation, self.start.as_ref());
         let elites: Vec<&Body> = self.archive.elites().map(|elite| &elite.body).collect();
         if elites.is_empty() && (start.is_none() || generation >= NEARBY) {
             let seed = self.seed.wrapping_add(u64::from(generation));
@@ -165,12 +177,16 @@ mod tests {
 
     #[test]
     fn a_start_without_gates_around_it_is_given_up() {
-        let evolution = declared(3, 3, 10);
-        let tending = Tending { archive: Archive::new(&evolution), evolution, seed: 1, evaluations: 0 };
         let start = Body::parse(&["333", "343", "333"], &Palette::paper()).unwrap();
+        let request = EvolveRequest { body: Some(start.rows()), bounds: [3, 3], generations: 10, seed: 1 };
+        let mut evolving = Evolving::new(&request).unwrap();
         let differing = |body: &Body| body.codes().iter().zip(start.codes()).filter(|(a, b)| a != b).count();
-        let around = tending.candidates(NEARBY - 1, Some(&start));
+        evolving.generation = NEARBY - 1;
+        let around = evolving.candidates();
         assert!(around.iter().all(|body| (1..=3).contains(&differing(body))), "{around:?}");
-        assert_eq!(tending.candidates(NEARBY, Some(&start)), tending.candidates(NEARBY, None));
+        evolving.generation = NEARBY;
+        let random = evolving.candidates();
+        evolving.start = None;
+        assert_eq!(random, evolving.candidates());
     }
 }

@@ -1,14 +1,16 @@
-//! Long requests: each runs on a thread of its own, reports its progress, and can be cancelled.
+//! Long requests: each is work that the shell does in portions. It reports its progress, and can be cancelled.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::thread;
-use std::time::{Duration, Instant};
+
+use core::time::Duration;
 
 use crate::message::RequestResult;
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
+use crate::shell::{Shell, WorkKind};
 use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
 use nbc_session::{CompileOptions, Observer};
@@ -24,21 +26,14 @@ pub(super) struct Jobs {
     outbox: Outbox,
 }
 
-/// The kinds of requests, each of which has room of its own.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum JobKind {
-    /// A check of a text, which the page asks for while its user types.
-    Check,
-    /// All others.
-    Work,
-}
-
 /// The handle to stop a request that runs.
 struct Running {
-    kind: JobKind,
+    kind: WorkKind,
     stop: CancelFlag,
     monitor: Arc<Monitor>,
-    end: Instant,
+    /// When it has taken too long.
+    end: Duration,
+    is_late: Arc<AtomicBool>,
 }
 
 impl Running {
@@ -46,22 +41,47 @@ impl Running {
         self.stop.raise();
         self.monitor.stop();
     }
+
+    fn stop_late(&self) {
+        self.is_late.store(true, Ordering::Relaxed);
+        self.stop();
+    }
 }
 
-/// A request that runs, as its own thread sees it.
+/// A request that runs, as its own work sees it.
 pub(super) struct Job {
     pub(super) id: u64,
     pub(super) outbox: Outbox,
     pub(super) stop: CancelFlag,
     making: CompileOptions,
     monitor: Arc<Monitor>,
-    end: Instant,
+    is_late: Arc<AtomicBool>,
     /// The percentage that was reported last.
     told: u64,
 }
 
-/// The answer of a request; `None` if another thread will answer.
+/// The end of a portion of work.
+pub(super) enum PortionEnd {
+    /// There is more to do.
+    More,
+    /// It is done. There is no answer if somebody else will give it.
+    Done(Option<RequestResult>),
+}
+
+/// The answer of a request whose work is one portion.
 pub(super) type JobEnd = Result<Option<RequestResult>, Refused>;
+
+/// The work of a long request: does a portion of it.
+pub(super) type JobWork = Box<dyn FnMut(&mut Job) -> Result<PortionEnd, Refused> + Send>;
+
+/// Work of one portion.
+pub(super) fn once(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> JobWork {
+    let mut work = Some(work);
+    Box::new(move |job| {
+        let work = work.take().expect("work that is done is not called again");
+        work(job).map(PortionEnd::Done)
+    })
+}
 
 impl Jobs {
     /// No requests. Those that come make swarms with these options.
@@ -72,14 +92,19 @@ impl Jobs {
     /// Starts a request; the flag that stops it, if it could be started.
     pub(super) fn start(
         &self,
+        shell: &dyn Shell,
         id: u64,
-        kind: JobKind,
-        work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static,
+        kind: WorkKind,
+        mut work: JobWork,
+        now: Duration,
     ) -> Option<CancelFlag> {
-        let (stop, monitor, end) = (CancelFlag::default(), Arc::new(Monitor::default()), Instant::now() + TIME);
+        let (stop, monitor) = (CancelFlag::default(), Arc::new(Monitor::default()));
+        let is_late: Arc<AtomicBool> = Arc::default();
         {
             let mut running = lock(&self.running);
-            let same = running.values().filter(|one| one.kind == kind).count() as u64;
+            let is_check = |kind: WorkKind| kind == WorkKind::Check;
+            // Checks have room of their own.
+            let same = running.values().filter(|one| is_check(one.kind) == is_check(kind)).count() as u64;
             // Otherwise it could not be cancelled, and the end of one would count as that of the other.
             let refused = match running.contains_key(&id) {
                 true => Some(Refused::NumberInUse { id }),
@@ -89,19 +114,26 @@ impl Jobs {
                 self.outbox.answer(id, Err(refused));
                 return None;
             }
-            running.insert(id, Running { kind, stop: stop.clone(), monitor: monitor.clone(), end });
+            let (stop, monitor, is_late) = (stop.clone(), monitor.clone(), is_late.clone());
+            running.insert(id, Running { kind, stop, monitor, end: now + TIME, is_late });
         }
         let (running, outbox) = (self.running.clone(), self.outbox.clone());
-        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, end, told: 0 };
-        thread::spawn(move || {
+        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, is_late, told: 0 };
+        let portion = move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
+            let ended = ended.unwrap_or(Err(Refused::Internal));
+            if let Ok(PortionEnd::More) = ended {
+                return true;
+            }
             lock(&running).remove(&id);
-            match ended.unwrap_or(Err(Refused::Internal)) {
-                Ok(None) => {}
-                Ok(Some(answer)) => job.outbox.answer(id, Ok(answer)),
+            match ended {
+                Ok(PortionEnd::Done(answer)) => answer.into_iter().for_each(|answer| job.outbox.answer(id, Ok(answer))),
+                Ok(PortionEnd::More) => {}
                 Err(refused) => job.outbox.answer(id, Err(job.reason(refused))),
             }
-        });
+            false
+        };
+        shell.start(kind, Box::new(portion));
         Some(stop)
     }
 
@@ -116,9 +148,8 @@ impl Jobs {
     }
 
     /// Stops the requests that take too long.
-    pub(super) fn end_late(&self) {
-        let now = Instant::now();
-        lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop);
+    pub(super) fn end_late(&self, now: Duration) {
+        lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop_late);
     }
 }
 
@@ -155,7 +186,7 @@ impl Job {
     /// The reason for a refusal; that of work which was stopped because it took too long is [`Refused::TimedOut`].
     fn reason(&self, refused: Refused) -> Refused {
         match refused {
-            Refused::Cancelled if self.end < Instant::now() => Refused::TimedOut { seconds: TIME.as_secs() },
+            Refused::Cancelled if self.is_late.load(Ordering::Relaxed) => Refused::TimedOut { seconds: TIME.as_secs() },
             other => other,
         }
     }

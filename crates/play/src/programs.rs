@@ -10,8 +10,8 @@ use crate::message::{
     TestEntry, TestResult, TestRowEntry, listed, looks,
 };
 use crate::refusal::Refused;
-use crate::runner::LoadedSwarm;
-use crate::served::SCHEME;
+use crate::runner::{LoadingSwarm, RunningSwarm};
+use crate::site::SCHEME;
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::waves::WaveMachine;
@@ -83,17 +83,17 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     Ok((circuit, options))
 }
 
-/// A compiled circuit as a swarm to run.
+/// A compiled circuit as a swarm to run through inputs.
 ///
 /// # Errors
-/// When it has too many robots.
-pub(super) fn loaded(
+/// When it has too many robots, or the request is stopped.
+pub(super) fn loading(
     session: &Session,
     compiled: Compiled,
     inputs: Vec<Vec<bool>>,
     answer: impl FnOnce(SwarmAnswer) -> RequestResult,
     (number, job): (u32, &Job),
-) -> Result<LoadedSwarm, Refused> {
+) -> Result<LoadingSwarm, Refused> {
     job.check()?;
     let robots = compiled.assembly.members.len();
     if Limit::PageRobots.permit(robots as u64).is_err() {
@@ -101,7 +101,7 @@ pub(super) fn loaded(
     }
     let swarm = session.swarm(&compiled);
     let answer = answer(SwarmAnswer { swarm: Box::new(describe(number, &compiled, &swarm)) });
-    Ok(LoadedSwarm { number, compiled, swarm, inputs, request: job.id, answer, stop: job.stop.clone() })
+    Ok(LoadingSwarm::new(RunningSwarm::new(number, compiled, swarm), inputs, (job.id, answer)))
 }
 
 /// What a page is told about a swarm.

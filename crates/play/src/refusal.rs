@@ -5,7 +5,7 @@ use serde::Serialize;
 use ts_rs::TS;
 
 use crate::message::finding::{Finding, findings};
-use crate::wording::PlayError;
+use crate::wording::ExportError;
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words, visible};
 use nbc_base::model::Fault;
 use nbc_base::source::FileError;
@@ -66,7 +66,7 @@ pub(super) enum Refused {
     /// A fault of the program.
     Internal,
     /// A circuit that cannot be exported.
-    Export(PlayError),
+    Export(ExportError),
     /// Errors in the source.
     Source(Diagnostics),
 }
@@ -176,8 +176,8 @@ impl From<Refused> for Refusal {
     }
 }
 
-impl From<PlayError> for Refused {
-    fn from(error: PlayError) -> Self {
+impl From<ExportError> for Refused {
+    fn from(error: ExportError) -> Self {
         Self::Export(error)
     }
 }

@@ -1,17 +1,17 @@
-//! The thread that simulates a page's swarm at the chosen speed, records its last cycles, and sends frames to the page.
+//! The swarm of a page: it is simulated at the chosen speed, its last cycles are recorded, and frames of it are sent.
 
 use std::collections::VecDeque;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::vec::IntoIter;
+
+use core::time::Duration;
 
 use crate::frame::SwarmFrame;
 use crate::history::{FRAMES, LoggedCycle, MEMORY, Poses, SwarmHistory};
+use crate::jobs::{Job, PortionEnd};
 use crate::message::{PlayEvent, RequestResult};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
-use nbc_circuit::CancelFlag;
-use nbc_session::{Compiled, Excerpt, Session};
+use nbc_session::{Compiled, Excerpt, Observer, Session};
 use nbc_swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
@@ -22,27 +22,42 @@ const LATE: Duration = Duration::from_millis(250);
 const GROUND_LEFT: f64 = 64.0;
 /// The most cycles whose times are averaged for the pace.
 const PACE_CYCLES: usize = 64;
+/// Cycles of a portion of work.
+const PORTION: usize = 8;
 
-/// A swarm to run, from its start.
-pub(super) struct LoadedSwarm {
-    pub(super) number: u32,
-    pub(super) compiled: Compiled,
-    pub(super) swarm: LiveSwarm,
-    /// Inputs to run it through at once.
-    pub(super) inputs: Vec<Vec<bool>>,
-    /// The request to answer when that is done, and the answer.
-    pub(super) request: u64,
-    pub(super) answer: RequestResult,
-    pub(super) stop: CancelFlag,
+/// A swarm that is run through inputs before it is shown.
+pub(super) struct LoadingSwarm {
+    running: RunningSwarm,
+    inputs: IntoIter<Vec<bool>>,
+    all: usize,
+    /// Why it cannot go on.
+    fault: Option<String>,
+    request: u64,
+    answer: RequestResult,
 }
 
-/// A message to the thread.
-pub(super) enum SwarmOrder {
-    Load(Box<LoadedSwarm>),
-    /// With the request to answer.
-    Change(u64, Change),
-    /// The last cycles up to now, for work on another thread.
-    Excerpt(u32, Sender<Option<Excerpt>>),
+impl LoadingSwarm {
+    /// A swarm at its start, the inputs to run it through, and the request to answer then.
+    pub(super) fn new(running: RunningSwarm, inputs: Vec<Vec<bool>>, (request, answer): (u64, RequestResult)) -> Self {
+        Self { running, all: inputs.len(), inputs: inputs.into_iter(), fault: None, request, answer }
+    }
+
+    /// Simulates some cycles. The page learns of the end when the swarm is shown.
+    ///
+    /// # Errors
+    /// When it is stopped.
+    pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
+        for _ in 0..PORTION {
+            job.check()?;
+            let Some(bits) = self.inputs.next().filter(|_| self.fault.is_none()) else {
+                return Ok(PortionEnd::Done(None));
+            };
+            self.running.inputs = bits;
+            self.fault = self.running.cycle();
+        }
+        job.progress((self.all - self.inputs.len()) as u64, self.all as u64);
+        Ok(PortionEnd::More)
+    }
 }
 
 /// A change of a swarm or of its pace.
@@ -58,17 +73,10 @@ pub(super) enum Change {
     View { robots: Vec<usize> },
 }
 
-/// Starts the thread. It ends when all senders are dropped.
-pub(super) fn start(outbox: Outbox) -> Sender<SwarmOrder> {
-    let (sender, orders) = channel();
-    thread::spawn(move || Runner { orders, outbox, shown: None }.run());
-    sender
-}
-
-struct Runner {
-    orders: Receiver<SwarmOrder>,
+/// What a page sees of a swarm, if it has one.
+pub(super) struct Runner {
     outbox: Outbox,
-    shown: Option<Shown>,
+    shown: Option<RunningSwarm>,
 }
 
 /// The speed of a running swarm.
@@ -78,11 +86,11 @@ struct Pace {
     /// Cycles after which it pauses.
     left: Option<u32>,
     /// The time of the next cycle.
-    next: Instant,
+    next: Duration,
 }
 
 /// A swarm with its history.
-struct Shown {
+pub(super) struct RunningSwarm {
     number: u32,
     compiled: Compiled,
     swarm: LiveSwarm,
@@ -94,7 +102,7 @@ struct Shown {
     clock: Option<(usize, u32, u32)>,
     pace: Option<Pace>,
     /// When the last cycles were done.
-    times: VecDeque<Instant>,
+    times: VecDeque<Duration>,
     starts: Vec<[f64; 2]>,
     poses: Vec<Poses>,
     view: Vec<usize>,
@@ -104,86 +112,66 @@ struct Shown {
     sent_before: u32,
     /// Whether the page does not know the current state.
     is_new: bool,
-    last_frame: Option<Instant>,
+    last_frame: Option<Duration>,
     /// The width of its world, in voxels.
     world: f64,
 }
 
 impl Runner {
-    fn run(mut self) {
-        loop {
-            let order = match self.shown.as_ref().map_or(Wait::Forever, Shown::wait) {
-                Wait::Forever => self.orders.recv().map_err(|_| RecvTimeoutError::Disconnected),
-                Wait::For(time) => self.orders.recv_timeout(time),
-            };
-            match order {
-                Ok(order) => self.obey(order),
-                Err(RecvTimeoutError::Timeout) => {}
-                Err(RecvTimeoutError::Disconnected) => return,
-            }
-            let Some(shown) = &mut self.shown else { continue };
-            if shown.is_due()
-                && let Some(reason) = shown.go_on()
-            {
-                self.outbox.event(PlayEvent::Stopped { reason });
-            }
-            shown.show(&self.outbox);
-        }
+    /// No swarm.
+    pub(super) fn new(outbox: Outbox) -> Self {
+        Self { outbox, shown: None }
     }
 
-    fn obey(&mut self, order: SwarmOrder) {
-        match order {
-            SwarmOrder::Load(loaded) => self.load(*loaded),
-            SwarmOrder::Change(id, change) => {
-                // A frame of before would come after the answer, and the page would take it for what follows.
-                if let Some(shown) = self.shown.as_mut().filter(|_| self.outbox.clear()) {
-                    shown.take_back();
-                }
-                let done = self.shown.as_mut().ok_or(Refused::NoSwarm).and_then(|shown| shown.change(change));
-                self.outbox.done(id, done);
-            }
-            SwarmOrder::Excerpt(cycles, reply) => {
-                let _ = reply.send(self.shown.as_ref().map(|shown| shown.excerpt(cycles)));
-            }
-        }
+    /// The time until there is something to do; `None` if there is nothing until a request.
+    pub(super) fn due(&self, now: Duration) -> Option<Duration> {
+        self.shown.as_ref().and_then(|shown| shown.due(now))
     }
 
-    fn load(&mut self, loaded: LoadedSwarm) {
-        let LoadedSwarm { number, compiled, swarm, inputs, request, answer, stop } = loaded;
-        let mut shown = Shown::new(number, compiled, swarm);
-        let all = inputs.len();
-        let mut fault = None;
-        for (done, bits) in inputs.into_iter().enumerate() {
-            if stop.is_raised() {
-                return self.outbox.answer(request, Err(Refused::Cancelled));
-            }
-            shown.inputs = bits;
-            fault = shown.cycle();
-            if fault.is_some() {
-                break;
-            }
-            if done % 8 == 7 {
-                self.outbox.progress(request, [done as u64 + 1, all as u64]);
-            }
-        }
-        // A frame of the swarm before would come after the answer.
-        self.outbox.clear();
-        self.outbox.answer(request, Ok(answer));
-        if let Some(reason) = fault {
+    /// Simulates the next cycle if it is time for it, and sends a frame if there is something new.
+    pub(super) fn advance(&mut self, now: Duration) {
+        let Some(shown) = &mut self.shown else { return };
+        if shown.is_due(now)
+            && let Some(reason) = shown.go_on(now)
+        {
             self.outbox.event(PlayEvent::Stopped { reason });
         }
-        self.shown = Some(shown);
+        shown.show(&self.outbox, now);
+    }
+
+    /// Changes the swarm or its pace, and answers the request.
+    pub(super) fn change(&mut self, id: u64, change: Change, now: Duration) {
+        // A frame of before would come after the answer, and the page would take it for what follows.
+        if let Some(shown) = self.shown.as_mut().filter(|_| self.outbox.line().remove_frame()) {
+            shown.take_back();
+        }
+        let done = self.shown.as_mut().ok_or(Refused::NoSwarm).and_then(|shown| shown.change(change, now));
+        self.outbox.done(id, done);
+    }
+
+    /// The last cycles up to now, to be simulated again.
+    ///
+    /// # Errors
+    /// When there is no swarm.
+    pub(super) fn excerpt(&self, cycles: u32) -> Result<Excerpt, Refused> {
+        self.shown.as_ref().map(|shown| shown.excerpt(cycles)).ok_or(Refused::NoSwarm)
+    }
+
+    /// Shows a swarm that has been run through its inputs, and answers its request.
+    pub(super) fn show(&mut self, loaded: LoadingSwarm) {
+        // A frame of the swarm before would come after the answer.
+        self.outbox.line().remove_frame();
+        self.outbox.answer(loaded.request, Ok(loaded.answer));
+        if let Some(reason) = loaded.fault {
+            self.outbox.event(PlayEvent::Stopped { reason });
+        }
+        self.shown = Some(loaded.running);
     }
 }
 
-/// How long the thread waits for a message.
-enum Wait {
-    Forever,
-    For(Duration),
-}
-
-impl Shown {
-    fn new(number: u32, compiled: Compiled, swarm: LiveSwarm) -> Self {
+impl RunningSwarm {
+    /// A swarm at its start.
+    pub(super) fn new(number: u32, compiled: Compiled, swarm: LiveSwarm) -> Self {
         let trace = swarm.trace();
         let lefts = trace.recording.robots.iter().map(|robot| robot.origin());
         let starts = trace.robots.iter().zip(lefts).map(|(robot, left)| [robot.com_x[0], left]).collect();
@@ -213,30 +201,30 @@ impl Shown {
         self.swarm.cycles() as u32
     }
 
-    fn wait(&self) -> Wait {
-        let until_cycle = self.pace.as_ref().map(|pace| pace.next.saturating_duration_since(Instant::now()));
+    fn due(&self, now: Duration) -> Option<Duration> {
+        let until_cycle = self.pace.as_ref().map(|pace| pace.next.saturating_sub(now));
         let until_frame = self.is_new.then_some(FRAME_TIME);
-        match until_cycle.into_iter().chain(until_frame).min() {
-            Some(time) => Wait::For(time),
-            None => Wait::Forever,
-        }
+        until_cycle.into_iter().chain(until_frame).min()
     }
 
-    fn is_due(&self) -> bool {
-        self.pace.as_ref().is_some_and(|pace| pace.next <= Instant::now())
+    fn is_due(&self, now: Duration) -> bool {
+        self.pace.as_ref().is_some_and(|pace| pace.next <= now)
     }
 
     /// Simulates the next cycle, and sets the time of the one after it. Returns the reason if the swarm cannot
     /// continue.
-    fn go_on(&mut self) -> Option<String> {
+    fn go_on(&mut self, now: Duration) -> Option<String> {
         let fault = self.cycle().or_else(|| self.ground_ends());
         if fault.is_some() {
             self.pace = None;
         }
+        self.times.push_back(now);
+        if self.times.len() > PACE_CYCLES {
+            self.times.pop_front();
+        }
         let Some(pace) = &mut self.pace else { return fault };
-        let now = Instant::now();
         pace.next = match pace.speed {
-            Some(speed) => (pace.next + Duration::from_secs_f64(1.0 / speed)).max(now - LATE),
+            Some(speed) => (pace.next + Duration::from_secs_f64(1.0 / speed)).max(now.saturating_sub(LATE)),
             None => now,
         };
         pace.left = pace.left.map(|left| left - 1);
@@ -265,10 +253,6 @@ impl Shown {
         self.sent = self.sent.min(now);
         self.history.push(now + 1, logged, &self.swarm);
         self.is_new = true;
-        self.times.push_back(Instant::now());
-        if self.times.len() > PACE_CYCLES {
-            self.times.pop_front();
-        }
         None
     }
 
@@ -280,7 +264,7 @@ impl Shown {
         self.swarm.trace().robots.iter().any(at_end).then(|| "a robot has reached the end of its ground".to_owned())
     }
 
-    fn change(&mut self, change: Change) -> Result<(), Refused> {
+    fn change(&mut self, change: Change, now: Duration) -> Result<(), Refused> {
         match change {
             Change::Inputs(bits) if bits.len() != self.inputs.len() => {
                 return Err(Refused::Bits { expected: self.inputs.len() });
@@ -290,9 +274,9 @@ impl Shown {
                 return Err(Refused::Bits { expected: self.inputs.len() });
             }
             Change::Clock { bit, half } => self.clock = half.map(|half| (bit, half.max(1), self.now())),
-            Change::Run { speed } => self.set_pace(speed, None),
+            Change::Run { speed } => self.set_pace(speed, None, now),
             Change::Pause => self.set_paused(),
-            Change::Step { cycles } => self.set_pace(None, Some(cycles.clamp(1, 1000))),
+            Change::Step { cycles } => self.set_pace(None, Some(cycles.clamp(1, 1000)), now),
             Change::Reset => self.reset(),
             Change::Seek { cycle } => self.seek(cycle)?,
             Change::View { robots } => {
@@ -315,9 +299,9 @@ impl Shown {
         }
     }
 
-    fn set_pace(&mut self, speed: Option<f64>, left: Option<u32>) {
+    fn set_pace(&mut self, speed: Option<f64>, left: Option<u32>, now: Duration) {
         let speed = speed.filter(|speed| speed.is_finite()).map(|speed| speed.clamp(0.01, 10_000.0));
-        self.pace = Some(Pace { speed, left, next: Instant::now() });
+        self.pace = Some(Pace { speed, left, next: now });
         self.times.clear();
         self.is_new = true;
     }
@@ -378,9 +362,9 @@ impl Shown {
     }
 
     /// Sends a frame if there is something new and the page can receive it.
-    fn show(&mut self, outbox: &Outbox) {
-        let too_soon = self.last_frame.is_some_and(|last| last.elapsed() < FRAME_TIME);
-        if !self.is_new || too_soon || !outbox.has_room() {
+    fn show(&mut self, outbox: &Outbox, now: Duration) {
+        let too_soon = self.last_frame.is_some_and(|last| now.saturating_sub(last) < FRAME_TIME);
+        if !self.is_new || too_soon || !outbox.line().has_room() {
             return;
         }
         let frame = SwarmFrame {
@@ -396,11 +380,11 @@ impl Shown {
             poses: &self.poses,
             view: &self.view,
         };
-        outbox.put(frame.encode());
+        outbox.line().frame(frame.encode());
         self.sent_before = self.sent;
         self.sent = self.history.last();
         self.is_new = false;
-        self.last_frame = Some(Instant::now());
+        self.last_frame = Some(now);
     }
 
     /// Cycles a second over the last cycles.
@@ -408,7 +392,7 @@ impl Shown {
         let (Some(first), Some(last), true) = (self.times.front(), self.times.back(), self.pace.is_some()) else {
             return 0.0;
         };
-        let seconds = last.duration_since(*first).as_secs_f64();
+        let seconds = last.saturating_sub(*first).as_secs_f64();
         if seconds > 0.0 { ((self.times.len() - 1) as f64 / seconds) as f32 } else { 0.0 }
     }
 }

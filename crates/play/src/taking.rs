@@ -7,7 +7,7 @@ use crate::jobs::Job;
 use crate::programs;
 use crate::refusal::Refused;
 use crate::request::TakeKind;
-use crate::served::SCHEME;
+use crate::site::SCHEME;
 use nbc_base::model::CYCLE_STEPS;
 use nbc_session::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
 use nbc_session::{Checked, Choice, Excerpt, RunEnd, Session, SimulationRun, run_page};

@@ -5,11 +5,11 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use crate::jobs::Job;
 use crate::refusal::Refused;
+use crate::shell::PageFolder;
 use nbc_circuit::CancelFlag;
-use nbc_session::store::{FolderWorld, GuardedWorld};
 use nbc_session::{Checked, Session};
 
-/// The texts of a page and what is known of them. Checks are made on the threads of requests, and end with these.
+/// The texts of a page and what is known of them. Checks are parts of requests, and end with these.
 pub(super) struct TextChecker {
     session: Mutex<Session>,
     /// What has changed since the last check, by path; so a change never waits for a check.
@@ -27,10 +27,10 @@ struct Changes {
 }
 
 impl TextChecker {
-    pub(super) fn new(world: FolderWorld) -> Self {
+    pub(super) fn new(folder: &dyn PageFolder) -> Self {
         let cancel: Arc<Mutex<CancelFlag>> = Arc::default();
         let current = cancel.clone();
-        let world = GuardedWorld::new(world, move || lock(&current).clone());
+        let world = folder.guarded(Arc::new(move || lock(&current).clone()));
         Self { session: Mutex::new(Session::new(world)), changes: Mutex::default(), cancel }
     }
 

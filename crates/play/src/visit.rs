@@ -1,91 +1,101 @@
-//! The state of one connected page: its texts, its swarm, its requests. Each page has a thread of its own.
+//! The state of one connected page: its texts, its swarm, its requests.
 
 use std::sync::Arc;
-use std::sync::mpsc::{Sender, channel};
-use std::thread;
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{Receiver, Sender, channel};
 
-use axum::extract::ws::Utf8Bytes;
+use core::time::Duration;
+
 use serde_json::Value;
-use tokio::sync::mpsc;
 
 use crate::class::Membership;
-use crate::files::{PageFiles, example, examples, is_circuit, program_around};
+use crate::evolving::Evolving;
 use crate::history::MEMORY;
-use crate::jobs::{Job, JobEnd, JobKind, Jobs};
+use crate::jobs::{Job, JobEnd, JobWork, Jobs, PortionEnd, once};
 use crate::message::finding::findings;
 use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
-use crate::outbox::Outbox;
+use crate::outbox::{Line, Outbox};
+use crate::page_files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
-use crate::runner::{self, SwarmOrder};
-use crate::served::Served;
+use crate::runner::{LoadingSwarm, Runner};
+use crate::shell::WorkKind;
+use crate::site::PlaySite;
 use crate::text_checker::TextChecker;
-use crate::{bodies, evolving, lessons, programs, taking};
+use crate::{bodies, lessons, programs, taking};
 use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
-use nbc_session::store::GuardedWorld;
-use nbc_session::{Checked, Choice, Compiled, Session};
+use nbc_session::{Checked, Choice, Compiled, Excerpt, Session};
 use nbc_swarm::Room;
 
 /// The time between two checks of the files that the page has read.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// A page that is connected.
-pub(super) struct Visit {
-    served: Arc<Served>,
+/// A page that is connected. It knows no clock: `now` is always the time since any moment, the same for all visits of
+/// a site, and never goes back.
+pub struct Visit {
+    site: Arc<PlaySite>,
     checker: Arc<TextChecker>,
     /// The path of the last text that was to be checked, and the flag that ends its check.
     checking: Option<(String, CancelFlag)>,
     files: PageFiles,
     jobs: Jobs,
-    runner: Sender<SwarmOrder>,
+    runner: Runner,
     outbox: Outbox,
     swarms: u32,
-    looked: Instant,
+    /// Swarms that work has made, to be shown.
+    loaded: (Sender<Box<LoadingSwarm>>, Receiver<Box<LoadingSwarm>>),
+    now: Duration,
+    /// When the files were checked.
+    looked: Duration,
     membership: Option<Membership>,
 }
 
 impl Visit {
     /// A page that has connected.
-    pub(super) fn new(served: Arc<Served>, outbox: Outbox) -> Self {
-        let world = served.world.clone();
+    pub fn new(site: Arc<PlaySite>, line: Arc<dyn Line>, now: Duration) -> Self {
+        let (folder, outbox) = (site.folder.clone(), Outbox::new(line));
         Self {
-            checker: Arc::new(TextChecker::new(world.clone())),
+            checker: Arc::new(TextChecker::new(&*folder)),
             checking: None,
-            files: PageFiles::new(world),
-            jobs: Jobs::new(outbox.clone(), served.making.clone()),
-            runner: runner::start(outbox.clone()),
+            files: PageFiles::new(folder),
+            jobs: Jobs::new(outbox.clone(), site.making.clone()),
+            runner: Runner::new(outbox.clone()),
             outbox,
-            served,
+            site,
             swarms: 0,
-            looked: Instant::now(),
+            loaded: channel(),
+            now,
+            looked: now,
             membership: None,
         }
     }
 
-    /// Answers requests until the page disconnects. An empty message stands for a pause without messages.
-    pub(super) fn serve(mut self, mut requests: mpsc::Receiver<Utf8Bytes>) {
-        while let Some(text) = requests.blocking_recv() {
-            if !text.is_empty() {
-                self.receive(&text);
-            }
-            if self.looked.elapsed() >= LOOK {
-                self.look();
-            }
+    /// Whether no long request runs.
+    pub fn is_idle(&self) -> bool {
+        self.jobs.are_done()
+    }
+
+    /// The time until [`Visit::advance`] has something to do. A request, or a call of [`Line::wake`], may come before.
+    pub fn due(&self, now: Duration) -> Duration {
+        let look = (self.looked + LOOK).saturating_sub(now);
+        self.runner.due(now).map_or(look, |swarm| swarm.min(look))
+    }
+
+    /// Does what is due, at most one cycle of the swarm.
+    pub fn advance(&mut self, now: Duration) {
+        self.now = now;
+        while let Ok(loaded) = self.loaded.1.try_recv() {
+            self.runner.show(*loaded);
+        }
+        self.runner.advance(now);
+        if now.saturating_sub(self.looked) >= LOOK {
+            self.look();
         }
     }
 
-    /// Answers a request, and waits until long ones are done, but not longer than the time.
-    pub(super) fn receive_and_wait(&mut self, text: &str, time: Duration) {
-        let end = Instant::now() + time;
-        self.receive(text);
-        while !self.jobs.are_done() && Instant::now() < end {
-            thread::sleep(Duration::from_millis(1));
-        }
-    }
-
-    fn receive(&mut self, text: &str) {
+    /// Takes a request, which should be JSON, and answers it, now or when its work is done.
+    pub fn receive(&mut self, text: &str, now: Duration) {
+        self.now = now;
         match serde_json::from_str::<Request>(text) {
             Ok(Request { id, verb }) => self.request(id, verb),
             Err(error) => {
@@ -97,17 +107,17 @@ impl Visit {
 
     /// Reports files that have changed.
     fn look(&mut self) {
-        self.looked = Instant::now();
+        self.looked = self.now;
         for (path, event) in self.files.changes() {
             self.checker.close(path);
             self.outbox.event(event);
         }
-        self.jobs.end_late();
+        self.jobs.end_late(self.now);
     }
 
     fn request(&mut self, id: u64, verb: Verb) {
         let verb = match verb.change() {
-            Ok(change) => return self.order(SwarmOrder::Change(id, change)),
+            Ok(change) => return self.runner.change(id, change, self.now),
             Err(verb) => verb,
         };
         let answer = match verb {
@@ -123,7 +133,7 @@ impl Visit {
             Verb::Join { name, key } => self.join(&name, key).map(RequestResult::Join),
             Verb::Progress { place, finished } => {
                 let done = self.membership.as_ref().ok_or(Refused::NoClass);
-                return self.outbox.done(id, done.map(|membership| membership.progress(place, finished)));
+                return self.outbox.done(id, done.map(|membership| membership.progress(place, finished, self.now)));
             }
             Verb::Leave => {
                 self.membership.take().into_iter().for_each(Membership::leave);
@@ -140,9 +150,9 @@ impl Visit {
 
     /// Joins the class. A page that has joined it takes another name, and gives up the one before.
     fn join(&mut self, name: &str, key: Option<String>) -> Result<ClassName, Refused> {
-        let class = self.served.class.as_ref().ok_or(Refused::NoClass)?;
+        let class = self.site.class.as_ref().ok_or(Refused::NoClass)?;
         let key = key.or_else(|| self.membership.as_ref().map(|own| own.key().to_owned()));
-        let joined = class.join(name, key.as_deref())?;
+        let joined = class.join(name, key.as_deref(), self.now)?;
         let key = joined.key().to_owned();
         if let Some(before) = self.membership.replace(joined).filter(|before| before.key() != key) {
             before.leave();
@@ -152,7 +162,7 @@ impl Visit {
 
     /// Whether the page may save at a path: learners of a class only have files of their own.
     fn may_save(&self, path: &str) -> Result<(), Refused> {
-        if self.served.class.is_none() {
+        if self.site.class.is_none() {
             return Ok(());
         }
         let own = self.membership.as_ref().ok_or(Refused::NotJoined)?.own_path(path);
@@ -165,33 +175,39 @@ impl Visit {
         older.into_iter().for_each(|(_, stop)| stop.raise());
         self.checker.update(path.clone(), text);
         let (checker, of) = (self.checker.clone(), path.clone());
-        let stop = self.jobs.start(id, JobKind::Check, move |job| {
-            Ok(Some(RequestResult::Program(programs::program(&*checker.checked(&of, job)?))))
-        });
+        let work = once(move |job| Ok(Some(RequestResult::Program(programs::program(&*checker.checked(&of, job)?)))));
+        let stop = self.begin(id, WorkKind::Check, work);
         self.checking = stop.map(|stop| (path, stop));
+    }
+
+    fn begin(&self, id: u64, kind: WorkKind, work: JobWork) -> Option<CancelFlag> {
+        self.jobs.start(&*self.site.shell, id, kind, work, self.now)
     }
 
     /// Starts a long request.
     fn start(&mut self, id: u64, verb: Verb) {
+        let mut kind = WorkKind::Program;
+        let site = self.site.clone();
         let work = match verb {
             Verb::Compile { path, circuit, swarm } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
-                return self.run_swarm(id, path, RequestResult::Compile, move |session, checked, job| {
+                self.swarm(path, RequestResult::Compile, move |session, checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
                     Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
-                });
+                })
             }
             Verb::Replay { path, test, swarm, world, row } => {
-                return self.run_swarm(id, path, RequestResult::Replay, move |session, checked, job| {
+                self.swarm(path, RequestResult::Replay, move |session, checked, job| {
                     programs::until_row(session, checked, (test, swarm.as_deref(), world.as_deref(), row), job)
-                });
+                })
             }
             Verb::Read { path: Some(path), .. } => {
-                let (checker, world) = (self.checker.clone(), self.served.world.clone());
-                boxed(move |job| {
+                let checker = self.checker.clone();
+                once(move |job| {
                     // Its text is not one of the page's, but it waits for its turn to be translated.
-                    let mut apart = Session::new(GuardedWorld::until(world.clone(), job.stop.clone()));
-                    let read = checker.with(job, |_| program_around(&world, &mut apart, &path))??;
+                    let stop = job.stop.clone();
+                    let mut apart = Session::new(site.folder.guarded(Arc::new(move || stop.clone())));
+                    let read = checker.with(job, |_| program_around(&*site.folder, &mut apart, &path))??;
                     Ok(Some(RequestResult::Read(read)))
                 })
             }
@@ -200,55 +216,59 @@ impl Visit {
             }),
             Verb::Robots { path } => {
                 let (checker, session) = (self.checker.clone(), self.fresh());
-                boxed(move |job| {
+                once(move |job| {
                     let checked = path.map(|path| checker.checked(&path, job)).transpose()?;
                     bodies::robots(&session, checked.as_deref()).map(|cards| Some(RequestResult::Robots(cards)))
                 })
             }
-            Verb::Lessons => {
-                let served = self.served.clone();
-                boxed(move |_| {
-                    let lessons::ReadLessons { lessons, found } = lessons::load(&served.lessons, Some(&served.world));
-                    let findings = findings(&found.list, &found.sources);
-                    Ok(Some(RequestResult::Lessons(LessonList { lessons, findings })))
-                })
-            }
+            Verb::Lessons => once(move |_| {
+                let read = lessons::load(site.shell.lessons(), Some(&site.folder.world()));
+                let findings = findings(&read.found.list, &read.found.sources);
+                Ok(Some(RequestResult::Lessons(LessonList { lessons: read.lessons, findings })))
+            }),
             Verb::Probe { body, cycles, character } => {
-                let served = self.served.clone();
-                let is_whole = character.unwrap_or(true);
-                boxed(move |job| served.probing.install(|| bodies::probe(&body, cycles, is_whole, job)))
+                kind = WorkKind::Probe;
+                once(move |job| bodies::probe(&body, cycles, character.unwrap_or(true), job))
             }
             Verb::Evolve(request) => {
-                let served = self.served.clone();
-                boxed(move |job| evolving::evolve(&request, &served.background, job))
+                kind = WorkKind::Search;
+                let mut search = None;
+                Box::new(move |job: &mut Job| match &mut search {
+                    None => {
+                        search = Some(Evolving::new(&request)?);
+                        Ok(PortionEnd::More)
+                    }
+                    Some(search) => search.advance(job),
+                })
             }
             Verb::Keep(request) => {
-                let served = self.served.clone();
-                let files = PageFiles::new(served.world.clone());
-                let is_shared = served.class.is_some();
-                boxed(move |job| served.background.install(|| bodies::keep(&request, &files, is_shared, job)))
+                kind = WorkKind::Search;
+                let (files, is_shared) = (PageFiles::new(site.folder.clone()), site.class.is_some());
+                once(move |job| bodies::keep(&request, &files, is_shared, job))
             }
             Verb::Export { path, circuit, swarm } => {
-                let (choice, served) = (Choice { circuit: Some(circuit), swarm }, self.served.clone());
+                let choice = Choice { circuit: Some(circuit), swarm };
                 self.with_program(path, move |session, checked, job| {
                     let (name, bytes) = taking::exported(session, checked, &choice, job)?;
-                    let url = served.takes.keep(&name, taking::HTML, bytes);
+                    let url = site.shell.keep(&name, taking::HTML, bytes);
                     Ok(Some(RequestResult::Export(TakenFile { url, name })))
                 })
             }
-            Verb::Take { what, cycles } => self.take(what, cycles),
+            Verb::Take { what, cycles } => {
+                let (session, excerpt) = (self.fresh(), self.runner.excerpt(cycles.clamp(1, what.most())));
+                once(move |job| taken(&site, &session, &excerpt?, what, job))
+            }
             other => unreachable!("{other:?} is answered at once"),
         };
-        self.jobs.start(id, JobKind::Work, work);
+        self.begin(id, kind, work);
     }
 
     fn hello(&self) -> Greeting {
-        let name = self.served.world.root().file_name().unwrap_or_default().to_string_lossy();
         Greeting {
             version: nbc_base::VERSION,
-            folder: name.into_owned(),
-            root: self.served.root.clone(),
-            file: self.served.file.clone(),
+            folder: self.site.folder.name(),
+            root: self.site.folder.uri(),
+            file: self.site.file.clone(),
             files: self.files.list(),
             examples: examples(),
             limits: PlayLimits {
@@ -256,69 +276,62 @@ impl Visit {
                 cycles: MEMORY,
                 message: Limit::PageMessage.most() as usize,
             },
-            class: self.served.class.is_some(),
+            class: self.site.class.is_some(),
             cycle_seconds: 0.25,
         }
     }
 
-    /// Compiles on another thread, and gives the swarm to the runner, which answers.
-    fn run_swarm(
+    /// Compiles a circuit, runs its swarm through inputs, and hands it over to be shown, which is the answer.
+    fn swarm(
         &mut self,
-        id: u64,
         path: String,
         answer: fn(SwarmAnswer) -> RequestResult,
         compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Vec<Vec<bool>>), Refused> + Send + 'static,
-    ) {
+    ) -> JobWork {
         self.swarms += 1;
-        let (number, runner) = (self.swarms, self.runner.clone());
-        let work = self.with_program(path, move |session, checked, job| {
-            let (compiled, inputs) = compile(session, checked, job)?;
-            let loaded = programs::loaded(session, compiled, inputs, answer, (number, job))?;
-            let _ = runner.send(SwarmOrder::Load(Box::new(loaded)));
-            Ok(None)
-        });
-        self.jobs.start(id, JobKind::Work, work);
+        let (number, loaded) = (self.swarms, self.loaded.0.clone());
+        let (checker, session) = (self.checker.clone(), self.fresh());
+        let (mut compile, mut loading) = (Some(compile), None);
+        Box::new(move |job| {
+            let Some(swarm) = &mut loading else {
+                let compile = compile.take().expect("it is compiled once");
+                let checked = checker.open(&path, job)?;
+                let (compiled, inputs) = compile(&session, &checked, job)?;
+                loading = Some(programs::loading(&session, compiled, inputs, answer, (number, job))?);
+                return Ok(PortionEnd::More);
+            };
+            let step = swarm.advance(job)?;
+            if let PortionEnd::Done(_) = step {
+                // A page that is gone sees no swarm.
+                loading.take().into_iter().for_each(|swarm| _ = loaded.send(Box::new(swarm)));
+                job.outbox.line().wake();
+            }
+            Ok(step)
+        })
     }
 
-    /// Work on a program without errors.
+    /// JobWork on a program without errors.
     fn with_program(
         &self,
         path: String,
         work: impl FnOnce(&Session, &Checked, &mut Job) -> JobEnd + Send + 'static,
-    ) -> Work {
+    ) -> JobWork {
         let (checker, session) = (self.checker.clone(), self.fresh());
-        boxed(move |job| work(&session, &*checker.open(&path, job)?, job))
+        once(move |job| work(&session, &*checker.open(&path, job)?, job))
     }
 
-    /// A session for another thread.
+    /// A session apart from that of the page's texts.
     fn fresh(&self) -> Session {
-        Session::new(self.served.world.clone()).with_poses(Room::LIVE)
-    }
-
-    fn take(&self, what: TakeKind, cycles: u32) -> Work {
-        let (reply, excerpt) = channel();
-        self.order(SwarmOrder::Excerpt(cycles.clamp(1, what.most()), reply));
-        let (session, served) = (self.fresh(), self.served.clone());
-        boxed(move |job| {
-            let excerpt = excerpt.recv().ok().flatten().ok_or(Refused::NoSwarm)?;
-            let bytes = taking::make(&session, &excerpt, what, job)?;
-            let (ending, kind) = what.ending();
-            let name = format!("{}.{ending}", excerpt.compiled.plan.circuit.circuit);
-            Ok(Some(RequestResult::Take(TakenFile { url: served.takes.keep(&name, kind, bytes), name })))
-        })
-    }
-
-    fn order(&self, order: SwarmOrder) {
-        // The runner lives as long as this end.
-        let _ = self.runner.send(order);
+        Session::new(self.site.folder.world()).with_poses(Room::LIVE)
     }
 }
 
-/// The work of a long request.
-type Work = Box<dyn FnOnce(&mut Job) -> JobEnd + Send>;
-
-fn boxed(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Work {
-    Box::new(work)
+/// Makes a file of the last cycles of a swarm.
+fn taken(site: &PlaySite, session: &Session, excerpt: &Excerpt, what: TakeKind, job: &mut Job) -> JobEnd {
+    let bytes = taking::make(session, excerpt, what, job)?;
+    let (ending, media_type) = what.ending();
+    let name = format!("{}.{ending}", excerpt.compiled.plan.circuit.circuit);
+    Ok(Some(RequestResult::Take(TakenFile { url: site.shell.keep(&name, media_type, bytes), name })))
 }
 
 #[cfg(test)]
@@ -329,8 +342,7 @@ mod tests {
     use serde_json::json;
 
     use super::*;
-    use crate::outbox::outbox;
-    use nbc_session::store::FolderWorld;
+    use crate::local::{LocalLine, LocalShell, MemoryFolder, PageMessage};
 
     const VERBS: [&str; 20] = [
         "hello", "files", "read", "save", "program", "inputs", "clock", "run", "pause", "step", "reset", "seek",
@@ -338,8 +350,125 @@ mod tests {
     ];
     const TEXTS: [&str; 6] = ["a.nb", "../a", "", "circuit f(a) -> (q) { q = a }", "é\u{0}", "01"];
 
-    fn number() -> impl Strategy<Value = Value> {
-        select(vec![json!(0), json!(1), json!(-1), json!(1.5), json!(1e300), json!(u64::MAX), json!("x"), Value::Null])
+    /// A page with everything around it.
+    struct Tab {
+        folder: MemoryFolder,
+        shell: Arc<LocalShell>,
+        line: Arc<LocalLine>,
+        visit: Visit,
+        now: Duration,
+    }
+
+    impl Tab {
+        fn new() -> Self {
+            let (folder, shell, line) = (MemoryFolder::default(), Arc::<LocalShell>::default(), Arc::default());
+            let making = nbc_session::CompileOptions::default();
+            let site = Arc::new(PlaySite {
+                folder: Arc::new(folder.clone()),
+                file: None,
+                making,
+                class: None,
+                shell: shell.clone(),
+            });
+            let visit = Visit::new(site, Arc::<LocalLine>::clone(&line), Duration::ZERO);
+            Self { folder, shell, line, visit, now: Duration::ZERO }
+        }
+
+        /// Sends a request. Returns the texts that come until its work is done.
+        fn ask(&mut self, request: &Value) -> Vec<Value> {
+            self.visit.receive(&request.to_string(), self.now);
+            while self.shell.has_work() {
+                self.shell.advance();
+            }
+            self.visit.advance(self.now);
+            self.texts()
+        }
+
+        /// The texts that wait. Frames are left out.
+        fn texts(&self) -> Vec<Value> {
+            let next = || self.line.next();
+            let texts = std::iter::from_fn(next).filter_map(|message| match message {
+                PageMessage::Text(text) => Some(serde_json::from_str(&text).unwrap()),
+                PageMessage::Frame(_) => None,
+            });
+            texts.collect()
+        }
+
+        /// Lets some time pass, in steps of a few milliseconds; the number of frames that came.
+        fn pass(&mut self, time: Duration) -> usize {
+            let end = self.now + time;
+            let mut frames = 0;
+            while self.now < end {
+                self.now += self.visit.due(self.now).clamp(Duration::from_millis(1), end - self.now);
+                self.visit.advance(self.now);
+                frames += usize::from(matches!(self.line.next(), Some(PageMessage::Frame(_))));
+            }
+            frames
+        }
+    }
+
+    const LATCH: &str = "circuit latch(d, e) -> (q) { q = if e then d else q }";
+
+    #[test]
+    fn a_swarm_walks_as_fast_as_its_page_says_by_the_clock_that_it_is_given() {
+        let mut tab = Tab::new();
+        let program = json!({ "id": 1, "do": "program", "path": "latch.nb", "text": LATCH });
+        let checked = tab.ask(&program);
+        assert_eq!(checked[0]["ok"]["errors"], 0, "{checked:?}");
+        let compile = json!({ "id": 2, "do": "compile", "path": "latch.nb", "circuit": "latch", "swarm": null });
+        assert_eq!(tab.ask(&compile).last().unwrap()["to"], "compile");
+        assert_eq!(tab.ask(&json!({ "id": 3, "do": "inputs", "bits": "11" })), [json!({ "id": 3, "ok": {} })]);
+        tab.ask(&json!({ "id": 4, "do": "run", "speed": 4.0 }));
+        let frames = tab.pass(Duration::from_secs(2));
+        assert!((7..=10).contains(&frames), "{frames} frames");
+        // The log knows each cycle that was done, and no other.
+        let refused = tab.ask(&json!({ "id": 5, "do": "seek", "cycle": 100 }));
+        assert_eq!(refused[0]["error"]["message"], "the log goes from cycle 0 to 9");
+        assert_eq!(tab.ask(&json!({ "id": 6, "do": "seek", "cycle": 3 })), [json!({ "id": 6, "ok": {} })]);
+        assert_eq!(tab.pass(Duration::from_secs(1)), 1, "a swarm that is shown at a cycle has paused");
+    }
+
+    #[test]
+    fn work_is_done_in_portions_between_which_it_can_be_cancelled() {
+        let mut tab = Tab::new();
+        let evolve = json!({ "id": 7, "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
+        tab.visit.receive(&evolve.to_string(), tab.now);
+        (0..4).for_each(|_| tab.shell.advance());
+        let seen = tab.texts();
+        assert_eq!(seen.iter().filter(|text| text["event"] == "archive").count(), 3, "{seen:?}");
+        assert!(!tab.visit.is_idle());
+        let cancelled = tab.ask(&json!({ "id": 8, "do": "cancel", "of": 7 }));
+        assert_eq!(cancelled[0], json!({ "id": 8, "ok": {} }));
+        assert_eq!(cancelled[1]["error"]["code"], "cancelled");
+        assert!(tab.visit.is_idle());
+    }
+
+    #[test]
+    fn work_that_takes_too_long_is_stopped() {
+        let mut tab = Tab::new();
+        let evolve = json!({ "id": 7, "do": "evolve", "body": null, "box": [2, 2], "generations": 1000, "seed": 1 });
+        tab.visit.receive(&evolve.to_string(), tab.now);
+        tab.now = Duration::from_secs(Limit::PageSeconds.most() + 1);
+        tab.visit.advance(tab.now);
+        let ended = tab.ask(&json!({ "id": 8, "do": "pause" }));
+        assert_eq!(ended.last().unwrap()["error"]["code"], "timed-out", "{ended:?}");
+    }
+
+    #[test]
+    fn what_changes_in_the_folder_is_told_and_counts() {
+        let mut tab = Tab::new();
+        tab.folder.insert("a.nb", LATCH);
+        let read = tab.ask(&json!({ "id": 1, "do": "read", "path": "a.nb" }));
+        assert_eq!(read[0]["ok"]["text"], LATCH);
+        tab.folder.insert("a.nb", "");
+        tab.now += LOOK;
+        tab.visit.advance(tab.now);
+        assert_eq!(tab.texts()[0]["event"], "changed");
+        let saved = tab.ask(&json!({ "id": 2, "do": "save", "path": "a.nb", "text": LATCH, "stamp": "1" }));
+        assert_eq!(saved[0]["error"]["code"], "changed");
+        let saved = tab.ask(&json!({ "id": 3, "do": "save", "path": "a.nb", "text": LATCH, "stamp": "2" }));
+        assert_eq!(saved[0]["to"], "save");
+        assert_eq!(tab.folder.take_written(), Some(("a.nb".to_owned(), LATCH.to_owned())));
     }
 
     proptest! {
@@ -349,22 +478,22 @@ mod tests {
             sent in prop::collection::vec((select(VERBS.to_vec()), select(TEXTS.to_vec()), number(), number()), 0..12),
             broken in ".{0,30}",
         ) {
-            let folder = tempfile::tempdir().unwrap();
-            let world = FolderWorld::new(folder.path()).unwrap();
-            let served = Arc::new(Served::new(world, String::new(), None, "secret".to_owned()));
-            let (inbox, outgoing) = outbox();
-            let mut visit = Visit::new(served, inbox);
-            // Nobody reads the answers.
-            drop(outgoing);
-            visit.receive(&broken);
+            let mut tab = Tab::new();
+            tab.visit.receive(&broken, tab.now);
             for (verb, text, one, two) in sent {
                 let request = json!({
                     "id": one, "do": verb, "path": text, "text": text, "example": text, "stamp": null, "bits": text,
                     "bit": two, "half": one, "speed": two, "cycles": one, "cycle": two, "robots": [one], "of": two,
                     "name": text, "place": null, "finished": one,
                 });
-                visit.receive(&request.to_string());
+                for answer in tab.ask(&request) {
+                    prop_assert!(answer["error"]["message"] != json!("the program failed; its log says where"));
+                }
             }
         }
+    }
+
+    fn number() -> impl Strategy<Value = Value> {
+        select(vec![json!(0), json!(1), json!(-1), json!(1.5), json!(1e300), json!(u64::MAX), json!("x"), Value::Null])
     }
 }

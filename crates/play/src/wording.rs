@@ -1,26 +1,10 @@
-//! The reasons for which pages cannot be served, and their messages.
+//! The reasons for which circuits cannot be exported, and their messages.
 
 use nbc_base::diag::{Code, Diagnostic};
 
-/// The reason for which pages cannot be served.
+/// The reason for which a circuit cannot be exported as a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PlayError {
-    /// An address at which nothing can listen.
-    Address {
-        /// The host, as the user gave it.
-        host: String,
-        /// The port; 0 is any.
-        port: u16,
-        /// What the system says.
-        reason: String,
-    },
-    /// A file or folder that cannot be found.
-    File {
-        /// The path, as the user gave it.
-        path: String,
-        /// What the system says.
-        reason: String,
-    },
+pub enum ExportError {
     /// A circuit with more robots than an exported page may have.
     TooManyRobots {
         /// Its robots.
@@ -35,33 +19,18 @@ pub enum PlayError {
         /// The most.
         most: usize,
     },
-    /// A resource that the system does not provide, such as threads.
-    System {
-        /// What the system says.
-        reason: String,
-    },
 }
 
-impl From<PlayError> for Diagnostic {
-    fn from(error: PlayError) -> Self {
+impl From<ExportError> for Diagnostic {
+    fn from(error: ExportError) -> Self {
         match error {
-            PlayError::Address { host, port, reason } => {
-                let message = format!("cannot listen at {host}, port {port}: {reason}");
-                Self::without_place(Code::BadValue, message).with_help("`--port 0` takes any free port")
-            }
-            PlayError::File { path, reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {reason}"))
-            }
-            PlayError::TooManyRobots { robots, most } => {
+            ExportError::TooManyRobots { robots, most } => {
                 let message = format!("the circuit needs {robots} robots; an exported page has at most {most}");
                 Self::without_place(Code::BadValue, message).with_help("choose a smaller circuit with `--circuit`")
             }
-            PlayError::TooManyBodies { bodies, most } => {
+            ExportError::TooManyBodies { bodies, most } => {
                 let message = format!("the swarm has {bodies} different bodies; an exported page has at most {most}");
                 Self::without_place(Code::BadValue, message).with_help("export it in a world without `noise`")
-            }
-            PlayError::System { reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot start the server: {reason}"))
             }
         }
     }

@@ -1,11 +1,14 @@
 //! Robots that are asked for: the best of a behavior among the elites of runs, or a body that somebody wrote.
 
+#[cfg(feature = "disk")]
 use std::collections::BTreeMap;
 
 #[cfg(feature = "disk")]
 use crate::store::Checkpoint;
 use nbc_base::diag::suggest::nearest;
-use nbc_base::model::{Axis, Behavior, Body, Function, Genotype, Provenance, Robot};
+#[cfg(feature = "disk")]
+use nbc_base::model::Axis;
+use nbc_base::model::{Behavior, Body, Function, Genotype, Provenance, Robot};
 #[cfg(feature = "disk")]
 use nbc_swarm::evolve::images;
 use nbc_swarm::{Executor, MEASUREMENT_COST, Measurement, RobotCandidate, Selected, Selection, Task};

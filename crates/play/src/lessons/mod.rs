@@ -9,34 +9,22 @@ mod solving;
 mod tests;
 mod wording;
 
-use std::fs::{self, File};
-use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use include_dir::{Dir, include_dir};
 
-use crate::message::LessonEntry;
+use crate::lesson_texts::{LessonFiles, LessonTexts};
+use crate::message::{ClassCourse, ClassLesson, LessonEntry};
 use mistake::{LessonMistake, Mistaken};
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileId, Span};
-use nbc_session::store::FolderWorld;
+use nbc_base::source::{FileId, SharedWorld, Span};
 use nbc_session::{Checked, Session};
 use piece::Piece;
 use reading::ReadLesson;
 
 const SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/lessons");
-/// The most lessons, and bytes of one.
+/// The most lessons.
 const MOST: usize = 100;
-const BYTES: u64 = 64 << 10;
-
-/// Where lessons come from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum LessonSource {
-    /// Those that come with the program.
-    Shipped,
-    /// The files `*.md` of a folder, but for `README.md`.
-    Folder(PathBuf),
-}
 
 /// Lessons, and what is wrong with their files. A file with a mistake gives no lesson.
 #[derive(Debug, Default)]
@@ -46,23 +34,41 @@ pub(crate) struct ReadLessons {
 }
 
 /// Reads all lessons. The programs of an author are checked in the world in which the page opens them, if there is one.
-pub(crate) fn load(sources: &[LessonSource], world: Option<&FolderWorld>) -> ReadLessons {
+pub(crate) fn load(sources: Vec<LessonTexts>, world: Option<&SharedWorld>) -> ReadLessons {
     let mut read = ReadLessons::default();
     for source in sources {
         match source {
             // A test checks the programs of these.
-            LessonSource::Shipped => shipped().for_each(|(file, text)| read.add(&file, &text, None)),
-            LessonSource::Folder(folder) => read.add_folder(folder, world),
+            LessonTexts::Shipped => shipped().for_each(|(file, text)| read.add(&file, &text, None)),
+            LessonTexts::Folder(folder) => read.add_folder(folder, world),
         }
     }
     read
 }
 
-/// What is wrong with a text that is to be a lesson; its programs are not checked.
-pub(crate) fn faults_of(text: &str) -> Diagnostics {
+/// What is wrong with the lessons of an author, whose programs are checked in this world. A page shows it, too.
+pub fn faults_of_lessons(sources: Vec<LessonTexts>, world: &SharedWorld) -> Diagnostics {
+    load(sources, Some(world)).found
+}
+
+/// What is wrong with a text that is to be a lesson; its programs are not checked. The fuzzer calls this, because it
+/// needs no folder.
+pub fn faults_of_lesson(text: &str) -> Diagnostics {
     let mut read = ReadLessons::default();
     read.add("lesson.md", text, None);
     read.found
+}
+
+/// The lessons with their tasks, for a teacher.
+pub fn course(sources: Vec<LessonTexts>) -> ClassCourse {
+    // The programs are not checked: this must not take long.
+    let lessons = load(sources, None).lessons;
+    let lesson = |lesson: LessonEntry| ClassLesson {
+        name: lesson.name,
+        title: lesson.title,
+        steps: lesson.steps.into_iter().map(|step| step.task).collect(),
+    };
+    ClassCourse { lessons: lessons.into_iter().map(lesson).collect() }
 }
 
 /// The names and texts of the files that come with the program.
@@ -74,26 +80,27 @@ fn shipped() -> impl Iterator<Item = (String, String)> {
 }
 
 impl ReadLessons {
-    fn add_folder(&mut self, folder: &Path, world: Option<&FolderWorld>) {
-        let files = match markdown(folder) {
+    fn add_folder(&mut self, folder: LessonFiles, world: Option<&SharedWorld>) {
+        let LessonFiles { folder, files } = folder;
+        let files = match files {
             Ok(files) => files,
-            Err(error) => return self.found.list.push(wording::unreadable(folder, &error)),
+            Err(error) => return self.found.list.push(wording::unreadable(&folder, &error)),
         };
         if files.is_empty() {
-            self.found.list.push(wording::no_lessons(folder));
+            self.found.list.push(wording::no_lessons(&folder));
         }
-        for file in files {
-            match text_of(&file) {
-                Ok(Some(text)) => self.add(&file.to_string_lossy(), &text, world),
-                Ok(None) => self.found.list.push(wording::too_large(&file, "bytes", BYTES as usize)),
+        for (file, text) in files {
+            match text {
+                Ok(text) if text.len() <= LessonFiles::MOST_BYTES => self.add(&file, &text, world),
+                Ok(_) => self.found.list.push(wording::too_large(&file, "bytes", LessonFiles::MOST_BYTES)),
                 Err(error) => self.found.list.push(wording::unreadable(&file, &error)),
             }
         }
     }
 
-    fn add(&mut self, path: &str, text: &str, world: Option<&FolderWorld>) {
+    fn add(&mut self, path: &str, text: &str, world: Option<&SharedWorld>) {
         if self.lessons.len() == MOST {
-            return self.found.list.push(wording::too_large(Path::new(path), "lessons before it", MOST));
+            return self.found.list.push(wording::too_large(path, "lessons before it", MOST));
         }
         let file = self.found.sources.add(path, text);
         let place = Path::new(path).file_stem().unwrap_or_default().to_string_lossy();
@@ -120,7 +127,7 @@ impl ReadLessons {
 }
 
 /// The errors of a lesson's programs, in their places in the lesson. The ports that it names are checked, too.
-fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &FolderWorld) -> Vec<Diagnostic> {
+fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWorld) -> Vec<Diagnostic> {
     let mut session = Session::new(world.clone());
     let mut found = Vec::new();
     let mut ports = Vec::new();
@@ -169,21 +176,4 @@ fn moved(found: &Diagnostic, checked: &Checked, file: FileId) -> Diagnostic {
     moved.labels.iter_mut().chain(&mut moved.related).for_each(|label| label.span.file = file);
     moved.fix = None;
     moved
-}
-
-/// The Markdown files of a folder but for its README, in order.
-fn markdown(folder: &Path) -> io::Result<Vec<PathBuf>> {
-    let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
-    let mut files: Vec<_> = entries.collect::<io::Result<_>>()?;
-    let is_readme = |path: &PathBuf| path.file_name().is_some_and(|name| name == "README.md");
-    files.retain(|path| path.extension().is_some_and(|ending| ending == "md") && path.is_file() && !is_readme(path));
-    files.sort();
-    Ok(files)
-}
-
-/// The text of a file; `None` if it is too large.
-fn text_of(path: &Path) -> io::Result<Option<String>> {
-    let mut text = String::new();
-    File::open(path)?.take(BYTES + 1).read_to_string(&mut text)?;
-    Ok((text.len() as u64 <= BYTES).then_some(text))
 }

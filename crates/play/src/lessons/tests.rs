@@ -1,15 +1,22 @@
 //! Lessons that are read, and mistakes that are found.
 
+use std::io;
+use std::sync::Arc;
+
 use super::*;
+use nbc_base::source::MemoryWorld;
 use nbc_circuit::Effort;
 use nbc_session::CompileOptions;
 
+/// A world without files.
+fn nothing() -> SharedWorld {
+    Arc::new(MemoryWorld::default())
+}
+
 /// A lesson of an author.
 fn lesson(text: &str) -> ReadLessons {
-    let folder = tempfile::tempdir().unwrap();
-    let world = FolderWorld::new(folder.path()).unwrap();
     let mut read = ReadLessons::default();
-    read.add("01-first.md", text, Some(&world));
+    read.add("01-first.md", text, Some(&nothing()));
     read
 }
 
@@ -97,11 +104,11 @@ fn mistakes_have_a_line_and_the_nearest_name() {
 
 #[test]
 fn the_lessons_of_the_program_are_right() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("lessons");
-    let world = FolderWorld::new(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap();
-    let read = load(&[LessonSource::Folder(folder)], Some(&world));
+    let files = shipped().map(|(file, text)| (file, Ok(text))).collect();
+    let own = LessonTexts::Folder(LessonFiles { folder: "lessons".to_owned(), files: Ok(files) });
+    let read = load(vec![own], Some(&nothing()));
     assert_eq!(read.found.to_string(), "");
-    assert_eq!(read.lessons, load(&[LessonSource::Shipped], Some(&world)).lessons);
+    assert_eq!(read.lessons, load(vec![LessonTexts::Shipped], Some(&nothing())).lessons);
     assert!(read.lessons.len() >= 20);
     for lesson in &read.lessons {
         for (step, number) in lesson.steps.iter().zip(1..) {
@@ -113,20 +120,19 @@ fn the_lessons_of_the_program_are_right() {
 
 #[test]
 fn two_lessons_have_two_names_and_a_folder_has_lessons() {
-    let folder = tempfile::tempdir().unwrap();
-    let world = FolderWorld::new(folder.path()).unwrap();
-    let found = |name: &str| load(&[LessonSource::Folder(folder.path().join(name))], Some(&world)).found.to_string();
-    assert!(found("").contains("no lessons in"));
-    assert!(found("nowhere").contains("cannot read"));
-    fs::write(folder.path().join("README.md"), "Not a lesson.").unwrap();
-    fs::write(folder.path().join("1-gate.md"), GATE).unwrap();
-    assert_eq!(found(""), "");
-    fs::write(folder.path().join("2-gate.md"), GATE).unwrap();
-    assert!(found("").contains("two lessons are called `gate`"));
-    fs::write(folder.path().join("2-gate.md"), "x".repeat(1 << 17)).unwrap();
-    assert!(found("").contains("has more than 65536 bytes"));
-    fs::write(folder.path().join("2-gate.md"), [0xff]).unwrap();
-    assert!(found("").contains("cannot read"));
+    let found = |texts: &[&str]| {
+        let file = |(at, text): (usize, &&str)| (format!("{at}-gate.md"), Ok((*text).to_owned()));
+        let files = Ok(texts.iter().enumerate().map(file).collect());
+        let folder = LessonTexts::Folder(LessonFiles { folder: "own".to_owned(), files });
+        load(vec![folder], Some(&nothing())).found.to_string()
+    };
+    assert!(found(&[]).contains("no lessons in `own`"));
+    assert_eq!(found(&[GATE]), "");
+    assert!(found(&[GATE, GATE]).contains("two lessons are called `gate`"));
+    assert!(found(&[&"x".repeat(LessonFiles::MOST_BYTES + 1)]).contains("has more than 65536 bytes"));
+    let missing = LessonFiles { folder: "nowhere".to_owned(), files: Err(io::ErrorKind::NotFound.into()) };
+    let found = load(vec![LessonTexts::Folder(missing)], None).found.to_string();
+    assert!(found.contains("cannot read `nowhere`"), "{found}");
 }
 
 proptest::proptest! {
@@ -150,7 +156,7 @@ proptest::proptest! {
 
 /// The robots of the swarm of a program, for its first test's circuit.
 fn robots(program: &str) -> usize {
-    let mut session = Session::new(FolderWorld::new(Path::new(env!("CARGO_MANIFEST_DIR"))).unwrap());
+    let mut session = Session::new(nothing());
     session.update("program.nb", 1, program);
     let checked = session.checked("program.nb");
     let circuit = checked.program.tests[0].circuit.clone();

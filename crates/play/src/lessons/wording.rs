@@ -1,27 +1,25 @@
 //! The messages of mistakes in lesson files.
 
-use std::path::Path;
-
 use super::mistake::{LessonMistake, Mistaken};
 use nbc_base::diag::suggest::alternatives;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, io_words};
 use nbc_base::source::{FileId, Span};
 
 /// A folder or file of lessons that cannot be read.
-pub(super) fn unreadable(path: &Path, error: &std::io::Error) -> Diagnostic {
-    let message = format!("cannot read `{}`: {}", path.display(), io_words(error));
+pub(super) fn unreadable(path: &str, error: &std::io::Error) -> Diagnostic {
+    let message = format!("cannot read `{path}`: {}", io_words(error));
     Diagnostic::without_place(Code::Unreadable, message)
 }
 
 /// A folder without lessons.
-pub(super) fn no_lessons(path: &Path) -> Diagnostic {
-    let message = format!("no lessons in `{}`", path.display());
+pub(super) fn no_lessons(path: &str) -> Diagnostic {
+    let message = format!("no lessons in `{path}`");
     Diagnostic::without_place(Code::Empty, message).with_help("a lesson is a file such as `01-first.md`")
 }
 
 /// More lessons than a page shows, or a file that is too large.
-pub(super) fn too_large(path: &Path, what: &str, most: usize) -> Diagnostic {
-    Diagnostic::without_place(Code::TooLarge, format!("`{}` has more than {most} {what}", path.display()))
+pub(super) fn too_large(path: &str, what: &str, most: usize) -> Diagnostic {
+    Diagnostic::without_place(Code::TooLarge, format!("`{path}` has more than {most} {what}"))
 }
 
 /// A mistake as a diagnostic about its place.

@@ -19,7 +19,8 @@ use ts_rs::TS;
 pub(super) use bodies::{
     CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
 };
-pub(super) use class::{ClassCourse, ClassLesson, ClassMember, ClassName, ClassPlace, ClassRoll};
+pub(super) use class::ClassName;
+pub use class::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
 pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
 pub(super) use export::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
 pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};

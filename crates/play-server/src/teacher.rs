@@ -6,10 +6,8 @@ use axum::response::{IntoResponse, Response};
 
 use serde::Serialize;
 
-use crate::class::Class;
-use crate::lessons;
-use crate::message::{ClassCourse, ClassLesson, LessonEntry};
 use crate::served::Served;
+use nbc_play::{Class, course};
 
 /// Answers a request to the address of the teacher's page.
 pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> Response {
@@ -18,8 +16,8 @@ pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> Respo
     }
     match request.uri().path().split('/').nth(2) {
         Some("") => served.page.teacher(request.headers()),
-        Some("members") => json(&class.roll()),
-        Some("lessons") => json(&course(served)),
+        Some("members") => json(&class.roll(served.now())),
+        Some("lessons") => json(&course(served.site.shell.lessons())),
         Some(name) => {
             let part = served.page.part_of_teacher(name, request.headers());
             part.unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
@@ -31,16 +29,4 @@ pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> Respo
 fn json(value: &impl Serialize) -> Response {
     let text = serde_json::to_string(value).expect("messages are data");
     ([(header::CONTENT_TYPE, "application/json")], text).into_response()
-}
-
-/// The lessons, with their tasks.
-fn course(served: &Served) -> ClassCourse {
-    // The programs are not checked: this must not take long.
-    let lessons = lessons::load(&served.lessons, None).lessons;
-    let lesson = |lesson: LessonEntry| ClassLesson {
-        name: lesson.name,
-        title: lesson.title,
-        steps: lesson.steps.into_iter().map(|step| step.task).collect(),
-    };
-    ClassCourse { lessons: lessons.into_iter().map(lesson).collect() }
 }

@@ -1,44 +1,35 @@
 //! The files of the served folder: read, saved, watched, and the examples that come with the program.
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::time::UNIX_EPOCH;
+use std::sync::Arc;
 
 use include_dir::{Dir, File, include_dir};
 
 use crate::message::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, PlayEvent};
 use crate::refusal::Refused;
+use crate::shell::PageFolder;
 use nbc_base::diag::is_hidden;
 use nbc_base::model::Circuit;
-use nbc_base::source::SourceWorld;
 use nbc_circuit::formats::CircuitSource;
 use nbc_session::Session;
-use nbc_session::store::{self, FolderWorld};
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
 /// The files that a page has read, with their stamps at that time. A stamp changes with its file.
 pub(super) struct PageFiles {
-    world: FolderWorld,
+    folder: Arc<dyn PageFolder>,
     known: BTreeMap<String, Option<String>>,
 }
 
 impl PageFiles {
-    pub(super) fn new(world: FolderWorld) -> Self {
-        Self { world, known: BTreeMap::new() }
+    pub(super) fn new(folder: Arc<dyn PageFolder>) -> Self {
+        Self { folder, known: BTreeMap::new() }
     }
 
     /// The programs below the folder, and the circuit files that programs can use.
     pub(super) fn list(&self) -> Vec<FileEntry> {
-        let root = self.world.root();
-        let one = |path: String| {
-            let size = fs::metadata(&path).map_or(0, |about| about.len());
-            let path = Path::new(&path).strip_prefix(root).ok()?.to_string_lossy().into_owned();
-            Some(FileEntry { path, size })
-        };
-        let usable = |path: &str| path.ends_with(".nb") || is_circuit(path);
-        store::source_files([root.to_owned()], usable).into_iter().filter_map(one).collect()
+        let files = self.folder.files(&|path| path.ends_with(".nb") || is_circuit(path));
+        files.into_iter().map(|(path, size)| FileEntry { path, size }).collect()
     }
 
     /// The text of a file. From now on, changes of the file are reported.
@@ -46,8 +37,9 @@ impl PageFiles {
     /// # Errors
     /// When it cannot be read.
     pub(super) fn read(&mut self, path: String) -> Result<FileText, Refused> {
-        let stamp = self.stamp(&path);
-        let text = self.world.read(&path).map_err(|error| Refused::Unreadable { path: path.clone(), error })?;
+        let stamp = self.folder.stamp(&path);
+        let text =
+            self.folder.world().read(&path).map_err(|error| Refused::Unreadable { path: path.clone(), error })?;
         self.known.insert(path.clone(), stamp.clone());
         Ok(FileText { path, text, stamp })
     }
@@ -63,18 +55,18 @@ impl PageFiles {
         if path.contains(|c| c == '\n' || is_hidden(c)) {
             return Err(Refused::HiddenInPath { path });
         }
-        if self.stamp(&path).as_deref() != known {
+        if self.folder.stamp(&path).as_deref() != known {
             return Err(Refused::Changed { path });
         }
         self.write(&path, text)?;
-        let stamp = self.stamp(&path);
+        let stamp = self.folder.stamp(&path);
         self.known.insert(path, stamp.clone());
         Ok(FileStamp { stamp })
     }
 
     /// Whether there is a file of that path.
     pub(super) fn has(&self, path: &str) -> bool {
-        self.world.existing(path).is_ok()
+        self.folder.stamp(path).is_some()
     }
 
     /// Writes a file below the folder.
@@ -82,31 +74,31 @@ impl PageFiles {
     /// # Errors
     /// When it cannot be written.
     pub(super) fn write(&self, path: &str, text: &str) -> Result<(), Refused> {
-        let place = self.world.writable(path);
-        let place = place.map_err(|error| Refused::Unreadable { path: path.to_owned(), error })?;
-        store::write(&place, text.as_bytes()).map_err(|error| Refused::unwritable(path, &error))
+        self.may_write(path)?;
+        let written = self.folder.write(path, text);
+        written.map_err(|reason| Refused::Unwritable { path: path.to_owned(), reason })
     }
 
-    /// The folder of a file, which need not be there. The folder around it must be.
-    ///
-    /// # Errors
-    /// When it is not, or is outside of the served folder.
-    pub(super) fn folder_of(&self, path: &str) -> Result<PathBuf, Refused> {
-        let folder = Path::new(path).parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
-        self.world.writable(&folder).map_err(|error| Refused::Unreadable { path: folder, error })
-    }
-
-    /// Makes the folder of a file.
+    /// Makes a folder, unless it is there.
     ///
     /// # Errors
     /// When it cannot be made.
     pub(super) fn make_folder(&self, path: &str) -> Result<(), Refused> {
-        store::create_folder(&self.folder_of(path)?).map_err(|error| Refused::unwritable(path, &error))
+        let made = self.folder.make_folder(path);
+        made.map_err(|reason| Refused::Unwritable { path: path.to_owned(), reason })
+    }
+
+    /// Whether a file or a folder can be made.
+    ///
+    /// # Errors
+    /// When the folder around it is missing, or it is outside.
+    pub(super) fn may_write(&self, path: &str) -> Result<(), Refused> {
+        self.folder.may_write(path).map_err(|error| Refused::Unreadable { path: path.to_owned(), error })
     }
 
     /// The files that have changed since the page read them, as events.
     pub(super) fn changes(&mut self) -> Vec<(String, PlayEvent)> {
-        let stamps: Vec<_> = self.known.keys().map(|path| (path.clone(), self.stamp(path))).collect();
+        let stamps: Vec<_> = self.known.keys().map(|path| (path.clone(), self.folder.stamp(path))).collect();
         let mut changed = Vec::new();
         for (path, stamp) in stamps {
             if self.known.get(&path) != Some(&stamp) {
@@ -116,13 +108,6 @@ impl PageFiles {
             }
         }
         changed
-    }
-
-    /// A text that changes with the file.
-    fn stamp(&self, path: &str) -> Option<String> {
-        let about = fs::metadata(self.world.existing(path).ok()?).ok()?;
-        let time = about.modified().ok()?.duration_since(UNIX_EPOCH).unwrap_or_default();
-        Some(format!("{}.{}", time.as_nanos(), about.len()))
     }
 }
 
@@ -135,14 +120,14 @@ pub(super) fn is_circuit(path: &str) -> bool {
 ///
 /// # Errors
 /// When the circuit file cannot be read.
-pub(super) fn program_around(world: &FolderWorld, session: &mut Session, path: &str) -> Result<FileText, Refused> {
+pub(super) fn program_around(files: &dyn PageFolder, session: &mut Session, path: &str) -> Result<FileText, Refused> {
     let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (folder, name));
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
     let place = |number: u32| {
         let number = if number == 1 { String::new() } else { format!("_{number}") };
         if folder.is_empty() { format!("{stem}{number}.nb") } else { format!("{folder}/{stem}{number}.nb") }
     };
-    let free = (1..).map(place).find(|place| world.existing(place).is_err()).expect("some number is free");
+    let free = (1..).map(place).find(|place| files.stamp(place).is_none()).expect("some number is free");
     let text = format!("// The circuits of {name}, made of robots.\n\nuse {name:?}\n");
     session.update(&free, 1, text.clone());
     let checked = session.open(&free)?;

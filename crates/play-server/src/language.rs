@@ -4,14 +4,14 @@ use std::sync::Arc;
 use std::thread;
 
 use axum::extract::ws::{Utf8Bytes, WebSocket};
-use crossbeam_channel::bounded;
+use crossbeam_channel::{Receiver, bounded};
 use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::{Value, json};
-use tokio::sync::mpsc;
 
-use crate::outbox::outbox;
+use crate::post::post;
 use crate::served::Served;
 use crate::socket::{WAITING, pump};
+use nbc_play::Line;
 
 /// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and
 /// answers that may.
@@ -20,22 +20,23 @@ const ANSWERS: usize = 16;
 
 /// Serves one page until it is gone.
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
-    let (requests, mut waiting) = mpsc::channel::<Utf8Bytes>(WAITING);
-    let (inbox, outgoing) = outbox();
+    let (requests, waiting): (_, Receiver<Utf8Bytes>) = bounded(WAITING);
+    let (post, outgoing, _) = post();
+    let post = Arc::new(post);
     let (sender, receiver) = bounded(READ);
     let (answer, answers) = bounded(ANSWERS);
     let world = served.world.clone();
     // A page that breaks the protocol is left alone: it sees that nothing is answered.
     thread::spawn(move || _ = nbc_lsp::serve(Connection { sender: answer, receiver }, world));
-    let told = inbox.clone();
-    thread::spawn(move || answers.into_iter().for_each(|message| told.send(written(&message))));
+    let told = post.clone();
+    thread::spawn(move || answers.into_iter().for_each(|message| told.text(written(&message))));
     let folder = served.clone();
     thread::spawn(move || {
-        while let Some(text) = waiting.blocking_recv() {
+        for text in waiting {
             let sent = match read(&text, &folder) {
                 Ok(message) => message.map_or(Ok(()), |message| sender.send(message)),
                 Err(refusal) => {
-                    inbox.send(refusal.to_string());
+                    post.text(refusal.to_string());
                     Ok(())
                 }
             };
@@ -52,9 +53,6 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
 /// # Errors
 /// The answer to a text that is not a message.
 fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
-    if text.is_empty() {
-        return Ok(None);
-    }
     let mut value: Value =
         serde_json::from_str(text).map_err(|error| refusal(&Value::Null, ErrorCode::ParseError, &error.to_string()))?;
     if value["method"] == "initialize" {
@@ -62,10 +60,10 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
         let Some(params) = value["params"].as_object_mut() else {
             return Err(refusal(&id, ErrorCode::InvalidParams, "the parameters of `initialize` must be an object"));
         };
-        params.insert("rootUri".to_owned(), json!(served.root));
+        params.insert("rootUri".to_owned(), json!(served.site.folder.uri()));
         // The user has opened this folder with `nbc play`.
         params.insert("initializationOptions".to_owned(), trusting(params.get("initializationOptions")));
-        params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.root, "name": "play" }]));
+        params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.site.folder.uri(), "name": "play" }]));
     }
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return Ok(None);

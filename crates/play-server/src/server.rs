@@ -108,7 +108,7 @@ fn accept<F: Future<Output = ()> + Send + 'static>(
 }
 
 async fn take(State(served): State<Arc<Served>>, Path((_, number, name)): Path<(String, u64, String)>) -> Response {
-    let Some(take) = served.takes.fetch(number, &name) else { return StatusCode::NOT_FOUND.into_response() };
+    let Some(take) = served.threads.takes.fetch(number, &name) else { return StatusCode::NOT_FOUND.into_response() };
     let mut headers = HeaderMap::new();
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(take.kind));
     headers.insert(header::CONTENT_DISPOSITION, HeaderValue::from_static("attachment"));

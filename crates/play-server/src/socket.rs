@@ -5,10 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, close_code};
-use tokio::sync::mpsc;
-use tokio::time::{interval, sleep, timeout};
+use crossbeam_channel::Sender;
+use tokio::time::{sleep, timeout};
 
-use crate::outbox::Outgoing;
+use crate::post::Outgoing;
 
 /// A page that does not read for this time is disconnected.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -21,8 +21,6 @@ pub(super) const WAITING: usize = 64;
 /// The bytes of messages that may wait for one page, and for all together. One message of a page may always wait.
 const MOST_BYTES: usize = 4 << 20;
 const MOST_IN_ALL: usize = 32 << 20;
-/// The time between the empty texts that are passed on as pauses.
-const PAUSE: Duration = Duration::from_millis(500);
 /// The time between two checks for room.
 const LOOK: Duration = Duration::from_millis(20);
 
@@ -68,43 +66,34 @@ impl Drop for Backlog<'_> {
     }
 }
 
-/// Passes texts of a page to `requests` and sends it the messages of `outgoing`, until it is gone. An empty text stands
-/// for a pause.
+/// Passes texts of a page to `requests` and sends it the messages of `outgoing`, until it is gone.
 pub(super) async fn pump(
     mut socket: WebSocket,
-    requests: mpsc::Sender<Utf8Bytes>,
+    requests: Sender<Utf8Bytes>,
     mut outgoing: Outgoing,
     all: &AtomicUsize,
 ) {
     let mut allowance = Allowance::new(Instant::now());
     let mut backlog = Backlog::new(all);
-    let mut pause = interval(PAUSE);
-    // A text for which there is no place yet. Meanwhile answers still go out, for which their maker may wait.
-    let mut next = None;
     loop {
-        backlog.settle(WAITING - requests.capacity());
+        backlog.settle(requests.len());
+        // Meanwhile answers still go out, for which their maker may wait.
+        let has_room = !requests.is_full() && backlog.has_room();
         tokio::select! {
-            text = receive(&mut socket, &mut allowance), if next.is_none() && backlog.has_room() => match text {
-                Some(text) => next = Some(text),
-                None => return,
-            },
-            place = requests.reserve(), if next.is_some() => match (place, next.take()) {
-                (Ok(place), Some(text)) => {
-                    backlog.push(text.len());
-                    place.send(text);
+            text = receive(&mut socket, &mut allowance), if has_room => {
+                let Some(text) = text else { return };
+                let size = text.len();
+                // Nobody else sends here.
+                if requests.try_send(text).is_err() {
+                    return;
                 }
-                _ => return,
-            },
+                backlog.push(size);
+            }
             message = outgoing.next() => match message {
                 Some(message) => if !send(&mut socket, message).await { return },
                 None => return,
             },
-            () = sleep(LOOK), if !backlog.has_room() => {}
-            _ = pause.tick() => {
-                if requests.try_send(Utf8Bytes::default()).is_ok() {
-                    backlog.push(0);
-                }
-            }
+            () = sleep(LOOK), if !has_room => {}
         }
     }
 }

@@ -1,23 +1,18 @@
-//! The state that all pages of a server share: the folder, the address, and the access rules.
+//! The state that all pages of a server share: what it serves, its address, and the access rules.
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, UdpSocket};
 use std::sync::Arc;
 use std::sync::atomic::AtomicUsize;
+use std::time::{Duration, Instant};
 
 use axum::http::{HeaderMap, header};
-use rayon::{ThreadPool, ThreadPoolBuilder};
 use tokio::sync::Semaphore;
 
-use crate::class::Class;
-use crate::lessons::LessonSource;
 use crate::page::Page;
-use crate::takes::Takes;
-use nbc_session::CompileOptions;
-use nbc_session::report::Scheme;
+use crate::threads::Threads;
+use nbc_play::{Class, PlaySite};
 use nbc_session::store::FolderWorld;
 
-/// The colors of materials on the page, and of what is taken from it.
-pub(super) const SCHEME: Scheme = Scheme::Safe;
 /// The pages for which there is room, unless the user says how many, and the most that may be said.
 pub(super) const PAGES: usize = 16;
 pub(super) const MOST_PAGES: usize = 64;
@@ -26,54 +21,52 @@ pub(super) const SOCKETS_OF_PAGE: usize = 2;
 
 /// The state that all pages of a server share.
 pub(super) struct Served {
+    pub(super) site: Arc<PlaySite>,
+    pub(super) threads: Arc<Threads>,
+    /// The files of the language server.
     pub(super) world: FolderWorld,
-    /// The `file:` URI of the folder.
-    pub(super) root: String,
-    /// The file that pages open first, relative to the folder.
-    pub(super) file: Option<String>,
     /// The secret in the address.
     pub(super) token: String,
     /// The address at which the server listens, as the user gave it, and the port.
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) page: Page,
-    /// How pages make swarms.
-    pub(super) making: CompileOptions,
-    pub(super) lessons: Vec<LessonSource>,
-    /// The class that pages can join.
-    pub(super) class: Option<Arc<Class>>,
-    pub(super) takes: Takes,
+    /// The teacher's page, if there is a class.
+    pub(super) taught: Option<Taught>,
     pub(super) sockets: Arc<Semaphore>,
     /// The bytes of all messages that wait to be handled.
     pub(super) waiting: AtomicUsize,
-    /// Threads for searches and measurements, so that swarms never wait for these.
-    pub(super) background: ThreadPool,
-    /// A thread for bodies in the designer, which do not wait for the search of another page.
-    pub(super) probing: ThreadPool,
+    pub(super) begun: Instant,
+}
+
+/// A class and its teacher's page.
+pub(super) struct Taught {
+    pub(super) class: Arc<Class>,
+    /// The secret in the address of the teacher's page.
+    pub(super) token: String,
 }
 
 impl Served {
-    pub(super) fn new(world: FolderWorld, root: String, file: Option<String>, token: String) -> Self {
-        let sockets = Arc::new(Semaphore::new(PAGES * SOCKETS_OF_PAGE));
-        let cores = std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        let pool = |threads| ThreadPoolBuilder::new().num_threads(threads).build().expect("the system has threads");
+    /// A folder, with these options of pages and at no address yet.
+    pub(super) fn new(world: FolderWorld, site: PlaySite, threads: Arc<Threads>, token: String) -> Self {
         Self {
+            site: Arc::new(site),
+            threads,
             world,
-            root,
-            file,
             token,
             host: String::new(),
             port: 0,
             page: Page::default(),
-            making: CompileOptions::default(),
-            lessons: vec![LessonSource::Shipped],
-            class: None,
-            takes: Takes::default(),
-            sockets,
+            taught: None,
+            sockets: Arc::new(Semaphore::new(PAGES * SOCKETS_OF_PAGE)),
             waiting: AtomicUsize::new(0),
-            background: pool((cores - 1).max(1)),
-            probing: pool(1),
+            begun: Instant::now(),
         }
+    }
+
+    /// The time of the visits.
+    pub(super) fn now(&self) -> Duration {
+        self.begun.elapsed()
     }
 
     /// The address of the page, for a browser on this computer.
@@ -83,7 +76,7 @@ impl Served {
 
     /// The address of the teacher's page, for a browser on this computer.
     pub(super) fn address_of_teacher(&self) -> Option<String> {
-        self.class.as_ref().map(|class| self.local_address(&class.token))
+        self.taught.as_ref().map(|taught| self.local_address(&taught.token))
     }
 
     fn local_address(&self, token: &str) -> String {
@@ -131,7 +124,7 @@ impl Served {
 
     /// The class, if a path begins with the token of the teacher's page.
     pub(super) fn taught(&self, token: &str) -> Option<&Class> {
-        self.class.as_deref().filter(|class| is_same(token, &class.token))
+        self.taught.as_ref().filter(|taught| is_same(token, &taught.token)).map(|taught| &*taught.class)
     }
 
     /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
@@ -167,11 +160,21 @@ fn is_same(token: &str, secret: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::disk_folder::DiskFolder;
+    use nbc_session::CompileOptions;
 
     fn served(host: &str) -> Served {
         let folder = tempfile::tempdir().unwrap();
         let world = FolderWorld::new(folder.path()).unwrap();
-        let served = Served::new(world, String::new(), None, "secret".to_owned());
+        let threads = Arc::new(Threads::new(&[]));
+        let site = PlaySite {
+            folder: Arc::new(DiskFolder::new(world.clone())),
+            file: None,
+            making: CompileOptions::default(),
+            class: None,
+            shell: threads.clone(),
+        };
+        let served = Served::new(world, site, threads, "secret".to_owned());
         Served { host: host.to_owned(), port: 80, ..served }
     }
 

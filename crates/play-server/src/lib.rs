@@ -1,0 +1,228 @@
+//! The server of the live page: sockets, threads, clocks and files around the visits of `nbc_play`.
+
+mod connections;
+mod disk_folder;
+mod language;
+mod lesson_source;
+mod live;
+mod page;
+mod post;
+mod served;
+mod server;
+mod socket;
+mod takes;
+mod teacher;
+mod threads;
+mod token;
+mod wording;
+
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use nbc_base::diag::{Diagnostics, io_words};
+use nbc_play::{Class, LocalLine, PlaySite, Visit};
+use nbc_session::CompileOptions;
+use nbc_session::store::{FolderWorld, PrivateFile};
+use tokio::net::TcpListener;
+use tokio::runtime::{Builder, Runtime};
+use tokio::sync::Semaphore;
+
+pub use lesson_source::LessonSource;
+pub use token::is_token;
+pub use wording::PlayError;
+
+use disk_folder::DiskFolder;
+use page::Page;
+use served::{Served, Taught};
+use threads::Threads;
+use token::random_token;
+
+/// The time between two checks of the request to stop.
+const LOOK: Duration = Duration::from_millis(100);
+/// The start and the end of the name of the file that a browser opens. With a file, the token is not in the arguments
+/// of the browser, which other users can list.
+const REDIRECT: (&str, &str) = ("open-", ".html");
+
+/// The options of a server.
+#[derive(Clone, Debug, Default)]
+pub struct PlayOptions {
+    /// The program to open first. The page can read and write only below the current folder, or the file's folder if
+    /// that is elsewhere.
+    pub file: Option<PathBuf>,
+    /// How its circuits become swarms.
+    pub making: CompileOptions,
+    /// The address to listen at, such as `127.0.0.1`.
+    pub host: String,
+    /// The port; 0 is any free one.
+    pub port: u16,
+    /// A folder with a page of its own, instead of the built-in one.
+    pub page: Option<PathBuf>,
+    /// The secret part of the address ([`is_token`]), instead of a random one.
+    pub token: Option<String>,
+    /// The lessons of the page, one source after the other; those that come with the program if there is none.
+    pub lessons: Vec<LessonSource>,
+    /// Whether pages can join a class, which a page of its own shows.
+    pub class: bool,
+    /// The pages for which there is room, at most [`PlayOptions::MOST_PAGES`]; 16 if it is not said.
+    pub pages: Option<usize>,
+}
+
+impl PlayOptions {
+    /// The most pages for which there can be room.
+    pub const MOST_PAGES: usize = served::MOST_PAGES;
+}
+
+/// A server that has its address, and serves nothing until [`PlayServer::serve`].
+pub struct PlayServer {
+    runtime: Runtime,
+    listener: TcpListener,
+    served: Arc<Served>,
+}
+
+impl PlayServer {
+    /// Listens at the address.
+    ///
+    /// # Errors
+    /// When the file or the page cannot be found, or the address cannot be listened at.
+    pub fn bind(options: &PlayOptions) -> Result<Self, PlayError> {
+        let runtime = Builder::new_current_thread().enable_all().build().map_err(system)?;
+        let (folder, file) = place(options.file.as_deref())?;
+        let token = options.token.clone().map_or_else(random_token, Ok)?;
+        let page = Page::of(options.page.as_deref()).map_err(|error| {
+            let folder = options.page.clone().unwrap_or_default();
+            missing(&folder, &error)
+        })?;
+        let refused = |error: io::Error| PlayError::Address {
+            host: options.host.clone(),
+            port: options.port,
+            reason: io_words(&error),
+        };
+        let bound = runtime.block_on(TcpListener::bind((options.host.as_str(), options.port)));
+        let listener = bound.map_err(refused)?;
+        let port = listener.local_addr().map_err(system)?.port();
+        let threads = Arc::new(Threads::new(&options.lessons));
+        let mut site = PlaySite {
+            folder: Arc::new(DiskFolder::new(folder.clone())),
+            file,
+            making: options.making.clone(),
+            class: None,
+            shell: threads.clone(),
+        };
+        let mut taught = None;
+        if options.class {
+            let class = Arc::new(Class::new(|| random_token().ok()));
+            site.class = Some(class.clone());
+            taught = Some(Taught { class, token: random_token()? });
+        }
+        let pages = options.pages.unwrap_or(served::PAGES).clamp(1, PlayOptions::MOST_PAGES);
+        let sockets = Arc::new(Semaphore::new(pages * served::SOCKETS_OF_PAGE));
+        let host = options.host.clone();
+        let served = Served { page, host, port, taught, sockets, ..Served::new(folder, site, threads, token) };
+        Ok(Self { runtime, listener, served: Arc::new(served) })
+    }
+
+    /// The address of the page, for a browser on this computer.
+    pub fn address(&self) -> String {
+        self.served.address()
+    }
+
+    /// The address for other computers, if they can reach the server.
+    pub fn address_elsewhere(&self) -> Option<String> {
+        self.served.address_elsewhere()
+    }
+
+    /// The address of the teacher's page, if there is a class.
+    pub fn address_of_teacher(&self) -> Option<String> {
+        self.served.address_of_teacher()
+    }
+
+    /// What is wrong with the lessons of an author. A page shows it, too.
+    pub fn faults_of_lessons(&self) -> Diagnostics {
+        let site = &self.served.site;
+        nbc_play::faults_of_lessons(site.shell.lessons(), &site.folder.world())
+    }
+
+    /// Opens the page in a browser, through a file that must stay until the browser has read it; `None` if no browser
+    /// could be opened.
+    pub fn open_browser(&self) -> Option<PrivateFile> {
+        let file = PrivateFile::create(REDIRECT.0, REDIRECT.1, &redirect(&self.address())).ok()?;
+        open::that_detached(file.path()).ok().map(|()| file)
+    }
+
+    /// Serves until `is_stopped`.
+    pub fn serve(self, is_stopped: impl Fn() -> bool) {
+        let Self { runtime, listener, served } = self;
+        let stopped = async {
+            while !is_stopped() {
+                tokio::time::sleep(LOOK).await;
+            }
+        };
+        runtime.block_on(async {
+            tokio::select! {
+                never = connections::serve(listener, server::router(served), connections::PATIENCE) => match never {},
+                () = stopped => {}
+            }
+        });
+    }
+}
+
+/// Serves a page that sends these texts, each of which should be a request, and waits for each answer. The fuzzer calls
+/// this, because it needs no socket.
+pub fn serve_texts(folder: &Path, texts: &[&str]) {
+    /// The time for a long request. What is left of it is stopped.
+    const PATIENCE: Duration = Duration::from_millis(250);
+    let world = FolderWorld::new(folder).expect("there is such a folder");
+    let site = PlaySite {
+        folder: Arc::new(DiskFolder::new(world)),
+        file: None,
+        making: CompileOptions::default(),
+        class: None,
+        shell: Arc::new(Threads::new(&[])),
+    };
+    let begun = Instant::now();
+    // Nobody reads the answers.
+    let mut visit = Visit::new(Arc::new(site), Arc::new(LocalLine::default()), begun.elapsed());
+    for text in texts {
+        let end = begun.elapsed() + PATIENCE;
+        visit.receive(text, begun.elapsed());
+        while !visit.is_idle() && begun.elapsed() < end {
+            thread::sleep(Duration::from_millis(1));
+        }
+        visit.advance(begun.elapsed());
+    }
+}
+
+fn system(error: io::Error) -> PlayError {
+    PlayError::System { reason: io_words(&error) }
+}
+
+fn missing(path: &Path, error: &io::Error) -> PlayError {
+    PlayError::File { path: path.display().to_string(), reason: io_words(error) }
+}
+
+/// A page that leads to another one.
+fn redirect(address: &str) -> String {
+    format!(
+        "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
+         <meta name=\"referrer\" content=\"no-referrer\">\n\
+         <meta http-equiv=\"refresh\" content=\"0; url={address}\">\n<title>nbc</title>\n\
+         <p><a href=\"{address}\">Open the page of nbc play</a></p>\n"
+    )
+}
+
+/// The folder to serve, and the file in it.
+fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), PlayError> {
+    let open = |folder: &Path| FolderWorld::new(folder).map_err(|error| missing(folder, &error));
+    let here = open(Path::new("."))?;
+    let Some(file) = file else { return Ok((here, None)) };
+    let whole = file.canonicalize().map_err(|error| missing(file, &error))?;
+    let folder = match whole.parent() {
+        Some(parent) if !whole.starts_with(here.root()) => open(parent)?,
+        _ => here,
+    };
+    let path = whole.strip_prefix(folder.root()).ok().map(|path| path.to_string_lossy().into_owned());
+    Ok((folder, path))
+}

@@ -1,0 +1,228 @@
+//! A site in memory, whose work is done by whoever has it: what a page needs where there are no threads and no disk.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use crate::lesson_texts::LessonTexts;
+use crate::outbox::Line;
+use crate::shell::{CancelSource, PageFolder, Portions, Shell, WorkKind};
+use nbc_base::source::{EntryKind, FileError, MemoryWorld, SharedWorld, SourceWorld};
+use nbc_circuit::CancelFlag;
+
+/// Files in memory. All clones are the same folder.
+#[derive(Clone, Default)]
+pub struct MemoryFolder {
+    files: Arc<Mutex<Files>>,
+}
+
+#[derive(Default)]
+struct Files {
+    world: MemoryWorld,
+    /// The sizes in bytes and the stamps of the files.
+    known: BTreeMap<String, (usize, u64)>,
+    /// The number of the last change.
+    changes: u64,
+    /// The paths that were written since they were taken.
+    written: Vec<String>,
+}
+
+impl MemoryFolder {
+    /// Adds a file, or replaces it.
+    pub fn insert(&self, path: &str, text: &str) {
+        let mut files = lock(&self.files);
+        files.changes += 1;
+        let stamp = files.changes;
+        files.known.insert(path.to_owned(), (text.len(), stamp));
+        files.world.insert(path, text);
+    }
+
+    /// Removes a file.
+    pub fn remove(&self, path: &str) {
+        let mut files = lock(&self.files);
+        files.known.remove(path);
+        files.world.remove(path);
+    }
+
+    /// A file that a page has written since it was asked last, and its text.
+    pub fn take_written(&self) -> Option<(String, String)> {
+        let mut files = lock(&self.files);
+        let path = files.written.pop()?;
+        files.written.retain(|other| *other != path);
+        let text = files.world.read(&path).unwrap_or_default();
+        Some((path, text))
+    }
+}
+
+impl PageFolder for MemoryFolder {
+    fn name(&self) -> String {
+        "this browser".to_owned()
+    }
+
+    fn uri(&self) -> String {
+        "file:///".to_owned()
+    }
+
+    fn world(&self) -> SharedWorld {
+        self.guarded(Arc::new(CancelFlag::default))
+    }
+
+    fn guarded(&self, cancel: CancelSource) -> SharedWorld {
+        Arc::new(MemoryFiles { folder: self.clone(), cancel })
+    }
+
+    fn files(&self, wanted: &dyn Fn(&str) -> bool) -> Vec<(String, u64)> {
+        let files = lock(&self.files);
+        let all = files.known.iter().filter(|(path, _)| wanted(path));
+        all.map(|(path, (size, _))| (path.clone(), *size as u64)).collect()
+    }
+
+    fn stamp(&self, path: &str) -> Option<String> {
+        lock(&self.files).known.get(path).map(|(_, stamp)| stamp.to_string())
+    }
+
+    fn may_write(&self, path: &str) -> Result<(), FileError> {
+        // A name of a file is no way out: there is nothing but this folder.
+        let is_part = |part: &str| !matches!(part, "" | "." | "..");
+        let is_folder = path.is_empty() || path.split('/').all(is_part);
+        if is_folder { Ok(()) } else { Err(FileError::NotFound) }
+    }
+
+    fn write(&self, path: &str, text: &str) -> Result<(), String> {
+        self.insert(path, text);
+        lock(&self.files).written.push(path.to_owned());
+        Ok(())
+    }
+
+    fn make_folder(&self, _path: &str) -> Result<(), String> {
+        Ok(())
+    }
+}
+
+/// The files of a folder as they are when they are read.
+struct MemoryFiles {
+    folder: MemoryFolder,
+    cancel: CancelSource,
+}
+
+impl SourceWorld for MemoryFiles {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        lock(&self.folder.files).world.read(path)
+    }
+
+    fn cancel(&self) -> CancelFlag {
+        (self.cancel)()
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        lock(&self.folder.files).world.list(folder)
+    }
+
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        lock(&self.folder.files).world.kind(path)
+    }
+}
+
+/// A message for a page.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PageMessage {
+    /// JSON.
+    Text(String),
+    /// A frame of the swarm.
+    Frame(Vec<u8>),
+}
+
+/// Messages for a page that wait to be taken.
+#[derive(Default)]
+pub struct LocalLine {
+    waiting: Mutex<(VecDeque<String>, Option<Vec<u8>>)>,
+}
+
+impl LocalLine {
+    /// The next message, texts first.
+    pub fn next(&self) -> Option<PageMessage> {
+        let (texts, frame) = &mut *lock(&self.waiting);
+        texts.pop_front().map(PageMessage::Text).or_else(|| frame.take().map(PageMessage::Frame))
+    }
+}
+
+impl Line for LocalLine {
+    fn text(&self, text: String) {
+        lock(&self.waiting).0.push_back(text);
+    }
+
+    fn frame(&self, frame: Vec<u8>) {
+        lock(&self.waiting).1 = Some(frame);
+    }
+
+    fn has_room(&self) -> bool {
+        lock(&self.waiting).1.is_none()
+    }
+
+    fn remove_frame(&self) -> bool {
+        lock(&self.waiting).1.take().is_some()
+    }
+
+    fn wake(&self) {}
+}
+
+/// A file for a page to fetch, and its address.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct KeptFile {
+    /// Where the page looks for it.
+    pub address: String,
+    /// Its media type.
+    pub media_type: &'static str,
+    /// Its contents.
+    pub bytes: Vec<u8>,
+}
+
+/// Work and files that wait for each other in one thread.
+#[derive(Default)]
+pub struct LocalShell {
+    work: Mutex<VecDeque<Portions>>,
+    kept: Mutex<(u64, VecDeque<KeptFile>)>,
+}
+
+impl LocalShell {
+    /// Whether there is work to do.
+    pub fn has_work(&self) -> bool {
+        !lock(&self.work).is_empty()
+    }
+
+    /// Does a portion of one work. Several take turns.
+    pub fn advance(&self) {
+        let next = lock(&self.work).pop_front();
+        if let Some(mut portions) = next
+            && portions()
+        {
+            lock(&self.work).push_back(portions);
+        }
+    }
+
+    /// The oldest file that was kept and not yet taken.
+    pub fn take_kept(&self) -> Option<KeptFile> {
+        lock(&self.kept).1.pop_front()
+    }
+}
+
+impl Shell for LocalShell {
+    fn start(&self, _kind: WorkKind, portions: Portions) {
+        lock(&self.work).push_back(portions);
+    }
+
+    fn keep(&self, name: &str, media_type: &'static str, bytes: Vec<u8>) -> String {
+        let (number, files) = &mut *lock(&self.kept);
+        *number += 1;
+        let address = format!("take/{number}/{name}");
+        files.push_back(KeptFile { address: address.clone(), media_type, bytes });
+        address
+    }
+
+    fn lessons(&self) -> Vec<LessonTexts> {
+        vec![LessonTexts::Shipped]
+    }
+}
+
+fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
