@@ -8,20 +8,20 @@ use lsp_server::{Message, RequestId, Response};
 use crate::compiler::FigureState;
 use crate::figures::{Figures, Subject};
 use crate::files::Files;
-use crate::later::WaitingHover;
-use crate::server::{Reply, Server};
+use crate::later::{PATIENCE, WaitingHover};
+use crate::service::{Reply, Server};
 use crate::spot::Spot;
 use crate::{completion, hints, hover, problems, signature};
 use nbc_base::source::Span;
 use nbc_session::Checked;
 
-impl Server<'_> {
+impl Server {
     /// Answers a hover. If its figures must be compiled first, the answer waits for them for a short time.
     pub(super) fn hover(&mut self, id: RequestId, asked: lsp::HoverParams) -> Option<Response> {
         let place = asked.text_document_position_params;
         let Some(checked) = self.checked(&place.text_document.uri) else { return Some(Response::new_ok(id, ())) };
-        let world = self.world.clone();
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
+        let (world, shell) = (self.world.clone(), self.shell.clone());
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
         let spot = Spot::of(files, place.position);
         let shown = spot.and_then(|spot| hover::show(&spot, &self.session, self.settings.pictures));
         let Some(shown) = shown else { return Some(Response::new_ok(id, ())) };
@@ -32,7 +32,8 @@ impl Server<'_> {
                 FigureState::Done(figures) => figures.cloned(),
                 FigureState::NotYet => {
                     let (path, subject) = (checked.path.clone(), subject.clone());
-                    self.waiting.push(WaitingHover::new(id, path, subject, range, shown.text));
+                    let (text, until) = (shown.text, self.now + PATIENCE);
+                    self.waiting.push(WaitingHover { id, path, subject, range, text, until });
                     return None;
                 }
             },
@@ -44,7 +45,7 @@ impl Server<'_> {
     pub(super) fn answer_hovers(&mut self) {
         for waiting in std::mem::take(&mut self.waiting) {
             let known = self.compiler.known(&waiting.path, &waiting.subject);
-            if known.is_none() && !waiting.left().is_zero() {
+            if known.is_none() && !waiting.left(self.now).is_zero() {
                 self.waiting.push(waiting);
                 continue;
             }
@@ -56,8 +57,8 @@ impl Server<'_> {
     pub(super) fn fixes(&mut self, asked: lsp::CodeActionParams) -> Reply<CodeActionRequest> {
         let checked = self.checked(&asked.text_document.uri);
         let Some(checked) = checked else { return Ok(None) };
-        let world = self.world.clone();
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
+        let (world, shell) = (self.world.clone(), self.shell.clone());
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
         let mut fixes = problems::fixes(&files, &files.own(), asked.range);
         for (diagnostic, found) in problems::unused(&files, &files.own(), asked.range) {
             let new = format!("_{}", checked.sources.text(found.declared));
@@ -71,8 +72,8 @@ impl Server<'_> {
     pub(super) fn hints(&mut self, asked: lsp::InlayHintParams) -> Reply<InlayHintRequest> {
         let Some(checked) = self.checked(&asked.text_document.uri) else { return Ok(None) };
         let Some(file) = checked.file else { return Ok(None) };
-        let world = self.world.clone();
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
+        let (world, shell) = (self.world.clone(), self.shell.clone());
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
         let bytes = files.lines(file).bytes(asked.range);
         let part = Span::new(file, bytes.start, bytes.end);
         let mut found = hints::of(&files, file, part, self.settings.inlay_hints);

@@ -10,18 +10,18 @@ use lsp_server::{ErrorCode, Message, Notification, RequestId, Response};
 use serde_json::{Value, json};
 
 use crate::figures::Subject;
-use crate::files::{Files, temporary_folder};
+use crate::files::Files;
 use crate::lenses;
 use crate::runs::{OrderError, RunEvent, RunOrder, RunOutcome};
-use crate::server::{Reply, Server};
+use crate::service::{Reply, Server};
 use nbc_session::Checked;
 
-impl Server<'_> {
+impl Server {
     pub(super) fn lenses(&mut self, asked: lsp::CodeLensParams) -> Reply<CodeLensRequest> {
         let Some(checked) = self.checked(&asked.text_document.uri) else { return Ok(None) };
         let Some(file) = checked.file.filter(|_| self.settings.code_lenses) else { return Ok(None) };
-        let world = self.world.clone();
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
+        let (world, shell) = (self.world.clone(), self.shell.clone());
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
         let mut found = lenses::of_runs(&files, file);
         for (place, circuit, swarm) in lenses::subjects(&files, file) {
             let subject = Subject::Circuit(circuit, swarm);
@@ -46,7 +46,7 @@ impl Server<'_> {
 
     fn ordered(&mut self, asked: &lsp::ExecuteCommandParams) -> Result<(RunOrder, Arc<Checked>), OrderError> {
         let order = RunOrder::read(asked)?;
-        if temporary_folder(&*self.world).is_none() {
+        if !self.shell.shows_results() {
             return Err(OrderError::NoPlace);
         }
         let checked = self.checked(&order.uri).ok_or_else(|| OrderError::Closed(order.uri.0.clone()))?;

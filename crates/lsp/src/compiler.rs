@@ -1,13 +1,12 @@
-//! Compiles circuits on a thread of its own, so that diagnostics never wait for a compilation.
+//! Figures of circuits, which are compiled apart, so that diagnostics never wait for a compilation.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
-use std::thread;
-
-use crossbeam_channel::{Receiver, Sender, unbounded};
 
 use crate::figures::{Figures, Subject};
+use crate::shell::LanguageShell;
 use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, Session};
@@ -18,12 +17,12 @@ type Key = (String, Subject);
 /// The most figures that are kept.
 const MOST: usize = 4096;
 
-/// The figures computed so far, and the thread that computes more.
+/// The figures computed so far.
 pub(super) struct Compiler {
-    jobs: Sender<Job>,
-    results: Receiver<Compilation>,
-    /// Keeps the channel of results open.
-    _outbox: Sender<Compilation>,
+    shell: Arc<dyn LanguageShell>,
+    /// That of the work, apart from that of the texts.
+    session: Arc<Session>,
+    results: (Sender<Compilation>, Receiver<Compilation>),
     known: BTreeMap<Key, (Weak<Checked>, Option<Figures>)>,
     /// The subjects that are not yet compiled.
     asked: BTreeSet<Key>,
@@ -54,18 +53,20 @@ pub(super) enum FigureState<'a> {
 }
 
 impl Compiler {
-    pub(super) fn start(world: SharedWorld) -> Self {
-        let (jobs, inbox) = unbounded();
-        let (outbox, results) = unbounded();
-        // It ends with the channel of jobs.
-        let results_to = outbox.clone();
-        thread::spawn(move || work(world, &inbox, &results_to));
-        Self { jobs, results, _outbox: outbox, known: BTreeMap::new(), asked: BTreeSet::new(), flags: Vec::new() }
+    pub(super) fn new(world: SharedWorld, shell: Arc<dyn LanguageShell>) -> Self {
+        Self {
+            shell,
+            session: Arc::new(Session::new(world)),
+            results: channel(),
+            known: BTreeMap::new(),
+            asked: BTreeSet::new(),
+            flags: Vec::new(),
+        }
     }
 
-    /// Receives the results of jobs.
-    pub(super) fn results(&self) -> &Receiver<Compilation> {
-        &self.results
+    /// The result of a job that has ended.
+    pub(super) fn result(&self) -> Option<Compilation> {
+        self.results.1.try_recv().ok()
     }
 
     /// The figures of a subject. If they are not known, a job to compute them is started.
@@ -81,7 +82,9 @@ impl Compiler {
         if self.asked.insert(key.clone()) {
             let cancel = CancelFlag::default();
             self.flags.push((Arc::downgrade(checked), cancel.clone()));
-            let _ = self.jobs.send(Job { checked: Arc::downgrade(checked), key, cancel });
+            let job = Job { checked: Arc::downgrade(checked), key, cancel };
+            let (session, results) = (self.session.clone(), self.results.0.clone());
+            self.shell.queue(Box::new(move || _ = results.send(job.done(&session))));
         }
         FigureState::NotYet
     }
@@ -126,18 +129,16 @@ fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
     std::ptr::eq(of.as_ptr(), Arc::as_ptr(checked))
 }
 
-/// Does one job after another. Skips jobs whose source has changed: there is no other reference to it.
-fn work(world: SharedWorld, jobs: &Receiver<Job>, results: &Sender<Compilation>) {
-    let session = Session::new(world);
-    for Job { checked, key, cancel } in jobs {
-        // A bug in compiling one circuit must not end the thread.
+impl Job {
+    /// Does it, unless its source has changed: then there is no other reference to it.
+    fn done(self, session: &Session) -> Compilation {
+        let Self { checked, key, cancel } = self;
+        // A bug in compiling one circuit must not end whoever does the work.
         let compile = |checked: Arc<Checked>| {
-            catch_unwind(AssertUnwindSafe(|| key.1.compile(&session, &checked, &cancel))).unwrap_or_default()
+            catch_unwind(AssertUnwindSafe(|| key.1.compile(session, &checked, &cancel))).unwrap_or_default()
         };
         // A compilation that was cancelled may have more robots than needed.
         let figures = checked.upgrade().and_then(compile).filter(|_| !cancel.is_raised());
-        if results.send(Compilation { checked, key, figures }).is_err() {
-            return;
-        }
+        Compilation { checked, key, figures }
     }
 }

@@ -1,15 +1,13 @@
 //! The files of a checked source as the protocol names them.
 
-use std::path::PathBuf;
-
 use gen_lsp_types::{Location, Range, Uri};
 
 use crate::position::{Encoding, Lines};
+use crate::shell::LanguageShell;
 use crate::uri;
-use nbc_base::source::{EntryKind, FileId, SourceWorld, Span};
+use nbc_base::source::{FileId, SourceWorld, Span};
 use nbc_lang::check::PRELUDE;
 use nbc_session::Checked;
-use nbc_session::store;
 
 /// A checked source and how its client counts characters.
 #[derive(Clone, Copy)]
@@ -18,6 +16,7 @@ pub(super) struct Files<'a> {
     pub(super) encoding: Encoding,
     /// The files that the client may see.
     pub(super) world: &'a dyn SourceWorld,
+    pub(super) shell: &'a dyn LanguageShell,
 }
 
 impl Files<'_> {
@@ -44,11 +43,7 @@ impl Files<'_> {
     /// Writes a text of the program to a file that editors can open, and returns its URI. There is none if it cannot be
     /// written, or the client does not see such files.
     pub(super) fn readable(&self, name: &str, text: &str) -> Option<Uri> {
-        let path = temporary_folder(self.world)?.join(name);
-        if std::fs::read_to_string(&path).ok().as_deref() != Some(text) {
-            store::write(&path, text.as_bytes()).ok()?;
-        }
-        Some(uri::uri(self.world, &path.to_string_lossy()))
+        Some(uri::uri(self.world, &self.shell.write_text(name, text)?))
     }
 
     /// The text of a file, if it is one of the prelude.
@@ -73,10 +68,4 @@ impl Files<'_> {
         let source = self.checked.sources.file(file);
         Lines { text: &source.text, starts: source.lines(), encoding: self.encoding }
     }
-}
-
-/// The folder for texts and results of the program, if the client sees it. One that is served another folder does not.
-pub(super) fn temporary_folder(world: &dyn SourceWorld) -> Option<PathBuf> {
-    let folder = store::temporary_folder().ok()?;
-    (world.kind(&folder.to_string_lossy()) == Some(EntryKind::Folder)).then_some(folder)
 }

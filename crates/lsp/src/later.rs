@@ -1,6 +1,6 @@
 //! Hovers that wait a short time for figures that are being compiled.
 
-use std::time::{Duration, Instant};
+use core::time::Duration;
 
 use gen_lsp_types::Range;
 use lsp_server::RequestId;
@@ -8,7 +8,7 @@ use lsp_server::RequestId;
 use crate::figures::Subject;
 
 /// The longest time that a hover waits for figures. Users notice a longer delay. After that time it is shown without.
-const PATIENCE: Duration = Duration::from_millis(400);
+pub(super) const PATIENCE: Duration = Duration::from_millis(400);
 
 /// A hover that waits for the figures of a subject.
 pub(super) struct WaitingHover {
@@ -19,16 +19,13 @@ pub(super) struct WaitingHover {
     pub(super) range: Option<Range>,
     /// What is known already.
     pub(super) text: String,
-    until: Instant,
+    /// When it has waited long enough.
+    pub(super) until: Duration,
 }
 
 impl WaitingHover {
-    pub(super) fn new(id: RequestId, path: String, subject: Subject, range: Option<Range>, text: String) -> Self {
-        Self { id, path, subject, range, text, until: Instant::now() + PATIENCE }
-    }
-
     /// The time that it still waits.
-    pub(super) fn left(&self) -> Duration {
-        self.until.saturating_duration_since(Instant::now())
+    pub(super) fn left(&self, now: Duration) -> Duration {
+        self.until.saturating_sub(now)
     }
 }

@@ -10,7 +10,7 @@ use gen_lsp_types::{
 
 use crate::navigation;
 use crate::rename::Rename;
-use crate::server::{Reply, Server};
+use crate::service::{Reply, Server};
 use crate::used_files::UsedFiles;
 use nbc_lang::check::NameUse;
 use nbc_session::Checked;
@@ -18,7 +18,7 @@ use nbc_session::Checked;
 /// The most symbols of an answer.
 const MOST_SYMBOLS: usize = 1000;
 
-impl Server<'_> {
+impl Server {
     /// The name at a place, with its source.
     pub(super) fn name(&mut self, place: &TextDocumentPositionParams) -> Option<(Arc<Checked>, NameUse)> {
         let checked = self.checked(&place.text_document.uri)?;
@@ -75,7 +75,7 @@ impl Server<'_> {
     fn all_paths(&self) -> Vec<String> {
         let open: BTreeSet<String> = self.buffers.iter().map(|buffer| buffer.path.clone()).collect();
         let names: BTreeSet<String> = open.iter().map(|path| self.world.identity(path)).collect();
-        let closed = self.workspace.files(&*self.world).into_iter();
+        let closed = self.workspace.files(&*self.shell).into_iter();
         closed.filter(|path| !names.contains(&self.world.identity(path))).chain(open.iter().cloned()).collect()
     }
 
@@ -119,7 +119,7 @@ impl Server<'_> {
 
     /// The edits that rename a declaration in all sources, or the reason why that is not possible.
     pub(super) fn renamed(&mut self, checked: &Checked, found: NameUse, new: &str) -> Result<WorkspaceEdit, String> {
-        let mut rename = Rename::new(&self.files(checked), found, new, self.world.clone());
+        let mut rename = Rename::new(&self.files(checked), found, new, (self.world.clone(), self.shell.clone()));
         self.sources_of(checked, found).into_iter().for_each(|source| rename.add(source));
         rename.finish(&self.buffers)
     }

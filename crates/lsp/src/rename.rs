@@ -9,6 +9,7 @@ use crate::buffers::Buffers;
 use crate::files::Files;
 use crate::navigation::workspace_edit;
 use crate::position::Encoding;
+use crate::shell::LanguageShell;
 use crate::uri;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::SharedWorld;
@@ -24,6 +25,7 @@ pub(super) struct Rename<'a> {
     declared: Span,
     encoding: Encoding,
     world: SharedWorld,
+    shell: Arc<dyn LanguageShell>,
     /// The files that change, by URI.
     files: BTreeMap<String, RenamedFile>,
     /// The sources in which the name is used, with the number of its uses.
@@ -38,15 +40,20 @@ struct RenamedFile {
 }
 
 impl<'a> Rename<'a> {
-    pub(super) fn new(files: &Files<'_>, found: NameUse, new: &'a str, world: SharedWorld) -> Self {
-        let (home, declared) = (files.uri(found.declared.file), found.declared);
-        Self { new, home, declared, encoding: files.encoding, world, files: BTreeMap::new(), sources: Vec::new() }
+    pub(super) fn new(
+        files: &Files<'_>,
+        found: NameUse,
+        new: &'a str,
+        (world, shell): (SharedWorld, Arc<dyn LanguageShell>),
+    ) -> Self {
+        let (home, declared, encoding) = (files.uri(found.declared.file), found.declared, files.encoding);
+        Self { new, home, declared, encoding, world, shell, files: BTreeMap::new(), sources: Vec::new() }
     }
 
     /// Adds the uses in a source and the files that it uses.
     pub(super) fn add(&mut self, checked: Arc<Checked>) {
-        let world = self.world.clone();
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world };
+        let (world, shell) = (self.world.clone(), self.shell.clone());
+        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
         let Some(declared) = self.declared_in(&files, self.declared) else { return };
         let mut count = 0;
         for found in checked.uses.of(declared) {
@@ -88,7 +95,7 @@ impl<'a> Rename<'a> {
             if let Some(fault) = new_error(before, &after) {
                 return Err(format!("`{}` cannot be the new name: {}", self.new, fault.message));
             }
-            let files = Files { checked: &after, encoding: self.encoding, world: &self.world };
+            let files = Files { checked: &after, encoding: self.encoding, world: &self.world, shell: &*self.shell };
             let declared = self.declared_in(&files, self.moved());
             if declared.map(|declared| after.uses.of(declared).count()) != Some(*count) {
                 return Err(format!("`{}` has another meaning where the name is used", self.new));

@@ -11,9 +11,9 @@ use gen_lsp_types::{
 };
 use lsp_server::{ErrorCode, Request, RequestId, Response};
 
-use crate::server::{Reply, Server};
+use crate::service::{Reply, Server};
 
-impl Server<'_> {
+impl Server {
     /// Answers a request; `None` if the answer comes later.
     pub(super) fn request(&mut self, request: Request) -> Option<Response> {
         let method = request.method.clone();

@@ -6,13 +6,13 @@ use gen_lsp_types::{
 };
 
 use crate::position::Lines;
-use crate::server::{Reply, Server};
+use crate::service::{Reply, Server};
 use crate::spot::Spot;
 use crate::{layout, links, outline, selection, semantics};
 use nbc_base::source::LineStarts;
 use nbc_lang::syntax::tree::Tree;
 
-impl Server<'_> {
+impl Server {
     pub(super) fn symbols(&mut self, asked: lsp::DocumentSymbolParams) -> Reply<DocumentSymbolRequest> {
         let parsed = self.parsed(&asked.text_document.uri, outline::symbols);
         Ok(parsed.map(Into::into))

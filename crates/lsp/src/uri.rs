@@ -29,13 +29,14 @@ fn absolute(path: &str) -> PathBuf {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_session::store::DiskWorld;
+    use nbc_base::source::MemoryWorld;
 
     #[test]
     fn a_path_and_its_uri_are_the_same_file() {
         let place = "/tmp/a b/é%.nb";
-        assert_eq!(uri(&DiskWorld, place).as_ref(), "file:///tmp/a%20b/%C3%A9%25.nb");
-        assert_eq!(path(&uri(&DiskWorld, place)).as_deref(), Some(place));
+        let world = MemoryWorld::default();
+        assert_eq!(uri(&world, place).as_ref(), "file:///tmp/a%20b/%C3%A9%25.nb");
+        assert_eq!(path(&uri(&world, place)).as_deref(), Some(place));
         assert_eq!(path(&Uri("file://localhost/a.nb".to_owned())).as_deref(), Some("/a.nb"));
         assert_eq!(path(&Uri("untitled:Untitled-1".to_owned())), None);
     }

@@ -59,7 +59,7 @@ impl UsedFiles {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "disk"))]
 mod tests {
     use std::fs;
     use std::sync::{Arc, Mutex};
@@ -72,6 +72,7 @@ mod tests {
     use super::*;
 
     /// A folder, and the paths that were read of it.
+    #[derive(Clone)]
     struct Watched(FolderWorld, Arc<Mutex<Vec<String>>>);
 
     impl SourceWorld for Watched {

@@ -1,13 +1,10 @@
 //! The source files of the folders that are open in the editor.
 
-use std::path::PathBuf;
-
 use gen_lsp_types::Uri;
 use serde_json::Value;
 
+use crate::shell::LanguageShell;
 use crate::uri;
-use nbc_base::source::{EntryKind, SourceWorld};
-use nbc_session::store;
 
 /// The folders that are open.
 #[derive(Clone, Debug, Default)]
@@ -38,10 +35,9 @@ impl Workspace {
     }
 
     /// The paths of its source files, in order. Hidden folders, those of results and packages, links, and folders that
-    /// the world does not have are left out.
-    pub(super) fn files(&self, world: &dyn SourceWorld) -> Vec<String> {
-        let folders = self.folders.iter().filter(|folder| world.kind(folder) == Some(EntryKind::Folder));
-        store::source_files(folders.map(PathBuf::from), |path| path.ends_with(".nb"))
+    /// the client does not see are left out.
+    pub(super) fn files(&self, shell: &dyn LanguageShell) -> Vec<String> {
+        shell.source_files(&self.folders.iter().map(String::as_str).collect::<Vec<_>>())
     }
 }
 

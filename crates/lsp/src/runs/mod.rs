@@ -1,20 +1,19 @@
-//! Commands that run a source: each on a thread of its own, with progress, and to be cancelled.
+//! Commands that run a source: each is work beside all other, with progress, and can be cancelled.
 
 mod command;
 mod order;
 mod outcome;
-mod results;
 mod watcher;
 mod work;
 
 use std::sync::Arc;
-use std::thread;
+use std::sync::mpsc::{Receiver, Sender, channel};
 
-use crossbeam_channel::{Receiver, Sender, unbounded};
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 use serde_json::Value;
 
+use crate::shell::LanguageShell;
 use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::Checked;
@@ -22,16 +21,14 @@ use nbc_session::Checked;
 pub(super) use command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
 pub(super) use order::{OrderError, RunOrder};
 pub(super) use outcome::RunOutcome;
-use results::ResultFolder;
 pub(super) use watcher::RunEvent;
 use watcher::Watcher;
 
 /// The runs that are not yet finished.
 pub(super) struct Runs {
+    shell: Arc<dyn LanguageShell>,
     running: Vec<Running>,
-    outbox: Sender<RunEvent>,
-    inbox: Receiver<RunEvent>,
-    results: ResultFolder,
+    events: (Sender<RunEvent>, Receiver<RunEvent>),
 }
 
 struct Running {
@@ -41,15 +38,13 @@ struct Running {
 }
 
 impl Runs {
-    pub(super) fn new() -> Self {
-        results::remove_leftovers();
-        let (outbox, inbox) = unbounded();
-        Self { running: Vec::new(), outbox, inbox, results: ResultFolder::default() }
+    pub(super) fn new(shell: Arc<dyn LanguageShell>) -> Self {
+        Self { shell, running: Vec::new(), events: channel() }
     }
 
-    /// Receives the progress and the results of the runs.
-    pub(super) fn events(&self) -> &Receiver<RunEvent> {
-        &self.inbox
+    /// The progress or the result of a run, if there is news.
+    pub(super) fn event(&self) -> Option<RunEvent> {
+        self.events.1.try_recv().ok()
     }
 
     /// Starts a run that answers the request `id`.
@@ -63,12 +58,14 @@ impl Runs {
     ) {
         let stop = CancelFlag::default();
         self.running.push(Running { id: id.clone(), token: token.clone(), stop: stop.clone() });
-        let (outbox, folder) = (self.outbox.clone(), self.results.path());
-        thread::spawn(move || {
-            let mut watcher = Watcher { token: token.clone(), outbox: outbox.clone(), stop, part: (0, 1), told: 0 };
-            let result = folder.and_then(|folder| work::perform(world, &checked, &order, &folder, &mut watcher));
-            let _ = outbox.send(RunEvent::Done { id, token, result });
-        });
+        let (events, shell) = (self.events.0.clone(), self.shell.clone());
+        self.shell.start(Box::new(move || {
+            let (told, waker) = (token.clone(), shell.clone());
+            let mut watcher =
+                Watcher { token: told, shell: waker, events: events.clone(), stop, part: (0, 1), told: 0 };
+            let result = work::perform(world, &checked, &order, &*shell, &mut watcher);
+            let _ = events.send(RunEvent::Done { id, token, result });
+        }));
     }
 
     /// Forgets a run that is finished.

@@ -1,11 +1,9 @@
 //! The result of a command.
 
-use std::path::PathBuf;
-
 use serde::Serialize;
 
 use crate::uri;
-use nbc_session::store::DiskWorld;
+use nbc_base::source::SharedWorld;
 
 /// The result of a command.
 #[derive(Clone, Debug, Serialize)]
@@ -23,9 +21,8 @@ pub(crate) struct RunOutcome {
 }
 
 impl RunOutcome {
-    /// A result with the file that shows it.
-    pub(super) fn new(passed: Option<bool>, text: String, path: Option<PathBuf>) -> Self {
-        let path = path.map(|path| path.to_string_lossy().into_owned());
-        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&DiskWorld, path).0), path }
+    /// A result with the file of the world that shows it.
+    pub(super) fn new(passed: Option<bool>, text: String, path: Option<String>, world: &SharedWorld) -> Self {
+        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&**world, path).0), path }
     }
 }

@@ -1,10 +1,13 @@
 //! The observer of a run: reports its progress, and stops it.
 
-use crossbeam_channel::Sender;
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 
 use crate::runs::outcome::RunOutcome;
+use crate::shell::LanguageShell;
 use nbc_circuit::CancelFlag;
 use nbc_session::Observer;
 
@@ -17,7 +20,8 @@ pub(crate) enum RunEvent {
 /// Reports the progress of a run, and stops it when the client cancels it.
 pub(super) struct Watcher {
     pub(super) token: Option<ProgressToken>,
-    pub(super) outbox: Sender<RunEvent>,
+    pub(super) shell: Arc<dyn LanguageShell>,
+    pub(super) events: Sender<RunEvent>,
     pub(super) stop: CancelFlag,
     /// The part of the run that is being done, from 0, and the number of parts.
     pub(super) part: (u64, u64),
@@ -40,6 +44,7 @@ impl Observer for Watcher {
         let Some(token) = self.token.clone().filter(|_| percentage > self.told) else { return };
         self.told = percentage;
         let message = format!("{} of {parts}", part + 1);
-        let _ = self.outbox.send(RunEvent::Progress { token, percentage, message });
+        let _ = self.events.send(RunEvent::Progress { token, percentage, message });
+        self.shell.wake();
     }
 }

@@ -1,14 +1,12 @@
 //! The work of a command, and its result.
 
-use std::path::{Path, PathBuf};
-
 use crate::runs::order::{RunOrder, RunTask};
 use crate::runs::outcome::RunOutcome;
 use crate::runs::watcher::Watcher;
+use crate::shell::LanguageShell;
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::SharedWorld;
 use nbc_session::report::{self, Scheme};
-use nbc_session::store;
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunList, RunReport, Session, TestOptions};
 use nbc_swarm::{Level, Room};
 
@@ -17,27 +15,27 @@ pub(super) fn perform(
     world: SharedWorld,
     checked: &Checked,
     order: &RunOrder,
-    results: &Path,
+    shell: &dyn LanguageShell,
     watcher: &mut Watcher,
 ) -> Result<RunOutcome, String> {
     if checked.has_errors() {
         return Err("the source has errors".to_owned());
     }
-    let session = Session::new(world).with_poses(Room::SWARM);
+    let session = Session::new(world.clone()).with_poses(Room::SWARM);
     match &order.task {
         RunTask::Run { level, test, simulation } => {
             let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
-            finish(checked, *level, &report, results)
+            finish(checked, *level, &report, shell, &world)
         }
         RunTask::Schematic(choice) => {
             let compiled = compile(&session, checked, choice, watcher)?;
             let picture = compiled.schematic(Scheme::default()).top();
-            let path = written(checked, results, "schematic.svg", &picture.finish())?;
-            Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path)))
+            let path = written(checked, shell, "schematic.svg", &picture.finish())?;
+            Ok(RunOutcome::new(None, "schematic".to_owned(), Some(path), &world))
         }
         RunTask::Timing(choice) => {
             let timing = compile(&session, checked, choice, watcher)?.swarm_timing();
-            Ok(RunOutcome::new(None, timing.describe(), None))
+            Ok(RunOutcome::new(None, timing.describe(), None, &world))
         }
     }
 }
@@ -88,14 +86,20 @@ fn going(watcher: &Watcher) -> Result<(), String> {
 }
 
 /// Writes the page of a report.
-fn finish(checked: &Checked, level: Level, report: &RunReport, results: &Path) -> Result<RunOutcome, String> {
+fn finish(
+    checked: &Checked,
+    level: Level,
+    report: &RunReport,
+    shell: &dyn LanguageShell,
+    world: &SharedWorld,
+) -> Result<RunOutcome, String> {
     let verdicts: Vec<_> = report.tests.iter().map(|run| &run.verdict).collect();
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let page = match level {
         Level::Physics => report.page(source, Scheme::default()),
         Level::Logic => report::draw_logic_page(source, &verdicts),
     };
-    let path = written(checked, results, "report.html", &page)?;
+    let path = written(checked, shell, "report.html", &page)?;
     let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
     let word = if report.passed() { "pass" } else { "FAIL" };
     let text = match (verdicts.len(), report.fault()) {
@@ -105,18 +109,14 @@ fn finish(checked: &Checked, level: Level, report: &RunReport, results: &Path) -
         (all, Some(fault)) => format!("{word}: {passed} of {all} passed; {fault}"),
     };
     let has_verdict = !verdicts.is_empty() || report.fault().is_some();
-    Ok(RunOutcome::new(has_verdict.then(|| report.passed()), text, Some(path)))
+    Ok(RunOutcome::new(has_verdict.then(|| report.passed()), text, Some(path), world))
 }
 
 /// Writes a result among those of the server, in the folder of its source.
-fn written(checked: &Checked, results: &Path, name: &str, text: &str) -> Result<PathBuf, String> {
+fn written(checked: &Checked, shell: &dyn LanguageShell, name: &str, text: &str) -> Result<String, String> {
     let source = checked.path.rsplit('/').next().unwrap_or_default();
-    let stem: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    let folder = results.join(stem);
-    let path = folder.join(name);
-    let done = store::create_folder(&folder).and_then(|()| store::write(&path, text.as_bytes()));
-    done.map_err(|error| format!("cannot write `{}`: {error}", path.display()))?;
-    Ok(path)
+    let folder: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
+    shell.write_result(&folder, name, text)
 }
 
 /// The first of the diagnostics as a message.

@@ -1,34 +1,119 @@
-//! The loop of the server: it receives messages, changes buffers, and sends answers and diagnostics.
+//! The language service: it receives messages, changes buffers, and sends answers and diagnostics.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
 
-use crossbeam_channel::{after, never, select};
+use core::time::Duration;
+
 use gen_lsp_types::{
-    self as lsp, CodeLensRefreshRequest, InlayHintRefreshRequest, LspNotificationMethod, PublishDiagnosticsParams,
-    Registration, RegistrationParams, RegistrationRequest, SemanticTokensRefreshRequest, Uri,
+    self as lsp, CodeLensRefreshRequest, InitializeResult, InlayHintRefreshRequest, LspNotificationMethod,
+    PublishDiagnosticsParams, Registration, RegistrationParams, RegistrationRequest, SemanticTokensRefreshRequest,
+    ServerInfo, Uri,
 };
-use lsp_server::{Connection, ErrorCode, Message, Notification, Request, Response};
+use lsp_server::{ErrorCode, Message, Notification, Request, Response};
 
 use crate::buffers::Buffers;
-use crate::capabilities::{Abilities, Client};
+use crate::capabilities::{Abilities, Client, capabilities};
 use crate::compiler::{Compilation, Compiler};
 use crate::files::Files;
 use crate::later::WaitingHover;
-use crate::pending::Pending;
 use crate::position::Encoding;
 use crate::runs::Runs;
 use crate::server_end::ServerEnd;
 use crate::settings::Settings;
+use crate::shell::LanguageShell;
 use crate::workspace::Workspace;
 use crate::{problems, uri};
 use nbc_base::source::SharedWorld;
 use nbc_session::{Checked, Session};
 
-/// The server of one client.
-pub(super) struct Server<'c> {
-    connection: &'c Connection,
-    pending: Pending,
+/// The language service of one client. `now` is always the time since any moment, and never goes back.
+pub struct LanguageService {
+    shell: Arc<dyn LanguageShell>,
+    outbox: (Sender<Message>, Receiver<Message>),
+    /// From the client's `initialize` request on.
+    server: Option<Server>,
+}
+
+impl LanguageService {
+    /// A service that waits for its client.
+    pub fn new(shell: Arc<dyn LanguageShell>) -> Self {
+        Self { shell, outbox: channel(), server: None }
+    }
+
+    /// Whether the client has sent `initialize`.
+    pub fn is_greeted(&self) -> bool {
+        self.server.is_some()
+    }
+
+    /// Handles a message. Returns how the service ends, if this was the last message.
+    pub fn receive(&mut self, message: Message, now: Duration) -> Option<ServerEnd> {
+        match &mut self.server {
+            Some(server) => {
+                server.now = now;
+                server.message(message)
+            }
+            None => self.greet(message),
+        }
+    }
+
+    /// Takes what work has done, answers hovers that have waited, and publishes diagnostics. If more messages are
+    /// waiting, it is better called after these.
+    pub fn advance(&mut self, now: Duration) {
+        if let Some(server) = &mut self.server {
+            server.now = now;
+            server.advance();
+        }
+    }
+
+    /// The time until [`LanguageService::advance`] has something to do; `None` if it has nothing until a message or
+    /// until work is done.
+    pub fn due(&self, now: Duration) -> Option<Duration> {
+        self.server.as_ref()?.waiting.iter().map(|hover| hover.left(now)).min()
+    }
+
+    /// The next message for the client.
+    pub fn next_message(&mut self) -> Option<Message> {
+        self.outbox.1.try_recv().ok()
+    }
+
+    fn greet(&mut self, message: Message) -> Option<ServerEnd> {
+        let answer = match message {
+            Message::Request(Request { id, method, params }) if method == "initialize" && params.is_object() => {
+                let client = Client::of(&params);
+                let _ = self.outbox.0.send(Response::new_ok(id, welcome(&client)).into());
+                let mut server = Server::new(client, self.shell.clone(), self.outbox.0.clone());
+                server.watch();
+                self.server = Some(server);
+                return None;
+            }
+            Message::Request(Request { id, method, .. }) if method == "initialize" => {
+                let reason = "expected an object as the parameters of `initialize`";
+                Response::new_err(id, ErrorCode::InvalidParams as i32, reason.to_owned())
+            }
+            Message::Request(Request { id, method, .. }) => {
+                let reason = format!("expected `initialize`, found `{method}`");
+                Response::new_err(id, ErrorCode::ServerNotInitialized as i32, reason)
+            }
+            Message::Notification(told) if told.method == "exit" => return Some(ServerEnd::Abandoned),
+            Message::Notification(_) | Message::Response(_) => return None,
+        };
+        let _ = self.outbox.0.send(answer.into());
+        None
+    }
+}
+
+fn welcome(client: &Client) -> InitializeResult {
+    let name = ServerInfo { name: nbc_base::PROGRAM.to_owned(), version: Some(nbc_base::VERSION.to_owned()) };
+    InitializeResult { capabilities: capabilities(client.encoding), server_info: Some(name) }
+}
+
+/// The service of a client that has greeted it.
+pub(super) struct Server {
+    outbox: Sender<Message>,
+    pub(super) shell: Arc<dyn LanguageShell>,
+    pub(super) now: Duration,
     /// Whether the client asked it to shut down.
     is_shut: bool,
     pub(super) world: SharedWorld,
@@ -52,12 +137,13 @@ pub(super) struct Server<'c> {
 /// An answer, or the reason for a refusal.
 pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, String>;
 
-impl<'c> Server<'c> {
-    pub(super) fn new(connection: &'c Connection, client: Client, world: SharedWorld, pending: Pending) -> Self {
-        let Client { encoding, settings, workspace, abilities, trusts_verilog: _ } = client;
+impl Server {
+    fn new(client: Client, shell: Arc<dyn LanguageShell>, outbox: Sender<Message>) -> Self {
+        let Client { encoding, settings, workspace, abilities, trusts_verilog } = client;
+        let world = shell.world(trusts_verilog);
         Self {
-            connection,
-            pending,
+            outbox,
+            now: Duration::ZERO,
             is_shut: false,
             session: Session::new(world.clone()),
             buffers: Buffers::default(),
@@ -67,39 +153,30 @@ impl<'c> Server<'c> {
             abilities,
             is_outdated: false,
             asked: 0,
-            compiler: Compiler::start(world.clone()),
+            compiler: Compiler::new(world.clone(), shell.clone()),
             waiting: Vec::new(),
-            runs: Runs::new(),
+            runs: Runs::new(shell.clone()),
             published: BTreeMap::new(),
             world,
+            shell,
         }
     }
 
-    /// Serves until the client ends the session or closes its connection.
-    pub(super) fn run(mut self) -> ServerEnd {
-        self.watch();
-        loop {
-            let patience = self.waiting.iter().map(WaitingHover::left).min();
-            select! {
-                recv(self.connection.receiver) -> message => match message {
-                    Ok(message) => if let Some(end) = self.message(message) { return end },
-                    Err(_) => return ServerEnd::Orderly,
-                },
-                recv(self.compiler.results()) -> done => self.compiled(done.ok()),
-                recv(self.runs.events()) -> event => event.into_iter().for_each(|event| self.told(event)),
-                recv(patience.map_or_else(never, after)) -> _ => {}
-            }
-            self.answer_hovers();
-            // What changes again at once need not be checked.
-            if self.connection.receiver.is_empty() && !self.is_shut {
-                self.publish();
-            }
+    fn advance(&mut self) {
+        while let Some(done) = self.compiler.result() {
+            self.compiled(done);
+        }
+        while let Some(event) = self.runs.event() {
+            self.told(event);
+        }
+        self.answer_hovers();
+        if !self.is_shut {
+            self.publish();
         }
     }
 
     /// Handles a message. Returns how the server ends, if this was the last message.
     fn message(&mut self, message: Message) -> Option<ServerEnd> {
-        self.pending.take(&message);
         match message {
             Message::Notification(told) if told.method == "exit" => {
                 return Some(if self.is_shut { ServerEnd::Orderly } else { ServerEnd::Abandoned });
@@ -111,7 +188,7 @@ impl<'c> Server<'c> {
             }
             Message::Request(Request { id, method, .. }) if method == "shutdown" => {
                 self.is_shut = true;
-                self.runs = Runs::new();
+                self.runs = Runs::new(self.shell.clone());
                 self.send(Response::new_ok(id, ()).into());
             }
             Message::Request(request) => {
@@ -127,8 +204,8 @@ impl<'c> Server<'c> {
         None
     }
 
-    fn compiled(&mut self, done: Option<Compilation>) {
-        done.into_iter().for_each(|done| self.compiler.keep(done));
+    fn compiled(&mut self, done: Compilation) {
+        self.compiler.keep(done);
         if self.is_outdated && self.compiler.is_idle() {
             self.is_outdated = false;
             self.refresh_figures();
@@ -175,9 +252,9 @@ impl<'c> Server<'c> {
         });
     }
 
-    /// Sends a message. If the connection is closed, the loop ends at its next message.
+    /// Sends a message.
     pub(super) fn send(&self, message: Message) {
-        let _ = self.connection.sender.send(message);
+        let _ = self.outbox.send(message);
     }
 
     fn notice(&mut self, notification: Notification) {
@@ -256,7 +333,7 @@ impl<'c> Server<'c> {
             if !is_whole || known.is_some_and(|(known, _)| Arc::ptr_eq(known, &checked)) {
                 continue;
             }
-            let files = Files { checked: &checked, encoding: self.encoding, world: &*self.world };
+            let files = self.files(&checked);
             let mut found = problems::by_file(&files);
             let own = self.buffers.iter().find(|buffer| buffer.path == path).map(|buffer| buffer.uri.clone());
             let own = own.unwrap_or_else(|| files.own());
@@ -278,7 +355,7 @@ impl<'c> Server<'c> {
     }
 
     pub(super) fn files<'a>(&'a self, checked: &'a Checked) -> Files<'a> {
-        Files { checked, encoding: self.encoding, world: &*self.world }
+        Files { checked, encoding: self.encoding, world: &*self.world, shell: &*self.shell }
     }
 
     fn tell(&self, uri: Uri, version: Option<i32>, diagnostics: Vec<lsp::Diagnostic>) {
@@ -291,4 +368,128 @@ impl<'c> Server<'c> {
 /// The revision of a version; editors count up from any number.
 fn revision(version: i32) -> u64 {
     u64::try_from(version).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Mutex;
+
+    use nbc_base::source::MemoryWorld;
+    use serde_json::{Value, json};
+
+    use super::*;
+    use crate::shell::LanguageWork;
+
+    /// A shell in memory. Work waits until the test does it.
+    #[derive(Default)]
+    struct Bare {
+        work: Mutex<Vec<LanguageWork>>,
+    }
+
+    impl Bare {
+        fn do_all(&self) {
+            for work in std::mem::take(&mut *self.work.lock().unwrap()) {
+                work();
+            }
+        }
+    }
+
+    impl LanguageShell for Bare {
+        fn world(&self, _: bool) -> SharedWorld {
+            Arc::new(MemoryWorld::default())
+        }
+
+        fn source_files(&self, _: &[&str]) -> Vec<String> {
+            Vec::new()
+        }
+
+        fn queue(&self, work: LanguageWork) {
+            self.work.lock().unwrap().push(work);
+        }
+
+        fn start(&self, work: LanguageWork) {
+            self.queue(work);
+        }
+
+        fn wake(&self) {}
+
+        fn write_text(&self, _: &str, _: &str) -> Option<String> {
+            None
+        }
+
+        fn shows_results(&self) -> bool {
+            false
+        }
+
+        fn write_result(&self, _: &str, _: &str, _: &str) -> Result<String, String> {
+            Err("there is no disk".to_owned())
+        }
+    }
+
+    const TEXT: &str = "circuit invert(a) -> (q) {\n    q = not a\n}\n";
+
+    /// A service with an open text, and what it has said.
+    fn opened() -> (Arc<Bare>, LanguageService, Vec<Value>) {
+        let shell = Arc::new(Bare::default());
+        let mut service = LanguageService::new(shell.clone());
+        send(&mut service, Some(1), "initialize", json!({ "capabilities": {} }));
+        let document = json!({ "uri": "file:///a.nb", "languageId": "nb", "version": 1, "text": TEXT });
+        send(&mut service, None, "textDocument/didOpen", json!({ "textDocument": document }));
+        service.advance(Duration::ZERO);
+        let said = said(&mut service);
+        (shell, service, said)
+    }
+
+    fn send(service: &mut LanguageService, id: Option<i32>, method: &str, params: Value) -> Option<ServerEnd> {
+        let method = method.to_owned();
+        let message = match id {
+            Some(id) => Message::Request(Request { id: id.into(), method, params }),
+            None => Message::Notification(Notification { method, params }),
+        };
+        service.receive(message, Duration::ZERO)
+    }
+
+    fn said(service: &mut LanguageService) -> Vec<Value> {
+        std::iter::from_fn(|| service.next_message()).map(|message| serde_json::to_value(message).unwrap()).collect()
+    }
+
+    #[test]
+    fn a_service_answers_and_publishes_when_it_is_advanced() {
+        let (_, mut service, said_first) = opened();
+        assert_eq!(said_first[0]["id"], 1);
+        assert_eq!(said_first[1]["method"], "textDocument/publishDiagnostics");
+        assert_eq!(said_first[1]["params"]["diagnostics"], json!([]));
+        let change = json!({
+            "textDocument": { "uri": "file:///a.nb", "version": 2 }, "contentChanges": [{ "text": "circuit" }],
+        });
+        send(&mut service, None, "textDocument/didChange", change);
+        assert_eq!(said(&mut service), [] as [Value; 0]);
+        service.advance(Duration::ZERO);
+        let published = said(&mut service);
+        assert!(published[0]["params"]["diagnostics"][0]["code"].is_string(), "{published:?}");
+        assert_eq!(send(&mut service, Some(2), "shutdown", Value::Null), None);
+        assert_eq!(send(&mut service, None, "exit", Value::Null), Some(ServerEnd::Orderly));
+    }
+
+    #[test]
+    fn a_hover_waits_for_its_figures_as_long_as_its_clock_says() {
+        let hover = json!({
+            "textDocument": { "uri": "file:///a.nb" }, "position": { "line": 0, "character": 10 },
+        });
+        let text = |answer: &Value| answer["result"]["contents"]["value"].as_str().unwrap().to_owned();
+        let (shell, mut service, _) = opened();
+        send(&mut service, Some(2), "textDocument/hover", hover.clone());
+        service.advance(Duration::ZERO);
+        assert_eq!(said(&mut service), [] as [Value; 0]);
+        let due = service.due(Duration::ZERO).unwrap();
+        service.advance(due);
+        let without = said(&mut service);
+        assert_eq!(without[0]["id"], 2);
+        assert_eq!(service.due(due), None);
+        shell.do_all();
+        service.advance(due);
+        send(&mut service, Some(3), "textDocument/hover", hover);
+        let with = said(&mut service);
+        assert!(text(&with[0]).contains("1 robot") && !text(&without[0]).contains("1 robot"), "{with:?}");
+    }
 }
