@@ -59,7 +59,8 @@ impl UsedFiles {
     }
 }
 
-#[cfg(all(test, feature = "disk"))]
+#[cfg(test)]
+#[cfg(feature = "disk")]
 mod tests {
     use std::fs;
     use std::sync::{Arc, Mutex};
