@@ -6,12 +6,13 @@ use gen_lsp_types::{
     self as lsp, CodeLensRequest, ProgressParams, ProgressToken, WorkDoneProgressCreateParams,
     WorkDoneProgressCreateRequest,
 };
-use lsp_server::{ErrorCode, Message, Notification, RequestId, Response};
+use lsp_server::{Message, Notification, RequestId, Response};
 use serde_json::{Value, json};
 
 use crate::figures::Subject;
 use crate::files::Files;
 use crate::lenses;
+use crate::request_error::RequestError;
 use crate::runs::{OrderError, RunEvent, RunOrder, RunOutcome};
 use crate::service::{Reply, Server};
 use nbc_session::Checked;
@@ -35,7 +36,7 @@ impl Server {
     pub(super) fn execute(&mut self, id: RequestId, asked: lsp::ExecuteCommandParams) -> Option<Response> {
         let (order, checked) = match self.ordered(&asked) {
             Ok(ordered) => ordered,
-            Err(error) => return Some(Response::new_err(id, ErrorCode::InvalidParams as i32, error.to_string())),
+            Err(error) => return Some(RequestError::Order(error).answer(id)),
         };
         let token = self.progress_token(&id, asked.work_done_progress_params.work_done_token);
         let begin = json!({ "kind": "begin", "title": order.title(&checked), "cancellable": true, "percentage": 0 });
@@ -80,7 +81,7 @@ impl Server {
                 self.runs.end(&id);
                 self.send(Message::Response(match &result {
                     Ok(outcome) => Response::new_ok(id, outcome),
-                    Err(reason) => Response::new_err(id, ErrorCode::RequestFailed as i32, reason.clone()),
+                    Err(error) => error.answer(id),
                 }));
                 result.iter().for_each(|outcome| self.show(outcome));
             }

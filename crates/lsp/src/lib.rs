@@ -25,6 +25,7 @@ mod outline;
 mod position;
 mod problems;
 mod rename;
+mod request_error;
 mod requests;
 mod runs;
 mod selection;

@@ -10,6 +10,7 @@ use gen_lsp_types::{
 
 use crate::navigation;
 use crate::rename::Rename;
+use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
 use crate::used_files::UsedFiles;
 use nbc_lang::check::NameUse;
@@ -118,7 +119,12 @@ impl Server {
     }
 
     /// The edits that rename a declaration in all sources, or the reason why that is not possible.
-    pub(super) fn renamed(&mut self, checked: &Checked, found: NameUse, new: &str) -> Result<WorkspaceEdit, String> {
+    pub(super) fn renamed(
+        &mut self,
+        checked: &Checked,
+        found: NameUse,
+        new: &str,
+    ) -> Result<WorkspaceEdit, RequestError> {
         let mut rename = Rename::new(&self.files(checked), found, new, (self.world.clone(), self.shell.clone()));
         self.sources_of(checked, found).into_iter().for_each(|source| rename.add(source));
         rename.finish(&self.buffers)

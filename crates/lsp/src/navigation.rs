@@ -6,6 +6,7 @@ use gen_lsp_types::{
 };
 
 use crate::files::Files;
+use crate::request_error::RequestError;
 use nbc_base::source::Span;
 use nbc_circuit::formats::is_word;
 use nbc_lang::check::{NameKind, NameUse};
@@ -66,11 +67,11 @@ pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbo
 }
 
 /// Why a name cannot be changed.
-pub(super) fn refusal(files: &Files<'_>, found: NameUse, new: &str) -> Option<String> {
+pub(super) fn refusal(files: &Files<'_>, found: NameUse, new: &str) -> Option<RequestError> {
     if files.prelude(found.declared.file).is_some() {
-        return Some("the prelude declares this name".to_owned());
+        return Some(RequestError::OfPrelude);
     }
-    (!is_word(new)).then(|| format!("`{new}` is not a name: expected letters, digits and `_`, and no reserved word"))
+    (!is_word(new)).then(|| RequestError::NotAName { new: new.to_owned() })
 }
 
 /// Edits of several files.

@@ -9,6 +9,7 @@ use crate::buffers::Buffers;
 use crate::files::Files;
 use crate::navigation::workspace_edit;
 use crate::position::Encoding;
+use crate::request_error::RequestError;
 use crate::shell::LanguageShell;
 use crate::uri;
 use nbc_base::diag::Diagnostic;
@@ -81,7 +82,7 @@ impl<'a> Rename<'a> {
 
     /// The edits, or the reason why the name cannot be used: the program would have a new error, or another name would
     /// get another meaning.
-    pub(super) fn finish(self, buffers: &Buffers) -> Result<WorkspaceEdit, String> {
+    pub(super) fn finish(self, buffers: &Buffers) -> Result<WorkspaceEdit, RequestError> {
         let mut session = Session::new(self.world.clone());
         for buffer in buffers.iter() {
             session.update(&buffer.path, 0, buffer.text.clone());
@@ -93,12 +94,12 @@ impl<'a> Rename<'a> {
         for (before, count) in &self.sources {
             let after = session.checked(&before.path);
             if let Some(fault) = new_error(before, &after) {
-                return Err(format!("`{}` cannot be the new name: {}", self.new, fault.message));
+                return Err(RequestError::BadName { new: self.new.to_owned(), fault: fault.message.clone() });
             }
             let files = Files { checked: &after, encoding: self.encoding, world: &self.world, shell: &*self.shell };
             let declared = self.declared_in(&files, self.moved());
             if declared.map(|declared| after.uses.of(declared).count()) != Some(*count) {
-                return Err(format!("`{}` has another meaning where the name is used", self.new));
+                return Err(RequestError::OtherMeaning { new: self.new.to_owned() });
             }
         }
         let edits = self

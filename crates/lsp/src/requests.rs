@@ -9,8 +9,9 @@ use gen_lsp_types::{
     ReferencesRequest, RenameRequest, SelectionRangeRequest, SemanticTokensRangeRequest, SemanticTokensRequest,
     SignatureHelpRequest, WorkspaceSymbolRequest,
 };
-use lsp_server::{ErrorCode, Request, RequestId, Response};
+use lsp_server::{Request, RequestId, Response};
 
+use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
 
 impl Server {
@@ -57,10 +58,7 @@ impl Server {
             LspRequestMethod::WorkspaceExecuteCommand => {
                 return self.answer_later::<ExecuteCommandRequest>(request, Self::execute);
             }
-            _ => {
-                let message = format!("`{method}` is not a request of this server");
-                Response::new_err(request.id, ErrorCode::MethodNotFound as i32, message)
-            }
+            _ => RequestError::UnknownMethod { method }.answer(request.id),
         })
     }
 
@@ -73,7 +71,7 @@ impl Server {
         let respond = |server: &mut Self, id, parameters| {
             Some(match handle(server, parameters) {
                 Ok(result) => Response::new_ok(id, result),
-                Err(reason) => Response::new_err(id, ErrorCode::RequestFailed as i32, reason),
+                Err(error) => error.answer(id),
             })
         };
         self.answer_later::<R>(request, respond).expect("it was answered")
@@ -88,11 +86,9 @@ impl Server {
         let id = request.id;
         let parameters = match serde_json::from_value(request.params) {
             Ok(parameters) => parameters,
-            Err(error) => return Some(Response::new_err(id, ErrorCode::InvalidParams as i32, error.to_string())),
+            Err(error) => return Some(RequestError::Parameters { reason: error.to_string() }.answer(id)),
         };
-        catch_unwind(AssertUnwindSafe(|| handle(self, id.clone(), parameters))).unwrap_or_else(|_| {
-            let message = "this is a bug of nbc; details are on standard error".to_owned();
-            Some(Response::new_err(id, ErrorCode::InternalError as i32, message))
-        })
+        catch_unwind(AssertUnwindSafe(|| handle(self, id.clone(), parameters)))
+            .unwrap_or_else(|_| Some(RequestError::Internal.answer(id)))
     }
 }

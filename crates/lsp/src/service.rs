@@ -11,7 +11,7 @@ use gen_lsp_types::{
     PublishDiagnosticsParams, Registration, RegistrationParams, RegistrationRequest, SemanticTokensRefreshRequest,
     ServerInfo, Uri,
 };
-use lsp_server::{ErrorCode, Message, Notification, Request, Response};
+use lsp_server::{Message, Notification, Request, Response};
 
 use crate::buffers::Buffers;
 use crate::capabilities::{Abilities, Client, capabilities};
@@ -19,6 +19,7 @@ use crate::compiler::{Compilation, Compiler};
 use crate::files::Files;
 use crate::later::WaitingHover;
 use crate::position::Encoding;
+use crate::request_error::RequestError;
 use crate::runs::Runs;
 use crate::server_end::ServerEnd;
 use crate::settings::Settings;
@@ -89,13 +90,9 @@ impl LanguageService {
                 return None;
             }
             Message::Request(Request { id, method, .. }) if method == "initialize" => {
-                let reason = "expected an object as the parameters of `initialize`";
-                Response::new_err(id, ErrorCode::InvalidParams as i32, reason.to_owned())
+                RequestError::InitializeParameters.answer(id)
             }
-            Message::Request(Request { id, method, .. }) => {
-                let reason = format!("expected `initialize`, found `{method}`");
-                Response::new_err(id, ErrorCode::ServerNotInitialized as i32, reason)
-            }
+            Message::Request(Request { id, method, .. }) => RequestError::NotInitialized { method }.answer(id),
             Message::Notification(told) if told.method == "exit" => return Some(ServerEnd::Abandoned),
             Message::Notification(_) | Message::Response(_) => return None,
         };
@@ -135,7 +132,7 @@ pub(super) struct Server {
 }
 
 /// An answer, or the reason for a refusal.
-pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, String>;
+pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, RequestError>;
 
 impl Server {
     fn new(client: Client, shell: Arc<dyn LanguageShell>, outbox: Sender<Message>) -> Self {
@@ -181,10 +178,11 @@ impl Server {
             Message::Notification(told) if told.method == "exit" => {
                 return Some(if self.is_shut { ServerEnd::Orderly } else { ServerEnd::Abandoned });
             }
-            Message::Request(Request { id, method, .. }) if self.is_shut || method == "initialize" => {
-                let state = if self.is_shut { "is shut down" } else { "is initialized" };
-                let reason = format!("the server {state}, and does not answer `{method}`");
-                self.send(Response::new_err(id, ErrorCode::InvalidRequest as i32, reason).into());
+            Message::Request(Request { id, method, .. }) if self.is_shut => {
+                self.send(RequestError::ShutDown { method }.answer(id).into());
+            }
+            Message::Request(Request { id, method, .. }) if method == "initialize" => {
+                self.send(RequestError::Initialized { method }.answer(id).into());
             }
             Message::Request(Request { id, method, .. }) if method == "shutdown" => {
                 self.is_shut = true;

@@ -8,7 +8,6 @@ use core::time::Duration;
 use serde_json::Value;
 
 use crate::class::Membership;
-use crate::evolving::Evolving;
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, JobWork, Jobs, PortionEnd, once};
 use crate::message::finding::findings;
@@ -21,7 +20,7 @@ use crate::runner::{LoadingSwarm, Runner};
 use crate::shell::WorkKind;
 use crate::site::PlaySite;
 use crate::text_checker::TextChecker;
-use crate::{bodies, lessons, programs, taking};
+use crate::{bodies, evolving, lessons, programs, taking};
 use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, Choice, Compiled, Excerpt, Session};
@@ -235,10 +234,10 @@ impl Visit {
                 let mut search = None;
                 Box::new(move |job: &mut Job| match &mut search {
                     None => {
-                        search = Some(Evolving::new(&request)?);
+                        search = Some(evolving::begin(&request)?);
                         Ok(PortionEnd::More)
                     }
-                    Some(search) => search.advance(job),
+                    Some(search) => evolving::advance(search, job),
                 })
             }
             Verb::Keep(request) => {

@@ -1,6 +1,7 @@
 //! The interface that every door calls: from source text to swarms, tests, files and reports. `compile.rs` has the
 //! stages in order.
 
+mod body_search;
 mod buildable;
 mod checked;
 mod choice;
@@ -39,6 +40,7 @@ mod waves;
 mod wording;
 mod yields;
 
+pub use body_search::BodySearch;
 pub use checked::{Checked, prelude};
 pub use choice::{Choice, check_swarm_is_clear};
 pub use compile::Compiled;

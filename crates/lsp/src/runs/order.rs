@@ -1,11 +1,9 @@
 //! The arguments of a command: what it should run.
 
-use std::fmt;
-
 use gen_lsp_types::{ExecuteCommandParams, Uri};
 use serde_json::Value;
 
-use crate::runs::command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
+use crate::runs::command::{RUN, SCHEMATIC, TEST, TIMING};
 use nbc_session::{Checked, Choice};
 use nbc_swarm::Level;
 
@@ -36,19 +34,6 @@ pub(crate) enum OrderError {
     Closed(String),
     /// The client does not see the folder of the results.
     NoPlace,
-}
-
-impl fmt::Display for OrderError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Command(name) => {
-                write!(f, "`{name}` is not a command of this server; expected one of {}", COMMANDS.join(", "))
-            }
-            Self::Arguments => f.write_str("expected an object with the `uri` of an open text"),
-            Self::NoPlace => f.write_str("commands write their results outside of the folder of this client"),
-            Self::Closed(uri) => write!(f, "`{uri}` is not open"),
-        }
-    }
 }
 
 impl RunOrder {

@@ -6,6 +6,7 @@ use std::sync::mpsc::Sender;
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 
+use crate::request_error::RequestError;
 use crate::runs::outcome::RunOutcome;
 use crate::shell::LanguageShell;
 use nbc_circuit::CancelFlag;
@@ -14,7 +15,7 @@ use nbc_session::Observer;
 /// A message of a run to the server.
 pub(crate) enum RunEvent {
     Progress { token: ProgressToken, percentage: u32, message: String },
-    Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, String> },
+    Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, RequestError> },
 }
 
 /// Reports the progress of a run, and stops it when the client cancels it.

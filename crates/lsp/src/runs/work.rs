@@ -1,5 +1,6 @@
 //! The work of a command, and its result.
 
+use crate::request_error::RequestError;
 use crate::runs::order::{RunOrder, RunTask};
 use crate::runs::outcome::RunOutcome;
 use crate::runs::watcher::Watcher;
@@ -10,16 +11,16 @@ use nbc_session::report::{self, Scheme};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunList, RunReport, Session, TestOptions};
 use nbc_swarm::{Level, Room};
 
-/// Does the work of a command; an error is a message for people.
+/// Does the work of a command.
 pub(super) fn perform(
     world: SharedWorld,
     checked: &Checked,
     order: &RunOrder,
     shell: &dyn LanguageShell,
     watcher: &mut Watcher,
-) -> Result<RunOutcome, String> {
+) -> Result<RunOutcome, RequestError> {
     if checked.has_errors() {
-        return Err("the source has errors".to_owned());
+        return Err(RequestError::SourceErrors);
     }
     let session = Session::new(world.clone()).with_poses(Room::SWARM);
     match &order.task {
@@ -40,7 +41,7 @@ pub(super) fn perform(
     }
 }
 
-fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watcher) -> Result<Compiled, String> {
+fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watcher) -> Result<Compiled, RequestError> {
     let circuit = checked.circuit(choice).map_err(|faults| said(&faults))?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
     let swarm = choice.swarm.clone().or_else(first);
@@ -56,7 +57,7 @@ fn run(
     level: Level,
     (test, simulation): (Option<usize>, Option<usize>),
     watcher: &mut Watcher,
-) -> Result<RunReport, String> {
+) -> Result<RunReport, RequestError> {
     let program = &checked.program;
     let is_chosen = |chosen: Option<usize>, at: usize| match (test, simulation) {
         (None, None) => true,
@@ -67,7 +68,7 @@ fn run(
     let simulations = simulations.filter(|_| level == Level::Physics).map(|(_, simulation)| simulation);
     let list = RunList { tests: tests.collect(), simulations: simulations.collect() };
     if list.is_empty() {
-        return Err("there is no such test or simulation".to_owned());
+        return Err(RequestError::NothingToRun);
     }
     let options = TestOptions { level: Some(level), compile: options(watcher) };
     let report = session.run_list(checked, &list, &options, watcher).map_err(|faults| said(&faults))?;
@@ -79,10 +80,8 @@ fn options(watcher: &Watcher) -> CompileOptions {
     CompileOptions { cancel: watcher.stop.clone(), ..CompileOptions::default() }
 }
 
-const CANCELLED: &str = "cancelled";
-
-fn going(watcher: &Watcher) -> Result<(), String> {
-    if watcher.stop.is_raised() { Err(CANCELLED.to_owned()) } else { Ok(()) }
+fn going(watcher: &Watcher) -> Result<(), RequestError> {
+    if watcher.stop.is_raised() { Err(RequestError::Cancelled) } else { Ok(()) }
 }
 
 /// Writes the page of a report.
@@ -92,7 +91,7 @@ fn finish(
     report: &RunReport,
     shell: &dyn LanguageShell,
     world: &SharedWorld,
-) -> Result<RunOutcome, String> {
+) -> Result<RunOutcome, RequestError> {
     let verdicts: Vec<_> = report.tests.iter().map(|run| &run.verdict).collect();
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let page = match level {
@@ -113,13 +112,13 @@ fn finish(
 }
 
 /// Writes a result among those of the server, in the folder of its source.
-fn written(checked: &Checked, shell: &dyn LanguageShell, name: &str, text: &str) -> Result<String, String> {
+fn written(checked: &Checked, shell: &dyn LanguageShell, name: &str, text: &str) -> Result<String, RequestError> {
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let folder: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    shell.write_result(&folder, name, text)
+    shell.write_result(&folder, name, text).map_err(|reason| RequestError::Unwritable { reason })
 }
 
-/// The first of the diagnostics as a message.
-fn said(faults: &Diagnostics) -> String {
-    faults.list.first().map_or_else(String::new, |fault| fault.message.clone())
+/// The first of the diagnostics as the reason.
+fn said(faults: &Diagnostics) -> RequestError {
+    RequestError::Compile { fault: faults.list.first().map_or_else(String::new, |fault| fault.message.clone()) }
 }

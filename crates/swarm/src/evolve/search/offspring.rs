@@ -4,8 +4,8 @@ use rand::RngExt;
 
 use super::Search;
 use crate::evolve::mutate::pick;
-use crate::evolve::neighbors::{crossed, random_body};
-use crate::evolve::{Elite, NicheKey, cppn, mutate, neighbor, phenotype, validate};
+use crate::evolve::neighbors::{crossed, neighbor, random_body};
+use crate::evolve::{Elite, NicheKey, cppn, mutate, phenotype, validate};
 use nbc_base::model::{Body, Evolution, Genome, Genotype, Matter, Rules};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
