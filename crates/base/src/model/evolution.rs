@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Behavior, Function, Palette, PhysicsWorld, Rules, Schedule, Variation};
+use super::{Behavior, Function, Palette, PhysicsWorld, Rules, Schedule, SearchObjective, Variation};
 
 /// A declared evolution run (paper, Methods).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -183,19 +183,6 @@ impl Default for MutationWeights {
             change_weight: 1.0,
         }
     }
-}
-
-/// What makes a body better than another in its niche.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum SearchObjective {
-    /// The paper's two fitnesses: the distance in the variable simulation, and the smallest distance in the fixed ones.
-    #[default]
-    Distance,
-    /// Correct output in every cycle of random sequences, with the shortest clock.
-    Gate,
-    /// Correct output in the cycle of the stimuli themselves, while they may change in every cycle.
-    Wave,
 }
 
 /// The niches that one evaluation may enter.

@@ -12,6 +12,7 @@ mod genotype;
 mod ground;
 mod ground_file;
 mod material;
+mod objective;
 mod palette;
 mod program;
 mod robot;
@@ -35,13 +36,12 @@ pub use circuit::{
 };
 pub use column::{Column, bit_parts};
 pub use enumeration::{Enumeration, EnumerationMember, MemberEncoding};
-pub use evolution::{
-    Axis, Count, Evolution, Genome, MutationWeights, Niche, SampledWorlds, SearchObjective, StartBodies, Symmetry,
-};
+pub use evolution::{Axis, Count, Evolution, Genome, MutationWeights, Niche, SampledWorlds, StartBodies, Symmetry};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use ground::{GroundProfile, GroundShape};
 pub use material::{Drive, Material, MaterialKind, Response};
+pub use objective::SearchObjective;
 pub use palette::Palette;
 pub use program::{
     Hold, InputSpell, LibrarySource, NamedFile, NamedSchedule, Origin, Program, RegisterStyle, Simulation, Swarm,

@@ -26,10 +26,6 @@ const MAX_BOX: u32 = 64;
 /// The most seeds of a range.
 const MAX_SEEDS: u32 = 10_000;
 
-/// What makes a body better than another, by name.
-const OBJECTIVES: [(&str, SearchObjective); 3] =
-    [("distance", SearchObjective::Distance), ("gate", SearchObjective::Gate), ("wave", SearchObjective::Wave)];
-
 /// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
     pub(crate) program: &'a Program,
@@ -103,7 +99,7 @@ pub(crate) fn evolution(
     let start = start(&mut fields, base.start, genome, home, known);
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
     let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
-    let objective = fields.choose("objective", base.objective, &OBJECTIVES);
+    let objective = fields.choose("objective", base.objective, &SearchObjective::ALL);
     let world = fields.read("world", world, |value| known.worlds.of(value, home).map(|named| Some(named.world)));
     let evolution = Evolution {
         name: source.name.text.clone(),

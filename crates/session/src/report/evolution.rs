@@ -6,7 +6,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use nbc_base::diag::counted;
-use nbc_base::model::{Behavior, SearchObjective};
+use nbc_base::model::Behavior;
 use nbc_swarm::Work;
 use nbc_swarm::evolve::{ArchiveStats, Counts, Search};
 
@@ -53,11 +53,7 @@ impl EvolutionLine {
 /// The table at the end of a run: the best of each behavior, then the totals of the run.
 pub fn evolution_table(search: &Search, work: Work) -> String {
     let stats = search.archive().stats();
-    let [first, second] = match search.evolution().objective {
-        SearchObjective::Distance => ["variable", "fixed"],
-        SearchObjective::Gate => ["settled", "unchanged"],
-        SearchObjective::Wave => ["steps", "worst"],
-    };
+    let [first, second] = search.evolution().objective.columns();
     let mut text = format!("{:<10}{:<12}{:>8}{first:>11}{second:>11}\n", "behavior", "function", "niches");
     for best in &stats.champions {
         let function = best.behavior.function();

@@ -141,10 +141,7 @@ impl EvolutionResults {
 
     /// The meaning of the first fitness.
     pub fn unit(&self) -> &'static str {
-        match self.objective {
-            SearchObjective::Distance => "distance (voxels)",
-            SearchObjective::Gate | SearchObjective::Wave => "correct output (share)",
-        }
+        self.objective.meaning()
     }
 }
 

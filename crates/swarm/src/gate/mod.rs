@@ -1,14 +1,17 @@
 //! The objectives of gates: the correct output soon after any switch of the inputs, and no wrong cycle while the output
 //! should not change; or, for waves, the correct output in every cycle (docs/evolution.md, The gate objective).
 
-mod fitness;
 mod lanes;
+mod objective;
+mod settled;
+mod wave;
+mod worth;
 
 use crate::Work;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{CandidateOutcome, Scores};
-use crate::gate::fitness::fitness;
-use crate::gate::lanes::{HOLD, Lane, sensed, stages, starts};
+use crate::gate::lanes::{HOLD, Lane, sensed, starts};
+use crate::gate::objective::{fitness, stages};
 use crate::holds::PatternHold;
 use crate::noise::RobotNoise;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld, SearchObjective};

@@ -1,0 +1,38 @@
+//! What a search looks for.
+
+use serde::{Deserialize, Serialize};
+
+/// What makes a body better than another in its niche.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SearchObjective {
+    /// The paper's two fitnesses: the distance in the variable simulation, and the smallest distance in the fixed ones.
+    #[default]
+    Distance,
+    /// Correct output in every cycle of random sequences, with the shortest clock.
+    Gate,
+    /// Correct output in the cycle of the stimuli themselves, while they may change in every cycle.
+    Wave,
+}
+
+impl SearchObjective {
+    /// All of them, with their names in a declaration.
+    pub const ALL: [(&str, Self); 3] = [("distance", Self::Distance), ("gate", Self::Gate), ("wave", Self::Wave)];
+
+    /// Short words for the two fitnesses.
+    pub fn columns(self) -> [&'static str; 2] {
+        match self {
+            Self::Distance => ["variable", "fixed"],
+            Self::Gate => ["settled", "unchanged"],
+            Self::Wave => ["steps", "worst"],
+        }
+    }
+
+    /// The meaning of the first fitness, with its unit.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Distance => "distance (voxels)",
+            Self::Gate | Self::Wave => "correct output (share)",
+        }
+    }
+}
