@@ -553,6 +553,18 @@ pub use {
     nbc_swarm::{Selected, Selection},
 };
 
+/// Robots measured again and compared with their files, and how far worlds may differ before they make errors.
+///
+/// ```no_run
+/// use nbc::{LocalExecutor, Reach, Verified};
+/// let robots = nbc::Session::new(nbc::MemoryWorld::default()).shipped().robots.clone();
+/// let (simulator, executor) = (nbc::Simulator::default(), LocalExecutor::default());
+/// assert!(Verified::of(&executor, 0, &robots[0]).unwrap().differs.is_empty());
+/// let changes = nbc::Variation { friction: 0.1, ..nbc::Variation::default() };
+/// println!("{}", Reach::of(&simulator, &robots[0], changes, 20, 1).found.radius);
+/// ```
+pub use nbc_session::{Reach, Verified};
+
 /// A run of an evolution whose work is counted, with an executor that remembers the bodies it has simulated.
 ///
 /// ```

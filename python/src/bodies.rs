@@ -3,14 +3,15 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use nbc::{Body, DiskWorld, Palette, Scheme, Session};
+use nbc::{Body, DiskWorld, LocalExecutor, Palette, Scheme, Session, Verified};
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
+use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::errors::{bad_value, diagnosed, offering};
 use crate::memory::{VOXEL_BYTES, reserved};
-use crate::work::at_once;
+use crate::work::{self, Watch, at_once};
 
 /// The most voxels of bodies that are simulated in one go; their points and springs are in memory at the same time.
 const GROUP_VOXELS: usize = 500_000;
@@ -173,6 +174,30 @@ pub fn robots(py: Python<'_>, library: &str) -> PyResult<String> {
         let read = Session::new(DiskWorld).library(library).map_err(|found| diagnosed(py, &found))?;
         Ok(read.robots.iter().map(robot_record).collect::<Value>().to_string())
     })
+}
+
+/// The robots of a library by their names, each with what a new measurement finds different from its file.
+#[pyfunction]
+pub fn verify(
+    py: Python<'_>,
+    library: &str,
+    progress: Option<Bound<'_, PyAny>>,
+) -> PyResult<Vec<(String, Vec<String>)>> {
+    let robots = at_once(py, || {
+        let read = Session::new(DiskWorld).library(library).map_err(|found| diagnosed(py, &found))?;
+        Ok(read.robots)
+    })?;
+    let watch = Watch::over_parts(robots.len() as u64);
+    let found = work::run(py, &watch, progress.as_ref(), move |watch| {
+        let executor = LocalExecutor::new(watch.simulator());
+        let verify = |(place, robot): (usize, &nbc::Robot)| {
+            let verified = Verified::of(&executor, place, robot).filter(|_| !watch.is_stopped())?;
+            watch.add(1);
+            Some((robot.name.clone(), verified.differs))
+        };
+        robots.par_iter().enumerate().filter_map(verify).collect::<Vec<_>>()
+    })?;
+    found.finished()
 }
 
 /// A robot as JSON, with the text of its file.

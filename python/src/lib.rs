@@ -39,6 +39,7 @@ fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(bodies::invalid_bodies, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::paper_materials, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::robots, module)?)?;
+    module.add_function(wrap_pyfunction!(bodies::verify, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::three_materials, module)?)?;
     module.add_function(wrap_pyfunction!(errors::nearest, module)?)?;
     module.add_function(wrap_pyfunction!(evaluation::evaluate, module)?)?;

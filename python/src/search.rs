@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use nbc::{Behavior, Candidate, CandidateOutcome, Checkpoint, Elite, EvolutionRun, Executor, LocalExecutor, NicheKey};
-use nbc::{Palette, RobotRequest, Selected, Selection, Simulator};
+use nbc::{Palette, RobotRequest, Selected, Selection};
 use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
@@ -249,9 +249,9 @@ impl Search {
             .run
             .with(py, |run| Checkpoint::read(name, &run.checkpoint()).map_err(|found| without_place(py, found)))?;
         let requests = RobotRequest::of_runs([&checkpoint], &behaviors, &selection);
-        let watch = Watch::over(requests.iter().map(|request| request.cost(&selection)).sum());
+        let watch = Watch::over_parts(requests.iter().map(|request| request.cost(&selection)).sum());
         let found = work::run(py, &watch, progress.as_ref(), move |watch| {
-            let executor = LocalExecutor::new(Simulator::default());
+            let executor = LocalExecutor::new(watch.simulator());
             let select = |(place, request): (usize, &RobotRequest)| {
                 if watch.is_stopped() {
                     None

@@ -28,12 +28,19 @@ pub struct Watch {
     pub cancel: CancelFlag,
     done: AtomicU64,
     all: AtomicU64,
+    /// Whether work is measured in parts that are added, and not in env steps.
+    has_parts: bool,
 }
 
 impl Watch {
     /// A watch over that much work.
     pub fn over(all: u64) -> Arc<Self> {
         Arc::new(Self { all: AtomicU64::new(all), ..Self::default() })
+    }
+
+    /// A watch over work of that many parts, of which each is added when it is done.
+    pub fn over_parts(all: u64) -> Arc<Self> {
+        Arc::new(Self { all: AtomicU64::new(all), has_parts: true, ..Self::default() })
     }
 
     /// A simulator whose work is counted, and ends with an interrupt.
@@ -75,7 +82,8 @@ impl Watch {
 
     /// Parts done, and all parts.
     fn progress(&self) -> (u64, u64) {
-        (self.done.load(Ordering::Relaxed).max(self.monitor.env_steps()), self.all.load(Ordering::Relaxed))
+        let env_steps = if self.has_parts { 0 } else { self.monitor.env_steps() };
+        (self.done.load(Ordering::Relaxed).max(env_steps), self.all.load(Ordering::Relaxed))
     }
 }
 

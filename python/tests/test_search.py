@@ -275,3 +275,22 @@ def test_robots_are_those_that_the_program_adds(program, tmp_path):
     assert nbc.library(tmp_path / "mine") == (found[0],) and path.endswith(f"{found[0].name}.yaml")
     with pytest.raises(ValueError, match="did you mean `nand`"):
         search.robots(["nandd"])
+
+
+def test_robots_are_measured_again_as_the_program_does(program, tmp_path):
+    robot = min(nbc.library(), key=lambda robot: robot.body.size)
+    path = robot.save(tmp_path)
+    assert nbc.verify(tmp_path) == {robot.name: ()}
+    said = json.loads(program("library", "verify", tmp_path, "--format", "json"))["robots"]
+    assert said == [{"name": robot.name, "verified": True, "differs": []}]
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    margin = f"margin: {robot.character['margin']}"
+    assert margin in text
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text.replace(margin, "margin: 0.25"))
+    told = []
+    assert nbc.verify(tmp_path, progress=lambda done, of: told.append((done, of))) == {robot.name: ("character",)}
+    assert told[-1][1] == 1
+    with pytest.raises(nbc.NbcError):
+        nbc.verify(tmp_path / "nowhere")

@@ -153,6 +153,33 @@ fn doors_repeat_no_step_of_a_session() {
 }
 
 #[test]
+fn each_verb_has_two_doors() {
+    let doors = ["src/cli", "crates/lsp/src", "crates/play/src", "crates/cluster/src", "python/src"];
+    let texts = doors.map(|door| {
+        let product = modules().iter().filter(|module| module.path.starts_with(root().join(door)));
+        let own: String = product.map(|module| module.product.as_str()).collect();
+        let other = fs::read_dir(root().join(door)).unwrap().map(|file| file.unwrap().path());
+        let python = other.filter(|path| door == "python/src" && path.is_file());
+        own + &python.map(|path| fs::read_to_string(path).unwrap()).collect::<String>()
+    });
+    for (verb, calls) in [
+        ("check", vec![".checked(", ".open("]),
+        ("compile", vec![".compile("]),
+        ("test", vec![".test(", ".cases(", ".run_list("]),
+        ("simulate", vec![".simulate(", ".run_list("]),
+        ("evolve", vec!["EvolutionRun", "BodySearch"]),
+        ("yields", vec!["Yields"]),
+        ("harden", vec![".harden("]),
+        ("synthesize", vec!["Synthesis::"]),
+        ("measure", vec!["RobotRequest::"]),
+        ("verify", vec!["Verified::of"]),
+    ] {
+        let calling = texts.iter().filter(|text| calls.iter().any(|call| text.contains(call))).count();
+        assert!(calling >= 2, "`{verb}` has {calling} doors");
+    }
+}
+
+#[test]
 fn the_ways_through_pass_functions_that_exist() {
     let text = fs::read_to_string(root().join("ARCHITECTURE.md")).unwrap();
     let section = text.split("## Ways through").nth(1).unwrap().split("\n## ").next().unwrap();

@@ -19,7 +19,7 @@ from __future__ import annotations
 
 from . import evogym
 from ._nbc import __version__
-from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows
+from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows, verify
 from .circuits import Circuit, Compiled, Hardened, Port, Program, Report, Swarm, TestResult, Yield, load, loads
 from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, RobotFault, Span
 from .evolution import Evaluation, Evolution, evaluate
@@ -70,4 +70,5 @@ __all__ = [
     "set_threads",
     "simulate",
     "synthesize",
+    "verify",
 ]

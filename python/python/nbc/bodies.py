@@ -12,8 +12,9 @@ import numpy.typing as npt
 
 from . import _nbc
 from .numbers import array_of, is_array
+from .progress import Progress, reporting
 
-__all__ = ["PAPER_MATERIALS", "THREE_MATERIALS", "Bodies", "Material", "Robot", "invalid", "library", "rows"]
+__all__ = ["PAPER_MATERIALS", "THREE_MATERIALS", "Bodies", "Material", "Robot", "invalid", "library", "rows", "verify"]
 
 Material = Mapping[str, Any]
 """A material as data: ``name``, ``kind`` (rigid, soft, actuator or sensor), and the numbers of its kind."""
@@ -100,6 +101,26 @@ def library(name: Union[str, "os.PathLike[str]"] = "shipped") -> Tuple[Robot, ..
     'LLLLLLLR'
     """
     return tuple(_robot(record) for record in json.loads(_nbc.robots(os.fspath(name))))
+
+
+def verify(
+    name: Union[str, "os.PathLike[str]"] = "shipped", *, progress: Progress = False
+) -> Dict[str, Tuple[str, ...]]:
+    """Measures every robot of a library again, as ``nbc library verify`` does.
+
+    Args:
+        name: a library, as in `library`.
+        progress: whether to show a tqdm bar, or a function of the work done and all work.
+
+    Returns:
+        For each robot, by its name, what differs from its file; an empty tuple if nothing does.
+
+    Raises:
+        NbcError: when the folder or one of its files cannot be read.
+    """
+    with reporting(progress, " robots") as report:
+        found = _nbc.verify(os.fspath(name), report)
+    return {robot: tuple(differs) for robot, differs in found}
 
 
 def invalid(bodies: Bodies, *, materials: Optional[Sequence[Material]] = None) -> List[str]:
