@@ -261,9 +261,11 @@ fn wires_that_nothing_drives_are_zero_with_a_warning() {
     for arguments in [&["synth", "open.v", "--cells", "nand,not"][..], &["test", "p.nb", "--logic"]] {
         let ran = bench.run(arguments);
         assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-        for (wire, line) in [("t", 5), ("r", 4), ("u.x", 7)] {
+        // Of an input of an instance, Yosys 0.23 knows the line of the instance, and 0.70 that of the input.
+        for (wire, lines) in [("t", &[5][..]), ("r", &[4]), ("u.x", &[7, 1])] {
             let said = ran.err.contains(&format!("warning[undriven]: nothing drives the wire `{wire}`"));
-            assert!(said && ran.err.contains(&format!("open.v:{line}:")), "{wire}: {}", ran.err);
+            let is_placed = lines.iter().any(|line| ran.err.contains(&format!("open.v:{line}:")));
+            assert!(said && is_placed, "{wire}: {}", ran.err);
         }
     }
 }
