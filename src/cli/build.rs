@@ -13,8 +13,10 @@ use crate::cli::options::new_path::new_path;
 use crate::cli::source_path::source_path;
 use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, OutputFormat, Status};
+use nbc_base::diag::counted;
 use nbc_base::model::Column;
 use nbc_circuit::formats::{Design, blif, dot, verilog};
+use nbc_circuit::passes;
 use nbc_circuit::timing::fan_out;
 use nbc_circuit::{CellLibrary, NetId, Netlist, Race, levels, races, rings};
 use nbc_session::report::{self, Document, MemoryTimes, PhaseTiming, Schema, WaveTiming};
@@ -54,6 +56,8 @@ pub struct BuildArguments {
 enum Emit {
     /// Text with a line for each cell
     Netlist,
+    /// The circuit as written after each pass before mapping
+    Passes,
     /// BLIF
     Blif,
     /// Structural Verilog
@@ -108,6 +112,7 @@ impl BuildArguments {
 fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
     match emit {
         Emit::Netlist => mapping.netlist.to_string(),
+        Emit::Passes => describe_passes(mapping.source),
         Emit::Blif => blif::write(&Design::new(mapping.netlist, Vec::new())),
         Emit::Verilog => verilog::write(&Design::new(mapping.netlist, Vec::new())),
         Emit::Dot => dot::write(&mapping.netlist),
@@ -117,6 +122,23 @@ fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
             serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
         }
     }
+}
+
+/// The circuit as written, and again after each pass that changes it.
+fn describe_passes(source: Netlist) -> String {
+    let cells = |netlist: &Netlist| counted(netlist.cells().count(), "cell");
+    let mut before = source.to_string();
+    let mut text = format!("as written: {}\n{before}", cells(&source));
+    for (pass, netlist) in passes::after_each(source).expect("the circuit was mapped") {
+        let after = netlist.to_string();
+        let (left, shown) = match after == before {
+            true => ("no change".to_owned(), ""),
+            false => (cells(&netlist), after.as_str()),
+        };
+        text += &format!("\n{} ({}): {left}\n{shown}", pass.name(), pass.about());
+        before = after;
+    }
+    text
 }
 
 fn describe_timing(mapping: &Mapping) -> String {

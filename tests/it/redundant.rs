@@ -157,3 +157,34 @@ proptest! {
         prop_assert!(reduce(&reduced).1.is_empty());
     }
 }
+
+#[test]
+fn the_circuit_is_shown_after_each_pass_that_changes_it() {
+    let bench = Bench::new();
+    bench.file("a.nb", "circuit a(x, y) -> (q, r) {\n    q = x and (y or 1)\n    r = not (x and y)\n}\n");
+    let told = bench.run(&["build", "a.nb", "--emit", "passes"]).out;
+    insta::assert_snapshot!(told, @r"
+    as written: 4 cells
+    netlist a(x, y) -> (q, r) {
+        n3 = or(y, 1)
+        q = and(x, n3)
+        n5 = and(x, y)
+        r = not(n5)
+    }
+
+    dissolve-wires (replaces wires by their drivers): no change
+
+    fold-constants (simplifies cells with constant or repeated pins): 2 cells
+    netlist a(x, y) -> (q, r) {
+        n5 = and(x, y)
+        r = not(n5)
+        q = x
+    }
+
+    share (merges cells that compute the same): no change
+
+    merge-registers (merges registers that always store the same bit): no change
+
+    sweep (removes what no output depends on): no change
+    ");
+}

@@ -10,6 +10,14 @@ use crate::{NetId, Netlist, NetlistError, Node};
 pub struct DissolveWires;
 
 impl Pass for DissolveWires {
+    fn name(&self) -> &'static str {
+        "dissolve-wires"
+    }
+
+    fn about(&self) -> &'static str {
+        "replaces wires by their drivers"
+    }
+
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         self.run_on(netlist)
     }

@@ -18,6 +18,14 @@ enum Folded {
 }
 
 impl Pass for FoldConstants {
+    fn name(&self) -> &'static str {
+        "fold-constants"
+    }
+
+    fn about(&self) -> &'static str {
+        "simplifies cells with constant or repeated pins"
+    }
+
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         let mut guarded = Guarded::of(netlist);
         for id in guarded.memory().order().to_vec() {

@@ -21,6 +21,14 @@ const MOST_SWEEPS: usize = 1000;
 pub struct MergeRegisters;
 
 impl Pass for MergeRegisters {
+    fn name(&self) -> &'static str {
+        "merge-registers"
+    }
+
+    fn about(&self) -> &'static str {
+        "merges registers that always store the same bit"
+    }
+
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         self.merged(netlist).into_iter().for_each(|(id, first)| merge(netlist, id, first));
         Ok(())

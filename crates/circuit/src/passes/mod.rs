@@ -17,6 +17,12 @@ use crate::{NetId, Netlist, NetlistError};
 
 /// A transformation that preserves the function of a netlist.
 pub trait Pass: Sync {
+    /// The name, in words with `-` between them.
+    fn name(&self) -> &'static str;
+
+    /// What it does, in a few words.
+    fn about(&self) -> &'static str;
+
     /// Changes the netlist.
     ///
     /// # Errors
@@ -30,7 +36,7 @@ pub trait Pass: Sync {
 }
 
 /// The passes before technology mapping, in order.
-pub(crate) const ORDER: &[&dyn Pass] = &[
+pub const ORDER: &[&dyn Pass] = &[
     // First, so that no other pass has to handle wires.
     &DissolveWires,
     // Before sharing: constants make different cells equal.
@@ -48,4 +54,26 @@ pub(crate) const ORDER: &[&dyn Pass] = &[
 /// When the netlist is not well formed.
 pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
     ORDER.iter().try_for_each(|pass| pass.run(netlist))
+}
+
+/// The netlist after each pass, in order.
+///
+/// # Errors
+/// When the netlist is not well formed.
+pub fn after_each(mut netlist: Netlist) -> Result<Vec<(&'static dyn Pass, Netlist)>, NetlistError> {
+    let after = |pass: &&'static dyn Pass| pass.run(&mut netlist).map(|()| (*pass, netlist.clone()));
+    ORDER.iter().map(after).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_pass_has_a_name_of_its_own() {
+        let mut names: Vec<&str> = ORDER.iter().map(|pass| pass.name()).collect();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(names.len(), ORDER.len());
+    }
 }

@@ -12,6 +12,14 @@ use nbc_base::model::Function;
 pub struct Share;
 
 impl Pass for Share {
+    fn name(&self) -> &'static str {
+        "share"
+    }
+
+    fn about(&self) -> &'static str {
+        "merges cells that compute the same"
+    }
+
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         let loops = Loops::memory(netlist);
         let mut known = BTreeMap::new();

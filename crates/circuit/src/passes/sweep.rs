@@ -10,6 +10,14 @@ use crate::{Netlist, NetlistError, Node};
 pub struct Sweep;
 
 impl Pass for Sweep {
+    fn name(&self) -> &'static str {
+        "sweep"
+    }
+
+    fn about(&self) -> &'static str {
+        "removes what no output depends on"
+    }
+
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         let mut used: BTreeSet<_> = netlist.outputs().iter().copied().collect();
         let mut pending = netlist.outputs().to_vec();

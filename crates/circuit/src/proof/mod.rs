@@ -154,6 +154,14 @@ mod tests {
     struct Wrong;
 
     impl Pass for Wrong {
+        fn name(&self) -> &'static str {
+            "wrong"
+        }
+
+        fn about(&self) -> &'static str {
+            "inverts a cell"
+        }
+
         fn run(&self, netlist: &mut Netlist) -> Result<(), crate::NetlistError> {
             let found = netlist.cells().map(|(id, _)| id).next();
             if let Some(id) = found
