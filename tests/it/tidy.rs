@@ -20,9 +20,6 @@ const LAYERS: &[(&str, u8)] = &[
     ("check", 3),
     ("evolve", 2),
     ("swarm", 3),
-    ("store", 3),
-    ("report", 4),
-    ("session", 5),
 ];
 
 /// The folder of a crate that a file belongs to; where a crate is one folder, the crate without `nbc_`.
@@ -75,18 +72,18 @@ fn a_folder_imports_lower_layers_only() {
 
 /// The files that the feature `disk` brings in.
 const DISK: [&str; 12] = [
-    "store/atomic.rs",
-    "store/disk.rs",
-    "store/disk_world.rs",
-    "store/draft.rs",
-    "store/folder.rs",
-    "store/lock.rs",
-    "store/results.rs",
-    "store/source_files.rs",
-    "store/temporary.rs",
-    "store/verilog/icarus.rs",
-    "store/verilog/process.rs",
-    "store/verilog/yosys.rs",
+    "store/src/atomic.rs",
+    "store/src/disk.rs",
+    "store/src/disk_world.rs",
+    "store/src/draft.rs",
+    "store/src/folder.rs",
+    "store/src/lock.rs",
+    "store/src/results.rs",
+    "store/src/source_files.rs",
+    "store/src/temporary.rs",
+    "store/src/verilog/icarus.rs",
+    "store/src/verilog/process.rs",
+    "store/src/verilog/yosys.rs",
 ];
 
 /// The program and the doors with crates of their own.
@@ -223,7 +220,8 @@ fn the_core_has_no_statics() {
 #[test]
 fn the_papers_materials_are_a_default() {
     let rule = "a body has its own palette; the paper's stands where a file, a speed test or the designer names none";
-    let defaults = ["model/palette.rs", "model/body.rs", "store/robot.rs", "store/shape.rs", "play/src/bodies.rs"];
+    let defaults =
+        ["model/palette.rs", "model/body.rs", "store/src/robot.rs", "store/src/shape.rs", "play/src/bodies.rs"];
     forbid(rule, &["Palette::paper", "Setting::paper"], |path| defaults.iter().any(|name| path.ends_with(name)));
 }
 
@@ -252,7 +250,7 @@ fn each_outer_crate_has_one_home() {
     forbid("only two files of sim/backend/opencl name the driver's crate", &["opencl3"], |path| {
         ["card.rs", "listing.rs"].iter().any(|name| path.ends_with(Path::new("opencl").join(name)))
     });
-    let drawing = ["report/film.rs", "report/font.rs", "report/raster.rs"];
+    let drawing = ["report/src/film.rs", "report/src/font.rs", "report/src/raster.rs"];
     let pixels = |path: &Path| drawing.iter().any(|name| path.ends_with(name));
     let painters = ["tiny_skia", "ttf_parser", "gif::", "png::"];
     forbid("only three files of report/ name what draws pixels", &painters, pixels);

@@ -307,7 +307,7 @@ mod tests {
         let missing = documents.checked("a.nb").diagnostics.clone();
         documents.update("robots/x.yaml", 1, "");
         let empty = documents.checked("a.nb").diagnostics.clone();
-        documents.update("robots/x.yaml", 2, include_str!("../library/robots/nand_5x5.yaml"));
+        documents.update("robots/x.yaml", 2, include_str!("../../../library/robots/nand_5x5.yaml"));
         assert!(!missing.is_empty() && !empty.is_empty() && missing != empty);
         assert_eq!(documents.checked("a.nb").diagnostics, []);
     }

@@ -19,7 +19,6 @@ mod options;
 mod pictures;
 mod plan;
 mod replay;
-pub mod report;
 mod robot_request;
 mod robots;
 mod run;
@@ -29,7 +28,6 @@ mod script;
 mod session;
 mod simulation;
 mod start_bodies;
-pub mod store;
 mod swarm_run;
 mod synthesis;
 mod synthesis_report;
@@ -39,6 +37,9 @@ mod verification;
 mod waves;
 mod wording;
 mod yields;
+
+pub use nbc_report as report;
+pub use nbc_store as store;
 
 pub use body_search::BodySearch;
 pub use checked::{Checked, prelude};

@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cli::{Failure, Interrupt};
 use nbc_base::model::{Behavior, Character, Displacements, Fault};
-use nbc_session::store::{self, own_materials};
+use nbc_session::store;
 use nbc_swarm::{Executor, Measurement, Task, TaskResult};
 
 /// The file, in the folder of the robots.
@@ -136,7 +136,7 @@ fn key(task: &Task) -> Option<String> {
         Task::Measurement(body) => ("measurement".to_owned(), body),
         Task::Evaluation(..) | Task::Swarm(_) => return None,
     };
-    let materials = serde_json::to_string(&own_materials(body)).expect("materials can be written as JSON");
+    let materials = serde_json::to_string(&body.own_materials()).expect("materials can be written as JSON");
     Some(format!("{what} {} {materials}", body.rows().join("|")))
 }
 

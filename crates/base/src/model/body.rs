@@ -118,6 +118,11 @@ impl Body {
         &self.codes
     }
 
+    /// Its materials, unless they are the paper's.
+    pub fn own_materials(&self) -> Option<Arc<Palette>> {
+        Some(self.palette()).filter(|palette| !palette.is_paper()).cloned()
+    }
+
     /// The meaning of the codes.
     pub fn palette(&self) -> &Arc<Palette> {
         &self.palette

@@ -1,0 +1,157 @@
+//! The results of the evolution runs of one declaration: each seed's elites and progress, and the best elite of each
+//! niche over all seeds.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::discovery::Discovery;
+use crate::groups::group_of;
+use crate::history::ProgressLine;
+use crate::progress::Course;
+use nbc_base::model::{Axis, Behavior, Count, Function, SearchObjective};
+use nbc_swarm::evolve::{Champion, Elite, NicheKey};
+
+/// Runs of one declaration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EvolutionResults {
+    /// The declaration's name.
+    pub name: String,
+    /// The archive's axes.
+    pub axes: Vec<Axis>,
+    /// The stimuli of their bodies.
+    pub stimuli: usize,
+    /// What fitness meant in these runs.
+    pub objective: SearchObjective,
+    /// The runs by their seeds: a seed is one run, however often it was read.
+    pub runs: BTreeMap<u64, SeedRun>,
+}
+
+/// The run of one seed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SeedRun {
+    /// Filled niches and their elites.
+    pub niches: Vec<(NicheKey, Vec<Elite>)>,
+    /// The run after each generation.
+    pub progress: Vec<ProgressLine>,
+}
+
+impl SeedRun {
+    /// The fittest elite of a behavior; the first of equals.
+    pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
+        let own = self.niches.iter().flat_map(|(_, elites)| elites).filter(|elite| elite.behavior == behavior);
+        fittest(own)
+    }
+
+    /// The champions of all behaviors, as statistics of an archive.
+    pub fn champions(&self) -> Vec<Champion> {
+        let champion = |behavior| {
+            let fitness = self.champion(behavior)?.fitness;
+            let holds = |elites: &[Elite]| elites.iter().any(|elite| elite.behavior == behavior);
+            let niches = self.niches.iter().filter(|(_, elites)| holds(elites)).count();
+            Some(Champion { behavior, fitness, niches })
+        };
+        self.behaviors().into_iter().filter_map(champion).collect()
+    }
+
+    /// The behaviors of its elites, in order of their functions.
+    fn behaviors(&self) -> BTreeSet<Behavior> {
+        self.niches.iter().flat_map(|(_, elites)| elites).map(|elite| elite.behavior).collect()
+    }
+}
+
+fn fittest<'a>(elites: impl Iterator<Item = &'a Elite>) -> Option<&'a Elite> {
+    elites.fold(None, |best: Option<&Elite>, elite| match best {
+        Some(best) if best.fitness[0] >= elite.fitness[0] => Some(best),
+        _ => Some(elite),
+    })
+}
+
+impl EvolutionResults {
+    /// The fittest elite of each niche over all seeds, with its seed.
+    pub fn best(&self) -> BTreeMap<&NicheKey, (u64, &Elite)> {
+        let mut best: BTreeMap<&NicheKey, (u64, &Elite)> = BTreeMap::new();
+        for (&seed, run) in &self.runs {
+            for (key, elites) in &run.niches {
+                let Some(elite) = fittest(elites.iter()) else { continue };
+                let held = best.entry(key).or_insert((seed, elite));
+                if elite.fitness[0] > held.1.fitness[0] {
+                    *held = (seed, elite);
+                }
+            }
+        }
+        best
+    }
+
+    /// The fittest elite of a behavior over all seeds.
+    pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
+        fittest(self.runs.values().filter_map(|run| run.champion(behavior)))
+    }
+
+    /// The number of niches.
+    pub fn niche_count(&self) -> usize {
+        self.axes.iter().map(|axis| axis.bins(self.stimuli)).product()
+    }
+
+    /// The behaviors of its elites over all seeds, in order of their functions.
+    pub fn behaviors(&self) -> BTreeSet<Behavior> {
+        self.runs.values().flat_map(SeedRun::behaviors).collect()
+    }
+
+    /// Coverage and QD-score over the generations.
+    pub fn courses(&self) -> [Course; 2] {
+        let runs = |value: fn(&ProgressLine) -> f64| {
+            let points = |run: &SeedRun| {
+                run.progress.iter().map(|line| (f64::from(line.generation), value(line))).collect::<Vec<_>>()
+            };
+            self.runs.values().map(points).collect()
+        };
+        [
+            Course {
+                title: "coverage".to_owned(),
+                unit: "filled niches (%)".to_owned(),
+                runs: runs(|line| 100.0 * line.coverage),
+            },
+            Course {
+                title: "QD-score".to_owned(),
+                unit: format!("sum of {}", self.unit()),
+                runs: runs(|line| line.qd_score),
+            },
+        ]
+    }
+
+    /// When each seed first found each behavior, in order of the paper's groups; of three stimuli, each that one found,
+    /// in order of the inputs that matter and of classes.
+    pub fn discoveries(&self) -> Vec<Discovery> {
+        let first = |run: &SeedRun, behavior| {
+            run.progress.iter().find(|line| line.behaviors.contains(&behavior)).map(|line| line.generation)
+        };
+        let discovery = |behavior| {
+            let generations = self.runs.values().filter_map(|run| first(run, behavior)).collect();
+            Discovery { behavior, generations }
+        };
+        let mut discoveries: Vec<Discovery> = Behavior::all(self.stimuli).map(discovery).collect();
+        if self.stimuli == 2 {
+            discoveries.sort_by_key(|discovery| group_of(discovery.behavior));
+        } else {
+            discoveries.retain(|discovery| !discovery.generations.is_empty());
+            let class = |function: Function| (function.arity(), function.class()[0]);
+            discoveries.sort_by_cached_key(|discovery| class(discovery.behavior.function()));
+        }
+        discoveries
+    }
+
+    /// The meaning of the first fitness.
+    pub fn unit(&self) -> &'static str {
+        self.objective.meaning()
+    }
+}
+
+/// The word of an axis in the language.
+pub fn axis_word(axis: Axis) -> &'static str {
+    match axis {
+        Axis::Count { of: Count::Voxels, .. } => "voxels",
+        Axis::Count { of: Count::Active, .. } => "active",
+        Axis::Count { of: Count::Sensory, .. } => "sensory",
+        Axis::Behavior => "behavior",
+        Axis::Class => "class",
+    }
+}

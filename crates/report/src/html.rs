@@ -1,0 +1,113 @@
+//! The common parts of all pages. A page is one file that loads nothing, follows the reader's theme, and contains its
+//! data and scripts.
+//!
+//! Pages are written as text, not with a template crate such as `maud`: their markup is a few elements around drawings,
+//! tables and scripts, and every text of a user passes [`escape`].
+
+use base64::Engine;
+use base64::engine::general_purpose::STANDARD;
+use serde_json::Value;
+
+use crate::svg::Svg;
+
+const STYLE: &str = include_str!("../assets/page/page.css");
+/// Robots on a canvas, and the controls of a player.
+const COMMON: [&str; 2] = [include_str!("../assets/page/robot.js"), include_str!("../assets/page/clock.js")];
+
+/// A page under construction.
+pub struct Html<'a> {
+    /// The heading, as plain text.
+    pub heading: &'a str,
+    /// Whether the verdict is good.
+    pub passed: bool,
+    /// The verdict at the top, as plain text.
+    pub verdict: String,
+    /// The body, as HTML.
+    pub body: String,
+    /// The data for the script.
+    pub data: Value,
+    pub script: &'static str,
+}
+
+impl Html<'_> {
+    /// The page as a file.
+    pub fn finish(self) -> String {
+        let (heading, verdict, version) = (escape(self.heading), escape(&self.verdict), nbc_base::VERSION);
+        let class = if self.passed { "pass" } else { "fail" };
+        // No text of the user's can end the element.
+        let data = self.data.to_string().replace('<', "\\u003c");
+        let scripts: String =
+            COMMON.iter().chain([&self.script]).map(|script| format!("<script>\n{script}</script>\n")).collect();
+        format!(
+            "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
+             <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
+             <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
+             script-src 'unsafe-inline'; img-src data:\">\n\
+             <title>{heading}: {verdict}</title>\n<link rel=\"icon\" \
+             href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             <h1>{heading}</h1>\n<p class=\"verdict {class}\">{verdict}</p>\n{body}\
+             <footer class=\"dim\"><p>made by nbc {version}</p></footer>\n</main>\n\
+             <script id=\"data\" type=\"application/json\">{data}</script>\n{scripts}</body>\n</html>\n",
+            body = self.body,
+        )
+    }
+}
+
+/// The buttons of a player, which starts at that many cycles a second.
+pub fn controls(speed: &str) -> String {
+    let option = |value: &str| {
+        let chosen = if value == speed { " selected" } else { "" };
+        format!("<option{chosen}>{value}</option>")
+    };
+    let speeds: String = ["0.5", "1", "2", "4", "8"].map(option).concat();
+    format!(
+        "<div class=\"controls\"><button type=\"button\" class=\"play\">Play</button>\
+         <input type=\"range\" class=\"scrub\" min=\"0\" step=\"0.05\" value=\"0\" aria-label=\"time in cycles\">\
+         <label>cycles a second <select class=\"speed\">{speeds}</select></label><output \
+         class=\"clock\"></output></div>\n"
+    )
+}
+
+/// A drawing in a page, in a frame that scrolls if the page is too narrow. Identifiers are removed, because several
+/// drawings may use the same ones.
+pub fn picture(svg: &Svg, label: &str) -> String {
+    let svg = embedded(svg);
+    format!(
+        "<div class=\"scroll picture\" tabindex=\"0\" role=\"group\" aria-label=\"{}\">{svg}</div>\n",
+        escape(label)
+    )
+}
+
+/// A drawing for a page that has several of them: the identities of its groups need not be unique there.
+pub fn embedded(svg: &Svg) -> String {
+    svg.finish().replace("<g id=\"", "<g data-id=\"")
+}
+
+/// Text for an element or an attribute.
+pub fn escape(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
+}
+
+/// Numbers of 16 bits, lower byte first, as base64 (RFC 4648, section 4).
+pub fn base64(numbers: &[i16]) -> String {
+    STANDARD.encode(numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Color;
+
+    #[test]
+    fn stimuli_have_the_colors_of_all_pictures() {
+        for i in 0..3 {
+            let color = format!("--s{}: {};", i + 1, Color::stimulus(i));
+            assert!(STYLE.contains(&color), "{color}");
+        }
+    }
+
+    #[test]
+    fn numbers_have_their_lower_byte_first() {
+        assert_eq!(base64(&[1, -2]), "AQD+/w==");
+    }
+}

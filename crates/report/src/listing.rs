@@ -1,0 +1,184 @@
+//! Robots of a library as a table, as one page, and as data.
+
+use std::sync::Arc;
+
+use serde::Serialize;
+
+use crate::looks::material_words;
+use crate::{Align, TextTable};
+use nbc_base::diag::counted;
+use nbc_base::model::{Displacements, Library, Palette, Pattern, Robot, SafeRadius, Transition};
+
+/// The data of a robot in a list, for programs.
+#[derive(Clone, Debug, Serialize)]
+pub struct Listing {
+    /// The robot's name in its library.
+    pub name: String,
+    /// Its four letters.
+    pub behavior: String,
+    /// The function that it computes as a gate.
+    pub function: &'static str,
+    /// Its bounding box, columns by rows, such as `5x5`.
+    #[serde(rename = "box")]
+    pub bounds: String,
+    /// Its clock in cycles.
+    pub clock: u32,
+    /// The longest of its settle times in cycles; none if they were not measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub settle: Option<u32>,
+    /// Its smallest displacement in voxels per cycle.
+    pub margin: f64,
+    /// How far worlds may differ, if that was measured.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<SafeRadius>,
+    /// The share of random switches with a wrong output.
+    pub error_rate: f64,
+    /// Random switches over which they were counted.
+    pub switches: u32,
+    /// The share of wrong cycles in which the output should not change.
+    pub glitch_rate: f64,
+    /// Its rows of codes, top row first.
+    pub body: Vec<String>,
+    /// The materials of the codes, in their order, if they are not the paper's.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub materials: Option<Arc<Palette>>,
+}
+
+impl Listing {
+    /// The entry for one robot.
+    pub fn of(robot: &Robot) -> Self {
+        let character = &robot.character;
+        Self {
+            name: robot.name.clone(),
+            behavior: robot.behavior.to_string(),
+            function: robot.function().name(),
+            bounds: format!("{}x{}", robot.body.width(), robot.body.height()),
+            clock: character.clock,
+            settle: character.settle.iter().map(|transition| transition.cycles).max(),
+            margin: character.margin,
+            radius: character.radius.clone(),
+            error_rate: character.error_rate,
+            switches: character.switches,
+            glitch_rate: character.glitch_rate,
+            body: robot.body.rows(),
+            materials: robot.body.own_materials(),
+        }
+    }
+
+    /// All robots of a library, in its order.
+    pub fn all(library: &Library) -> Vec<Self> {
+        library.robots.iter().map(Self::of).collect()
+    }
+
+    /// A list as a table for people.
+    pub fn table(list: &[Self]) -> TextTable {
+        use Align::{Left, Right};
+        let mut table = TextTable::new(&[
+            ("function", Left),
+            ("robot", Left),
+            ("behavior", Left),
+            ("box", Left),
+            ("clock", Right),
+            ("settles", Right),
+            ("margin", Right),
+            ("radius", Right),
+            ("errors", Right),
+            ("glitches", Right),
+        ]);
+        for robot in list {
+            table.push(vec![
+                robot.function.to_owned(),
+                robot.name.clone(),
+                robot.behavior.clone(),
+                robot.bounds.clone(),
+                robot.clock.to_string(),
+                robot.settle.map_or(String::new(), |cycles| cycles.to_string()),
+                format!("{:.3}", robot.margin),
+                robot.radius.as_ref().map_or(String::new(), |found| found.radius.to_string()),
+                percent(robot.error_rate),
+                percent(robot.glitch_rate),
+            ]);
+        }
+        table
+    }
+}
+
+fn percent(share: f64) -> String {
+    if share == 0.0 { "0".to_owned() } else { format!("{:.2} %", share * 100.0) }
+}
+
+/// Displacements under each pattern.
+pub(super) fn walked(displacement: &Displacements) -> String {
+    let behavior = displacement.behavior();
+    let one = |(pattern, voxels): (Pattern, &f64)| format!("{} {voxels:+.2}", pattern.digits(behavior.stimuli()));
+    behavior.patterns().zip(displacement.iter()).map(one).collect::<Vec<_>>().join(", ")
+}
+
+/// A robot on one page: its body, its materials, its character and its provenance.
+pub fn describe_robot(robot: &Robot) -> String {
+    let (character, provenance) = (&robot.character, &robot.provenance);
+    let drawing = robot.body.rows().join("\n    ").replace('0', ".");
+    let clock =
+        format!("{}, margin {:.3} voxels a cycle", counted(character.clock as usize, "cycle"), character.margin);
+    let errors = format!(
+        "{} of {} switches, glitches {}",
+        percent(character.error_rate),
+        character.switches,
+        percent(character.glitch_rate)
+    );
+    format!(
+        "{name}: {function}, {behavior}, {width}x{height}{topples}\n\n    {drawing}\n\n{legend}\n\n\
+         displacement  {displacement} voxels in 10 cycles\n\
+         clock         {clock}\n\
+         errors        {errors}\n\
+         settles       {settles}\n\
+         worlds        {worlds}\n\
+         made by       {program} {version}, evolution {evolution}, seed {seed}, generation {generation}, \
+         {evaluations}\n",
+        name = robot.name,
+        function = robot.function(),
+        behavior = robot.behavior,
+        width = robot.body.width(),
+        height = robot.body.height(),
+        topples = if character.topples { ", topples" } else { "" },
+        legend = legend(robot),
+        displacement = walked(&robot.displacement),
+        settles = settles(robot),
+        worlds = worlds(robot),
+        program = provenance.program,
+        version = provenance.version,
+        evolution = provenance.evolution,
+        seed = provenance.seed,
+        generation = provenance.generation,
+        evaluations = counted(provenance.evaluations as usize, "evaluation"),
+    )
+}
+
+/// The materials that the body has, by code.
+fn legend(robot: &Robot) -> String {
+    material_words(&robot.body).join("  ")
+}
+
+/// How far worlds may differ, and the errors at radius 1.
+fn worlds(robot: &Robot) -> String {
+    let Some(SafeRadius { vary, worlds, radius, error_rate, .. }) = &robot.character.radius else {
+        return "not measured".to_owned();
+    };
+    let errors = error_rate.map_or(String::new(), |rate| format!(", {} of switches wrong at radius 1", percent(rate)));
+    let worlds = counted(*worlds as usize, "world");
+    format!("radius {radius} in {worlds}, radius 1 is {vary}{errors}")
+}
+
+/// The settle times, grouped: `1: 00>01 01>11, 2: 11>10`.
+fn settles(robot: &Robot) -> String {
+    let mut times: Vec<u32> = robot.character.settle.iter().map(|transition| transition.cycles).collect();
+    times.sort_unstable();
+    times.dedup();
+    let of_time = |&cycles: &u32| {
+        let same = robot.character.settle.iter().filter(|transition| transition.cycles == cycles);
+        let word = |one: &Transition| format!("{}>{}", one.from.digits(one.stimuli), one.to.digits(one.stimuli));
+        let words: Vec<String> = same.map(word).collect();
+        format!("in {cycles}: {}", words.join(" "))
+    };
+    if times.is_empty() { "not measured".to_owned() } else { times.iter().map(of_time).collect::<Vec<_>>().join("; ") }
+}

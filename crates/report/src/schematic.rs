@@ -1,0 +1,180 @@
+//! Schematics: a circuit in sheets, each of them a part of it in layers, and each cell with the robot that plays it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use serde::Serialize;
+
+use crate::hierarchy::{CircuitPart, Hierarchy};
+use crate::html::embedded;
+use crate::looks::Looks;
+use crate::scheme::Scheme;
+use crate::sheet::{Sheet, SheetItem};
+use crate::sprite::draw_body;
+use crate::svg::Svg;
+use crate::symbols::{SIDE, Symbols};
+use crate::wires::{SheetPlan, draw_net};
+use nbc_base::diag::counted;
+use nbc_base::model::Robot;
+use nbc_circuit::{NetId, Netlist};
+
+/// The schematic of a circuit. Each of its parts is a sheet, the first of them the whole.
+pub struct Schematic<'a> {
+    circuit: &'a Netlist,
+    hierarchy: Hierarchy,
+    /// The robots of the cells in order, or none.
+    robots: Vec<&'a Robot>,
+    /// The place of each cell among the cells.
+    numbers: BTreeMap<NetId, usize>,
+    critical: Vec<NetId>,
+    looks: Looks,
+}
+
+/// A schematic for a page, which shows a sheet at a time.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct SchematicPages {
+    /// The sheets, each after the one around it.
+    pub sheets: Vec<SheetPage>,
+    /// The bodies of the robots, as SVG. A group `body-K` of a sheet is the place of body `K`.
+    pub bodies: Vec<String>,
+    /// For each robot, the sheet that shows it.
+    pub homes: Vec<usize>,
+}
+
+/// A sheet for a page.
+#[derive(Clone, Debug, Serialize)]
+pub struct SheetPage {
+    /// Its name in the sheet around it.
+    pub name: String,
+    /// What it is, such as `adder, 37 robots`.
+    pub about: String,
+    /// The sheet around it.
+    pub outer: Option<usize>,
+    /// The drawing: a group `cell-N` is robot `N`, `part-N` the box of sheet `N`, `net-NAME` the wires of a net, and
+    /// `nets-N` those of several.
+    pub svg: String,
+    /// The names of the nets of each group `nets-N`.
+    pub bundles: Vec<Vec<String>>,
+}
+
+impl<'a> Schematic<'a> {
+    /// The schematic of a netlist. `robots` are those of its cells in order, or empty if none are chosen yet;
+    /// `critical` are the nets of the slowest path.
+    pub fn of(circuit: &'a Netlist, robots: &[&'a Robot], critical: &[NetId], scheme: Scheme) -> Self {
+        Self {
+            circuit,
+            hierarchy: Hierarchy::of(circuit),
+            robots: robots.to_vec(),
+            numbers: circuit.cells().enumerate().map(|(number, (id, _))| (id, number)).collect(),
+            critical: critical.to_vec(),
+            looks: Looks::of(robots.iter().map(|robot| &robot.body), scheme),
+        }
+    }
+
+    /// The drawing of the whole, in which large parts are boxes.
+    pub fn top(&self) -> Svg {
+        self.draw(0, &self.bodies()).0
+    }
+
+    /// All sheets.
+    pub fn pages(&self) -> SchematicPages {
+        let bodies = self.bodies();
+        let page = |(number, part): (usize, &CircuitPart)| {
+            let (svg, bundles) = self.draw(number, &bodies);
+            SheetPage {
+                name: part.name.clone(),
+                about: about(part),
+                outer: part.outer,
+                svg: embedded(&svg.emptied("body-")),
+                bundles,
+            }
+        };
+        let sprite = |robot: &&Robot| embedded(&draw_body(&robot.body, &self.looks, scale(robot)));
+        SchematicPages {
+            sheets: self.hierarchy.parts.iter().enumerate().map(page).collect(),
+            bodies: bodies.iter().map(sprite).collect(),
+            homes: self.numbers.keys().map(|id| self.hierarchy.home[id]).collect(),
+        }
+    }
+
+    /// The different robots.
+    fn bodies(&self) -> Vec<&'a Robot> {
+        let mut seen = BTreeSet::new();
+        self.robots.iter().copied().filter(|robot| seen.insert(robot.name.as_str())).collect()
+    }
+
+    /// A part's drawing, and the nets of each group of several.
+    fn draw(&self, part: usize, bodies: &[&Robot]) -> (Svg, Vec<Vec<String>>) {
+        let sheet = Sheet::of(self.circuit, &self.hierarchy, part);
+        let plan = SheetPlan::of(&sheet.netlist);
+        let path = self.hierarchy.path(part);
+        let title = if path.is_empty() { self.circuit.name.clone() } else { path.join(" / ") };
+        let mut svg = Svg::new(plan.width, plan.height, &format!("schematic of {title}"));
+        let mut symbols = Symbols { svg: &mut svg, netlist: &sheet.netlist, plan: &plan };
+        let critical = self.critical_wires(&sheet);
+        symbols.draw_title(&title);
+        let has_parts = !self.hierarchy.parts[part].inner.is_empty();
+        symbols.draw_legend(critical.iter().next().is_some(), has_parts);
+        let mut bundles = Vec::new();
+        for net in plan.nets(&sheet.netlist) {
+            let names: Vec<String> = sheet.nets[&net].iter().map(|&id| self.circuit.net_name(id)).collect();
+            let (id, title) = match &names[..] {
+                [name] => (format!("net-{name}"), name.clone()),
+                _ => (format!("nets-{}", bundles.len()), counted(names.len(), "net")),
+            };
+            if names.len() != 1 {
+                bundles.push(names);
+            }
+            svg.group(&id, &title, |svg| draw_net(svg, &sheet.netlist, &plan, net, &critical));
+        }
+        let mut symbols = Symbols { svg: &mut svg, netlist: &sheet.netlist, plan: &plan };
+        let prefix = if path.is_empty() { String::new() } else { path.join("/") + "/" };
+        for (&id, shown) in &sheet.shown {
+            match shown {
+                SheetItem::Cell(cell) => {
+                    let robot = self.robots.get(self.numbers[cell]).copied();
+                    let body = robot.map(|robot| {
+                        let number = bodies.iter().position(|other| other.name == robot.name);
+                        (number.unwrap_or(0), robot, draw_body(&robot.body, &self.looks, scale(robot)))
+                    });
+                    let net = self.circuit.net_name(*cell);
+                    let title = self.title_of(*cell, robot);
+                    let short = net.strip_prefix(&prefix).unwrap_or(&net);
+                    symbols.draw_cell(id, (self.numbers[cell], &title, short), body);
+                }
+                SheetItem::Part(inner) => {
+                    let part = &self.hierarchy.parts[*inner];
+                    symbols.draw_part(id, *inner, (&part.name, &about(part)));
+                }
+                SheetItem::Port => symbols.draw_port(id),
+                SheetItem::Wire | SheetItem::Constant => symbols.draw_box(id),
+            }
+        }
+        (svg, bundles)
+    }
+
+    /// `q = nand(set, nq), robot nand_1`
+    fn title_of(&self, cell: NetId, robot: Option<&Robot>) -> String {
+        let pins: Vec<String> = self.circuit.pins(cell).into_iter().map(|net| self.circuit.net_name(net)).collect();
+        let robot = robot.map_or(String::new(), |robot| format!(", robot {}", robot.name));
+        let function = self.circuit.cell(cell).map_or(String::new(), |cell| cell.function.to_string());
+        format!("{} = {function}({}){robot}", self.circuit.net_name(cell), pins.join(", "))
+    }
+
+    /// The wires of the slowest path on a sheet.
+    fn critical_wires(&self, sheet: &Sheet) -> BTreeSet<(NetId, NetId)> {
+        let nodes: Vec<Option<NetId>> = self.critical.iter().map(|&net| sheet.node_of(net)).collect();
+        let pair = |pair: &[Option<NetId>]| Some((pair[0]?, pair[1]?)).filter(|(from, to)| from != to);
+        nodes.windows(2).filter_map(pair).collect()
+    }
+}
+
+/// `adder, 37 robots`
+fn about(part: &CircuitPart) -> String {
+    let robots = counted(part.size, "robot");
+    part.circuit.as_ref().map_or(robots.clone(), |circuit| format!("{circuit}, {robots}"))
+}
+
+/// The scale at which a robot fits its place.
+fn scale(robot: &Robot) -> f64 {
+    SIDE / robot.body.width().max(robot.body.height()) as f64
+}

@@ -1,0 +1,190 @@
+//! Robots simulated again, step by step, for films: their poses at even intervals.
+
+use std::sync::Arc;
+
+use crate::sprite::Pose;
+use nbc_base::model::{Body, CYCLE_STEPS, GroundProfile, Palette, Pattern, Schedule, Setting};
+use nbc_sim::{Flock, Simulator, Snapshot};
+use nbc_swarm::{Assembly, Recording, SwarmTrace};
+
+/// Robots during their simulation.
+pub struct Stage {
+    flock: Box<dyn Flock>,
+    ground: GroundProfile,
+    /// The materials of each robot's codes.
+    palettes: Vec<Arc<Palette>>,
+    /// Consecutive spells: env steps, and each robot's stimuli.
+    spells: Vec<(u32, Vec<Pattern>)>,
+    /// The current spell, and its remaining env steps.
+    spell: usize,
+    left: u32,
+    /// Env steps from frame to frame.
+    stride: u32,
+    step: u32,
+    started: bool,
+}
+
+/// The robots at one moment.
+#[derive(Clone, Debug)]
+pub struct Moment {
+    /// The env step, 0 at the start.
+    pub step: u32,
+    /// Each robot's voxels, in voxels of the world.
+    pub poses: Vec<Pose>,
+    /// Each robot's center of mass, in voxels.
+    pub centers: Vec<[f64; 2]>,
+    /// The stimuli of each robot.
+    pub patterns: Vec<Pattern>,
+    /// Whether each robot's simulation has been given up.
+    pub faults: Vec<bool>,
+}
+
+impl Stage {
+    /// One body under a schedule.
+    pub fn of_trial(setting: &Setting, body: &Body, schedule: &Schedule, stride: u32) -> Self {
+        Self::of_trials(setting, std::slice::from_ref(body), schedule, stride)
+    }
+
+    /// Several bodies under one schedule.
+    pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
+        let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
+        let palettes = bodies.iter().map(|body| Arc::clone(body.palette())).collect();
+        Self::new((Simulator::default().flock(setting, bodies), setting.ground), palettes, spells, stride)
+    }
+
+    /// A swarm in its setting, with the stimuli that its robots sensed.
+    pub fn of_swarm(assembly: &Assembly, trace: &SwarmTrace, stride: u32) -> Self {
+        Self::in_world(assembly, trace, trace.cycles.len(), stride)
+    }
+
+    /// A swarm as [`Stage::of_swarm`], with these states of its robots at the start, in a world for that many cycles.
+    ///
+    /// # Panics
+    /// When there is not a state for each robot.
+    pub fn of_running_swarm(
+        assembly: &Assembly,
+        trace: &SwarmTrace,
+        (states, cycles): (&[Snapshot], usize),
+        stride: u32,
+    ) -> Self {
+        let mut stage = Self::in_world(assembly, trace, cycles, stride);
+        assert_eq!(states.len(), stage.robots(), "a state for each robot");
+        for (i, state) in states.iter().enumerate() {
+            stage.flock.restore(i, state);
+        }
+        stage
+    }
+
+    fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
+        let palettes = assembly.members.iter().map(|member| Arc::clone(member.robot.body.palette())).collect();
+        let spells = trace.cycles.iter().map(|cycle| (CYCLE_STEPS, cycle.sensed.clone())).collect();
+        let ground = assembly.setting(cycles).ground;
+        Self::new((assembly.flock(&Simulator::default(), cycles), ground), palettes, spells, stride)
+    }
+
+    fn new(
+        (flock, ground): (Box<dyn Flock>, GroundProfile),
+        palettes: Vec<Arc<Palette>>,
+        spells: Vec<(u32, Vec<Pattern>)>,
+        stride: u32,
+    ) -> Self {
+        assert!(stride > 0, "frames are some steps apart");
+        let left = spells.first().map_or(0, |spell| spell.0);
+        Self { flock, ground, palettes, spells, spell: 0, left, stride, step: 0, started: false }
+    }
+
+    /// The ground of each robot, as columns that repeat from its left end.
+    pub fn ground(&self) -> GroundProfile {
+        self.ground
+    }
+
+    /// The number of robots.
+    pub fn robots(&self) -> usize {
+        self.flock.len()
+    }
+
+    /// The whole length in env steps.
+    pub fn steps(&self) -> u32 {
+        self.spells.iter().map(|spell| spell.0).sum()
+    }
+
+    /// The number of moments: the start, and one after each complete stride.
+    pub fn moments(&self) -> usize {
+        (self.steps() / self.stride) as usize + 1
+    }
+
+    /// The materials of each robot's codes.
+    pub fn palettes(&self) -> &[Arc<Palette>] {
+        &self.palettes
+    }
+
+    /// The number of points of robot `i`.
+    pub fn points(&self, i: usize) -> usize {
+        self.flock.lattice(i).points().len()
+    }
+
+    /// Runs to the end and records the first robots.
+    pub fn record(mut self, robots: usize) -> Recording {
+        let mut recording = Recording::new(&*self.flock, 0..robots.min(self.robots()), self.stride);
+        while self.turn() {
+            recording.record(&*self.flock);
+        }
+        recording
+    }
+
+    /// Advances to the next moment; the first call gives the start. Returns false at the end.
+    fn turn(&mut self) -> bool {
+        let first = !self.started;
+        self.started = true;
+        first || self.advance()
+    }
+
+    fn moment(&self) -> Moment {
+        let robots = 0..self.robots();
+        let none = vec![Pattern::default(); self.robots()];
+        Moment {
+            step: self.step,
+            poses: robots.clone().map(|i| self.pose(i)).collect(),
+            centers: robots.clone().map(|i| self.flock.center(i)).collect(),
+            patterns: self.spells.get(self.spell).or(self.spells.last()).map_or(none, |spell| spell.1.clone()),
+            faults: robots.map(|i| self.flock.fault(i).is_some()).collect(),
+        }
+    }
+
+    fn pose(&self, i: usize) -> Pose {
+        let points = self.flock.points(i);
+        let corner = |point: usize| (points[point][0], points[point][1]);
+        let voxels =
+            self.flock.lattice(i).voxels().iter().map(|voxel| (voxel.corners.map(corner), voxel.code)).collect();
+        Pose { voxels, palette: Arc::clone(&self.palettes[i]) }
+    }
+
+    /// Advances by one stride; returns false if less is left.
+    fn advance(&mut self) -> bool {
+        if self.steps() - self.step < self.stride {
+            return false;
+        }
+        let mut wanted = self.stride;
+        while wanted > 0 {
+            let steps = wanted.min(self.left);
+            if steps > 0 {
+                self.flock.advance(&self.spells[self.spell].1, steps);
+            }
+            (wanted, self.left) = (wanted - steps, self.left - steps);
+            if self.left == 0 && self.spell + 1 < self.spells.len() {
+                self.spell += 1;
+                self.left = self.spells[self.spell].0;
+            }
+        }
+        self.step += self.stride;
+        true
+    }
+}
+
+impl Iterator for Stage {
+    type Item = Moment;
+
+    fn next(&mut self) -> Option<Moment> {
+        self.turn().then(|| self.moment())
+    }
+}

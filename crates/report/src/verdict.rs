@@ -1,0 +1,353 @@
+//! The verdict of a test or a simulation as text: a truth table and the failures.
+
+use crate::{Align, TextTable};
+use nbc_base::diag::counted;
+use nbc_base::model::{Column, NamedWorld, Value};
+use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict, WrongOutput};
+
+/// The most failing rows of a test that are described.
+const MOST_ROWS: usize = 20;
+
+/// A test's truth table with expected and observed outputs for every row, and the failures.
+pub fn describe_test(verdict: &TestVerdict) -> String {
+    use Align::{Left, Right};
+    let mut table =
+        TextTable::new(&[("inputs", Left), ("expected", Left), ("observed", Left), ("cycles", Right), ("", Left)]);
+    let inputs = PortColumns::of(&verdict.inputs, verdict.rows.iter().map(|row| &row.inputs));
+    let expected = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.expected));
+    let observed = PortColumns::of(&verdict.outputs, verdict.rows.iter().map(|row| &row.observed));
+    table.push(vec![inputs.names(), expected.names(), observed.names(), String::new(), String::new()]);
+    for row in verdict.rows.iter().filter(|row| row.thread.unwrap_or(0) == 0) {
+        let same = verdict
+            .rows
+            .iter()
+            .filter(|other| other.thread.is_some() && other.line == row.line && other.row == row.row);
+        let passed = row.passed && same.into_iter().all(|other| other.passed);
+        table.push(vec![
+            inputs.values(&row.inputs),
+            expected.values(&row.expected),
+            observed.values(&row.observed),
+            row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
+            pass_word(passed).to_owned(),
+        ]);
+    }
+    let threads = verdict.rows.iter().filter_map(|row| row.thread).max().map_or(0, |last| last + 1);
+    let threads = if threads > 1 { format!(" in {threads} threads") } else { String::new() };
+    let heading = format!("test {}{threads}: {}\n", name_test(verdict), pass_word(verdict.passed));
+    let robots = describe_weak_robots(verdict);
+    let printed = describe_printed(verdict);
+    format!("{heading}{printed}{robots}{}{}", indented(&table), describe_rows(verdict))
+}
+
+/// A test with its swarm and its world: `inverter as sliders "inverts" in worn`.
+fn name_test(verdict: &TestVerdict) -> String {
+    let swarm = verdict.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
+    let title = if verdict.title.is_empty() { String::new() } else { format!(" \"{}\"", verdict.title) };
+    format!("{}{swarm}{title}{}", verdict.circuit, named_world(verdict))
+}
+
+/// ` in worn`; nothing for the world of the paper unless the test names it, and at the level of logic.
+pub(super) fn named_world(verdict: &TestVerdict) -> String {
+    match &verdict.world {
+        Some(world) if verdict.is_world_named => format!(" in {world}"),
+        Some(world) => in_world(world),
+        None => String::new(),
+    }
+}
+
+/// ` in worn`; nothing for the world of the paper.
+pub(super) fn in_world(world: &str) -> String {
+    if world == NamedWorld::DEFAULT { String::new() } else { format!(" in {world}") }
+}
+
+/// The line of a test, with the failures below it: `pass  inverter "inverts" in worn (2 rows, physics)`.
+pub fn describe_verdict(verdict: &TestVerdict) -> String {
+    let (name, rows, level) = (name_test(verdict), counted(verdict.row_count(), "row"), verdict.level.word());
+    let (printed, failures) = (describe_printed(verdict), describe_failures(verdict));
+    format!("{}  {name} ({rows}, {level})\n{printed}{failures}", pass_word(verdict.passed))
+}
+
+/// What the environment of a test wrote, line by line.
+fn describe_printed(verdict: &TestVerdict) -> String {
+    let Some(printed) = &verdict.printed else { return String::new() };
+    let lines = printed.lines().map(|line| format!("    > {}\n", line.escape_debug()));
+    lines.collect()
+}
+
+/// The failures of a test; empty if it passed. First the unreliable robots, then each failing row with its place, the
+/// names of its columns, and the wrong robots.
+fn describe_failures(verdict: &TestVerdict) -> String {
+    describe_weak_robots(verdict) + &describe_rows(verdict)
+}
+
+/// The outputs of a simulated swarm.
+pub fn describe_simulation(result: &SimulationResult) -> String {
+    use Align::{Left, Right};
+    let mut table = TextTable::new(&[("inputs", Left), ("cycles", Right), ("at the end", Left), ("changes", Left)]);
+    let inputs = PortColumns::of(&result.inputs, result.rows.iter().map(|row| &row.inputs));
+    let observed = PortColumns::of(&result.outputs, result.rows.iter().map(|row| &row.observed));
+    table.push(vec![inputs.names(), String::new(), observed.names(), observed.names()]);
+    for row in &result.rows {
+        let changes: Vec<String> = row.changes.iter().map(usize::to_string).collect();
+        let cycles = row.cycles.to_string();
+        table.push(vec![inputs.values(&row.inputs), cycles, observed.values(&row.observed), observed.words(&changes)]);
+    }
+    let fault = result.fault.as_ref().map_or(String::new(), |fault| format!("    {fault}\n"));
+    let world = in_world(&result.world);
+    format!("simulate {}, of {}{world}\n{}{fault}", result.swarm, result.circuit, indented(&table))
+}
+
+fn indented(table: &TextTable) -> String {
+    table.to_string().lines().map(|line| format!("    {line}\n")).collect()
+}
+
+/// The robots to check first after a test failed.
+fn describe_weak_robots(verdict: &TestVerdict) -> String {
+    let weak = verdict.weak_robots.iter().filter(|_| !verdict.passed);
+    weak.map(|weak| format!("    robot {} on {}: {}\n", weak.robot, weak.nets.join(", "), weak.complaint())).collect()
+}
+
+fn describe_rows(verdict: &TestVerdict) -> String {
+    let failed = || verdict.rows.iter().filter(|row| !row.passed);
+    // After the row in which a robot failed there is nothing to say of the others.
+    let told = failed().position(|row| row.fault.is_some()).map_or(usize::MAX, |first| first + 1).min(MOST_ROWS);
+    let rows: String = failed().take(told).map(|row| describe_row(verdict, row)).collect();
+    match failed().count().saturating_sub(told) {
+        0 => rows,
+        more => format!("{rows}    {} more failed\n", counted(more, "row")),
+    }
+}
+
+/// A failing row: `a.nb:12: row 3: a=4'd9 b=0 | q=1, expected 0`.
+fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
+    let inputs: Vec<String> =
+        verdict.inputs.iter().zip(&row.inputs).map(|(port, value)| format!("{}={value}", port.name)).collect();
+    let bar = if inputs.is_empty() { "" } else { " | " };
+    let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
+    let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
+    if let Some(fault) = &row.fault {
+        return format!("    {place}: {}{bar}{fault}\n", inputs.join(" "));
+    }
+    let outputs = verdict.outputs.iter().zip(&row.expected).zip(&row.observed).zip(&row.steady);
+    let wrong = outputs.filter_map(|(((port, expected), observed), &steady)| match steady {
+        _ if expected.is_open() => None,
+        false => Some(format!("{} keeps changing, expected {expected}", port.name)),
+        true if differs(expected, observed) => Some(format!("{}={observed}, expected {expected}", port.name)),
+        true => None,
+    });
+    let wrong: Vec<String> = wrong.collect();
+    let given_up = row.given_up.map_or(String::new(), |most| {
+        format!(" (repeated {most} {}, as often as its `until` permits)", if most == 1 { "time" } else { "times" })
+    });
+    let blame: String = describe_wrong_outputs(row).concat();
+    format!("    {place}: {}{bar}{}{given_up}\n{blame}", inputs.join(" "), wrong.join("; "))
+}
+
+fn differs(expected: &Value, observed: &Value) -> bool {
+    expected.bits.iter().zip(&observed.bits).any(|(expected, observed)| expected.is_some() && expected != observed)
+}
+
+/// The robots of a swarm, grouped by the gate they play: `4 nand (nand_1), 1 not (not_2)`.
+pub fn describe_swarm(trace: &SwarmTrace) -> String {
+    let mut groups: Vec<(String, usize)> = Vec::new();
+    for robot in &trace.robots {
+        let word = format!("{} ({})", robot.function, robot.robot);
+        match groups.iter_mut().find(|(known, _)| *known == word) {
+            Some((_, count)) => *count += 1,
+            None => groups.push((word, 1)),
+        }
+    }
+    let words: Vec<String> = groups.into_iter().map(|(word, count)| format!("{count} {word}")).collect();
+    match trace.robots.len() {
+        0 => "no robots".to_owned(),
+        1 => format!("one robot: {}", words.join(", ")),
+        count => format!("{count} robots: {}", words.join(", ")),
+    }
+}
+
+fn pass_word(passed: bool) -> &'static str {
+    if passed { "pass" } else { "FAIL" }
+}
+
+/// Values below the names of their ports.
+struct PortColumns<'a> {
+    ports: &'a [Column],
+    widths: Vec<usize>,
+}
+
+impl<'a> PortColumns<'a> {
+    /// Columns that are wide enough for these rows.
+    fn of<'v>(ports: &'a [Column], rows: impl Iterator<Item = &'v Vec<Value>>) -> Self {
+        let mut widths: Vec<usize> = ports.iter().map(|port| port.name.chars().count()).collect();
+        for row in rows {
+            for (width, value) in widths.iter_mut().zip(row) {
+                *width = (*width).max(value.to_string().chars().count());
+            }
+        }
+        Self { ports, widths }
+    }
+
+    fn names(&self) -> String {
+        self.words(&self.ports.iter().map(|port| &port.name).collect::<Vec<_>>())
+    }
+
+    fn values(&self, values: &[Value]) -> String {
+        self.words(values)
+    }
+
+    fn words(&self, words: &[impl ToString]) -> String {
+        let padded = words.iter().zip(&self.widths).map(|(word, &width)| format!("{:<width$}", word.to_string()));
+        padded.collect::<Vec<_>>().join(" ").trim_end().to_owned()
+    }
+}
+
+fn describe_wrong_outputs(row: &RowVerdict) -> Vec<String> {
+    let wrong = row.wrong_outputs.iter().map(|wrong| describe_wrong_output(wrong, "output"));
+    let late = row.late.iter().map(|wrong| describe_wrong_output(wrong, "had not settled yet and output"));
+    wrong.chain(late).chain(nearest_fix(row)).collect()
+}
+
+fn describe_wrong_output(wrong: &WrongOutput, did: &str) -> String {
+    let WrongOutput { net, robot, cycle, .. } = wrong;
+    let stimuli: Vec<String> = wrong.sensed.iter().map(|&bit| u8::from(bit).to_string()).collect();
+    let (cycle, output) = (cycle + 1, u8::from(wrong.output));
+    format!("    cycle {cycle}: robot {robot} on net {net} {did} {output} on stimuli {}\n", stimuli.join(" "))
+}
+
+/// The most likely fix for a row: replace robots that were wrong although they had enough time; otherwise a longer
+/// hold; otherwise another circuit.
+fn nearest_fix(row: &RowVerdict) -> Option<String> {
+    let fix = match row.wrong_outputs.first() {
+        _ if row.passed => return None,
+        Some(WrongOutput { net, robot, .. }) => format!("a robot other than {robot} on net {net}, or a longer hold"),
+        None if row.cycles < row.needed => {
+            format!("hold the row for {}, as `hold: auto` does", counted(row.needed.unwrap_or_default(), "cycle"))
+        }
+        None if row.cycles.is_none() => return None,
+        None => "every robot computed its gate, so correct the circuit or the test".to_owned(),
+    };
+    Some(format!("    nearest fix: {fix}\n"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::model::Base;
+    use nbc_swarm::{Level, WeakRobot};
+
+    fn port(name: &str, width: usize) -> Column {
+        Column::new(name, width)
+    }
+
+    fn bits(bits: &[Option<bool>]) -> Vec<Value> {
+        bits.iter().map(|&bit| Value { bits: vec![bit], base: Base::Bits, members: None }).collect()
+    }
+
+    fn verdict(passed: bool) -> TestVerdict {
+        let wrong = WrongOutput {
+            net: "q".to_owned(),
+            robot: "nand_1".to_owned(),
+            cycle: 4,
+            sensed: vec![true, false],
+            output: false,
+        };
+        TestVerdict {
+            file: "latch.nb".to_owned(),
+            line: 1,
+            title: "holds".to_owned(),
+            circuit: "latch".to_owned(),
+            swarm: None,
+            world: Some("paper".to_owned()),
+            is_world_named: false,
+            level: Level::Physics,
+            inputs: vec![port("d", 1), port("en", 1)],
+            outputs: vec![port("q", 1), port("nq", 1)],
+            weak_robots: Vec::new(),
+            printed: None,
+            rows: vec![RowVerdict {
+                row: 2,
+                thread: None,
+                line: 7,
+                cycles: Some(12),
+                needed: Some(14),
+                inputs: bits(&[Some(true), Some(false)]),
+                expected: bits(&[Some(true), None]),
+                observed: bits(&[Some(passed), Some(false)]),
+                steady: vec![true, true],
+                passed,
+                wrong_outputs: if passed { vec![] } else { vec![wrong] },
+                late: vec![],
+                is_half: false,
+                given_up: None,
+                fault: None,
+            }],
+            passed,
+        }
+    }
+
+    #[test]
+    fn a_test_is_a_truth_table() {
+        assert_eq!(
+            describe_test(&verdict(true)),
+            "test latch \"holds\": pass\n    inputs  expected  observed  cycles\n    d en    q nq      q nq\n    1 \
+             0     1 -       1 0           12  pass\n"
+        );
+    }
+
+    #[test]
+    fn a_test_without_a_title_has_none() {
+        let untitled = TestVerdict { title: String::new(), swarm: Some("cells".to_owned()), ..verdict(true) };
+        assert!(describe_test(&untitled).starts_with("test latch as cells: pass\n"));
+    }
+
+    #[test]
+    fn a_failure_reports_the_robot() {
+        let text = describe_test(&verdict(false));
+        assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
+        assert!(text.contains("    latch.nb:7: row 2: d=1 en=0 | q=0, expected 1\n"), "{text}");
+        assert!(text.contains("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
+        assert!(text.ends_with("    nearest fix: a robot other than nand_1 on net q, or a longer hold\n"), "{text}");
+    }
+
+    #[test]
+    fn a_failure_without_a_wrong_robot_blames_the_hold_or_the_circuit() {
+        let mut verdict = verdict(false);
+        verdict.rows[0].late = std::mem::take(&mut verdict.rows[0].wrong_outputs);
+        let text = describe_test(&verdict);
+        assert!(text.contains("robot nand_1 on net q had not settled yet and output 0 on stimuli 1 0\n"), "{text}");
+        assert!(text.ends_with("    nearest fix: hold the row for 14 cycles, as `hold: auto` does\n"), "{text}");
+        verdict.rows[0].cycles = Some(14);
+        let text = describe_test(&verdict);
+        assert!(text.ends_with("so correct the circuit or the test\n"), "{text}");
+    }
+
+    #[test]
+    fn a_bus_is_one_value_in_its_notation() {
+        let decimal = |number: u8| Value {
+            bits: (0..4).rev().map(|b| Some(number >> b & 1 == 1)).collect(),
+            base: Base::Decimal,
+            members: None,
+        };
+        let mut verdict = verdict(false);
+        verdict.outputs = vec![port("sum", 4)];
+        let row = &mut verdict.rows[0];
+        (row.expected, row.observed, row.steady, row.wrong_outputs) =
+            (vec![decimal(9)], vec![decimal(11)], vec![true], Vec::new());
+        let text = describe_test(&verdict);
+        assert!(text.contains("1 0     4'd9      4'd11         12  FAIL"), "{text}");
+        assert!(text.contains("row 2: d=1 en=0 | sum=4'd11, expected 4'd9\n"), "{text}");
+        verdict.rows[0].steady = vec![false];
+        assert!(describe_failures(&verdict).contains("| sum keeps changing, expected 4'd9\n"));
+    }
+
+    #[test]
+    fn a_weak_robot_is_reported_first_if_a_test_failed() {
+        let weak = WeakRobot { robot: "nand_9".to_owned(), nets: vec!["q".to_owned()], error_rate: 0.43, margin: -1.0 };
+        let told = |passed| {
+            let failed = describe_failures(&TestVerdict { weak_robots: vec![weak.clone()], ..verdict(passed) });
+            failed.lines().next().map(str::to_owned)
+        };
+        assert_eq!(told(false).as_deref(), Some("    robot nand_9 on q: wrong in 43.0 % of its measured switches"));
+        assert_eq!(told(true), None);
+    }
+}

@@ -1,0 +1,197 @@
+//! Circuit files, read and written in the format of their extension.
+
+use std::path::{Path, PathBuf};
+
+use crate::verilog::{TopModule, Verilog};
+use crate::wording::StoreError;
+use crate::{DiskWorld, disk};
+use nbc_base::budget::Limit;
+use nbc_base::diag::{Diagnostic, Diagnostics};
+use nbc_base::source::{FileError, FileId, ProofOrigin, Simulated, Sources, VerilogFile, VerilogModules, VerilogPlace};
+use nbc_circuit::CancelFlag;
+use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
+use nbc_lang::syntax;
+
+/// A circuit file to be read.
+#[derive(Clone, Copy, Debug)]
+pub struct CircuitFile<'a> {
+    /// Its path.
+    pub path: &'a Path,
+    /// Other files of the same design, of Verilog.
+    pub others: &'a [PathBuf],
+    /// The clock of registers for which the file names none.
+    pub clock: Option<&'a str>,
+    /// The module or model to read.
+    pub top: &'a TopModule,
+}
+
+/// A circuit that was read.
+#[derive(Clone, Debug)]
+pub struct CircuitRead {
+    /// The circuit.
+    pub design: Design,
+    /// Warnings about it.
+    pub warnings: Diagnostics,
+    /// What a proof of it begins with.
+    pub origin: ProofOrigin,
+}
+
+impl CircuitRead {
+    fn plain(design: Design, warnings: Diagnostics) -> Self {
+        Self { design, warnings, origin: ProofOrigin::File }
+    }
+}
+
+/// Reads a circuit.
+///
+/// # Errors
+/// A file that cannot be read, of an unknown format, or damaged; a module that it does not have; or no outputs.
+pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+    let read = read(from)?;
+    if read.design.outputs() > 0 {
+        return Ok(read);
+    }
+    let circuit = read.design.logic.name.clone();
+    let files: Vec<_> = read.warnings.sources.iter().collect();
+    let declares = |line: &str| {
+        let mut words = line.split(|c: char| !c.is_ascii_alphanumeric() && c != '_');
+        words.any(|word| matches!(word, "module" | "model")) && words.any(|word| word == circuit)
+    };
+    let place = files.iter().find_map(|file| {
+        let line = file.text.lines().position(declares)? + 1;
+        Some(VerilogPlace { file: file.name.as_str().into(), line })
+    });
+    let fault = Diagnostic::from(StoreError::NoOutputs { circuit: circuit.clone() });
+    let list = vec![fault.of_verilog(&files, place.as_ref())];
+    Err(Diagnostics { list, sources: read.warnings.sources })
+}
+
+fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+    let &CircuitFile { path, others, clock, top } = from;
+    let name = path.display().to_string();
+    let format = CircuitSource::of_path(&name);
+    let has_modules = matches!(format, Some(CircuitSource::Verilog | CircuitSource::Blif));
+    if format.is_some() && top.name.is_some() && !has_modules {
+        return Err(Diagnostic::from(StoreError::NoModules { file: name }).into());
+    }
+    if format.is_some() && !top.parameters.is_empty() && format != Some(CircuitSource::Verilog) {
+        return Err(Diagnostic::from(StoreError::NoParameters { file: name }).into());
+    }
+    let is_verilog = |path: &PathBuf| CircuitSource::of_path(&path.to_string_lossy()) == Some(CircuitSource::Verilog);
+    if !others.is_empty() && (format != Some(CircuitSource::Verilog) || !others.iter().all(is_verilog)) {
+        return Err(Diagnostic::from(StoreError::SeveralFiles).into());
+    }
+    let design = match format {
+        Some(CircuitSource::Aiger) => {
+            let bytes = disk::read(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))?;
+            aiger::read(&bytes, clock)?
+        }
+        Some(CircuitSource::Bench) => parse(name.clone(), text(path)?, |text, file| bench::read(text, file, clock))?.0,
+        Some(CircuitSource::Blif) => return blif(name, text(path)?, from),
+        Some(CircuitSource::Verilog) => {
+            without_effect(&name, clock)?;
+            return verilog(from);
+        }
+        None => return Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
+    };
+    if design.registers.is_empty() {
+        without_effect(&name, clock)?;
+    }
+    Ok(CircuitRead::plain(design, Diagnostics::default()))
+}
+
+/// A model of a BLIF text, with a warning about what is not read of it.
+fn blif(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+    let model = from.top.name.as_deref();
+    let (design, sources) = parse(name.clone(), text, |text, file| blif::read_model(text, file, from.clock, model))?;
+    let file = sources.iter().next().expect("the text was added");
+    if from.clock.is_some() && blif::read_model(&file.text, file.id, None, model).is_ok() {
+        without_effect(&name, from.clock)?;
+    }
+    let list = blif::ignored(&file.text, file.id);
+    Ok(CircuitRead::plain(design, Diagnostics { list, sources }))
+}
+
+/// Rejects a clock that no register of a file is for.
+fn without_effect(file: &str, clock: Option<&str>) -> Result<(), Diagnostics> {
+    let unused = |clock: &str| StoreError::NoUnclocked { file: file.to_owned(), clock: clock.to_owned() };
+    clock.map_or(Ok(()), |clock| Err(Diagnostic::from(unused(clock)).into()))
+}
+
+/// The top module of Verilog files.
+fn verilog(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+    let mut sources = Sources::default();
+    for path in std::iter::once(from.path).chain(from.others.iter().map(PathBuf::as_path)) {
+        let text = text(path)?;
+        sources.add(path.display().to_string(), text);
+    }
+    let (files, cancel): (Vec<_>, _) = (sources.iter().collect(), &CancelFlag::default());
+    let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
+    let modules = Verilog { world: &DiskWorld, files: &given, cancel }.top(from.top);
+    let read = modules.map_err(|error| vec![Diagnostic::untranslated(&files, &error)]).and_then(|modules| {
+        let VerilogModules { undriven, left_out, hints, .. } = &modules;
+        let left_out = left_out.iter().map(|module| Diagnostic::left_out(&files, module));
+        let hints = hints.iter().map(|hint| Diagnostic::hint(&files, hint));
+        let undriven = undriven.iter().map(|wire| Diagnostic::undriven_wire(&files, wire));
+        let old = Diagnostic::old_yosys(&modules.yosys);
+        let warnings = left_out.chain(hints).chain(undriven).chain(old).collect();
+        let design = verilog_module(&modules, &modules.tops[0], &files, from.clock)?;
+        Ok((design, warnings, modules))
+    });
+    match read {
+        Ok((design, list, modules)) => {
+            let simulated = modules.simulated.get(&modules.tops[0]).copied();
+            let simulated = simulated.unwrap_or(Simulated::NotComparable);
+            let origin = ProofOrigin::Yosys { version: modules.yosys, simulated };
+            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, origin })
+        }
+        Err(list) => Err(Diagnostics { list, sources }),
+    }
+}
+
+/// A design as the bytes of a file; a program of the language is written as the formatter writes it.
+///
+/// # Errors
+/// The reason why the format cannot express the design.
+pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>, Diagnostic> {
+    let bytes = format.encode(design)?;
+    if format != CircuitFormat::Nb {
+        return Ok(bytes);
+    }
+    Ok(canonical(String::from_utf8(bytes).expect("a program is text"))?.into_bytes())
+}
+
+/// A program of ours as the formatter writes it, unless it is too large to be read again.
+fn canonical(text: String) -> Result<String, Diagnostic> {
+    if Limit::SourceBytes.permit(text.len() as u64).is_err() {
+        return Err(StoreError::NbTooLarge { bytes: text.len(), most: Limit::SourceBytes.most() }.into());
+    }
+    let mut sources = Sources::default();
+    let file = sources.add("the circuit as a .nb file", text);
+    let parsed = syntax::parse(&sources, file);
+    assert!(parsed.errors.is_empty(), "a program that was written can be parsed: {:?}", parsed.errors.first());
+    Ok(syntax::format(&sources, file, &parsed.tree))
+}
+
+fn unreadable(path: &Path, error: &FileError) -> Diagnostics {
+    Diagnostic::unreadable(&path.display().to_string(), error).into()
+}
+
+fn text(path: &Path) -> Result<String, Diagnostics> {
+    disk::read_text(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))
+}
+
+/// Reads a text under a name for messages.
+fn parse(
+    name: String,
+    text: String,
+    read: impl FnOnce(&str, FileId) -> Result<Design, Vec<Diagnostic>>,
+) -> Result<(Design, Sources), Diagnostics> {
+    let mut sources = Sources::default();
+    let file = sources.add(name, text);
+    let read = read(&sources.file(file).text, file);
+    match read {
+        Ok(design) => Ok((design, sources)),
+        Err(list) => Err(Diagnostics { list, sources }),
+    }
+}

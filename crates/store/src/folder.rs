@@ -1,0 +1,172 @@
+//! One folder of the disk as a world: nothing outside of it is read.
+
+use std::fs;
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+use crate::disk;
+use crate::verilog::{Verilog, VerilogFiles};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
+use nbc_circuit::CancelFlag;
+
+/// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
+/// not through links.
+#[derive(Clone, Debug)]
+pub struct FolderWorld {
+    /// Without links.
+    root: PathBuf,
+}
+
+impl FolderWorld {
+    /// The files below `root`.
+    ///
+    /// # Errors
+    /// When it is not a folder, or cannot be found.
+    pub fn new(root: &Path) -> io::Result<Self> {
+        let root = fs::canonicalize(root)?;
+        if root.is_dir() { Ok(Self { root }) } else { Err(io::ErrorKind::NotADirectory.into()) }
+    }
+
+    /// The folder, absolute and without links.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The place of an existing file or folder.
+    ///
+    /// # Errors
+    /// When there is none, or it is outside of the folder.
+    pub fn existing(&self, path: &str) -> Result<PathBuf, FileError> {
+        let mut place = self.root.clone();
+        // Part by part, because what is beyond a link that leads out must not even be looked for.
+        for part in self.inside(path)?.components() {
+            place = fs::canonicalize(place.join(part)).map_err(|error| disk::refusal(&error))?;
+            if !place.starts_with(&self.root) {
+                return Err(outside());
+            }
+        }
+        Ok(place)
+    }
+
+    /// The place of a file that may not exist yet, in a folder that does.
+    ///
+    /// # Errors
+    /// When it is outside of the folder, or its own folder is missing.
+    pub fn writable(&self, path: &str) -> Result<PathBuf, FileError> {
+        match self.existing(path) {
+            Err(FileError::NotFound) => {}
+            found => return found,
+        }
+        let path = Path::new(path);
+        let name = path.file_name().ok_or_else(outside)?;
+        let folder = path.parent().map(|folder| folder.to_string_lossy().into_owned()).unwrap_or_default();
+        Ok(self.existing(&folder)?.join(name))
+    }
+
+    /// A path relative to the folder. One that leads out of it is refused without reading the disk, so that answers
+    /// reveal nothing about it.
+    fn inside<'p>(&self, path: &'p str) -> Result<&'p Path, FileError> {
+        let path = Path::new(path);
+        let inside = if path.is_absolute() { path.strip_prefix(&self.root).map_err(|_| outside())? } else { path };
+        let mut depth = 0;
+        for part in inside.components() {
+            match part {
+                Component::Normal(_) => depth += 1,
+                Component::CurDir => {}
+                Component::ParentDir if depth > 0 => depth -= 1,
+                _ => return Err(outside()),
+            }
+        }
+        Ok(inside)
+    }
+}
+
+fn outside() -> FileError {
+    FileError::Io("it is outside of the folder".to_owned())
+}
+
+impl SourceWorld for FolderWorld {
+    fn read(&self, path: &str) -> Result<String, FileError> {
+        disk::source(&self.existing(path)?)
+    }
+
+    fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
+        disk::source_bytes(&self.existing(path)?)
+    }
+
+    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+        Verilog { world: self, files, cancel: &CancelFlag::default() }.modules()
+    }
+
+    fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
+        disk::list(&self.existing(folder)?)
+    }
+
+    fn kind(&self, path: &str) -> Option<EntryKind> {
+        disk::entry_kind(&self.existing(path).ok()?)
+    }
+
+    fn identity(&self, path: &str) -> String {
+        let place = self.existing(path).or_else(|_| self.inside(path).map(|inside| self.root.join(inside)));
+        place.map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
+    }
+}
+
+impl VerilogFiles for FolderWorld {
+    fn included(&self, _main: &str, path: &str) -> Result<String, FileError> {
+        self.read(path)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn refused(result: Result<PathBuf, FileError>) -> bool {
+        result == Err(outside())
+    }
+
+    #[test]
+    fn what_is_below_the_folder_is_found_and_nothing_else() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().join("served");
+        fs::create_dir_all(root.join("inner")).unwrap();
+        fs::write(root.join("inner/a.nb"), "a").unwrap();
+        fs::write(folder.path().join("secret.nb"), "s").unwrap();
+        let world = FolderWorld::new(&root).unwrap();
+        assert_eq!(world.read("inner/a.nb").unwrap(), "a");
+        assert_eq!(world.read("inner/../inner/a.nb").unwrap(), "a");
+        assert_eq!(world.read(&world.root().join("inner/a.nb").to_string_lossy()).unwrap(), "a");
+        assert_eq!(world.read("b.nb"), Err(FileError::NotFound));
+        assert_eq!(world.list("inner").unwrap(), ["a.nb"]);
+        for path in ["../secret.nb", "inner/../../secret.nb", "/etc/passwd", "/", ".."] {
+            assert!(refused(world.existing(path)) && refused(world.writable(path)), "{path}");
+        }
+        assert!(FolderWorld::new(&root.join("inner/a.nb")).is_err());
+    }
+
+    #[test]
+    fn a_new_file_has_a_place_in_a_folder_that_is_there() {
+        let folder = tempfile::tempdir().unwrap();
+        let world = FolderWorld::new(folder.path()).unwrap();
+        assert_eq!(world.writable("new.nb").unwrap(), world.root().join("new.nb"));
+        assert_eq!(world.writable("missing/new.nb"), Err(FileError::NotFound));
+    }
+
+    #[test]
+    #[cfg(unix)]
+    fn links_do_not_lead_out() {
+        let folder = tempfile::tempdir().unwrap();
+        let root = folder.path().join("served");
+        fs::create_dir(&root).unwrap();
+        fs::write(folder.path().join("secret.nb"), "s").unwrap();
+        std::os::unix::fs::symlink(folder.path(), root.join("up")).unwrap();
+        let world = FolderWorld::new(&root).unwrap();
+        // What is there and what is not is refused alike.
+        for path in ["up", "up/secret.nb", "up/missing.nb", "up/missing/secret.nb", "up/served/a.nb/../../x"] {
+            assert!(refused(world.existing(path)), "{path}");
+        }
+        assert!(refused(world.writable("up/new.nb")));
+        assert_eq!((world.kind("up"), world.kind("up/secret.nb")), (None, None));
+    }
+}

@@ -1,0 +1,284 @@
+//! Robot files: a [`Robot`] as YAML with a format version.
+
+use std::sync::Arc;
+
+use serde::{Deserialize, Deserializer, Serialize, de::Error};
+use serde_yaml::Value;
+use serde_yaml::with::singleton_map_recursive;
+
+use crate::wording::RobotFileError;
+use crate::{shape, soundness, yaml};
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Behavior, Character, Displacements, Genotype, Palette, Provenance, Robot};
+use nbc_base::source::SourceFile;
+
+/// The robot file version that this program writes; it also reads earlier ones.
+pub const FORMAT: u32 = 2;
+
+/// A robot as data: the fields of its file, in the order in which they are written.
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RobotRecord {
+    format: u32,
+    name: String,
+    behavior: Behavior,
+    body: Vec<String>,
+    /// In order of their codes; left out when they are the paper's.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    materials: Option<Arc<Palette>>,
+    displacement: Displacements,
+    character: Character,
+    provenance: Provenance,
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        serialize_with = "singleton_map_recursive::serialize",
+        deserialize_with = "genotype"
+    )]
+    genotype: Option<Genotype>,
+}
+
+/// The one field that every version has.
+#[derive(Deserialize)]
+#[serde(expecting = "a mapping with the fields of a robot")]
+struct Version {
+    format: u32,
+}
+
+/// A robot as the text of its file.
+pub fn print_robot(robot: &Robot) -> String {
+    yaml::print(&RobotRecord::of(robot))
+}
+
+impl RobotRecord {
+    /// A robot as data.
+    pub fn of(robot: &Robot) -> Self {
+        let robot = robot.clone();
+        Self {
+            format: FORMAT,
+            name: robot.name,
+            behavior: robot.behavior,
+            body: robot.body.rows(),
+            materials: robot.body.own_materials(),
+            displacement: robot.displacement,
+            character: robot.character,
+            provenance: robot.provenance,
+            genotype: robot.genotype,
+        }
+    }
+}
+
+/// Reads a robot file.
+///
+/// # Errors
+/// A diagnostic with its place for text that is not YAML, for missing, unknown or invalid fields, for an invalid body,
+/// for numbers that a robot cannot have, and for a file of another version.
+pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
+    let version: Version = yaml::read(file)?;
+    if !(1..=FORMAT).contains(&version.format) {
+        let error = RobotFileError::Format { found: version.format, expected: FORMAT };
+        return Err(error.of(&file.name, yaml::key_span(file, "format")));
+    }
+    let read: RobotRecord = yaml::read(file)?;
+    let palette = read.materials.unwrap_or_else(Palette::paper);
+    let robot = Robot {
+        name: read.name,
+        behavior: read.behavior,
+        body: shape::body(file, &read.body, &palette)?,
+        displacement: read.displacement,
+        character: read.character,
+        provenance: read.provenance,
+        genotype: read.genotype,
+    };
+    soundness::check(file, &robot)?;
+    Ok(robot)
+}
+
+/// Reads a genotype of any version: format 1 has tags, format 2 has mappings with one key.
+fn genotype<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Genotype>, D::Error> {
+    let value = untagged(Value::deserialize(deserializer)?);
+    singleton_map_recursive::deserialize(value).map_err(|error| D::Error::custom(format!("`genotype`: {error}")))
+}
+
+/// The value with a mapping of one key for every tag.
+fn untagged(value: Value) -> Value {
+    match value {
+        Value::Tagged(tagged) => {
+            let tag = tagged.tag.to_string().trim_start_matches('!').to_owned();
+            Value::Mapping([(Value::String(tag), untagged(tagged.value))].into_iter().collect())
+        }
+        Value::Sequence(values) => Value::Sequence(values.into_iter().map(untagged).collect()),
+        Value::Mapping(entries) => {
+            Value::Mapping(entries.into_iter().map(|(key, value)| (key, untagged(value))).collect())
+        }
+        other => other,
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests {
+    use super::*;
+    use nbc_base::diag::Code;
+    use nbc_base::model::{Drive, Material, MaterialKind, Pattern, Response, SafeRadius, Transition};
+    use nbc_base::source::Sources;
+
+    /// A robot with every field filled.
+    pub(crate) fn robot() -> Robot {
+        let body = Body::parse(&["00345", "33333"], &Palette::paper()).unwrap();
+        Robot {
+            name: "nand_1".to_owned(),
+            behavior: "RRRL".parse().unwrap(),
+            body,
+            displacement: vec![1.0, 0.1 + 0.2, 3.0, -4.0e-7].try_into().unwrap(),
+            character: Character {
+                clock: 4,
+                switches: 1000,
+                error_rate: 0.001,
+                glitch_rate: 0.0,
+                margin: 0.25,
+                topples: false,
+                settle: vec![Transition { stimuli: 2, from: Pattern::PAIRS[1], to: Pattern::PAIRS[3], cycles: 2 }],
+                radius: Some(SafeRadius {
+                    vary: "all=10%".to_owned(),
+                    worlds: 20,
+                    seed: 1,
+                    radius: 1.5,
+                    error_rate: Some(0.0),
+                }),
+            },
+            provenance: Provenance {
+                program: "nbc".to_owned(),
+                version: "0.1.0".to_owned(),
+                evolution: "gates".to_owned(),
+                seed: 1,
+                generation: 2,
+                evaluations: 3,
+            },
+            genotype: None,
+        }
+    }
+
+    fn read(text: &str) -> Result<Robot, (Code, String, String)> {
+        let mut sources = Sources::default();
+        let id = sources.add("a.yaml", text);
+        read_robot(sources.file(id))
+            .map_err(|fault| (fault.code, fault.message, sources.text(fault.labels[0].span).to_owned()))
+    }
+
+    #[test]
+    fn a_robot_reads_back_bit_for_bit() {
+        assert_eq!(read(&print_robot(&robot())), Ok(robot()));
+    }
+
+    /// A palette with materials of every kind and names that look like other things.
+    fn own_palette() -> Arc<Palette> {
+        let named = |name: &str, kind| Material { name: name.to_owned(), kind };
+        let drive = Drive { period: 84, phase: 1e-7, low: 0.98, high: 1.02 };
+        let mut materials = Palette::paper().materials().to_vec();
+        materials[0] = named("no", MaterialKind::Rigid);
+        materials[2] = named("heart", MaterialKind::Actuator(drive));
+        materials.push(named("e5", MaterialKind::Sensor(Response { stimulus: 31, absent: 1.0, present: 1.1 })));
+        Arc::new(Palette::new(materials))
+    }
+
+    fn own_robot() -> Robot {
+        Robot { body: Body::parse(&["10945", "33333"], &own_palette()).unwrap(), ..robot() }
+    }
+
+    #[test]
+    fn materials_are_written_unless_they_are_the_papers() {
+        let text = print_robot(&own_robot());
+        assert_eq!(read(&text), Ok(own_robot()));
+        assert!(text.contains(
+            "- name: heart\n  kind: actuator\n  period: 84\n  phase: 1.0e-7\n  range:\n  - 0.98\n  - 1.02\n"
+        ));
+        assert!(text.contains("  stimulus: 32\n"), "stimuli are counted from 1: {text}");
+        assert!(!print_robot(&robot()).contains("materials"));
+    }
+
+    #[test]
+    fn invalid_materials_are_reported_at_their_place() {
+        let whole = print_robot(&own_robot());
+        let check = |from: &str, to: &str, expected: &str, place: &str| {
+            let damaged = whole.replacen(from, to, 1);
+            assert_ne!(damaged, whole, "{from:?} is in the file");
+            let (_, message, found) = read(&damaged).unwrap_err();
+            assert!(message.contains(expected), "{message:?} does not say {expected:?}");
+            assert_eq!(found, place, "{message}");
+        };
+        check("  period: 84\n", "", "the material `heart` lacks the field `period`", "-");
+        check("kind: soft", "kind: soft\n  phase: 0.0", "`flesh` cannot have the field `phase`", "-");
+        check("  - 1.02\n", "  - .inf\n", "`heart` has `range: [0.98, inf]`", "-");
+        check("name: heart", "name: flesh", "two materials are called `flesh`", "f");
+        check("stimulus: 32", "stimulus: 0", "`e5` has `stimulus: 0`, expected 1 to 32", "-");
+        check("- '10945'", "- '1094a'", "`a` is not a material code; expected 0 to 9", "a");
+        check("absent: 1.0\n", "absent: 1.0\n  smell: 1\n", "unknown field `smell`", "s");
+    }
+
+    #[test]
+    fn impossible_measurements_are_rejected() {
+        let whole = print_robot(&robot());
+        let check = |from: &str, to: &str, place: &str| {
+            let damaged = whole.replacen(from, to, 1);
+            assert_ne!(damaged, whole, "{from:?} is in the file");
+            let (code, message, found) = read(&damaged).expect_err(to);
+            assert_eq!((code, found.as_str()), (Code::RobotFile, place), "{message}");
+        };
+        check("clock: 4", "clock: 0", "clock");
+        check("clock: 4", "clock: 4294967295", "clock");
+        check("error_rate: 0.001", "error_rate: 1.5", "error_rate");
+        check("glitch_rate: 0.0", "glitch_rate: .nan", "glitch_rate");
+        check("margin: 0.25", "margin: .nan", "margin");
+        check("cycles: 2", "cycles: 0", "settle");
+        check("- 3.0", "- .inf", "displacement");
+        check("- 3.0", "- -3.0", "behavior");
+        check("- '00345'\n- '33333'", "- '30303'", "body");
+        check("name: nand_1", "name: ../nand", "name");
+        check("evolution: gates", "evolution: \"\\e[2J\"", "evolution");
+    }
+
+    #[test]
+    fn format_1_is_read_with_its_tags() {
+        let text = include_str!("../../../tests/golden/robot_1.yaml");
+        assert!(text.starts_with("format: 1\n") && text.contains("!input"));
+        let robot = read(text).unwrap();
+        let printed = print_robot(&robot);
+        assert!(printed.starts_with("format: 2\n") && !printed.contains('!'), "{printed}");
+        assert_eq!(read(&printed), Ok(robot));
+    }
+
+    #[test]
+    fn another_version_is_rejected_with_its_number() {
+        let (code, message, place) = read(&print_robot(&robot()).replace("format: 2", "format: 7")).unwrap_err();
+        assert_eq!(code, Code::ForeignFormat);
+        assert_eq!(message, "`a.yaml` is a robot file of format 7, expected format 2");
+        assert_eq!(place, "format");
+    }
+
+    #[test]
+    fn damage_is_reported() {
+        let whole = print_robot(&robot());
+        let check = |from: &str, to: &str, expected: &str| {
+            let damaged = whole.replace(from, to);
+            assert_ne!(damaged, whole, "{from:?} is in the file");
+            let (_, message, _) = read(&damaged).unwrap_err();
+            assert!(message.contains(expected), "{message:?} does not say {expected:?}");
+        };
+        check("behavior: RRRL\n", "", "missing field `behavior`");
+        check("behavior: RRRL", "behavior: RRRX", "`RRRX` is not a behavior");
+        check("- '00345'", "- '0034'", "row 2 has 5 voxels, expected 4");
+        check("- '00345'", "- '0034x'", "`x` is not a material code");
+        check("format: 2\n", "", "missing field `format`");
+        check("name: ", "nom: ", "unknown field `nom`");
+        check("clock: 4", "clock: four", "expected u32");
+    }
+
+    #[test]
+    fn a_truncated_file_is_rejected_without_a_panic() {
+        let whole = print_robot(&robot());
+        let end = whole.find("evaluations").unwrap();
+        for length in 0..end {
+            assert!(read(&whole[..length]).is_err(), "cut to {length} bytes it was read");
+        }
+    }
+}

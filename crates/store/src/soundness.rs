@@ -1,0 +1,87 @@
+//! Checks that the values of a robot file are possible.
+
+use crate::wording::{Flaw, RobotFileError};
+use crate::yaml;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Character, Robot, SafeRadius, Variation};
+use nbc_base::source::SourceFile;
+
+/// The longest clock and settle time of a robot, in cycles; the longest that is measured is 13.
+const MAX_CYCLES: u32 = 1000;
+/// The longest name.
+const MAX_NAME: usize = 100;
+
+/// Rejects a robot with values that a measurement cannot give.
+///
+/// # Errors
+/// A diagnostic at the field that is wrong.
+pub(super) fn check(file: &SourceFile, robot: &Robot) -> Result<(), Diagnostic> {
+    let flaw =
+        words(robot).or_else(|| motion(robot)).or_else(|| character(&robot.character)).or_else(|| weights(robot));
+    match flaw {
+        Some(flaw) => {
+            let place = yaml::key_span(file, flaw.field());
+            Err(RobotFileError::Flaw(flaw).of(&file.name, place))
+        }
+        None => Ok(()),
+    }
+}
+
+fn weights(robot: &Robot) -> Option<Flaw> {
+    let weights = robot.genotype.iter().flat_map(|genotype| &genotype.links).map(|link| link.weight);
+    weights.into_iter().any(|weight| !weight.is_finite()).then_some(Flaw::Weight)
+}
+
+/// Whether a robot can have the name, which is also that of its file.
+pub fn is_robot_name(name: &str) -> bool {
+    !name.is_empty()
+        && name.len() <= MAX_NAME
+        && !name.starts_with('.')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || "_-+.".contains(c))
+}
+
+fn words(robot: &Robot) -> Option<Flaw> {
+    let name = &robot.name;
+    if !is_robot_name(name) {
+        return Some(Flaw::Name { name: name.clone(), most: MAX_NAME });
+    }
+    let provenance = &robot.provenance;
+    let words =
+        [("program", &provenance.program), ("version", &provenance.version), ("evolution", &provenance.evolution)];
+    let (field, _) = words.into_iter().find(|(_, word)| word.len() > MAX_NAME || word.chars().any(char::is_control))?;
+    Some(Flaw::Provenance { field, most: MAX_NAME })
+}
+
+fn motion(robot: &Robot) -> Option<Flaw> {
+    let displacement = &robot.displacement;
+    if displacement.iter().any(|voxels| !voxels.is_finite()) {
+        return Some(Flaw::Displacement);
+    }
+    let expected = displacement.behavior();
+    (expected != robot.behavior).then_some(Flaw::Behavior { found: robot.behavior, expected })
+}
+
+fn character(character: &Character) -> Option<Flaw> {
+    let Character { clock, error_rate, glitch_rate, margin, settle, radius, .. } = character;
+    if !(1..=MAX_CYCLES).contains(clock) {
+        return Some(Flaw::Clock { cycles: *clock, most: MAX_CYCLES });
+    }
+    for (field, rate) in [("error_rate", *error_rate), ("glitch_rate", *glitch_rate)] {
+        if !(0.0..=1.0).contains(&rate) {
+            return Some(Flaw::Rate { field, rate });
+        }
+    }
+    if !margin.is_finite() {
+        return Some(Flaw::Margin);
+    }
+    let is_radius = |found: &SafeRadius| {
+        found.radius.is_finite()
+            && found.error_rate.is_none_or(|rate| (0.0..=1.0).contains(&rate))
+            && found.vary.parse::<Variation>().is_ok()
+    };
+    if !radius.as_ref().is_none_or(is_radius) {
+        return Some(Flaw::Radius);
+    }
+    let slow = settle.iter().find(|transition| !(1..=MAX_CYCLES).contains(&transition.cycles))?;
+    Some(Flaw::Settle { cycles: slow.cycles, most: MAX_CYCLES })
+}
