@@ -119,7 +119,7 @@ fn untagged(value: Value) -> Value {
 pub(crate) mod tests {
     use super::*;
     use nbc_base::diag::Code;
-    use nbc_base::model::{Drive, Material, MaterialKind, Pattern, Response, SafeRadius, Transition};
+    use nbc_base::model::{Body, Drive, Material, MaterialKind, Pattern, Response, SafeRadius, Transition};
     use nbc_base::source::Sources;
 
     /// A robot with every field filled.
