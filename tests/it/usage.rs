@@ -66,7 +66,8 @@ fn usage_errors_are_json_if_json_is_asked_for() {
     check_json(
         &bench,
         &["build", "flip.nb", "--emit", "vrilog", "--format", "json"],
-        "invalid value 'vrilog' for '--emit <EMIT>' [possible values: netlist, blif, verilog, dot, timing, json]",
+        "invalid value 'vrilog' for '--emit <EMIT>' [possible values: netlist, passes, blif, verilog, dot, timing, \
+         json]",
     );
     check_json(&bench, &["--format", "json"], "the command is missing");
     // Nobody asked for JSON here.
