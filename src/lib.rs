@@ -560,7 +560,7 @@ pub use {
 /// let robots = nbc::Session::new(nbc::MemoryWorld::default()).shipped().robots.clone();
 /// let (simulator, executor) = (nbc::Simulator::default(), LocalExecutor::default());
 /// assert!(Verified::of(&executor, 0, &robots[0]).unwrap().differs.is_empty());
-/// let changes = nbc::Variation { friction: 0.1, ..nbc::Variation::default() };
+/// let changes: nbc::Variation = "friction=10%".parse().unwrap();
 /// println!("{}", Reach::of(&simulator, &robots[0], changes, 20, 1).found.radius);
 /// ```
 pub use nbc_session::{Reach, Verified};
