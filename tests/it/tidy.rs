@@ -160,7 +160,7 @@ fn each_verb_has_two_doors() {
         own + &python.map(|path| fs::read_to_string(path).unwrap()).collect::<String>()
     });
     for (verb, calls) in [
-        ("check", vec![".checked(", ".open("]),
+        ("check", vec![".checked(", "session.open("]),
         ("compile", vec![".compile("]),
         ("test", vec![".test(", ".cases(", ".run_list("]),
         ("simulate", vec![".simulate(", ".run_list("]),

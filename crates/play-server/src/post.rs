@@ -13,8 +13,7 @@ use nbc_play::Line;
 const ROOM: usize = 256;
 const MOST_BYTES: usize = 4 << 20;
 
-/// The end that takes messages. Clones share one queue.
-#[derive(Clone)]
+/// The end that takes messages.
 pub(super) struct Post {
     texts: mpsc::Sender<Utf8Bytes>,
     load: Arc<Load>,

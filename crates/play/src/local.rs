@@ -36,13 +36,6 @@ impl MemoryFolder {
         files.world.insert(path, text);
     }
 
-    /// Removes a file.
-    pub fn remove(&self, path: &str) {
-        let mut files = lock(&self.files);
-        files.known.remove(path);
-        files.world.remove(path);
-    }
-
     /// A file that a page has written since it was asked last, and its text.
     pub fn take_written(&self) -> Option<(String, String)> {
         let mut files = lock(&self.files);

@@ -309,7 +309,7 @@ impl Visit {
         })
     }
 
-    /// JobWork on a program without errors.
+    /// Work on a program without errors.
     fn with_program(
         &self,
         path: String,
@@ -425,6 +425,19 @@ mod tests {
         assert_eq!(refused[0]["error"]["message"], "the log goes from cycle 0 to 9");
         assert_eq!(tab.ask(&json!({ "id": 6, "do": "seek", "cycle": 3 })), [json!({ "id": 6, "ok": {} })]);
         assert_eq!(tab.pass(Duration::from_secs(1)), 1, "a swarm that is shown at a cycle has paused");
+    }
+
+    #[test]
+    fn a_file_that_is_taken_is_kept_at_the_address_of_the_answer() {
+        let mut tab = Tab::new();
+        tab.ask(&json!({ "id": 1, "do": "program", "path": "latch.nb", "text": LATCH }));
+        tab.ask(&json!({ "id": 2, "do": "compile", "path": "latch.nb", "circuit": "latch", "swarm": null }));
+        tab.ask(&json!({ "id": 3, "do": "step", "cycles": 1 }));
+        let taken = tab.ask(&json!({ "id": 4, "do": "take", "what": "csv", "cycles": 1 }));
+        let file = tab.shell.take_kept().unwrap();
+        assert_eq!(taken.last().unwrap()["ok"], json!({ "url": file.address, "name": "latch.csv" }));
+        assert!(file.media_type.starts_with("text/csv") && !file.bytes.is_empty());
+        assert_eq!(tab.shell.take_kept(), None);
     }
 
     #[test]

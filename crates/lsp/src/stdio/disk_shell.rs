@@ -40,13 +40,6 @@ impl<W: VerilogFiles> DiskShell<W> {
     pub(super) fn remove_results(&self) {
         *self.results.lock().unwrap_or_else(PoisonError::into_inner) = ResultFolder::default();
     }
-
-    /// Whether the client sees the folder for texts and results of the program. One that is served another folder does
-    /// not.
-    fn sees_texts(&self) -> bool {
-        let folder = store::temporary_folder().ok();
-        folder.is_some_and(|folder| self.world.kind(&folder.to_string_lossy()) == Some(EntryKind::Folder))
-    }
 }
 
 impl<W: VerilogFiles + Clone + Send + Sync + 'static> LanguageShell for DiskShell<W> {
@@ -80,7 +73,7 @@ impl<W: VerilogFiles + Clone + Send + Sync + 'static> LanguageShell for DiskShel
     }
 
     fn write_text(&self, name: &str, text: &str) -> Option<String> {
-        let path = store::temporary_folder().ok().filter(|_| self.sees_texts())?.join(name);
+        let path = store::temporary_folder().ok().filter(|_| self.shows_results())?.join(name);
         if fs::read_to_string(&path).ok().as_deref() != Some(text) {
             store::write(&path, text.as_bytes()).ok()?;
         }
@@ -88,7 +81,9 @@ impl<W: VerilogFiles + Clone + Send + Sync + 'static> LanguageShell for DiskShel
     }
 
     fn shows_results(&self) -> bool {
-        self.sees_texts()
+        // A client that is served another folder does not see it.
+        let folder = store::temporary_folder().ok();
+        folder.is_some_and(|folder| self.world.kind(&folder.to_string_lossy()) == Some(EntryKind::Folder))
     }
 
     fn write_result(&self, folder: &str, name: &str, text: &str) -> Result<String, String> {
