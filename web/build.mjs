@@ -1,14 +1,18 @@
 // Bundles the page into dist/, with the licenses of the packages in it, and the page of exported files, which uses no
-// package; with --tests, the unit tests into build/unit/.
+// package; with --tests, the unit tests into build/unit/; with --tab PROGRAM FOLDER, the page that needs no server into a
+// folder, with the program as WebAssembly.
 // The bytes depend only on the sources and the locked packages, so that they can be committed and compared.
 
 import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
 
 import { build } from "esbuild";
 
+const [task, ...named] = process.argv.slice(2);
+const given = named.map(name => path.resolve(name));
 process.chdir(path.dirname(fileURLToPath(import.meta.url)));
 
 const common = { bundle: true, logLevel: "warning", charset: "utf8", sourcemap: false };
@@ -42,16 +46,36 @@ async function page() {
  * loaded, and nothing that the program adds can be a script.
  */
 async function player() {
-  const bundle = async (options, entry) =>
-    (await build({ ...options, entryPoints: [entry], write: false, outdir: "dist" })).outputFiles[0].text.trim();
-  const code = (await bundle(script, "src/player/main.ts")).replaceAll("</script", "<\\/script");
-  const style = await bundle({ ...common, minify: true }, "src/style/player.css");
+  const code = await bundle(script, "src/player/main.ts");
+  return alone("src/player/index.html", { script: code, style: await bundle(sheet, "src/style/player.css") });
+}
+
+/** The same with the whole program: only the sources of a circuit are missing. */
+async function livePage(packed) {
+  const parts = {
+    script: await bundle(script, "src/tab/alone.ts"),
+    style: await bundle(sheet, "src/style/app.css"),
+    worker: await bundle(script, "src/tab/worker.ts"),
+    program: packed.toString("base64"),
+  };
+  return alone("src/tab/alone.html", parts, [" 'wasm-unsafe-eval'", " worker-src blob:;"]);
+}
+
+const sheet = { ...common, minify: true };
+
+async function bundle(options, entry) {
+  const built = await build({ ...options, entryPoints: [entry], write: false, outdir: "dist" });
+  return built.outputFiles[0].text.trim().replaceAll("</script", "<\\/script");
+}
+
+/** A document with its parts in it, and a policy that permits these. */
+function alone(file, parts, [scripts, more] = ["", ""]) {
   const hash = text => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
   const policy =
-    `default-src 'none'; script-src ${hash(code)}; style-src ${hash(style)}; img-src data: blob:; ` +
-    "base-uri 'none'; form-action 'none'";
-  const parts = { policy, style, script: code };
-  return readFileSync("src/player/index.html", "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
+    `default-src 'none'; script-src ${hash(parts.script)}${scripts};${more} style-src ${hash(parts.style)}; ` +
+    "img-src data: blob:; base-uri 'none'; form-action 'none'";
+  const all = { ...parts, policy };
+  return readFileSync(file, "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => all[name]);
 }
 
 /** The licenses of the packages of which files are in the bundle. */
@@ -87,4 +111,41 @@ async function unitTests() {
   });
 }
 
-await (process.argv.includes("--tests") ? unitTests() : page());
+/** The page that has its program in itself: for any server of files, in any folder. */
+async function tab(program, folder) {
+  rmSync(folder, { recursive: true, force: true });
+  mkdirSync(folder, { recursive: true });
+  const packed = gzipSync(readFileSync(program), { level: 9 });
+  const name = `program-${digest(packed)}.bin`;
+  writeFileSync(path.join(folder, name), packed);
+  const define = { PROGRAM: JSON.stringify({ name, bytes: packed.length }) };
+  const scripts = { ...script, metafile: false, define, outdir: folder };
+  await build({ ...scripts, entryPoints: { app: "src/tab/main.ts", worker: "src/tab/worker.ts" } });
+  await build({ ...common, entryPoints: ["src/style/app.css"], outdir: folder, minify: true });
+  writeFileSync(path.join(folder, "alone.html"), await livePage(packed));
+  writeFileSync(path.join(folder, "index.html"), tabDocument());
+  writeFileSync(path.join(folder, "NOTICES.txt"), readFileSync("dist/NOTICES.txt"));
+  const files = ["./", "app.css", "app.js", "worker.js", name];
+  const version = digest(files.slice(1).map(file => readFileSync(path.join(folder, file))));
+  const offline = { VERSION: JSON.stringify(version), FILES: JSON.stringify(files) };
+  await build({ ...scripts, define: offline, entryPoints: { offline: "src/tab/offline.ts" } });
+}
+
+/** The document of the tab, with the policy that a server would send. */
+function tabDocument() {
+  const policy =
+    "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; " +
+    "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
+  const meta = `<meta http-equiv="content-security-policy" content="${policy}">`;
+  return readFileSync("src/index.html", "utf8").replace('<meta charset="utf-8">', `$&\n${meta}`);
+}
+
+/** A short name of some bytes. */
+function digest(parts) {
+  const hash = createHash("sha256");
+  [parts].flat().forEach(part => hash.update(part));
+  return hash.digest("hex").slice(0, 16);
+}
+
+const tasks = { "--tests": unitTests, "--tab": () => tab(...given) };
+await (tasks[task] ?? page)();

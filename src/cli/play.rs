@@ -1,9 +1,11 @@
 //! `nbc play`: serves a page that shows robots live in a browser.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
+use nbc_play::{live_page, live_template};
 use nbc_play_server::{LessonSource, PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
@@ -30,13 +32,14 @@ const MOST_PAGES: u64 = PlayOptions::MOST_PAGES as u64;
 /// elsewhere. Everyone who knows the address can use the page. Ctrl-C stops the server.
 ///
 /// With `--export`, it starts no server. It writes one HTML file in which the circuit can be played without nbc and
-/// without a network.
+/// without a network: a recording, or with `--live` the whole page with its physics, tests and editor.
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc play
   nbc play circuits/latch.nb
   nbc play adder.nb --port 8000 --no-open
   nbc play circuits/latch.nb --export latch.html
+  nbc play circuits/latch.nb --export latch.html --live
   nbc play --class --host 0.0.0.0 --pages 30")]
 pub struct PlayArguments {
     /// The program to open first
@@ -60,6 +63,9 @@ pub struct PlayArguments {
     #[arg(long, value_name = "OUT", requires = "file", value_parser = new_path())]
     #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages"])]
     export: Option<PathBuf>,
+    /// Write a page that simulates and can be edited, instead of a recording
+    #[arg(long, requires = "export", conflicts_with_all = ["library", "effort", "objective", "runs"])]
+    live: bool,
     #[command(flatten)]
     making: MakingArguments,
     /// Show the lessons of this folder instead of those that come with the program, which are `shipped`. May be
@@ -80,9 +86,9 @@ impl PlayArguments {
     /// # Errors
     /// When the file cannot be found, the address cannot be listened at, or the circuit cannot be exported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let Self { file, port, host, no_open, page, token, export, making, lessons, class, pages } = self;
+        let Self { file, port, host, no_open, page, token, export, live, making, lessons, class, pages } = self;
         if let (Some(output), Some(file)) = (export, &file) {
-            return write_page(file, &output, &making, context);
+            return write_page(file, &output, &making, live, context);
         }
         if making.choice() != Choice::default() {
             return Err(UsageError::OnlyExported.into());
@@ -106,14 +112,24 @@ impl PlayArguments {
     }
 }
 
-/// Writes a circuit as a page of its own.
-fn write_page(file: &Path, output: &Path, making: &MakingArguments, context: &mut Context) -> Result<Status, Failure> {
+/// Writes a circuit as a page of its own, with the whole program or as a recording.
+fn write_page(
+    file: &Path,
+    output: &Path,
+    making: &MakingArguments,
+    live: bool,
+    context: &mut Context,
+) -> Result<Status, Failure> {
+    let template = if live { Some(live_template().ok_or(UsageError::NoLivePages)?) } else { None };
     let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
     let checked = session.open(source_path(file)?)?;
     let circuit = checked.circuit(&making.choice())?;
     let compiled = session.compile(&checked, &circuit, &making.options()?)?;
     context.tell(&compiled.warnings, &checked.sources);
-    let page = nbc_play::export(&session, &checked, &compiled)?;
+    let page = match template {
+        Some(page) => live_page(page, Arc::new(DiskWorld), &checked, &making.choice(), &making.options()?)?,
+        None => nbc_play::export(&session, &checked, &compiled)?,
+    };
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
     let (bytes, name) = (page.html.len(), output.display());
     let written =

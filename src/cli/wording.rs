@@ -45,6 +45,8 @@ pub(in crate::cli) enum UsageError {
     NothingToExport { path: String },
     /// A choice of a circuit for a page that has all of them.
     OnlyExported,
+    /// A live page, in a program that was built without what it is made of.
+    NoLivePages,
     /// A file for a new program that is there already.
     Exists { file: String },
     /// A file for a new program whose name no circuit can have.
@@ -113,6 +115,9 @@ impl From<UsageError> for Diagnostic {
             }
             UsageError::OnlyExported => bad("`--circuit` and `--swarm` choose what `--export` writes".to_owned())
                 .with_help("add `--export FILE`, or leave them out: the page shows every circuit of the file"),
+            UsageError::NoLivePages => bad("this program was built without the page of `--live`".to_owned()).with_help(
+                "leave `--live` out for a recording, or build the program with the page (docs/packaging.md)",
+            ),
             UsageError::Exists { file } => Self::without_place(Code::Unwritable, format!("`{file}` exists already"))
                 .with_help("choose another name, or remove the file"),
             UsageError::NoWord { file } => {

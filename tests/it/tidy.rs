@@ -88,7 +88,7 @@ const DISK: [&str; 12] = [
 
 /// The program and the doors with crates of their own.
 fn is_door(path: &Path) -> bool {
-    matches!(place(path).0.as_str(), "nbc" | "nbc_lsp" | "nbc_play" | "nbc_play_server" | "nbc_cluster")
+    matches!(place(path).0.as_str(), "nbc" | "nbc_lsp" | "nbc_play" | "nbc_play_server" | "nbc_cluster" | "nbc_web")
 }
 
 /// The file that calls the driver of a device and waits for it.
@@ -226,9 +226,9 @@ fn the_papers_materials_are_a_default() {
 }
 
 #[test]
-fn unsafe_code_is_in_two_files_of_the_physics() {
-    let allowed = ["lanes/kernel.rs", "opencl/card.rs"];
-    forbid("`unsafe` is in the file of vectors and in that of devices", &["unsafe {"], |path| {
+fn unsafe_code_is_in_three_files() {
+    let allowed = ["lanes/kernel.rs", "opencl/card.rs", "web/src/exports.rs"];
+    forbid("`unsafe` is in the file of vectors, that of devices and that of a script's calls", &["unsafe {"], |path| {
         allowed.iter().any(|name| path.ends_with(name))
     });
 }
@@ -313,7 +313,8 @@ fn files_do_not_import_each_other_in_circles() {
 fn a_public_type_name_has_one_meaning() {
     let definition = Regex::new(r"(?m)^\s*pub(?:\([^)]*\))?\s+(?:struct|enum|trait|type)\s+(\w+)").unwrap();
     let mut places: BTreeMap<String, Vec<String>> = BTreeMap::new();
-    for module in modules() {
+    // It stands in the place of `vector.rs` on one target.
+    for module in modules().iter().filter(|module| !module.path.ends_with("lanes/simd128.rs")) {
         for found in definition.captures_iter(&module.code) {
             places.entry(found[1].to_owned()).or_default().push(module.file());
         }

@@ -1,6 +1,6 @@
 // The page as a whole: its parts, and what happens when the server is found, lost and found again.
 
-import { Connection, socketAddress, type ConnectionState } from "./connection";
+import { Connection, type ConnectionState } from "./connection";
 import { EditPanel } from "./editor/panel";
 import { LanguageServer } from "./editor/server";
 import { Header } from "./header";
@@ -8,9 +8,10 @@ import { Layout } from "./layout";
 import { ClassPanel } from "./learn/class";
 import { lessonPath, Lessons } from "./learn/lessons";
 import { LearnPanel } from "./learn/panel";
+import type { Ways } from "./line";
 import { SwarmPanel } from "./live/panel";
 import { LiveSwarm } from "./live/swarm";
-import { Program, type Origin } from "./program";
+import { Program, type Choice, type Origin } from "./program";
 import type { Greeting } from "./protocol";
 import { RobotsPanel } from "./robots/panel";
 import { TakeAway } from "./take";
@@ -18,24 +19,34 @@ import { isShare, type SharedProgram } from "./share/link";
 import { sharedBits } from "./share/share";
 import { TestsPanel } from "./tests/panel";
 import { prefersStillness } from "./theme";
+import { Welcome } from "./welcome";
 
 const LATCH = "latch";
 
 export class App {
-  readonly #connection = new Connection(socketAddress("live"));
-  readonly #language = new LanguageServer(socketAddress("language"));
-  readonly #swarm = new LiveSwarm(this.#connection);
-  readonly #program = new Program(this.#connection, this.#swarm);
-  readonly #edit = new EditPanel(this.#connection, this.#program, this.#language, shared => this.#share(shared));
+  readonly #connection: Connection;
+  readonly #language: LanguageServer;
+  readonly #swarm: LiveSwarm;
+  readonly #program: Program;
+  readonly #edit: EditPanel;
   readonly #header = new Header();
-  readonly #lessons = new Lessons(this.#connection);
-  readonly #class = new ClassPanel(this.#connection);
+  readonly #lessons: Lessons;
+  readonly #class: ClassPanel;
   readonly #layout: Layout;
   #begun = false;
   #lessonsRead: Promise<void> = Promise.resolve();
 
-  constructor() {
-    const take = new TakeAway(this.#connection, this.#program, this.#swarm, () => this.#layout.tab.value);
+  constructor(ways: Ways, preferred: Choice | null = null) {
+    ways.status.follow(text => this.#header.showStatus(text));
+    this.#connection = new Connection(ways.live);
+    this.#language = new LanguageServer(ways.language);
+    this.#swarm = new LiveSwarm(this.#connection);
+    this.#program = new Program(this.#connection, this.#swarm);
+    this.#program.preferred = preferred;
+    this.#edit = new EditPanel(this.#connection, this.#program, this.#language, shared => this.#share(shared));
+    this.#lessons = new Lessons(this.#connection);
+    this.#class = new ClassPanel(this.#connection);
+    const take = new TakeAway(this.#connection, ways, this.#program, this.#swarm, () => this.#layout.tab.value);
     const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
     const reveal = (line: number): void => this.#edit.editor.reveal(line);
     const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () =>
@@ -57,12 +68,19 @@ export class App {
       },
       this.#class,
     );
-    this.#layout = new Layout(this.#header.host, this.#edit.host, learn.strip.host, [
-      { name: "swarm", label: "Swarm", panel: swarm.host },
-      { name: "tests", label: "Tests", panel: tests.host },
-      { name: "robots", label: "Robots", panel: robots.host },
-      { name: "learn", label: "Learn", panel: learn.host },
-    ]);
+    const welcome = new Welcome(this.#swarm, () => this.#layout.show("learn"));
+    this.#header.add(welcome.help);
+    this.#layout = new Layout(
+      this.#header.host,
+      this.#edit.host,
+      [welcome.strip, learn.strip.host],
+      [
+        { name: "swarm", label: "Swarm", panel: swarm.host },
+        { name: "tests", label: "Tests", panel: tests.host },
+        { name: "robots", label: "Robots", panel: robots.host },
+        { name: "learn", label: "Learn", panel: learn.host },
+      ],
+    );
     this.#layout.tab.follow(tab => {
       robots.shown(tab === "robots");
       swarm.wake();

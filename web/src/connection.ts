@@ -1,5 +1,6 @@
-// The socket for everything but the language server: requests with their answers, events and frames.
+// The line for everything but the language server: requests with their answers, events and frames.
 
+import type { Dial, Line } from "./line";
 import type { SwarmServer } from "./live/server";
 import { Observable } from "./observable";
 import type { PlayEvent, Refusal, ServerMessage } from "./protocol";
@@ -31,31 +32,30 @@ export class Connection implements SwarmServer {
   readonly events = new Observable<PlayEvent | null>(null);
   /** Receives each frame. */
   onframe: (buffer: ArrayBuffer) => void = () => {};
-  #socket: WebSocket | null = null;
+  #line: Line | null = null;
   #pending = new Map<number, Pending>();
   #next = 1;
   #wait = FIRST_WAIT;
   #timer = 0;
 
-  constructor(private readonly address: URL) {}
+  constructor(private readonly dial: Dial) {}
 
   open(): void {
     clearTimeout(this.#timer);
-    const socket = new WebSocket(this.address);
-    socket.binaryType = "arraybuffer";
-    socket.onopen = () => {
-      this.#wait = FIRST_WAIT;
-      this.state.set("open");
-    };
-    socket.onmessage = message => this.#receive(message.data as string | ArrayBuffer);
-    socket.onclose = () => this.#lose();
-    this.#socket = socket;
+    this.#line = this.dial({
+      opened: () => {
+        this.#wait = FIRST_WAIT;
+        this.state.set("open");
+      },
+      received: data => this.#receive(data),
+      closed: () => this.#lose(),
+    });
   }
 
   request<V extends Verb>(verb: V, fields: Fields<V>, options: RequestOptions = {}): Promise<Result<V>> {
     const id = this.#next++;
     return new Promise((resolve, reject) => {
-      if (this.#socket?.readyState !== WebSocket.OPEN) {
+      if (this.state.value !== "open") {
         reject(new RequestError("the connection to the program is lost", LOST, null, []));
         return;
       }
@@ -72,11 +72,11 @@ export class Connection implements SwarmServer {
   }
 
   #send(message: object): void {
-    this.#socket?.send(JSON.stringify(message));
+    this.#line?.send(JSON.stringify(message));
   }
 
   #cancel(id: number): void {
-    if (this.#pending.has(id) && this.#socket?.readyState === WebSocket.OPEN) {
+    if (this.#pending.has(id)) {
       this.#send({ id: this.#next++, do: "cancel", of: id });
     }
   }
@@ -116,11 +116,4 @@ export class Connection implements SwarmServer {
 
 function refused({ message, code, help, instead, diagnostics }: Refusal): RequestError {
   return new RequestError(message, code, help, diagnostics, instead);
-}
-
-/** An address beside the page, as a socket's. */
-export function socketAddress(name: string): URL {
-  const address = new URL(name, document.baseURI);
-  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
-  return address;
 }

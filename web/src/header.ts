@@ -11,6 +11,7 @@ const LONG = 15_000;
 export class Header {
   readonly host: HTMLElement;
   readonly #folder = element("span", { class: "folder" });
+  readonly #status = element("span", { class: "status", role: "status" });
   readonly #banner = element("div", { class: "banner", role: "alert", hidden: true });
   #timer = 0;
 
@@ -38,6 +39,7 @@ export class Header {
       { class: "head" },
       element("h1", {}, element("span", { class: "mark", "aria-hidden": "true" }), "nbc"),
       this.#folder,
+      this.#status,
       element("span", { class: "space" }),
       projector,
       light,
@@ -48,6 +50,15 @@ export class Header {
   showFolder(hello: Greeting): void {
     this.#folder.textContent = hello.folder;
     this.#folder.title = `nbc ${hello.version}, in the folder ${hello.folder}`;
+  }
+
+  /** Adds a button before the others. */
+  add(made: HTMLElement): void {
+    this.host.querySelector(".space")?.after(made);
+  }
+
+  showStatus(text: string): void {
+    this.#status.textContent = text;
   }
 
   showConnection(state: ConnectionState): void {

@@ -25,12 +25,12 @@ export class Layout {
   constructor(
     head: HTMLElement,
     edit: HTMLElement,
-    strip: HTMLElement,
+    strips: HTMLElement[],
     readonly tabs: Tab[],
   ) {
     const bar = element("div", { class: "tabs", role: "tablist", "aria-label": "Views" });
     const panels = tabs.map(tab => this.#panel(tab, bar));
-    const live = element("section", { class: "live", "aria-label": "Live" }, bar, strip, ...panels);
+    const live = element("section", { class: "live", "aria-label": "Live" }, bar, ...strips, ...panels);
     this.#main.append(edit, this.#divider(), live);
     this.host = element("div", { class: "page" }, head, this.#main);
     this.#resize(recall<number>("divide") ?? 38);

@@ -1,7 +1,8 @@
-// Starts the page.
+// Starts the page of a server.
 
 import { App } from "./app";
+import { SERVER } from "./line";
 import { restoreTheme } from "./theme";
 
 restoreTheme();
-new App().start();
+new App(SERVER).start();

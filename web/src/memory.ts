@@ -1,10 +1,15 @@
 // What this browser remembers of the page, under names of its own.
 
-const PREFIX = "nbc:";
+let prefix = "nbc:";
+
+/** Keeps what this page remembers apart from other pages of the same place, as files of a folder are. */
+export function rememberApart(name: string): void {
+  prefix = `nbc:${name}:`;
+}
 
 export function recall<T>(name: string): T | null {
   try {
-    const text = localStorage.getItem(PREFIX + name);
+    const text = localStorage.getItem(prefix + name);
     return text === null ? null : (JSON.parse(text) as T);
   } catch {
     return null;
@@ -15,9 +20,9 @@ export function recall<T>(name: string): T | null {
 export function remember(name: string, value: unknown): void {
   try {
     if (value === null) {
-      localStorage.removeItem(PREFIX + name);
+      localStorage.removeItem(prefix + name);
     } else {
-      localStorage.setItem(PREFIX + name, JSON.stringify(value));
+      localStorage.setItem(prefix + name, JSON.stringify(value));
     }
   } catch {
     // The page works without a memory.

@@ -35,6 +35,8 @@ export class Program {
   /** The stamp of the file, null while there is none. */
   stamp: string | null = null;
   hello: Greeting | null = null;
+  /** What is shown first, on a page that was made of one circuit. */
+  preferred: Choice | null = null;
   /** Whether the swarm runs as soon as it is compiled. */
   plays = true;
   #text = "";
@@ -229,7 +231,8 @@ export class Program {
       return;
     }
     const circuits = this.circuits();
-    const kept = circuits.find(entry => entry.circuit === this.choice.value?.circuit);
+    const wanted = this.choice.value ?? this.preferred;
+    const kept = circuits.find(entry => entry.circuit === wanted?.circuit);
     // A test is about the circuit that matters; without one the last circuit uses the others.
     const first = circuits.find(entry => entry.circuit === checked.tests[0]?.circuit) ?? circuits.at(-1);
     if (first === undefined) {
@@ -237,7 +240,7 @@ export class Program {
       this.stage.set({ state: "ready" });
       return;
     }
-    const swarm = kept?.swarms.includes(this.choice.value?.swarm ?? "") ? (this.choice.value?.swarm ?? null) : null;
+    const swarm = kept?.swarms.includes(wanted?.swarm ?? "") ? (wanted?.swarm ?? null) : null;
     const choice = { circuit: (kept ?? first).circuit, swarm };
     if (JSON.stringify(choice) !== JSON.stringify(this.choice.value)) {
       this.choice.set(choice);

@@ -234,6 +234,8 @@ export type Greeting = {
   files: Array<FileEntry>,
   examples: Array<ExampleEntry>,
   limits: PlayLimits,
+  /** Whether pages with the whole program in them can be made. */
+  live_pages: boolean,
   /** Whether there is a class to join. */
   class: boolean,
   cycle_seconds: number,
@@ -428,7 +430,8 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "keep" } & KeepRequest
   | { "do": "evolve" } & EvolveRequest
   | { "do": "take", what: TakeKind, cycles: number, }
-  | { "do": "export", path: string, circuit: string, swarm: string | null, }
+  | { "do": "export", path: string, circuit: string, swarm: string | null, /** Whether the page has the whole program in it, or else a recording. */
+live: boolean, }
   | { "do": "join", name: string, key?: string, }
   | { "do": "progress", place: ClassPlace | null, finished: number, }
   | { "do": "leave" }

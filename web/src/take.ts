@@ -5,6 +5,7 @@ import { CANCELLED, type Connection } from "./connection";
 import { button, element, fill } from "./element";
 import type { LiveSwarm } from "./live/swarm";
 import { closeOutside } from "./menu";
+import type { Ways } from "./line";
 import type { Program } from "./program";
 import type { TakeKind, TakenFile } from "./protocol";
 import { RequestError } from "./request";
@@ -34,6 +35,7 @@ export class TakeAway {
 
   constructor(
     private readonly connection: Connection,
+    private readonly ways: Ways,
     private readonly program: Program,
     private readonly swarm: LiveSwarm,
     tab: () => string,
@@ -49,12 +51,16 @@ export class TakeAway {
         links.host,
         button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
         button("Schematic (SVG)", () => this.#schematic(), { "data-take": "schematic" }),
-        button("Playable page (HTML, no server)", () => void this.#export(), { "data-take": "player" }),
+        button("Live page (HTML, no server)", () => void this.#export(true), { "data-take": "live" }),
+        button("Recorded page (HTML, smaller)", () => void this.#export(false), { "data-take": "player" }),
         ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
         element("label", {}, "of the last ", this.#cycles, " cycles"),
         this.#status,
       ),
     );
+    this.host.addEventListener("toggle", () => {
+      this.host.querySelector<HTMLElement>('[data-take="live"]')!.hidden = program.hello?.live_pages !== true;
+    });
     closeOutside(this.host as HTMLDetailsElement);
   }
 
@@ -75,13 +81,16 @@ export class TakeAway {
     return this.#make(label, signal => this.connection.request("take", { what, cycles }, { signal }));
   }
 
-  /** The circuit as a page that plays by itself. */
-  async #export(): Promise<void> {
+  /** The circuit as a page of its own, with the whole simulator or as a recording. */
+  async #export(live: boolean): Promise<void> {
     const choice = this.program.choice.value;
     if (choice !== null) {
       await this.program.settled();
       const path = this.program.path.value;
-      await this.#make("the page", signal => this.connection.request("export", { path, ...choice }, { signal }));
+      await this.#make("the page", async signal => {
+        await (live ? this.ways.prepare() : null);
+        return this.connection.request("export", { path, live, ...choice }, { signal });
+      });
     }
   }
 
@@ -96,7 +105,7 @@ export class TakeAway {
     );
     try {
       const { url, name } = await ask(work.signal);
-      download(new URL(url, document.baseURI).href, name);
+      download(this.ways.file(url), name);
       fill(this.#status, `${name} is ready`);
     } catch (error) {
       const known = error instanceof RequestError;

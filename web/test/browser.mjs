@@ -4,6 +4,8 @@ import assert from "node:assert/strict";
 
 import { chromium } from "playwright-core";
 
+import { seedOf } from "./program.mjs";
+
 const CHROMIUM = process.env.CHROMIUM ?? "/usr/bin/chromium";
 
 /** The browser that is being launched, so that pages which are opened at once share it. */
@@ -32,6 +34,7 @@ export async function visit(url, options = {}) {
       errors.push(message.text());
     }
   });
+  await seed(page, seedOf(url));
   await page.goto(url);
   return Object.assign(page, {
     leave: async () => {
@@ -39,6 +42,31 @@ export async function visit(url, options = {}) {
       assert.deepEqual(errors, []);
     },
   });
+}
+
+/** Puts files into the browser's memory, from a document beside the page. */
+async function seed(page, begins) {
+  if (begins === null) {
+    return;
+  }
+  await page.route("**/favicon.ico", route => route.fulfill({ status: 204 }));
+  await page.goto(begins.at);
+  await page.evaluate(
+    files =>
+      new Promise(done => {
+        const opening = indexedDB.open("nbc", 1);
+        opening.onupgradeneeded = () => opening.result.createObjectStore("files");
+        opening.onsuccess = () => {
+          const change = opening.result.transaction("files", "readwrite");
+          files.forEach(([path, text]) => change.objectStore("files").put(text, path));
+          change.oncomplete = () => {
+            opening.result.close();
+            done();
+          };
+        };
+      }),
+    begins.files,
+  );
 }
 
 /** Waits until the swarm has been compiled and its run has begun. */

@@ -1,13 +1,18 @@
-// Starts the program named by NBC with a folder of its own. It serves its own page, or that of the folder NBC_PAGE.
+// Starts the program named by NBC with a folder of its own. It serves its own page, or that of the folder NBC_PAGE. With
+// NBC_SITE, the folder of the page that needs no program is served instead, and begins with the files of the folder.
 
 import { spawn } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import path from "node:path";
 
+import { serveFiles } from "./files.mjs";
+
+/** The folder of the page that needs no program. */
+export const SITE = process.env.NBC_SITE && path.resolve(process.env.NBC_SITE);
 const PROGRAM = process.env.NBC;
 const PAGE = process.env.NBC_PAGE && path.resolve(process.env.NBC_PAGE);
-if (PROGRAM === undefined) {
+if (PROGRAM === undefined && SITE === undefined) {
   throw new Error("NBC must name the program, for example NBC=../target/release/nbc");
 }
 
@@ -22,8 +27,29 @@ export function folderWith(files) {
   return { folder, remove: () => rmSync(folder, { recursive: true, force: true }) };
 }
 
+/** The files with which the page at an address begins in a browser that has none. */
+const seeds = new Map();
+
+export function seedOf(url) {
+  return seeds.get(url) ?? null;
+}
+
+async function playSite(folder, file) {
+  const { address, stop } = await serveFiles(SITE);
+  const url = file === undefined ? address : `${address}#${encodeURI(file)}`;
+  const names = readdirSync(folder).filter(name => /\.\w+$/.test(name));
+  const files = names.map(name => [name, readFileSync(path.join(folder, name), "utf8")]);
+  seeds.set(url, { at: `${address}NOTICES.txt`, files });
+  return { url, stop };
+}
+
 /** Serves a folder, and opens its `file` first. `more` are further options. */
 export async function play(folder, file, { port = 0, token, more = [] } = {}) {
+  return SITE === undefined ? serve(folder, file, { port, token, more }) : playSite(folder, file);
+}
+
+/** Serves a folder with the program. */
+export async function serve(folder, file, { port = 0, token, more = [] } = {}) {
   const options = [
     "--no-open",
     "--port",

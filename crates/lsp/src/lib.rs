@@ -19,6 +19,7 @@ mod later;
 mod layout;
 mod lenses;
 mod links;
+mod message;
 mod names;
 mod navigation;
 mod outline;
@@ -45,9 +46,10 @@ mod used_files;
 mod wording;
 mod workspace;
 
+pub use message::{message, no_message, parse, refusal, written};
 pub use server_end::ServerEnd;
 pub use service::LanguageService;
 pub use shell::{LanguageShell, LanguageWork};
 #[cfg(feature = "disk")]
-pub use stdio::{NO_MESSAGE, file_uri, message, serve, serve_standard, serve_texts};
+pub use stdio::{file_uri, serve, serve_standard, serve_texts};
 pub use wording::ServerError;

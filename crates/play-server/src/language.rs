@@ -29,7 +29,7 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     // A page that breaks the protocol is left alone: it sees that nothing is answered.
     thread::spawn(move || _ = nbc_lsp::serve(Connection { sender: answer, receiver }, world));
     let told = post.clone();
-    thread::spawn(move || answers.into_iter().for_each(|message| told.text(written(&message))));
+    thread::spawn(move || answers.into_iter().for_each(|message| told.text(nbc_lsp::written(&message))));
     let folder = served.clone();
     thread::spawn(move || {
         for text in waiting {
@@ -53,12 +53,12 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
 /// # Errors
 /// The answer to a text that is not a message.
 fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
-    let mut value: Value =
-        serde_json::from_str(text).map_err(|error| refusal(&Value::Null, ErrorCode::ParseError, &error.to_string()))?;
+    let mut value = nbc_lsp::parse(text.as_bytes())?;
     if value["method"] == "initialize" {
         let id = value["id"].clone();
         let Some(params) = value["params"].as_object_mut() else {
-            return Err(refusal(&id, ErrorCode::InvalidParams, "the parameters of `initialize` must be an object"));
+            let reason = "the parameters of `initialize` must be an object";
+            return Err(nbc_lsp::refusal(&id, ErrorCode::InvalidParams, reason));
         };
         params.insert("rootUri".to_owned(), json!(served.site.folder.uri()));
         // The user has opened this folder with `nbc play`.
@@ -68,11 +68,7 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return Ok(None);
     }
-    nbc_lsp::message(value).map(Some).map_err(|id| refusal(&id, ErrorCode::InvalidRequest, nbc_lsp::NO_MESSAGE))
-}
-
-fn refusal(id: &Value, code: ErrorCode, message: &str) -> Value {
-    json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": message } })
+    nbc_lsp::message(value).map(Some).map_err(nbc_lsp::no_message)
 }
 
 /// The options of a page, with the permission to translate Verilog of the folder.
@@ -80,10 +76,4 @@ fn trusting(options: Option<&Value>) -> Value {
     let mut options = options.filter(|options| options.is_object()).cloned().unwrap_or_else(|| json!({}));
     options["verilog"] = json!({ "trusted": true });
     options
-}
-
-fn written(message: &Message) -> String {
-    let mut value = serde_json::to_value(message).expect("messages are data");
-    value["jsonrpc"] = json!("2.0");
-    value.to_string()
 }

@@ -108,6 +108,7 @@ impl PlayServer {
             folder: Arc::new(DiskFolder::new(folder.clone())),
             file,
             making: options.making.clone(),
+            live_pages: nbc_play::live_template().is_some(),
             class: None,
             shell: threads.clone(),
         };
@@ -179,6 +180,7 @@ pub fn serve_texts(folder: &Path, texts: &[&str]) {
         folder: Arc::new(DiskFolder::new(world)),
         file: None,
         making: CompileOptions::default(),
+        live_pages: false,
         class: None,
         shell: Arc::new(Threads::new(&[])),
     };

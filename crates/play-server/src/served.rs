@@ -171,6 +171,7 @@ mod tests {
             folder: Arc::new(DiskFolder::new(world.clone())),
             file: None,
             making: CompileOptions::default(),
+            live_pages: false,
             class: None,
             shell: threads.clone(),
         };

@@ -55,6 +55,10 @@ impl Shell for Threads {
         self.takes.keep(name, media_type, bytes)
     }
 
+    fn template(&self) -> Option<Arc<str>> {
+        nbc_play::live_template().map(Into::into)
+    }
+
     fn lessons(&self) -> Vec<LessonTexts> {
         self.lessons.iter().map(LessonSource::texts).collect()
     }

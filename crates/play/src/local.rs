@@ -33,7 +33,7 @@ impl MemoryFolder {
         files.changes += 1;
         let stamp = files.changes;
         files.known.insert(path.to_owned(), (text.len(), stamp));
-        files.world.insert(path, text);
+        files.world.insert(identity(path), text);
     }
 
     /// A file that a page has written since it was asked last, and its text.
@@ -41,7 +41,7 @@ impl MemoryFolder {
         let mut files = lock(&self.files);
         let path = files.written.pop()?;
         files.written.retain(|other| *other != path);
-        let text = files.world.read(&path).unwrap_or_default();
+        let text = files.world.read(&identity(&path)).unwrap_or_default();
         Some((path, text))
     }
 }
@@ -99,7 +99,7 @@ struct MemoryFiles {
 
 impl SourceWorld for MemoryFiles {
     fn read(&self, path: &str) -> Result<String, FileError> {
-        lock(&self.folder.files).world.read(path)
+        lock(&self.folder.files).world.read(&identity(path))
     }
 
     fn cancel(&self) -> CancelFlag {
@@ -107,12 +107,29 @@ impl SourceWorld for MemoryFiles {
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-        lock(&self.folder.files).world.list(folder)
+        lock(&self.folder.files).world.list(identity(folder).trim_end_matches('/'))
     }
 
     fn kind(&self, path: &str) -> Option<EntryKind> {
-        lock(&self.folder.files).world.kind(path)
+        lock(&self.folder.files).world.kind(identity(path).trim_end_matches('/'))
     }
+
+    fn identity(&self, path: &str) -> String {
+        identity(path)
+    }
+}
+
+/// The path of a file from the root, which is the folder: what leads outside ends there.
+fn identity(path: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in path.split('/') {
+        match part {
+            "" | "." => {}
+            ".." => _ = parts.pop(),
+            name => parts.push(name),
+        }
+    }
+    format!("/{}", parts.join("/"))
 }
 
 /// A message for a page.
@@ -131,10 +148,11 @@ pub struct LocalLine {
 }
 
 impl LocalLine {
-    /// The next message, texts first.
-    pub fn next(&self) -> Option<PageMessage> {
+    /// The next message, texts first. A frame waits until the page has room for it.
+    pub fn next(&self, has_room: bool) -> Option<PageMessage> {
         let (texts, frame) = &mut *lock(&self.waiting);
-        texts.pop_front().map(PageMessage::Text).or_else(|| frame.take().map(PageMessage::Frame))
+        let text = texts.pop_front().map(PageMessage::Text);
+        text.or_else(|| frame.take_if(|_| has_room).map(PageMessage::Frame))
     }
 }
 
@@ -174,6 +192,7 @@ pub struct KeptFile {
 pub struct LocalShell {
     work: Mutex<VecDeque<Portions>>,
     kept: Mutex<(u64, VecDeque<KeptFile>)>,
+    template: Mutex<Option<Arc<str>>>,
 }
 
 impl LocalShell {
@@ -190,6 +209,11 @@ impl LocalShell {
         {
             lock(&self.work).push_back(portions);
         }
+    }
+
+    /// Sets the page that live pages are made of.
+    pub fn set_template(&self, text: &str) {
+        *lock(&self.template) = Some(text.into());
     }
 
     /// The oldest file that was kept and not yet taken.
@@ -209,6 +233,10 @@ impl Shell for LocalShell {
         let address = format!("take/{number}/{name}");
         files.push_back(KeptFile { address: address.clone(), media_type, bytes });
         address
+    }
+
+    fn template(&self) -> Option<Arc<str>> {
+        lock(&self.template).clone()
     }
 
     fn lessons(&self) -> Vec<LessonTexts> {

@@ -67,6 +67,8 @@ pub(super) enum Refused {
     Internal,
     /// A circuit that cannot be exported.
     Export(ExportError),
+    /// A live page, where nothing is there to make it of.
+    NoLivePages,
     /// Errors in the source.
     Source(Diagnostics),
 }
@@ -121,6 +123,7 @@ impl Refused {
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
             Self::Export(error) => Diagnostic::from(error.clone()).message,
+            Self::NoLivePages => "this nbc has nothing to make live pages of".to_owned(),
             Self::NoClass => "this page is in no class".to_owned(),
             Self::ClassFull { most } => format!("the class has {most} members, and no room for another one"),
             Self::ClassName { most } => format!("a name has 1 to {most} letters, in one line"),
@@ -145,6 +148,7 @@ impl Refused {
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
             Self::Export(error) => Diagnostic::from(error.clone()).help,
+            Self::NoLivePages => Some("take a recorded page".to_owned()),
             Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
             _ => None,
         }

@@ -98,6 +98,8 @@ pub(super) enum Verb {
         path: String,
         circuit: String,
         swarm: Option<String>,
+        /// Whether the page has the whole program in it, or else a recording.
+        live: bool,
     },
     Join {
         name: String,

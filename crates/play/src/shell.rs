@@ -31,6 +31,9 @@ pub trait Shell: Send + Sync {
     /// Keeps a file that a page will fetch once. Returns its address, relative to the page.
     fn keep(&self, name: &str, media_type: &'static str, bytes: Vec<u8>) -> String;
 
+    /// The page without sources that live pages are made of, if there is one.
+    fn template(&self) -> Option<Arc<str>>;
+
     /// The lessons of the page, as their files are now.
     fn lessons(&self) -> Vec<LessonTexts>;
 }

@@ -18,6 +18,8 @@ pub struct PlaySite {
     pub file: Option<String>,
     /// How pages make swarms.
     pub making: CompileOptions,
+    /// Whether live pages can be made: [`Shell::template`] has what they are made of when a page asks for one.
+    pub live_pages: bool,
     /// The class that pages can join.
     pub class: Option<Arc<Class>>,
     /// What is around the pages.

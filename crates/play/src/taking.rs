@@ -4,10 +4,11 @@ use std::io;
 
 use crate::export::export;
 use crate::jobs::Job;
+use crate::live_page::live_page;
 use crate::programs;
 use crate::refusal::Refused;
 use crate::request::TakeKind;
-use crate::site::SCHEME;
+use crate::site::{PlaySite, SCHEME};
 use nbc_base::model::CYCLE_STEPS;
 use nbc_session::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
 use nbc_session::{Checked, Choice, Excerpt, RunEnd, Session, SimulationRun, run_page};
@@ -76,6 +77,21 @@ pub(super) fn exported(
     job.check()?;
     let page = export(session, checked, &compiled)?;
     Ok((format!("{}.html", compiled.plan.circuit.circuit), page.html.into_bytes()))
+}
+
+/// A circuit as one HTML file with the whole program, with the name of the file.
+///
+/// # Errors
+/// When it cannot be compiled, or nothing is there to make such pages of.
+pub(super) fn live(
+    site: &PlaySite,
+    checked: &Checked,
+    choice: &Choice,
+    job: &Job,
+) -> Result<(String, Vec<u8>), Refused> {
+    let template = site.shell.template().ok_or(Refused::NoLivePages)?;
+    let page = live_page(&template, site.folder.world(), checked, choice, &job.options())?;
+    Ok((format!("{}.html", page.circuit), page.html.into_bytes()))
 }
 
 fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {

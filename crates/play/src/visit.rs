@@ -245,10 +245,13 @@ impl Visit {
                 let (files, is_shared) = (PageFiles::new(site.folder.clone()), site.class.is_some());
                 once(move |job| bodies::keep(&request, &files, is_shared, job))
             }
-            Verb::Export { path, circuit, swarm } => {
+            Verb::Export { path, circuit, swarm, live } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
                 self.with_program(path, move |session, checked, job| {
-                    let (name, bytes) = taking::exported(session, checked, &choice, job)?;
+                    let (name, bytes) = match live {
+                        true => taking::live(&site, checked, &choice, job)?,
+                        false => taking::exported(session, checked, &choice, job)?,
+                    };
                     let url = site.shell.keep(&name, taking::HTML, bytes);
                     Ok(Some(RequestResult::Export(TakenFile { url, name })))
                 })
@@ -275,6 +278,7 @@ impl Visit {
                 cycles: MEMORY,
                 message: Limit::PageMessage.most() as usize,
             },
+            live_pages: self.site.live_pages,
             class: self.site.class.is_some(),
             cycle_seconds: 0.25,
         }
@@ -366,6 +370,7 @@ mod tests {
                 folder: Arc::new(folder.clone()),
                 file: None,
                 making,
+                live_pages: true,
                 class: None,
                 shell: shell.clone(),
             });
@@ -385,7 +390,7 @@ mod tests {
 
         /// The texts that wait. Frames are left out.
         fn texts(&self) -> Vec<Value> {
-            let next = || self.line.next();
+            let next = || self.line.next(true);
             let texts = std::iter::from_fn(next).filter_map(|message| match message {
                 PageMessage::Text(text) => Some(serde_json::from_str(&text).unwrap()),
                 PageMessage::Frame(_) => None,
@@ -400,7 +405,7 @@ mod tests {
             while self.now < end {
                 self.now += self.visit.due(self.now).clamp(Duration::from_millis(1), end - self.now);
                 self.visit.advance(self.now);
-                frames += usize::from(matches!(self.line.next(), Some(PageMessage::Frame(_))));
+                frames += usize::from(matches!(self.line.next(true), Some(PageMessage::Frame(_))));
             }
             frames
         }

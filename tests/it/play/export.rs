@@ -46,6 +46,9 @@ fn another_circuit_can_be_chosen_and_mistakes_are_told() {
     bench.run(&["play", "--export", "x.html"]).expect_fault(&["FILE"]);
     bench.run(&["play", "two.nb", "--circuit", "one"]).expect_fault(&["--export"]);
     bench.run(&["play", "two.nb", "--export", "x.html", "--port", "8000"]).expect_fault(&["--port"]);
+    bench.run(&["play", "two.nb", "--export", "x.html", "--live", "--effort", "high"]).expect_fault(&["--live"]);
+    // A build of this source alone has no page for it.
+    bench.run(&["play", "two.nb", "--export", "x.html", "--live"]).expect_fault(&["without the page of `--live`"]);
     bench.run(&["play", "two.nb", "--export", "no/such/x.html"]).expect_fault(&["no/such/x.html"]);
     assert!(!bench.path().join("x.html").exists());
 }
@@ -57,9 +60,10 @@ fn a_page_exports_its_program_as_it_is_edited() {
     let server = Server::start(folder.path(), &["two.nb"]);
     let mut page = server.page();
     page.done(json!({ "do": "program", "path": "two.nb", "text": TWO }));
-    let made = page.done(json!({ "do": "export", "path": "two.nb", "circuit": "two", "swarm": null }));
+    let made = page.done(json!({ "do": "export", "path": "two.nb", "circuit": "two", "swarm": null, "live": false }));
     assert_eq!(made["name"], "two.html");
     assert!(made["url"].as_str().unwrap().starts_with("take/"), "{made}");
-    let refused = page.ask(json!({ "do": "export", "path": "two.nb", "circuit": "d_latch", "swarm": null }));
+    let other = json!({ "do": "export", "path": "two.nb", "circuit": "d_latch", "swarm": null, "live": false });
+    let refused = page.ask(other);
     assert!(refused.unwrap_err()["message"].as_str().unwrap().contains("d_latch"));
 }

@@ -1,7 +1,8 @@
-// The language server behind a socket. A lost one is replaced when the program is there again.
+// The language server at the end of a line. A lost one is replaced when the program is there again.
 
-import { LSPClient, languageServerExtensions, type Transport } from "@codemirror/lsp-client";
+import { LSPClient, languageServerExtensions } from "@codemirror/lsp-client";
 
+import type { Dial, Line } from "../line";
 import { Observable } from "../observable";
 import { quickFixes } from "./fixes";
 import { sanitize } from "./sanitize";
@@ -11,41 +12,35 @@ const TIMEOUT = 10_000;
 export class LanguageServer {
   /** The client of the present connection. */
   readonly client = new Observable<LSPClient | null>(null);
-  #socket: WebSocket | null = null;
+  #line: Line | null = null;
 
-  constructor(private readonly address: URL) {}
+  constructor(private readonly dial: Dial) {}
 
   connect(rootUri: string): void {
-    this.#socket?.close();
-    const socket = new WebSocket(this.address);
-    this.#socket = socket;
-    socket.onopen = () => {
-      const client = new LSPClient({
-        rootUri,
-        timeout: TIMEOUT,
-        extensions: [...languageServerExtensions(), quickFixes()],
-        sanitizeHTML: sanitize,
-      });
-      this.client.set(client.connect(transportOver(socket)));
-    };
-    socket.onclose = () => {
-      if (this.#socket === socket) {
-        this.client.set(null);
-      }
-    };
+    this.#line?.close();
+    const handlers = new Set<(message: string) => void>();
+    const line: Line = this.dial({
+      opened: () => {
+        const client = new LSPClient({
+          rootUri,
+          timeout: TIMEOUT,
+          extensions: [...languageServerExtensions(), quickFixes()],
+          sanitizeHTML: sanitize,
+        });
+        const transport = {
+          send: line.send,
+          subscribe: (handler: (message: string) => void) => handlers.add(handler),
+          unsubscribe: (handler: (message: string) => void) => handlers.delete(handler),
+        };
+        this.client.set(client.connect(transport));
+      },
+      received: data => handlers.forEach(handler => handler(data as string)),
+      closed: () => {
+        if (this.#line === line) {
+          this.client.set(null);
+        }
+      },
+    });
+    this.#line = line;
   }
-}
-
-function transportOver(socket: WebSocket): Transport {
-  const handlers = new Set<(message: string) => void>();
-  socket.onmessage = message => handlers.forEach(handler => handler(message.data as string));
-  return {
-    send: message => {
-      if (socket.readyState === WebSocket.OPEN) {
-        socket.send(message);
-      }
-    },
-    subscribe: handler => handlers.add(handler),
-    unsubscribe: handler => handlers.delete(handler),
-  };
 }

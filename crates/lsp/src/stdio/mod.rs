@@ -13,14 +13,13 @@ use std::time::Instant;
 use crossbeam_channel::{after, bounded, never, select};
 use lsp_server::Connection;
 
+use crate::message::message;
 use crate::service::LanguageService;
 use crate::uri;
 use crate::{ServerEnd, ServerError};
 use disk_shell::DiskShell;
 use nbc_session::store::{DiskWorld, FolderWorld, VerilogFiles};
 use pending::Pending;
-
-pub use wire::{NO_MESSAGE, message};
 
 /// Serves an editor on standard input and output until it ends the session or closes its connection.
 ///
@@ -108,7 +107,7 @@ fn send(connection: &Connection, service: &mut LanguageService) {
 pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let (server, client) = Connection::memory();
-    for message in texts.iter().filter_map(|text| wire::message(serde_json::from_slice(text).ok()?).ok()) {
+    for message in texts.iter().filter_map(|text| message(serde_json::from_slice(text).ok()?).ok()) {
         client.sender.send(message).expect("the server has not begun");
     }
     drop(client);

@@ -5,15 +5,14 @@ use std::thread::{self, JoinHandle};
 
 use crossbeam_channel::{Sender, bounded};
 use lsp_server::{Connection, ErrorCode, Message};
-use serde_json::{Value, json};
+use serde_json::Value;
+
+use crate::message::{NO_MESSAGE, message, refusal};
 
 /// The most bytes of a message. A text of this length could not be checked anyway.
 const MOST: u64 = 64 << 20;
 /// The most bytes of a line before a message.
 const LINE: u64 = 4096;
-
-/// Why a value is not a message.
-pub const NO_MESSAGE: &str = "expected a request, a notification or a response";
 
 /// The threads that read and write.
 pub(super) struct Wire {
@@ -71,7 +70,7 @@ fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), 
 
 /// Answers a text that is not a message with an error. The id is null if the text has none.
 fn refuse(id: Value, code: ErrorCode, reason: &str) {
-    let answer = json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": reason } }).to_string();
+    let answer = refusal(&id, code, reason).to_string();
     let mut output = io::stdout().lock();
     // A client that does not read misses it.
     let _ = write!(output, "Content-Length: {}\r\n\r\n{answer}", answer.len()).and_then(|()| output.flush());
@@ -122,19 +121,6 @@ fn parse(bytes: &[u8]) -> Arrived {
     }
 }
 
-/// The message that a value is.
-///
-/// # Errors
-/// The number of the request, if there is one, of a value that is not a message.
-pub fn message(value: Value) -> Result<Message, Value> {
-    let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned().unwrap_or_default();
-    match Some(value).filter(Value::is_object).and_then(|value| serde_json::from_value(value).ok()) {
-        // A notification has no number. One that seems to have one is a request with a number that is not possible.
-        Some(message) if id.is_null() || !matches!(message, Message::Notification(_)) => Ok(message),
-        _ => Err(id),
-    }
-}
-
 /// The length of the next text, from its header; `None` at the end of the input.
 fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
     let mut length = None;
@@ -161,6 +147,7 @@ fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
+    use serde_json::json;
 
     use super::*;
 

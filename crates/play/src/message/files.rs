@@ -18,6 +18,8 @@ pub(crate) struct Greeting {
     pub(crate) files: Vec<FileEntry>,
     pub(crate) examples: Vec<ExampleEntry>,
     pub(crate) limits: PlayLimits,
+    /// Whether pages with the whole program in them can be made.
+    pub(crate) live_pages: bool,
     /// Whether there is a class to join.
     pub(crate) class: bool,
     pub(crate) cycle_seconds: f64,

@@ -12,7 +12,7 @@ use crate::backend::lanes::lane_batch::{LaneBatch, Stepped};
 use crate::backend::lanes::real::Real;
 use crate::backend::lanes::step::env_step;
 use crate::backend::lanes::stiffness::{Common, Own, Stiffness};
-use crate::backend::lanes::vector::Lanes;
+use crate::backend::lanes::vector::{Eight, Four};
 use crate::constants::Constants;
 use crate::lattice::Lattice;
 use crate::meter::{Meter, Part, Stopwatch};
@@ -21,7 +21,8 @@ use crate::state::State;
 /// A set of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
-    /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM.
+    /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM, that which WebAssembly was
+    /// compiled for.
     Baseline,
     /// AVX2 of x86-64: four numbers in a register.
     Avx2,
@@ -149,10 +150,10 @@ impl Kernel {
             (InstructionSet::Avx512, _, true) => x86::avx512_8::<Common>(robots, ground),
             #[cfg(target_arch = "x86_64")]
             (InstructionSet::Avx512, _, false) => x86::avx512_8::<Own<_>>(robots, ground),
-            (_, ..=4, true) => layout::<Lanes<4>, Common>(robots, ground, env_step),
-            (_, ..=4, false) => layout::<Lanes<4>, Own<_>>(robots, ground, env_step),
-            (_, _, true) => layout::<Lanes<8>, Common>(robots, ground, env_step),
-            (_, _, false) => layout::<Lanes<8>, Own<_>>(robots, ground, env_step),
+            (_, ..=4, true) => layout::<Four, Common>(robots, ground, env_step),
+            (_, ..=4, false) => layout::<Four, Own<_>>(robots, ground, env_step),
+            (_, _, true) => layout::<Eight, Common>(robots, ground, env_step),
+            (_, _, false) => layout::<Eight, Own<_>>(robots, ground, env_step),
         }
     }
 }

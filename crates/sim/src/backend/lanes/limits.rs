@@ -13,7 +13,9 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// row's masses move when the springs of the row are done, because then all edges at them have been measured.
     ///
     /// Squared lengths are compared, so a root is needed only if a limit is exceeded.
-    #[inline(always)]
+    // Engines of WebAssembly give functions of that size few registers.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub fn limit_lengths(&mut self) {
         let main = Bounds::<R>::new(rest(MAIN, &self.constants), &self.constants);
         let diagonal = Bounds::<R>::new(rest(DIAGONAL, &self.constants), &self.constants);
@@ -60,7 +62,9 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
 
     /// Second pass, the sides of rigid voxels one after another: an edge of length d beyond its bound moves its ends by
     /// 0.5 r excess / (2 d) before the next edge is processed.
-    #[inline(always)]
+    // Engines of WebAssembly give functions of that size few registers.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub fn limit_rigid(&mut self) {
         let bounds = Rigid::<R>::new(&self.constants);
         for Round { lanes, voxels } in &self.rigid {

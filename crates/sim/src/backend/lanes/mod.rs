@@ -21,6 +21,7 @@ mod stiffness;
 mod terrain;
 mod threads;
 mod trials;
+#[cfg_attr(all(target_arch = "wasm32", target_feature = "simd128"), path = "simd128.rs")]
 mod vector;
 mod world;
 

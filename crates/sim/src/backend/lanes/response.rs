@@ -13,7 +13,9 @@ use crate::lattice::CORNERS;
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Contact forces and the instability test, both from the positions at the start of the substep.
-    #[inline(always)]
+    // Engines of WebAssembly give functions of that size few registers.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     pub fn apply_contacts(&mut self) {
         self.loads.clear_contacts(&mut self.masses.now);
         let mut low = std::mem::take(&mut self.touching.low);

@@ -46,7 +46,9 @@ struct Measure<R> {
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// One Runge-Kutta stage: spring forces at the stage's positions, then each mass on to the next stage, row by row.
-    #[inline(always)]
+    // Engines of WebAssembly give functions of that size few registers.
+    #[cfg_attr(not(target_family = "wasm"), inline(always))]
+    #[cfg_attr(target_family = "wasm", inline(never))]
     fn sweep<const STAGE: u8>(&mut self) {
         self.pull_rims::<STAGE>();
         let mut next = measure_frame::<R, STAGE>(&self.springs.frames[0], &self.masses.now);

@@ -4,6 +4,10 @@ use std::array::from_fn;
 
 use crate::backend::lanes::real::{Mask, Real, operators};
 
+/// Four lanes, and eight.
+pub type Four = Lanes<4>;
+pub type Eight = Lanes<8>;
+
 /// An array of `N` numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]

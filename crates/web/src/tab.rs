@@ -1,0 +1,194 @@
+//! A page and its editor in one thread.
+
+use std::sync::Arc;
+
+use core::time::Duration;
+
+use crate::language::LanguageQueue;
+use nbc_lsp::LanguageService;
+use nbc_play::{KeptFile, LocalLine, LocalShell, MemoryFolder, PageMessage, PlaySite, Visit};
+use nbc_session::CompileOptions;
+
+/// A visit of the live page and a language service with the same files. `now` is always the time since any moment, and
+/// never goes back.
+pub struct Tab {
+    folder: MemoryFolder,
+    shell: Arc<LocalShell>,
+    line: Arc<LocalLine>,
+    visit: Visit,
+    queue: Arc<LanguageQueue>,
+    service: LanguageService,
+    /// Answers to texts that were not messages for the language service.
+    refusals: Vec<String>,
+}
+
+/// What a tab says.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TabMessage {
+    /// A text or a frame for the page.
+    Page(PageMessage),
+    /// A text for the client of the language service.
+    Language(String),
+    /// The page has written a file, which can now be kept.
+    Written {
+        /// Its path.
+        path: String,
+        /// Its text.
+        text: String,
+    },
+    /// A file that the page will fetch.
+    Kept(KeptFile),
+}
+
+impl Tab {
+    /// A tab without files, whose page opens the file `first` if there is one.
+    pub fn new(first: Option<String>, now: Duration) -> Self {
+        let (folder, shell, line) = (MemoryFolder::default(), Arc::<LocalShell>::default(), Arc::default());
+        let site = PlaySite {
+            folder: Arc::new(folder.clone()),
+            live_pages: first.is_none(),
+            file: first,
+            making: CompileOptions::default(),
+            class: None,
+            shell: shell.clone(),
+        };
+        let visit = Visit::new(Arc::new(site), Arc::<LocalLine>::clone(&line), now);
+        let queue = Arc::new(LanguageQueue::new(folder.clone()));
+        let service = LanguageService::new(queue.clone());
+        Self { folder, shell, line, visit, queue, service, refusals: Vec::new() }
+    }
+
+    /// Adds a file, or replaces it: one that was kept, or that another tab has written.
+    pub fn insert(&self, path: &str, text: &str) {
+        self.folder.insert(path, text);
+    }
+
+    /// Sets the page that live pages are made of.
+    pub fn set_template(&self, text: &str) {
+        self.shell.set_template(text);
+    }
+
+    /// Takes a request of the page.
+    pub fn receive(&mut self, text: &str, now: Duration) {
+        self.visit.receive(text, now);
+    }
+
+    /// Begins a language service for a new client.
+    pub fn greet(&mut self) {
+        self.service = LanguageService::new(self.queue.clone());
+    }
+
+    /// Takes a message of the client of the language service.
+    pub fn receive_language(&mut self, text: &str, now: Duration) {
+        match nbc_lsp::parse(text.as_bytes()).and_then(|value| nbc_lsp::message(value).map_err(nbc_lsp::no_message)) {
+            Ok(message) => _ = self.service.receive(message, now),
+            Err(refusal) => self.refusals.push(refusal.to_string()),
+        }
+    }
+
+    /// Does what is due, at most one cycle of the swarm and a portion of each kind of work. Returns the time until
+    /// there is more to do. A message may come before.
+    pub fn advance(&mut self, now: Duration) -> Duration {
+        self.shell.advance();
+        self.queue.advance();
+        self.visit.advance(now);
+        self.service.advance(now);
+        if self.shell.has_work() || self.queue.has_work() {
+            return Duration::ZERO;
+        }
+        let page = self.visit.due(now);
+        self.service.due(now).map_or(page, |language| language.min(page))
+    }
+
+    /// The next message. A frame is left until there is room for it, and replaced by newer ones meanwhile.
+    pub fn next(&mut self, has_room: bool) -> Option<TabMessage> {
+        if let Some(file) = self.shell.take_kept() {
+            return Some(TabMessage::Kept(file));
+        }
+        if let Some((path, text)) = self.folder.take_written() {
+            return Some(TabMessage::Written { path, text });
+        }
+        if let Some(message) = self.line.next(has_room) {
+            return Some(TabMessage::Page(message));
+        }
+        let answer = self.service.next_message().map(|message| nbc_lsp::written(&message));
+        answer.or_else(|| self.refusals.pop()).map(TabMessage::Language)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Value, json};
+
+    use super::*;
+
+    const LATCH: &str = include_str!("../circuits/latch.nb");
+
+    fn said(tab: &mut Tab) -> Vec<TabMessage> {
+        let mut now = Duration::ZERO;
+        while tab.advance(now).is_zero() {
+            now += Duration::from_millis(1);
+        }
+        std::iter::from_fn(|| tab.next(true)).collect()
+    }
+
+    #[test]
+    fn a_page_and_its_editor_see_the_same_files() {
+        let mut tab = Tab::new(None, Duration::ZERO);
+        let save = json!({ "id": 1, "do": "save", "path": "a.nb", "text": LATCH, "stamp": null });
+        tab.receive(&save.to_string(), Duration::ZERO);
+        let written = TabMessage::Written { path: "a.nb".to_owned(), text: LATCH.to_owned() };
+        assert!(said(&mut tab).contains(&written));
+        for (id, method, params) in [
+            (Some(1), "initialize", json!({ "capabilities": {}, "rootUri": "file:///" })),
+            (
+                None,
+                "textDocument/didOpen",
+                json!({ "textDocument": {
+                "uri": "file:///b.nb", "languageId": "nb", "version": 1,
+                "text": "use \"a.nb\"\ncircuit two(a, b) -> (q) { (q, _) = d_latch(a, b) }\n",
+            } }),
+            ),
+        ] {
+            let mut message = json!({ "jsonrpc": "2.0", "method": method, "params": params });
+            id.into_iter().for_each(|id: i32| message["id"] = json!(id));
+            tab.receive_language(&message.to_string(), Duration::ZERO);
+        }
+        let texts: Vec<Value> = said(&mut tab)
+            .into_iter()
+            .map(|message| match message {
+                TabMessage::Language(text) => serde_json::from_str(&text).unwrap(),
+                other => panic!("{other:?}"),
+            })
+            .collect();
+        assert_eq!(texts[0]["id"], 1);
+        let published = texts.iter().find(|text| text["method"] == "textDocument/publishDiagnostics").unwrap();
+        assert_eq!(published["params"]["diagnostics"], json!([]), "the file of the page is found");
+    }
+
+    #[test]
+    fn a_text_that_is_not_a_message_is_refused() {
+        let mut tab = Tab::new(None, Duration::ZERO);
+        for text in ["nonsense", "[]"] {
+            tab.receive_language(text, Duration::ZERO);
+            let Some(TabMessage::Language(answer)) = tab.next(true) else { panic!("{text}") };
+            assert!(answer.contains("\"error\""), "{answer}");
+        }
+    }
+
+    #[test]
+    fn a_frame_waits_for_room() {
+        let mut tab = Tab::new(None, Duration::ZERO);
+        tab.insert("latch.nb", LATCH);
+        for request in [
+            json!({ "id": 1, "do": "program", "path": "latch.nb", "text": LATCH }),
+            json!({ "id": 2, "do": "compile", "path": "latch.nb", "circuit": "d_latch", "swarm": null }),
+        ] {
+            tab.receive(&request.to_string(), Duration::ZERO);
+            while tab.advance(Duration::ZERO).is_zero() {}
+        }
+        let is_frame = |message: &TabMessage| matches!(message, TabMessage::Page(PageMessage::Frame(_)));
+        assert!(!std::iter::from_fn(|| tab.next(false)).any(|message| is_frame(&message)));
+        assert!(tab.next(true).is_some_and(|message| is_frame(&message)));
+    }
+}

@@ -1,0 +1,57 @@
+// A way to the program: texts go both ways, and frames of the swarm come.
+
+import { Observable } from "./observable";
+
+export interface Line {
+  send: (text: string) => void;
+  close: () => void;
+}
+
+export interface LineEvents {
+  opened: () => void;
+  received: (data: string | ArrayBuffer) => void;
+  /** The line is lost, or was never opened. It is of no use any more. */
+  closed: () => void;
+}
+
+/** Begins a line. */
+export type Dial = (events: LineEvents) => Line;
+
+/** The ways from a page to its program, wherever that is. */
+export interface Ways {
+  live: Dial;
+  language: Dial;
+  /** The address of a file that an answer names. */
+  file: (address: string) => string;
+  /** Loads what live exports are made of. */
+  prepare: () => Promise<void>;
+  /** What the page waits for, or what is unusual about its program; empty for nothing. */
+  status: Observable<string>;
+}
+
+/** The ways to the server of the page. */
+export const SERVER: Ways = {
+  live: events => socket("live", events),
+  language: events => socket("language", events),
+  file: address => new URL(address, document.baseURI).href,
+  prepare: () => Promise.resolve(),
+  status: new Observable(""),
+};
+
+function socket(name: string, events: LineEvents): Line {
+  const address = new URL(name, document.baseURI);
+  address.protocol = address.protocol === "https:" ? "wss:" : "ws:";
+  const socket = new WebSocket(address);
+  socket.binaryType = "arraybuffer";
+  socket.onopen = events.opened;
+  socket.onmessage = message => events.received(message.data as string | ArrayBuffer);
+  socket.onclose = events.closed;
+  return {
+    send: text => {
+      if (socket.readyState === WebSocket.OPEN) {
+        socket.send(text);
+      }
+    },
+    close: () => socket.close(),
+  };
+}

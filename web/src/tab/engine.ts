@@ -1,0 +1,121 @@
+// The program as WebAssembly: the functions of crates/web/src/exports.rs as a script calls them.
+
+export type EngineMessage =
+  | { kind: "page"; data: string | ArrayBuffer }
+  | { kind: "language"; text: string }
+  | { kind: "written"; path: string; text: string }
+  | { kind: "kept"; address: string; type: string; bytes: ArrayBuffer };
+
+interface Exports {
+  memory: WebAssembly.Memory;
+  begin: (first: number, length: number, now: number) => void;
+  template: (place: number, length: number) => void;
+  room: (length: number) => number;
+  insert: (path: number, pathLength: number, place: number, length: number) => void;
+  receive: (place: number, length: number, now: number) => void;
+  greet: () => void;
+  receive_language: (place: number, length: number, now: number) => void;
+  advance: (now: number) => number;
+  next: (hasRoom: boolean) => number;
+  part: (number: number) => number;
+  part_length: (number: number) => number;
+}
+
+export class Engine {
+  readonly #exports: Exports;
+  readonly #encoder = new TextEncoder();
+  readonly #decoder = new TextDecoder();
+
+  private constructor(instance: WebAssembly.Instance, first: string, now: number) {
+    this.#exports = instance.exports as unknown as Exports;
+    this.#exports.begin(...this.#put(first), now);
+  }
+
+  /**
+   * Starts a compiled program, which tells its page to open `first` if that is not empty. `failed` receives the message
+   * of a panic, after which the engine is of no use.
+   */
+  static async start(
+    module: WebAssembly.Module,
+    first: string,
+    now: number,
+    failed: (message: string) => void,
+  ): Promise<Engine> {
+    let memory: WebAssembly.Memory | undefined;
+    const fail = (place: number, length: number): void => {
+      failed(new TextDecoder().decode(new Uint8Array(memory!.buffer, place, length)));
+    };
+    const instance = await WebAssembly.instantiate(module, { page: { fail } });
+    memory = instance.exports["memory"] as WebAssembly.Memory;
+    return new Engine(instance, first, now);
+  }
+
+  /** Adds a file, or replaces it. */
+  insert(path: string, text: string): void {
+    this.#exports.insert(...this.#put(path), ...this.#put(text));
+  }
+
+  /** Sets the page that live exports are made of. */
+  template(text: string): void {
+    this.#exports.template(...this.#put(text));
+  }
+
+  /** Takes a request of the page. */
+  receive(text: string, now: number): void {
+    this.#exports.receive(...this.#put(text), now);
+  }
+
+  /** Begins a language service for a new client. */
+  greet(): void {
+    this.#exports.greet();
+  }
+
+  /** Takes a message of the client of the language service. */
+  receiveLanguage(text: string, now: number): void {
+    this.#exports.receive_language(...this.#put(text), now);
+  }
+
+  /** Does a portion of what is due; milliseconds until there is more to do. */
+  advance(now: number): number {
+    return this.#exports.advance(now);
+  }
+
+  /** The next message. A frame waits until there is room for it. */
+  next(hasRoom: boolean): EngineMessage | null {
+    switch (this.#exports.next(hasRoom)) {
+      case 1:
+        return { kind: "page", data: this.#text(0) };
+      case 2:
+        return { kind: "page", data: this.#bytes(0) };
+      case 3:
+        return { kind: "language", text: this.#text(0) };
+      case 4:
+        return { kind: "written", path: this.#text(0), text: this.#text(1) };
+      case 5:
+        return { kind: "kept", address: this.#text(0), type: this.#text(1), bytes: this.#bytes(2) };
+      default:
+        return null;
+    }
+  }
+
+  #put(text: string): [number, number] {
+    const bytes = this.#encoder.encode(text);
+    const place = this.#exports.room(bytes.length);
+    // The memory moves when it grows, so it is looked up each time.
+    new Uint8Array(this.#exports.memory.buffer, place, bytes.length).set(bytes);
+    return [place, bytes.length];
+  }
+
+  #view(number: number): Uint8Array<ArrayBuffer> {
+    const buffer = this.#exports.memory.buffer as ArrayBuffer;
+    return new Uint8Array(buffer, this.#exports.part(number), this.#exports.part_length(number));
+  }
+
+  #text(number: number): string {
+    return this.#decoder.decode(this.#view(number));
+  }
+
+  #bytes(number: number): ArrayBuffer {
+    return this.#view(number).slice().buffer;
+  }
+}

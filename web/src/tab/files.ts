@@ -1,0 +1,55 @@
+// The files of the page, kept by the browser in a database of its own. Other tabs learn of what is written.
+
+const NAME = "nbc";
+const STORE = "files";
+
+export type KeptFiles = [path: string, text: string][];
+
+export class FileStore {
+  readonly #channel = new BroadcastChannel("nbc-files");
+
+  private constructor(private readonly database: IDBDatabase) {}
+
+  /** The database of this browser; null where it keeps nothing, as in private windows. */
+  static open(): Promise<FileStore | null> {
+    return new Promise(resolve => {
+      try {
+        const opening = indexedDB.open(NAME, 1);
+        opening.onupgradeneeded = () => opening.result.createObjectStore(STORE);
+        opening.onsuccess = () => resolve(new FileStore(opening.result));
+        opening.onerror = () => resolve(null);
+        opening.onblocked = () => resolve(null);
+      } catch {
+        resolve(null);
+      }
+    });
+  }
+
+  all(): Promise<KeptFiles> {
+    return new Promise(resolve => {
+      const store = this.database.transaction(STORE).objectStore(STORE);
+      const found: KeptFiles = [];
+      const walk = store.openCursor();
+      walk.onsuccess = () => {
+        const at = walk.result;
+        if (at === null) {
+          resolve(found);
+        } else {
+          found.push([String(at.key), String(at.value)]);
+          at.continue();
+        }
+      };
+      walk.onerror = () => resolve(found);
+    });
+  }
+
+  put(path: string, text: string): void {
+    this.database.transaction(STORE, "readwrite").objectStore(STORE).put(text, path);
+    this.#channel.postMessage([path, text]);
+  }
+
+  /** Calls `take` for each file that another tab writes. */
+  follow(take: (path: string, text: string) => void): void {
+    this.#channel.onmessage = ({ data }) => take(...(data as [string, string]));
+  }
+}

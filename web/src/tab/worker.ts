@@ -1,0 +1,176 @@
+// The worker of a page without a server: it has the program, and does its work in portions, so that messages are never
+// kept waiting for long.
+
+import { Engine } from "./engine";
+import { FileStore } from "./files";
+import type { FromWorker, Source, ToWorker } from "./messages";
+
+const pause = new MessageChannel();
+let engine: Engine | null = null;
+let store: FileStore | null = null;
+/** Messages that came before the program was there. */
+const waiting: ToWorker[] = [];
+/** Whether the page has drawn the last frame. */
+let hasRoom = true;
+let timer: ReturnType<typeof setTimeout> | undefined;
+let isPosted = false;
+
+pause.port1.onmessage = () => {
+  isPosted = false;
+  work();
+};
+onmessage = ({ data }: MessageEvent<ToWorker>) => {
+  if (data.say === "begin") {
+    begin(data).catch((error: unknown) => fail(String(error)));
+    return;
+  }
+  const started = engine;
+  if (started === null) {
+    waiting.push(data);
+  } else {
+    guard(() => take(started, data));
+    soon();
+  }
+};
+
+function say(message: FromWorker, transfer: Transferable[] = []): void {
+  postMessage(message, { transfer });
+}
+
+function fail(message: string): void {
+  engine = null;
+  say({ say: "failed", message });
+}
+
+async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
+  const compiling = WebAssembly.compileStreaming(await read(program));
+  store = keeps ? await FileStore.open() : null;
+  const kept = (await store?.all()) ?? [];
+  let panic: string | null = null;
+  const started = await Engine.start(await compiling, first, performance.now(), message => (panic = message));
+  failing = () => panic;
+  [...files, ...kept].forEach(([path, text]) => started.insert(path, text));
+  store?.follow((path, text) => engine?.insert(path, text));
+  engine = started;
+  say({ say: "ready", keeps: store !== null });
+  guard(() => waiting.splice(0).forEach(message => take(started, message)));
+  work();
+}
+
+/** The message of a panic, if there was one. */
+let failing: () => string | null = () => null;
+
+/** The program as a response that the browser compiles while it comes. */
+async function read(program: Source): Promise<Response> {
+  const packed = "packed" in program ? new Blob([program.packed]).stream() : await fetched(program);
+  return new Response(packed.pipeThrough(new DecompressionStream("gzip")), {
+    headers: { "content-type": "application/wasm" },
+  });
+}
+
+/** The bytes of the program. The page learns how many have come. */
+async function fetched({ address, bytes }: { address: string; bytes: number }): Promise<ReadableStream<BufferSource>> {
+  const response = await fetch(address);
+  if (!response.ok || response.body === null) {
+    throw new Error(`${address}: ${response.status} ${response.statusText}`);
+  }
+  let done = 0;
+  const count = new TransformStream<Uint8Array<ArrayBuffer>, BufferSource>({
+    transform(part, out) {
+      done += part.length;
+      say({ say: "loading", done, all: bytes });
+      out.enqueue(part);
+    },
+  });
+  return response.body.pipeThrough(count);
+}
+
+/** Gives the program the page that live exports are made of. Without it the program says that they cannot be made. */
+async function template(engine: Engine, address: string): Promise<void> {
+  const response = await fetch(address).catch(() => null);
+  if (response?.ok === true) {
+    const text = await response.text();
+    guard(() => engine.template(text));
+  }
+  say({ say: "template" });
+}
+
+function take(engine: Engine, message: ToWorker): void {
+  const now = performance.now();
+  switch (message.say) {
+    case "live":
+      engine.receive(message.text, now);
+      break;
+    case "language":
+      engine.receiveLanguage(message.text, now);
+      break;
+    case "greet":
+      engine.greet();
+      break;
+    case "template":
+      void template(engine, message.address);
+      break;
+    case "drawn":
+      hasRoom = true;
+      break;
+  }
+}
+
+/** Works on after the messages that have come. A timer would wait for some milliseconds. */
+function soon(): void {
+  if (!isPosted) {
+    isPosted = true;
+    pause.port2.postMessage(null);
+  }
+}
+
+function work(): void {
+  clearTimeout(timer);
+  const working = engine;
+  if (working !== null) {
+    guard(() => advance(working));
+  }
+}
+
+function advance(engine: Engine): void {
+  const due = engine.advance(performance.now());
+  for (let message = engine.next(hasRoom); message !== null; message = engine.next(hasRoom)) {
+    pass(message);
+  }
+  if (due <= 0) {
+    soon();
+  } else {
+    timer = setTimeout(work, due);
+  }
+}
+
+/** Calls the program. If it fails, its memory may be in any state, so it is given up. */
+function guard(call: () => void): void {
+  try {
+    call();
+  } catch (error) {
+    fail(failing() ?? String(error));
+  }
+}
+
+function pass(message: NonNullable<ReturnType<Engine["next"]>>): void {
+  switch (message.kind) {
+    case "page":
+      if (typeof message.data === "string") {
+        say({ say: "live", data: message.data });
+      } else {
+        hasRoom = false;
+        say({ say: "live", data: message.data }, [message.data]);
+      }
+      break;
+    case "language":
+      say({ say: "language", text: message.text });
+      break;
+    case "written":
+      store?.put(message.path, message.text);
+      break;
+    case "kept":
+      say({ say: "file", address: message.address, type: message.type, bytes: message.bytes }, [message.bytes]);
+      break;
+  }
+}

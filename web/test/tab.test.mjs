@@ -1,0 +1,135 @@
+// The page that needs no program, from a plain server of files and as a file of its own. NBC_SITE names its folder.
+
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import path from "node:path";
+import { after, before, test } from "node:test";
+import { pathToFileURL } from "node:url";
+
+import { FIREFOX, firefox } from "./bidi.mjs";
+import { closeBrowser, cyclesLater, lampsShow, setInput, typeProgram, visit, walking } from "./browser.mjs";
+import { serveFiles } from "./files.mjs";
+import { SITE } from "./program.mjs";
+
+const skip = SITE === undefined && "NBC_SITE does not name the page that `.ci/site` makes";
+let site;
+
+before(async () => {
+  site = skip ? undefined : await serveFiles(SITE, { sub: "/some/folder" });
+});
+after(async () => {
+  await closeBrowser();
+  await site?.stop();
+});
+
+/** The latch remembers, in physics that is computed in the page. */
+async function remembers(page) {
+  await walking(page);
+  await setInput(page, "d", 1);
+  await setInput(page, "e", 1);
+  await lampsShow(page, { q: 1, nq: 0 });
+  await setInput(page, "e", 0);
+  await cyclesLater(page, 6);
+  await setInput(page, "d", 0);
+  await cyclesLater(page, 6);
+  await lampsShow(page, { q: 1, nq: 0 });
+}
+
+async function remembersInFirefox(page) {
+  const shows = value =>
+    page.until(wanted => document.querySelector('[data-lamp="q"]')?.dataset.value === wanted, value);
+  await page.until(() => document.querySelector('button[data-input="d"]') !== null);
+  await page.click('button[data-input="d"]');
+  await page.click('button[data-input="e"]');
+  await shows("1");
+  await page.click('button[data-input="e"]');
+  await page.click('button[data-input="d"]');
+  await shows("1");
+}
+
+const noFox = skip || (FIREFOX === undefined && "no Firefox on this machine");
+
+test("the latch remembers in Firefox", { skip: noFox }, async () => {
+  const fox = await firefox(site.address);
+  await remembersInFirefox(fox);
+  await fox.leave();
+});
+
+test("a stranger has a live latch, within two seconds where the machine is idle", { skip }, async t => {
+  const from = performance.now();
+  const page = await visit(site.address);
+  await walking(page);
+  t.diagnostic(`the first cycle after ${Math.round(performance.now() - from)} ms`);
+  await remembers(page);
+  await page.leave();
+});
+
+test("files are kept over reloads, and the page opens without a network", { skip }, async () => {
+  const page = await visit(`${site.address}`);
+  await walking(page);
+  await typeProgram(page, "circuit mine(a, b) -> (q) {\n    q = a and b\n}\n");
+  await page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("mine"));
+  await page.locator('[data-do="save"]').click();
+  await page.locator("dialog.ask input").fill("mine.nb");
+  await page.locator('[data-do="save-as"]').click();
+  await page.waitForFunction(() => location.hash === "#mine.nb");
+  await page.waitForFunction(() => navigator.serviceWorker.controller !== null);
+  await page.context().setOffline(true);
+  await page.reload();
+  await page.waitForFunction(() => document.querySelector(".schematic")?.textContent.includes("mine"));
+  await walking(page);
+  await page.context().setOffline(false);
+  await page.leave();
+});
+
+test("at a slow network the page is there at once and says what it waits for", { skip }, async () => {
+  const slow = await serveFiles(SITE, { rate: 50_000 });
+  const page = await visit(slow.address, { waitUntil: "commit" });
+  await page.getByText(/Loading the simulator: \d+ % of/).waitFor();
+  await page.leave();
+  await slow.stop();
+});
+
+test("a program that fails is started again with the text of the page", { skip }, async () => {
+  const page = await visit(site.address);
+  await walking(page);
+  await typeProgram(page, "circuit kept(a, b) -> (q) {\n    q = a or b\n}\n");
+  await page.waitForFunction(() => document.querySelector(".schematic").textContent.includes("kept"));
+  await page.workers()[0].evaluate(() => {
+    setTimeout(() => {
+      throw new Error("it fails");
+    });
+  });
+  await page.waitForFunction(() => document.querySelector(".banner")?.hidden === false);
+  await page.locator(".banner").waitFor({ state: "hidden" });
+  await cyclesLater(page, 3);
+  await page.leave();
+});
+
+test("a live export works from a disk in Chromium and in Firefox", { skip }, async t => {
+  const page = await visit(site.address);
+  await walking(page);
+  await page.locator(".take summary").click();
+  const coming = page.waitForEvent("download");
+  await page.locator('[data-take="live"]').click();
+  const folder = mkdtempSync(path.join(tmpdir(), "nbc-tab-"));
+  const file = path.join(folder, "latch.html");
+  await (await coming).saveAs(file);
+  await page.leave();
+  const size = readFileSync(file).length;
+  t.diagnostic(`${size} bytes`);
+  assert.ok(size < 4_000_000, `${size} bytes`);
+  const address = pathToFileURL(file).href;
+  const alone = await visit(address);
+  await remembers(alone);
+  await typeProgram(alone, "circuit other(a, b) -> (q) {\n    q = a xor b\n}\n");
+  await alone.waitForFunction(() => document.querySelector(".schematic").textContent.includes("other"));
+  await alone.leave();
+  if (FIREFOX !== undefined) {
+    const fox = await firefox(address);
+    await remembersInFirefox(fox);
+    await fox.leave();
+  }
+  rmSync(folder, { recursive: true });
+});
