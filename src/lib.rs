@@ -285,19 +285,21 @@ pub use nbc_session::Observer;
 pub use nbc_session::Session;
 
 /// ```
-/// use nbc::{Level, RowVerdict, TestOptions, TestRun};
+/// use nbc::{Level, RowVerdict, RunningTest, TestOptions, TestRun};
 /// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
 /// session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }\ntest f {\n    a | q\n    0 | 1\n}");
 /// let checked = session.open("a.nb")?;
 /// let options = TestOptions { level: Some(Level::Logic), ..TestOptions::default() };
-/// let runs: Vec<TestRun> = session.test(&checked, &checked.program.tests[0], &options, &mut ())?;
+/// let mut running: RunningTest = session.begin_test(&checked, &checked.program.tests[0], &options)?;
+/// while running.advance(&mut ()) {}
+/// let runs: Vec<TestRun> = running.into_runs();
 /// let row: &RowVerdict = &runs[0].verdict.rows[0];
 /// assert!(row.passed);
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use {
     nbc_base::model::CircuitTest,
-    nbc_session::{TestOptions, TestRun},
+    nbc_session::{RunningTest, TestOptions, TestRun},
 };
 
 /// Tests in samples of worlds. A door makes the runs on its threads; here they follow each other.

@@ -170,7 +170,7 @@ impl Program {
         let hardening = Hardening { variation: vary[0], worlds: sampling.worlds, seed: sampling.seed, least_yield };
         let (session, checked) = (self.session.clone(), self.checked.clone());
         let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
-            let mut run = |yields: &Yields<'_, '_>| Ok(worlds::runs(&session, yields, watch));
+            let mut run = |yields: &Yields<'_>| Ok(worlds::runs(&session, yields, watch));
             session.harden(&checked, &circuit, &options, hardening, &mut run, &mut |_| ())
         })?;
         let found: Result<Option<Hardened>, Diagnostics> = ran.finished()?;

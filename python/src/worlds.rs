@@ -40,7 +40,7 @@ pub fn yields(
     vary: &[Variation],
     watch: &Watch,
 ) -> Result<Vec<Robustness>, Diagnostics> {
-    let mut cases: Vec<TestCase<'_>> = Vec::new();
+    let mut cases: Vec<TestCase> = Vec::new();
     for &test in tests {
         cases.extend(session.cases(checked, &checked.program.tests[test], options)?);
     }
@@ -49,7 +49,7 @@ pub fn yields(
 }
 
 /// Makes the runs on the threads of the package. After an interrupt, only results that are complete are there.
-pub fn runs(session: &Session, yields: &Yields<'_, '_>, watch: &Watch) -> Vec<Robustness> {
+pub fn runs(session: &Session, yields: &Yields<'_>, watch: &Watch) -> Vec<Robustness> {
     watch.expect(yields.work());
     let run = |run| if watch.is_stopped() { None } else { session.run_in_world(yields, run, &mut watch.part()) };
     let results: Vec<Option<WorldResult>> = yields.runs().into_par_iter().map(run).collect();

@@ -12,7 +12,7 @@ use nbc_swarm::Robustness;
 /// The first error of `tell`.
 pub(super) fn world_runs(
     session: &Session,
-    yields: &Yields<'_, '_>,
+    yields: &Yields<'_>,
     interrupt: &Interrupt,
     mut tell: impl FnMut(&Robustness) -> Result<(), Failure>,
 ) -> Result<Vec<Robustness>, Failure> {

@@ -61,7 +61,7 @@ fn session(text: &str) -> (Session, std::sync::Arc<Checked>) {
     (session, checked)
 }
 
-fn case<'a>(session: &Session, checked: &'a Checked) -> TestCase<'a> {
+fn case(session: &Session, checked: &Checked) -> TestCase {
     let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
     session.cases(checked, &checked.program.tests[0], &options).unwrap().remove(0)
 }

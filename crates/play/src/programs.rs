@@ -1,9 +1,10 @@
 //! Programs for a page: their description as JSON, and compiling and testing their circuits.
 
 use std::iter;
+use std::sync::Arc;
 
 use crate::history::FRAMES;
-use crate::jobs::{Job, JobEnd};
+use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::finding::findings;
 use crate::message::{
     CircuitEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, TestAnswer,
@@ -165,19 +166,29 @@ fn robot(recorded: &Recorded, trace: &SwarmTrace, assembly: &Assembly, looks: &L
     }
 }
 
-/// Runs a test.
-///
-/// # Errors
-/// When its circuit cannot be compiled, or it was stopped.
-pub(super) fn run_test(session: &Session, checked: &Checked, test: usize, level: Level, job: &mut Job) -> JobEnd {
-    let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
-    let options = TestOptions { level: Some(level), compile: job.options() };
-    let runs = session.test(checked, test, &options, job)?;
-    if job.stop.is_raised() {
-        return Err(Refused::Cancelled);
-    }
-    let results = runs.iter().map(|run| TestResult::from(&run.verdict)).collect();
-    Ok(Some(RequestResult::Test(TestAnswer { results })))
+/// The work of running a test of the program that `open` opens.
+pub(super) fn testing(
+    session: Session,
+    open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
+    (test, level): (usize, Level),
+) -> JobWork {
+    let (mut open, mut running) = (Some(open), None);
+    Box::new(move |job| {
+        let Some(run) = &mut running else {
+            let checked = open.take().expect("it is opened once")(job)?;
+            let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
+            let options = TestOptions { level: Some(level), compile: job.options() };
+            running = Some(session.begin_test(&checked, test, &options)?);
+            return Ok(PortionEnd::More);
+        };
+        if run.advance(job) {
+            return Ok(PortionEnd::More);
+        }
+        job.check()?;
+        let runs = running.take().expect("it runs").into_runs();
+        let results = runs.iter().map(|run| TestResult::from(&run.verdict)).collect();
+        Ok(PortionEnd::Done(Some(RequestResult::Test(TestAnswer { results }))))
+    })
 }
 
 /// The circuit of a test in the swarm and the world, and the inputs of each cycle up to the end of a row.
@@ -193,9 +204,8 @@ pub(super) fn until_row(
     let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
     let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
     let cases = session.cases(checked, test, &options)?;
-    let is_meant = |case: &TestCase<'_>| {
-        (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world)
-    };
+    let is_meant =
+        |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);
     let meant = cases.into_iter().find(is_meant).ok_or(Refused::NoTest)?;
     let rows = meant.rows().iter().take_while(|one| one.row <= row).count();
     meant.into_physics(rows).filter(|_| rows > 0).ok_or(Refused::NoTest)

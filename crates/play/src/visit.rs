@@ -210,9 +210,10 @@ impl Visit {
                     Ok(Some(RequestResult::Read(read)))
                 })
             }
-            Verb::Test { path, test, level } => self.with_program(path, move |session, checked, job| {
-                programs::run_test(session, checked, test, level.into(), job)
-            }),
+            Verb::Test { path, test, level } => {
+                let checker = self.checker.clone();
+                programs::testing(self.fresh(), move |job| checker.open(&path, job), (test, level.into()))
+            }
             Verb::Robots { path } => {
                 let (checker, session) = (self.checker.clone(), self.fresh());
                 once(move |job| {
@@ -458,6 +459,26 @@ mod tests {
         assert_eq!(cancelled[0], json!({ "id": 8, "ok": {} }));
         assert_eq!(cancelled[1]["error"]["code"], "cancelled");
         assert!(tab.visit.is_idle());
+    }
+
+    #[test]
+    fn a_test_shows_its_progress_and_can_be_cancelled_in_one_thread() {
+        for (level, rows) in [("physics", 60), ("logic", 6000)] {
+            let mut tab = Tab::new();
+            let rows = "    0 | 1\n    1 | 0\n".repeat(rows / 2);
+            let text = format!("circuit f(a) -> (q) {{ q = not a }}\ntest f {{\n    a | q\n{rows}}}");
+            tab.ask(&json!({ "id": 1, "do": "program", "path": "a.nb", "text": text }));
+            let test = json!({ "id": 2, "do": "test", "path": "a.nb", "test": 0, "level": level });
+            tab.visit.receive(&test.to_string(), tab.now);
+            (0..12).for_each(|_| tab.shell.advance());
+            let seen = tab.texts();
+            assert!(seen.len() > 1 && seen.iter().all(|text| text["progress"].is_array()), "{seen:?}");
+            let cancelled = tab.ask(&json!({ "id": 3, "do": "cancel", "of": 2 }));
+            assert_eq!(cancelled.last().unwrap()["error"]["code"], "cancelled", "{cancelled:?}");
+            let answer = tab.ask(&test);
+            let results = &answer.last().unwrap()["ok"]["results"];
+            assert_eq!(results[0]["passed"], true, "{answer:?}");
+        }
     }
 
     #[test]

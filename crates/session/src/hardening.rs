@@ -64,7 +64,7 @@ impl Session {
         circuit: &Instance,
         options: &CompileOptions,
         hardening: Hardening,
-        run: &mut dyn FnMut(&Yields<'_, '_>) -> Result<Vec<Robustness>, E>,
+        run: &mut dyn FnMut(&Yields<'_>) -> Result<Vec<Robustness>, E>,
         tell: &mut dyn FnMut(&HardeningStep),
     ) -> Result<Option<Hardened>, E> {
         let tests =
@@ -88,7 +88,7 @@ impl Session {
                 (Err(_), Some(last)) => needed.push(last),
                 (Ok(cases), last) => {
                     without.extend(last);
-                    let cases: Vec<TestCase<'_>> = cases.into_iter().flatten().collect();
+                    let cases: Vec<TestCase> = cases.into_iter().flatten().collect();
                     let found = run(&Yields::of(&cases, &[variation], &[1.0], worlds, seed))?;
                     if found.len() < cases.len() {
                         return Ok(None);

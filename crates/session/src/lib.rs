@@ -23,6 +23,7 @@ mod robot_request;
 mod robots;
 mod run;
 mod run_report;
+mod running_test;
 mod schedule;
 mod script;
 mod session;
@@ -57,6 +58,7 @@ pub use plan::Plan;
 pub use replay::Excerpt;
 pub use robot_request::{OwnBody, RobotRequest, behavior};
 pub use run_report::{RunList, RunReport};
+pub use running_test::RunningTest;
 pub use schedule::read_schedule;
 pub use session::Session;
 #[cfg(feature = "disk")]

@@ -3,7 +3,7 @@
 use crate::compile::Compiled;
 use crate::observer::Observer;
 use crate::simulation::{self, SimulationRun};
-use crate::swarm_run::{self, LIVE_CYCLES, Physics};
+use crate::swarm_run::{DrivenSwarm, LIVE_CYCLES, Physics};
 use nbc_base::model::{InputSpell, Simulation};
 use nbc_base::source::{FileId, Span};
 use nbc_swarm::{Room, SwarmSnapshot};
@@ -27,7 +27,7 @@ pub(super) fn replay(physics: &Physics, excerpt: &Excerpt, observer: &mut dyn Ob
     swarm.restore(start);
     swarm.record(Room::SWARM, inputs.len());
     let before = swarm.trace().cycles.len();
-    let (mut trace, end) = swarm_run::run(swarm, inputs, observer);
+    let (mut trace, end) = DrivenSwarm::new(swarm, inputs.clone()).run(observer);
     trace.forget_first(before);
     simulation::finish(&simulation(excerpt), compiled.clone(), trace, end)
 }

@@ -4,8 +4,9 @@ use nbc_base::diag::Diagnostics;
 use nbc_base::model::CircuitTest;
 
 use crate::checked::Checked;
-use crate::observer::{CaseObserver, Observer};
+use crate::observer::Observer;
 use crate::run_report::{RunList, RunReport};
+use crate::running_test::{RunningCase, RunningTest};
 use crate::session::Session;
 use crate::swarm_run::RunEnd;
 use crate::test::{TestCase, TestOptions, TestRun};
@@ -25,13 +26,17 @@ impl Session {
     ) -> Result<RunReport, Diagnostics> {
         let mut report = RunReport { left: list.len(), ..RunReport::default() };
         for (part, test) in list.tests.iter().enumerate() {
+            // After a request to stop, circuits are compiled with little effort, so that nothing more is begun.
+            if observer.is_cancelled() {
+                return Ok(report);
+            }
             observer.begin(part, list.len());
-            let (runs, is_complete) = self.run_cases(checked, test, options, observer)?;
-            report.tests.extend(runs);
-            report.left -= usize::from(is_complete);
+            let mut running = self.begin_test(checked, test, options)?;
+            while running.advance(observer) {}
+            report.left -= usize::from(running.is_complete());
+            report.tests.extend(running.into_runs());
         }
         for (part, simulation) in (list.tests.len()..).zip(&list.simulations) {
-            // After a request to stop, circuits are compiled with little effort, so that nothing more is begun.
             if observer.is_cancelled() {
                 break;
             }
@@ -54,34 +59,32 @@ impl Session {
         options: &TestOptions,
         observer: &mut dyn Observer,
     ) -> Result<Vec<TestRun>, Diagnostics> {
-        Ok(self.run_cases(checked, test, options, observer)?.0)
+        let mut running = self.begin_test(checked, test, options)?;
+        while running.advance(observer) {}
+        Ok(running.into_runs())
     }
 
-    /// The runs of a test, and whether all were completed.
-    fn run_cases(
+    /// A test that is ready to run, to be advanced in portions.
+    ///
+    /// # Errors
+    /// As [`Session::cases`].
+    pub fn begin_test(
         &self,
         checked: &Checked,
         test: &CircuitTest,
         options: &TestOptions,
-        observer: &mut dyn Observer,
-    ) -> Result<(Vec<TestRun>, bool), Diagnostics> {
-        if observer.is_cancelled() {
-            return Ok((Vec::new(), false));
-        }
-        let cases = self.cases(checked, test, options)?;
-        let (count, all) = (cases.len(), cases.iter().map(TestCase::work).sum());
-        let (mut runs, mut before) = (Vec::<TestRun>::new(), 0);
-        for case in cases {
-            // A circuit that was compiled meanwhile may have more robots than needed.
-            if observer.is_cancelled() {
-                break;
+    ) -> Result<RunningTest, Diagnostics> {
+        Ok(RunningTest::new(self.physics.clone(), self.cases(checked, test, options)?))
+    }
+
+    /// Runs one case of a test.
+    pub fn run_case(&self, case: TestCase, observer: &mut dyn Observer) -> TestRun {
+        let mut running = RunningCase::new(case, &self.physics, observer);
+        loop {
+            if let Some(end) = running.advance(observer) {
+                return running.finish(end);
             }
-            let work = case.work();
-            runs.push(self.run_case(case, &mut CaseObserver { whole: observer, before, all }));
-            before += work;
         }
-        let is_complete = runs.len() == count && runs.iter().all(|run| run.end == RunEnd::Complete);
-        Ok((runs, is_complete))
     }
 }
 

@@ -9,7 +9,7 @@ use crate::replay::{self, Excerpt};
 use crate::robots::RobotSources;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
-use crate::test::{self, TestCase, TestOptions, TestRun};
+use crate::test::{self, TestCase, TestOptions};
 use crate::{
     Checked, CompileOptions, Compiled, Formatted, Mapping, RunList, RunReport, compile, formatted, plan, start_bodies,
     store, swarm_run,
@@ -25,7 +25,7 @@ use nbc_swarm::{Level, LiveSwarm, Room};
 /// From sources in a [`SourceWorld`] to checked programs, compiled circuits, tests and running swarms.
 pub struct Session {
     documents: Documents,
-    physics: Physics,
+    pub(super) physics: Physics,
 }
 
 impl Session {
@@ -220,18 +220,13 @@ impl Session {
     ///
     /// # Errors
     /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
-    pub fn cases<'a>(
+    pub fn cases(
         &self,
         checked: &Checked,
-        test: &'a CircuitTest,
+        test: &CircuitTest,
         options: &TestOptions,
-    ) -> Result<Vec<TestCase<'a>>, Diagnostics> {
+    ) -> Result<Vec<TestCase>, Diagnostics> {
         test::cases(self.sources(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
-    }
-
-    /// Runs one case of a test.
-    pub fn run_case(&self, case: TestCase<'_>, observer: &mut dyn Observer) -> TestRun {
-        case.run(&self.physics, observer)
     }
 
     /// Runs a declared simulation in physics.

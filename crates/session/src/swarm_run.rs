@@ -3,7 +3,7 @@
 use crate::compile::Compiled;
 use crate::observer::Observer;
 use nbc_sim::Simulator;
-use nbc_swarm::{LiveSwarm, Room, SwarmTrace};
+use nbc_swarm::{LiveSwarm, Room, SwarmTask, SwarmTrace};
 
 /// The length of the ground of a live swarm: enough for a robot that moves by its own width in each of this many
 /// cycles.
@@ -49,43 +49,71 @@ impl Physics {
         inputs: Vec<Vec<bool>>,
         observer: &mut dyn Observer,
     ) -> (SwarmTrace, RunEnd) {
-        run(self.swarm(compiled, inputs.len()), &inputs, observer)
+        DrivenSwarm::new(self.swarm(compiled, inputs.len()), inputs).run(observer)
     }
 }
 
-/// Continues a swarm with these input bits in each cycle.
-pub(super) fn run(swarm: LiveSwarm, inputs: &[Vec<bool>], observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
-    run_until(swarm, inputs, 0, &mut |_| false, observer)
-}
-
-/// Continues a swarm with these input bits in each cycle, of which the first `done` have passed already. Stops after
-/// the first cycle for whose trace `is_enough` is true.
-pub(super) fn run_until(
-    mut swarm: LiveSwarm,
-    inputs: &[Vec<bool>],
+/// A swarm that is run through inputs, a cycle at a time.
+pub(super) struct DrivenSwarm {
+    swarm: LiveSwarm,
+    inputs: Vec<Vec<bool>>,
+    /// The cycles that have passed.
     done: usize,
-    is_enough: &mut dyn FnMut(&SwarmTrace) -> bool,
-    observer: &mut dyn Observer,
-) -> (SwarmTrace, RunEnd) {
-    let all = inputs.len() as u64;
-    for (cycle, inputs) in (1..).zip(inputs).skip(done) {
-        if swarm.step(inputs).is_err() || is_enough(swarm.trace()) {
-            observer.progress(all, all);
-            break;
-        }
-        observer.progress(cycle, all);
-        let is_cancelled = observer.is_cancelled() && cycle < all;
-        if let Some(keeper) = observer.keeper()
-            && (is_cancelled || keeper.is_due())
-        {
-            keeper.keep(&swarm.keep());
-        }
-        if is_cancelled {
-            return (swarm.into_trace(), RunEnd::Cancelled);
+}
+
+impl DrivenSwarm {
+    /// A swarm, and the input bits of each cycle.
+    pub(super) fn new(swarm: LiveSwarm, inputs: Vec<Vec<bool>>) -> Self {
+        Self { swarm, inputs, done: 0 }
+    }
+
+    /// Continues with the swarm that the observer has kept, if there is one.
+    pub(super) fn resume(&mut self, compiled: &Compiled, observer: &mut dyn Observer) {
+        let Some(keeper) = observer.keeper() else { return };
+        let Compiled { assembly, plan, .. } = compiled;
+        let kept = keeper.begin(&SwarmTask::of(assembly, self.inputs.clone(), plan.window as usize));
+        if let Some(kept) = kept.filter(|kept| self.swarm.go_on(kept, assembly, &self.inputs)) {
+            self.done = kept.cycles();
         }
     }
-    if let Some(keeper) = observer.keeper() {
-        keeper.end();
+
+    /// Simulates the next cycle. How the run ended, if it did: also after a cycle for whose trace `is_enough` is true.
+    pub(super) fn advance(
+        &mut self,
+        is_enough: impl FnOnce(&SwarmTrace) -> bool,
+        observer: &mut dyn Observer,
+    ) -> Option<RunEnd> {
+        let all = self.inputs.len();
+        if let Some(inputs) = self.inputs.get(self.done) {
+            let is_last = self.swarm.step(inputs).is_err() || is_enough(self.swarm.trace());
+            self.done = if is_last { all } else { self.done + 1 };
+            observer.progress(self.done as u64, all as u64);
+        }
+        let end = match self.done < all {
+            true => observer.is_cancelled().then_some(RunEnd::Cancelled),
+            false => Some(RunEnd::Complete),
+        };
+        if let Some(keeper) = observer.keeper() {
+            match end {
+                Some(RunEnd::Complete) => keeper.end(),
+                None if !keeper.is_due() => {}
+                _ => keeper.keep(&self.swarm.keep()),
+            }
+        }
+        end
     }
-    (swarm.into_trace(), RunEnd::Complete)
+
+    /// Simulates all cycles that are left.
+    pub(super) fn run(mut self, observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
+        loop {
+            if let Some(end) = self.advance(|_| false, observer) {
+                return (self.into_trace(), end);
+            }
+        }
+    }
+
+    /// The bits and the paths of the cycles that have passed.
+    pub(super) fn into_trace(self) -> SwarmTrace {
+        self.swarm.into_trace()
+    }
 }

@@ -1,14 +1,15 @@
 //! Tests: compiled to cases without errors, and run at the level of logic or in physics.
 
+use std::sync::Arc;
+
 use crate::compile::{Compiled, compile};
 use crate::contents::declared_file;
 use crate::hold;
-use crate::observer::Observer;
 use crate::options::CompileOptions;
 use crate::plan::plans;
 use crate::robots::RobotSources;
 use crate::script::{Performance, PerformedRow};
-use crate::swarm_run::{self, Physics, RunEnd, SwarmRun};
+use crate::swarm_run::{RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
 use crate::wording::ScriptError;
@@ -28,9 +29,6 @@ const SURELY_LARGE: usize = 10 * LARGE;
 
 /// The most rows of a script in physics.
 const MOST_PHYSICAL_ROWS: usize = 200_000;
-
-/// The steps of a script between two reports of progress.
-const STEPS_BETWEEN_REPORTS: u64 = 4096;
 
 /// How a test is run.
 #[derive(Clone, Debug, Default)]
@@ -58,19 +56,19 @@ pub struct TestRun {
 
 /// A test that is ready to run.
 #[derive(Clone, Debug)]
-pub struct TestCase<'a> {
-    test: &'a CircuitTest,
-    rows: Vec<TestRow>,
-    subject: Subject,
+pub struct TestCase {
+    pub(super) test: Arc<CircuitTest>,
+    pub(super) rows: Arc<[TestRow]>,
+    pub(super) subject: TestSubject,
     /// Whether it ends in physics with the first row that fails.
-    ends_at_failure: bool,
+    pub(super) ends_at_failure: bool,
     /// What its environment writes as text while the rows pass.
-    printed: String,
+    pub(super) printed: String,
 }
 
 /// The tested circuit.
 #[derive(Clone, Debug)]
-enum Subject {
+pub(super) enum TestSubject {
     Gates(Netlist),
     /// Gates whose rows depend on what they do.
     Script(Box<Performance>),
@@ -82,27 +80,32 @@ enum Subject {
 ///
 /// # Errors
 /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
-pub(super) fn cases<'a>(
+pub(super) fn cases(
     sources: RobotSources<'_>,
     program: &Program,
-    test: &'a CircuitTest,
+    test: &CircuitTest,
     options: &TestOptions,
-) -> Result<Vec<TestCase<'a>>, Vec<Diagnostic>> {
+) -> Result<Vec<TestCase>, Vec<Diagnostic>> {
     for (name, _) in &options.compile.files {
         declared_file(program, name).map_err(|fault| vec![fault])?;
     }
     let netlist = elaborate(program, &test.circuit)?;
     let level = options.level;
     let performance = performance(sources, program, test, &netlist, &options.compile)?;
-    let logic = |netlist| match &performance {
-        Some(performance) => {
-            let subject = Subject::Script(Box::new(performance.clone()));
-            Ok(vec![TestCase { test, rows: Vec::new(), subject, ends_at_failure: false, printed: String::new() }])
-        }
-        None => {
-            let (rows, subject) = (rows(program, test)?, Subject::Gates(netlist));
-            Ok(vec![TestCase { test, rows, subject, ends_at_failure: false, printed: String::new() }])
-        }
+    let own = Arc::new(test.clone());
+    let case = |rows: Vec<TestRow>, printed: String, subject: TestSubject| TestCase {
+        test: own.clone(),
+        rows: rows.into(),
+        subject,
+        ends_at_failure: false,
+        printed,
+    };
+    let logic = |netlist| {
+        let (rows, subject) = match &performance {
+            Some(performance) => (Vec::new(), TestSubject::Script(Box::new(performance.clone()))),
+            None => (rows(program, test)?, TestSubject::Gates(netlist)),
+        };
+        Ok(vec![case(rows, String::new(), subject)])
     };
     if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
         return logic(netlist);
@@ -117,17 +120,15 @@ pub(super) fn cases<'a>(
         if level.is_none() && compiled.assembly.members.len() >= LARGE {
             return logic(netlist);
         }
-        let (rows, printed) = match &rows_of_test {
+        let (mut rows, printed) = match &rows_of_test {
             Some(found) => Clone::clone(found),
             None => rows_of_test.insert(physical_rows(program, test, performance.clone(), &options.compile)?).clone(),
         };
-        let subject = Subject::Gates(Netlist::default());
-        let mut one = TestCase { test, rows: rows.clone(), subject, ends_at_failure: false, printed };
         let timing = match &compiled.mapping.waves {
             Some(machine) => {
-                let rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
-                one.rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
-                permit_cycles(test, machine.cycles(one.rows.len()) as u64)?;
+                rows = if performance.is_some() { edges_only(rows, machine) } else { rows };
+                rows = steps(test, &rows, machine.clock, Some(machine.cycles_per_step() as u32))?;
+                permit_cycles(test, machine.cycles(rows.len()) as u64)?;
                 TestTiming::Waves
             }
             None => {
@@ -137,9 +138,10 @@ pub(super) fn cases<'a>(
                 TestTiming::Holds(row_holds)
             }
         };
+        let one = case(rows, printed, TestSubject::Gates(Netlist::default()));
         for world in worlds {
             let there = compiled.in_world(world);
-            cases.push(TestCase { subject: Subject::Robots(Box::new(there), timing.clone()), ..one.clone() });
+            cases.push(TestCase { subject: TestSubject::Robots(Box::new(there), timing.clone()), ..one.clone() });
         }
     }
     Ok(cases)
@@ -234,13 +236,13 @@ impl TestRun {
     }
 }
 
-impl TestCase<'_> {
+impl TestCase {
     /// The test with its swarm and its timing; `None` at the level of logic.
-    fn timed(&self) -> Option<TimedTest<'_>> {
+    pub(super) fn timed(&self) -> Option<TimedTest<'_>> {
         match &self.subject {
-            Subject::Gates(_) | Subject::Script(_) => None,
-            Subject::Robots(compiled, timing) => {
-                Some(TimedTest { test: self.test, rows: &self.rows, compiled, timing })
+            TestSubject::Gates(_) | TestSubject::Script(_) => None,
+            TestSubject::Robots(compiled, timing) => {
+                Some(TimedTest { test: &self.test, rows: &self.rows, compiled, timing })
             }
         }
     }
@@ -248,7 +250,7 @@ impl TestCase<'_> {
     /// The amount of work: cycles in physics, rows at the level of logic.
     pub fn work(&self) -> u64 {
         match &self.subject {
-            Subject::Script(performance) => performance.progress().1 as u64,
+            TestSubject::Script(performance) => performance.progress().1 as u64,
             _ => self.timed().map_or(self.rows.len(), |timed| timed.cycles(self.rows.len())) as u64,
         }
     }
@@ -256,8 +258,8 @@ impl TestCase<'_> {
     /// The hold of each row in physics; empty at the level of logic, and for wave machines.
     pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
-            Subject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
-            Subject::Robots(_, TestTiming::Waves) | Subject::Gates(_) | Subject::Script(_) => &[],
+            TestSubject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
+            TestSubject::Robots(_, TestTiming::Waves) | TestSubject::Gates(_) | TestSubject::Script(_) => &[],
         }
     }
 
@@ -280,8 +282,8 @@ impl TestCase<'_> {
     pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
         let inputs = self.timed()?.inputs(rows);
         match self.subject {
-            Subject::Gates(_) | Subject::Script(_) => None,
-            Subject::Robots(compiled, _) => Some((*compiled, inputs)),
+            TestSubject::Gates(_) | TestSubject::Script(_) => None,
+            TestSubject::Robots(compiled, _) => Some((*compiled, inputs)),
         }
     }
 
@@ -293,15 +295,14 @@ impl TestCase<'_> {
     /// The same test in another world, where it ends with the first row that fails.
     pub fn trial_in(&self, world: PhysicsWorld) -> Self {
         let subject = match &self.subject {
-            Subject::Gates(netlist) => Subject::Gates(netlist.clone()),
-            Subject::Script(performance) => Subject::Script(performance.clone()),
-            Subject::Robots(compiled, timing) => {
+            TestSubject::Robots(compiled, timing) => {
                 let world = NamedWorld { name: compiled.plan.world.name.clone(), world };
-                Subject::Robots(Box::new(compiled.in_world(world)), timing.clone())
+                TestSubject::Robots(Box::new(compiled.in_world(world)), timing.clone())
             }
+            other => other.clone(),
         };
-        let printed = self.printed.clone();
-        Self { test: self.test, rows: self.rows.clone(), subject, ends_at_failure: true, printed }
+        let (test, rows, printed) = (self.test.clone(), self.rows.clone(), self.printed.clone());
+        Self { test, rows, subject, ends_at_failure: true, printed }
     }
 
     /// The number of robots; 0 at the level of logic.
@@ -334,96 +335,15 @@ impl TestCase<'_> {
         let (verdict, warnings) = judged(timed, &self.printed, &trace, end);
         TestRun { verdict, end, swarm: None, hold: None, warnings }
     }
-
-    /// Runs the test.
-    pub(super) fn run(self, physics: &Physics, observer: &mut dyn Observer) -> TestRun {
-        let Some(timed) = self.timed() else { return self.run_logic(observer) };
-        let inputs = timed.inputs(self.rows.len());
-        let mut swarm = physics.swarm(timed.compiled, inputs.len());
-        let mut done = 0;
-        if let Some(keeper) = observer.keeper() {
-            let Compiled { assembly, plan, .. } = timed.compiled;
-            let task = SwarmTask::of(assembly, inputs.clone(), plan.window as usize);
-            if let Some(kept) = keeper.begin(&task)
-                && swarm.go_on(&kept, assembly, &inputs)
-            {
-                done = kept.cycles();
-            }
-        }
-        let mut has_failed = timed.has_failed();
-        let mut is_enough = |trace: &SwarmTrace| self.ends_at_failure && has_failed(trace);
-        let (trace, end) = swarm_run::run_until(swarm, &inputs, done, &mut is_enough, observer);
-        let (verdict, warnings) = judged(timed, &self.printed, &trace, end);
-        let hold = match timed.timing {
-            TestTiming::Holds(_) => hold::sufficient(&self.rows, timed.compiled),
-            TestTiming::Waves => timed.compiled.timing.hold as usize,
-        };
-        drop(has_failed);
-        let Subject::Robots(compiled, _) = self.subject else { unreachable!("a test in physics has robots") };
-        TestRun { verdict, end, swarm: Some(SwarmRun { compiled: *compiled, trace }), hold: Some(hold), warnings }
-    }
-
-    fn run_logic(self, observer: &mut dyn Observer) -> TestRun {
-        let netlist = match self.subject {
-            Subject::Gates(netlist) => netlist,
-            Subject::Script(performance) => return perform(self.test, *performance, observer),
-            Subject::Robots(..) => unreachable!("a test without robots has gates"),
-        };
-        let (all, mut rows, mut end) = (self.rows.len() as u64, Vec::new(), RunEnd::Complete);
-        for verdict in nbc_swarm::judge_logic(self.test, &self.rows, &netlist) {
-            rows.push(verdict);
-            if (rows.len() as u64).is_multiple_of(STEPS_BETWEEN_REPORTS) {
-                observer.progress(rows.len() as u64, all);
-                if observer.is_cancelled() {
-                    end = RunEnd::Cancelled;
-                    break;
-                }
-            }
-        }
-        if end == RunEnd::Complete {
-            observer.progress(all, all);
-        }
-        let mut verdict = verdict(self.test, Level::Logic, None, rows);
-        verdict.passed &= end == RunEnd::Complete;
-        TestRun { verdict, end, swarm: None, hold: None, warnings: Vec::new() }
-    }
-}
-
-/// Performs a script at the level of logic. The verdict has the last row of each step.
-fn perform(test: &CircuitTest, mut performance: Performance, observer: &mut dyn Observer) -> TestRun {
-    let (mut rows, mut warnings, mut steps) = (Vec::new(), Vec::new(), 0u64);
-    let mut end = RunEnd::Complete;
-    loop {
-        match performance.step() {
-            Ok(None) => break,
-            Ok(Some(performed)) => {
-                for PerformedRow { row, outputs, .. } in performed.into_iter().filter(|row| row.is_last) {
-                    rows.push(nbc_swarm::judge_row(test, &row, &outputs, &vec![true; outputs.len()]));
-                }
-            }
-            Err(fault) => {
-                warnings.push(fault);
-                break;
-            }
-        }
-        steps += 1;
-        if steps.is_multiple_of(STEPS_BETWEEN_REPORTS) {
-            let (done, all) = performance.progress();
-            observer.progress(done as u64, all as u64);
-            if observer.is_cancelled() {
-                end = RunEnd::Cancelled;
-                break;
-            }
-        }
-    }
-    let mut verdict = verdict(test, Level::Logic, None, rows);
-    verdict.passed &= end == RunEnd::Complete && warnings.is_empty();
-    verdict.printed = Some(performance.printed).filter(|printed| !printed.is_empty());
-    TestRun { verdict, end, swarm: None, hold: None, warnings }
 }
 
 /// The verdict on a trace, and the warnings.
-fn judged(timed: TimedTest<'_>, printed: &str, trace: &SwarmTrace, end: RunEnd) -> (TestVerdict, Vec<Diagnostic>) {
+pub(super) fn judged(
+    timed: TimedTest<'_>,
+    printed: &str,
+    trace: &SwarmTrace,
+    end: RunEnd,
+) -> (TestVerdict, Vec<Diagnostic>) {
     let compiled = timed.compiled;
     let mut verdict = verdict(timed.test, Level::Physics, Some(compiled), timed.judge(trace));
     verdict.printed = Some(printed.to_owned()).filter(|printed| !printed.is_empty() && end == RunEnd::Complete);
@@ -431,7 +351,7 @@ fn judged(timed: TimedTest<'_>, printed: &str, trace: &SwarmTrace, end: RunEnd) 
     (verdict, compiled.warnings.clone())
 }
 
-fn verdict(
+pub(super) fn verdict(
     test: &CircuitTest,
     level: Level,
     compiled: Option<&Compiled>,

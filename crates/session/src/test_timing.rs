@@ -69,38 +69,36 @@ impl<'a> TimedTest<'a> {
         verdicts
     }
 
-    /// Whether a row has failed whose last result is that of a trace's last cycle; to be asked after each cycle.
-    pub fn has_failed(self) -> Box<dyn FnMut(&SwarmTrace) -> bool + 'a> {
+    /// For each number of cycles, the rows whose last result is that of the last of them, each with its thread.
+    pub fn row_ends(self) -> BTreeMap<usize, Vec<(usize, usize)>> {
+        let mut ends: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
         match self.timing {
             TestTiming::Holds(row_holds) => {
-                let ends = row_holds.iter().scan(0, |end, row_hold| {
-                    *end += row_hold.hold;
-                    Some(*end)
-                });
-                let mut left = ends.zip(self.rows.iter().zip(row_holds)).peekable();
-                Box::new(move |trace| {
-                    let row = left.next_if(|(end, _)| *end == trace.cycles.len());
-                    row.is_some_and(|(_, (row, row_hold))| !nbc_swarm::passes(self.test, row, row_hold, trace))
-                })
+                let mut end = 0;
+                for (row, row_hold) in row_holds.iter().enumerate() {
+                    end += row_hold.hold;
+                    ends.insert(end, vec![(row, 0)]);
+                }
             }
             TestTiming::Waves => {
                 let waves = self.waves(self.rows);
-                let mut ends: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
                 for thread in 0..waves.machine.period as usize {
-                    for (row, last) in
-                        (0..self.rows.len()).filter_map(|row| Some((row, waves.last_cycle(row, thread)?)))
-                    {
-                        ends.entry(last + 1).or_default().push((row, thread));
+                    for row in 0..self.rows.len() {
+                        if let Some(last) = waves.last_cycle(row, thread) {
+                            ends.entry(last + 1).or_default().push((row, thread));
+                        }
                     }
                 }
-                Box::new(move |trace| {
-                    let ended = ends.get(&trace.cycles.len());
-                    let fails = |&(row, thread): &(usize, usize)| {
-                        waves.row(trace, row, thread).is_some_and(|verdict| !verdict.passed)
-                    };
-                    ended.is_some_and(|ended| ended.iter().any(fails))
-                })
             }
+        }
+        ends
+    }
+
+    /// Whether a row passes whose last result is that of a trace's last cycle.
+    pub fn passes(self, trace: &SwarmTrace, (row, thread): (usize, usize)) -> bool {
+        match self.timing {
+            TestTiming::Holds(row_holds) => nbc_swarm::passes(self.test, &self.rows[row], &row_holds[row], trace),
+            TestTiming::Waves => self.waves(self.rows).row(trace, row, thread).is_none_or(|verdict| verdict.passed),
         }
     }
 }

@@ -6,9 +6,9 @@ use nbc_swarm::{Robustness, TestVerdict, WorldSample, WorldTrial};
 
 /// A test in a sample of worlds.
 #[derive(Clone, Debug)]
-pub struct Experiment<'c, 'a> {
+pub struct Experiment<'c> {
     /// The test, in physics.
-    pub case: &'c TestCase<'a>,
+    pub case: &'c TestCase,
     /// How much the worlds vary.
     pub variation: Variation,
     /// The factor of the requested variation.
@@ -18,9 +18,9 @@ pub struct Experiment<'c, 'a> {
 /// Experiments, each in the same number of worlds. The runs do not depend on each other, so a door makes them in any
 /// order, on any threads, and passes their results to [`YieldTally::tell`] in order.
 #[derive(Clone, Debug)]
-pub struct Yields<'c, 'a> {
+pub struct Yields<'c> {
     /// The experiments.
-    pub experiments: Vec<Experiment<'c, 'a>>,
+    pub experiments: Vec<Experiment<'c>>,
     /// The number of worlds.
     pub worlds: usize,
     /// The seed of the worlds.
@@ -41,9 +41,9 @@ pub struct WorldResult {
     trial: WorldTrial,
 }
 
-impl<'c, 'a> Yields<'c, 'a> {
+impl<'c> Yields<'c> {
     /// Each case under each variation, times each of the numbers.
-    pub fn of(cases: &'c [TestCase<'a>], vary: &[Variation], times: &[f64], worlds: usize, seed: u64) -> Self {
+    pub fn of(cases: &'c [TestCase], vary: &[Variation], times: &[f64], worlds: usize, seed: u64) -> Self {
         let mut experiments = Vec::new();
         for case in cases {
             for variation in vary {
@@ -75,7 +75,7 @@ impl<'c, 'a> Yields<'c, 'a> {
 /// The results of runs, summed up as they come.
 #[derive(Debug)]
 pub struct YieldTally<'y> {
-    yields: &'y Yields<'y, 'y>,
+    yields: &'y Yields<'y>,
     /// Those of the experiment that is not complete.
     trials: Vec<WorldTrial>,
     /// The number of complete experiments.
@@ -98,12 +98,7 @@ impl YieldTally<'_> {
 
 impl Session {
     /// Makes one of the runs; `None` if the observer cancelled it.
-    pub fn run_in_world(
-        &self,
-        yields: &Yields<'_, '_>,
-        run: WorldRun,
-        observer: &mut dyn Observer,
-    ) -> Option<WorldResult> {
+    pub fn run_in_world(&self, yields: &Yields<'_>, run: WorldRun, observer: &mut dyn Observer) -> Option<WorldResult> {
         let Experiment { case, variation, .. } = &yields.experiments[run.experiment];
         let world = WorldSample { variation: *variation, seed: yields.seed }.world(&case.world(), run.world);
         let run = self.run_case(case.trial_in(world), observer);

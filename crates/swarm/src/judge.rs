@@ -62,29 +62,21 @@ pub(super) fn without_outputs(test: &CircuitTest, row: &TestRow, fault: RobotFau
     }
 }
 
-/// Judges the rows of a test at the level of logic, as they are asked for: each is held until nothing changes. A
-/// circuit that oscillates fails if the row checks an output that keeps changing.
-pub fn judge_logic<'a>(
-    test: &'a CircuitTest,
-    rows: &'a [TestRow],
-    netlist: &Netlist,
-) -> impl Iterator<Item = RowVerdict> + 'a {
-    rows.iter().zip(settled(rows, netlist)).map(|(row, end)| judge_row(test, row, &end.outputs, &end.rests))
+/// Judges the next rows of a test at the level of logic, at most [`Settled::ROWS`]: each is held until nothing changes.
+/// A circuit that oscillates fails if the row checks an output that keeps changing.
+pub fn judge_logic(test: &CircuitTest, rows: &[TestRow], circuit: &mut Settled) -> impl Iterator<Item = RowVerdict> {
+    rows.iter().zip(settle(rows, circuit)).map(|(row, end)| judge_row(test, row, &end.outputs, &end.rests))
 }
 
-/// The end of each row at the level of logic.
-fn settled<'a>(rows: &'a [TestRow], netlist: &Netlist) -> impl Iterator<Item = SettledRow> + 'a {
-    let mut settled = Settled::new(netlist);
-    rows.chunks(Settled::ROWS).flat_map(move |rows| {
-        let inputs: Vec<&[bool]> = rows.iter().map(|row| row.inputs.as_slice()).collect();
-        settled.apply(&inputs)
-    })
+fn settle(rows: &[TestRow], circuit: &mut Settled) -> Vec<SettledRow> {
+    circuit.apply(&rows.iter().map(|row| row.inputs.as_slice()).collect::<Vec<_>>())
 }
 
 /// For each row, which output bits come to rest at the level of logic. In physics an output that keeps changing may
 /// have one value for the last cycles of a row by chance.
 pub fn resting_outputs(rows: &[TestRow], netlist: &Netlist) -> Vec<Vec<bool>> {
-    settled(rows, netlist).map(|end| end.rests).collect()
+    let mut circuit = Settled::new(netlist);
+    rows.chunks(Settled::ROWS).flat_map(|rows| settle(rows, &mut circuit)).map(|end| end.rests).collect()
 }
 
 /// Whether a row passes that ends with the last cycle of a trace.
@@ -259,7 +251,7 @@ mod tests {
         let passed = |output, expected| {
             let mut netlist = netlist.clone();
             netlist.add_output("y", output);
-            judge_logic(&test(), &[row(true, expected)], &netlist).all(|verdict| verdict.passed)
+            judge_logic(&test(), &[row(true, expected)], &mut Settled::new(&netlist)).all(|verdict| verdict.passed)
         };
         assert!(passed(ring, None) && !passed(ring, Some(true)) && !passed(ring, Some(false)));
         assert!(passed(still, Some(false)) && !passed(still, Some(true)), "an output that rests beside the ring");

@@ -82,7 +82,7 @@ pub struct TestArguments {
 }
 
 /// A case with the index of its file on the command line.
-type Numbered<'a> = (usize, TestCase<'a>);
+type Numbered = (usize, TestCase);
 
 impl TestArguments {
     /// Runs the tests in parallel and prints each result as soon as those before it are done.
@@ -144,7 +144,7 @@ impl TestArguments {
             context.origins(file);
         }
         if self.worlds.is_used() {
-            let cases: Vec<TestCase<'_>> = cases.into_iter().map(|(_, case)| case).collect();
+            let cases: Vec<TestCase> = cases.into_iter().map(|(_, case)| case).collect();
             return self.worlds.test(session, &cases, interrupt, context);
         }
         let verdicts = run_cases(session, &cases, files, &self.queue, self.checkpoints.as_deref(), interrupt, context)?;
@@ -181,12 +181,12 @@ impl TestArguments {
     }
 
     /// The tests of the files, in order.
-    fn cases<'a>(
-        &'a self,
+    fn cases(
+        &self,
         session: &Session,
-        files: &'a [Arc<Checked>],
+        files: &[Arc<Checked>],
         interrupt: &Interrupt,
-    ) -> Result<Vec<Numbered<'a>>, Failure> {
+    ) -> Result<Vec<Numbered>, Failure> {
         self.named.check(files).map_err(Failure::plain)?;
         let (mut cases, choice, making) = (Vec::new(), self.making.choice(), self.making.options()?);
         for (number, file) in files.iter().enumerate() {
@@ -216,7 +216,7 @@ fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
 /// Runs the tests; in text format each verdict is printed when it is known.
 fn run_cases(
     session: &Session,
-    cases: &[Numbered<'_>],
+    cases: &[Numbered],
     files: &[Arc<Checked>],
     queue: &QueueArguments,
     checkpoints: Option<&Path>,
@@ -227,7 +227,7 @@ fn run_cases(
     let shown = Arc::clone(&bar);
     let workers = open_queue(queue, interrupt, move |note| shown.note(note))?;
     // The trace is dropped, because it is large and not needed.
-    let run = |place: usize, (file, case): &Numbered<'_>| {
+    let run = |place: usize, (file, case): &Numbered| {
         // After an interruption circuits are compiled with little effort, so their tests are not begun.
         if interrupt.is_raised() {
             return Ok(None);

@@ -56,7 +56,7 @@ impl WorldsArguments {
     pub(super) fn test(
         &self,
         session: &Session,
-        cases: &[TestCase<'_>],
+        cases: &[TestCase],
         interrupt: &Interrupt,
         context: &mut Context,
     ) -> Result<Status, Failure> {
