@@ -7,7 +7,7 @@ use crate::wording::StoreError;
 use crate::{DiskWorld, disk};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, ProofOrigin, Simulated, Sources, VerilogFile, VerilogModules, VerilogPlace};
+use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFile, VerilogPlace};
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
 use nbc_lang::syntax;
@@ -129,22 +129,14 @@ fn verilog(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
     let modules = Verilog { world: &DiskWorld, files: &given, cancel }.top(from.top);
     let read = modules.map_err(|error| vec![Diagnostic::untranslated(&files, &error)]).and_then(|modules| {
-        let VerilogModules { undriven, left_out, hints, .. } = &modules;
-        let left_out = left_out.iter().map(|module| Diagnostic::left_out(&files, module));
-        let hints = hints.iter().map(|hint| Diagnostic::hint(&files, hint));
-        let undriven = undriven.iter().map(|wire| Diagnostic::undriven_wire(&files, wire));
+        let left_out = modules.left_out.iter().map(|module| Diagnostic::left_out(&files, module));
         let old = Diagnostic::old_yosys(&modules.yosys);
-        let warnings = left_out.chain(hints).chain(undriven).chain(old).collect();
-        let design = verilog_module(&modules, &modules.tops[0], &files, from.clock)?;
-        Ok((design, warnings, modules))
+        let warnings = left_out.chain(Diagnostic::of_modules(&files, &modules)).chain(old).collect();
+        let top = &modules.tops[0];
+        Ok((verilog_module(&modules, top, &files, from.clock)?, warnings, modules.origin(top)))
     });
     match read {
-        Ok((design, list, modules)) => {
-            let simulated = modules.simulated.get(&modules.tops[0]).copied();
-            let simulated = simulated.unwrap_or(Simulated::NotComparable);
-            let origin = ProofOrigin::Yosys { version: modules.yosys, simulated };
-            Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, origin })
-        }
+        Ok((design, list, origin)) => Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, origin }),
         Err(list) => Err(Diagnostics { list, sources }),
     }
 }

@@ -4,7 +4,8 @@ use super::file::file_error;
 use super::suggest::alternatives;
 use super::{Code, Diagnostic, Severity, Suggestion};
 use crate::source::{
-    SourceFile, Span, VerilogDifference, VerilogDrivers, VerilogError, VerilogFault, VerilogName, VerilogPlace,
+    SourceFile, Span, VerilogDifference, VerilogDrivers, VerilogError, VerilogFault, VerilogModules, VerilogName,
+    VerilogPlace,
 };
 
 impl Diagnostic {
@@ -128,8 +129,14 @@ impl Diagnostic {
 
 /// Warnings about a translation.
 impl Diagnostic {
+    /// Hints for synthesizers, and wires that nothing drives.
+    pub fn of_modules(files: &[&SourceFile], modules: &VerilogModules) -> Vec<Self> {
+        let hints = modules.hints.iter().map(|hint| Self::hint(files, hint));
+        hints.chain(modules.undriven.iter().map(|wire| Self::undriven_wire(files, wire))).collect()
+    }
+
     /// A wire that nothing drives.
-    pub fn undriven_wire(files: &[&SourceFile], wire: &VerilogName) -> Self {
+    fn undriven_wire(files: &[&SourceFile], wire: &VerilogName) -> Self {
         let message = format!("nothing drives the wire `{}`", wire.name);
         let fault =
             at_place(files, wire.place.as_ref(), message, "it is 0").with_help("drive it, or write the constant");
@@ -137,7 +144,7 @@ impl Diagnostic {
     }
 
     /// A hint for synthesizers that a simulator ignores.
-    pub fn hint(files: &[&SourceFile], hint: &VerilogName) -> Self {
+    fn hint(files: &[&SourceFile], hint: &VerilogName) -> Self {
         let first = "of several labels that match, the first one counts, as in a simulation";
         let promise = "values that no label has are taken never to occur, unlike in a simulation";
         let (message, label) = match hint.name.as_str() {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::verilog::Simulated;
+use super::verilog::{Simulated, VerilogModules};
 
 /// A circuit of another tool's file that a program uses, and what its proof begins with.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +27,14 @@ pub enum ProofOrigin {
         /// What a simulation of the file beside the netlist has shown.
         simulated: Simulated,
     },
+}
+
+impl VerilogModules {
+    /// What a proof of one of the modules begins with.
+    pub fn origin(&self, module: &str) -> ProofOrigin {
+        let simulated = self.simulated.get(module).copied().unwrap_or(Simulated::NotComparable);
+        ProofOrigin::Yosys { version: self.yosys.clone(), simulated }
+    }
 }
 
 impl fmt::Display for ProofOrigin {

@@ -2,9 +2,7 @@
 
 use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::source::{
-    ForeignCircuit, ProofOrigin, Simulated, SourceFile, SourceWorld, Span, VerilogFile, VerilogModules,
-};
+use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogFile, VerilogModules};
 use nbc_circuit::correspondence;
 use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, verilog_module};
 
@@ -49,16 +47,11 @@ impl Foreign<'_> {
         }
         let circuit = |name: &String| self.circuit(&self.module(&modules, files, name)?);
         let texts: Result<Vec<String>, _> = modules.tops.iter().map(circuit).collect();
-        let undriven = modules.undriven.iter().map(|wire| Diagnostic::undriven_wire(files, wire));
-        let hints = modules.hints.iter().map(|hint| Diagnostic::hint(files, hint));
-        let warnings = hints.chain(undriven);
+        let warnings = Diagnostic::of_modules(files, &modules).into_iter();
         let origin = |name: &String| ForeignCircuit {
             file: self.name.to_owned(),
             circuit: name.clone(),
-            origin: ProofOrigin::Yosys {
-                version: modules.yosys.clone(),
-                simulated: modules.simulated.get(name).copied().unwrap_or(Simulated::NotComparable),
-            },
+            origin: modules.origin(name),
         };
         Ok(ForeignDesign {
             text: texts?.join("\n"),
