@@ -1,6 +1,6 @@
 //! Circuits of other tools, mapped onto cells and proved.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use nbc::{
@@ -92,10 +92,7 @@ pub fn synthesize(
 ) -> PyResult<String> {
     let watch = Watch::over(0);
     let format = |path: String| {
-        let ending = Path::new(&path).extension().map(|ending| ending.to_string_lossy().to_lowercase());
-        let format = ending.and_then(|ending| CircuitFormat::of_ending(&ending));
-        let expected = "expected .blif, .aig, .aag, .v, .dot or .nb";
-        let format = format.ok_or_else(|| bad_value(format!("unrecognized circuit format of `{path}`; {expected}")))?;
+        let format = CircuitFormat::of_path(&path).map_err(|fault| bad_value(fault.message))?;
         Ok::<_, PyErr>((PathBuf::from(path), format))
     };
     let job = Job {

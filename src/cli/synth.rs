@@ -1,13 +1,12 @@
 //! `nbc synth`: circuits of other tools, mapped to cells of few robots and proved.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::time::Instant;
 
 use clap::{Args, ValueEnum};
 
 use crate::cli::options::mapping::MappingArguments;
 use crate::cli::options::new_path::new_path;
-use crate::cli::wording::UsageError;
 use crate::cli::{Context, Failure, Status};
 use nbc_base::diag::suggest::alternatives;
 use nbc_circuit::formats::CircuitFormat;
@@ -78,7 +77,8 @@ impl SynthArguments {
     /// When the input cannot be read or mapped, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
-        let target = self.output.as_deref().map(format).transpose()?;
+        let format = |path: &PathBuf| CircuitFormat::of_path(&path.to_string_lossy());
+        let target = self.output.as_ref().map(format).transpose().map_err(Failure::plain)?;
         let library = self.mapping.library()?;
         let what_if = nbc_session::named_functions(&self.what_if).map_err(Failure::plain)?;
         let top = TopModule { name: self.top, parameters: self.param.into_iter().collect() };
@@ -118,11 +118,4 @@ fn parameter(text: &str) -> Result<(String, ParameterValue), String> {
     let (name, value) = text.split_once('=').unwrap_or((text, ""));
     let value = value.parse().map_err(|expected| format!("expected a name and a number: {expected}"))?;
     Ok((name.to_owned(), value))
-}
-
-/// The format for a file's extension.
-fn format(path: &Path) -> Result<CircuitFormat, Failure> {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    CircuitFormat::of_ending(&ending)
-        .ok_or_else(|| UsageError::CircuitFormat { path: path.display().to_string() }.into())
 }

@@ -29,8 +29,6 @@ pub(in crate::cli) enum UsageError {
     TwoFormats { option: &'static str },
     /// What has no JSON.
     NoJson { what: &'static str },
-    /// A file name without the extension of a circuit format.
-    CircuitFormat { path: String },
     /// An unknown code.
     UnknownCode { word: String, meant: Suggestion },
     /// A robot that the library does not have.
@@ -90,9 +88,6 @@ impl From<UsageError> for Diagnostic {
                 bad(format!("the file `{name}` is given twice")).with_help("leave out one")
             }
             UsageError::NoJson { what } => bad(format!("{what} cannot be JSON")).with_help("leave out `--format json`"),
-            UsageError::CircuitFormat { path } => {
-                bad(format!("unrecognized circuit format of `{path}`; expected .blif, .aig, .aag, .v, .dot or .nb"))
-            }
             UsageError::UnknownCode { word, meant } => bad(format!("no message has the code `{word}`"))
                 .with_help("`nbc explain` lists the codes")
                 .with_near(&meant),

@@ -52,16 +52,20 @@ pub enum CircuitFormat {
 }
 
 impl CircuitFormat {
-    /// The format for a file's extension, in lower case and without the dot.
-    pub fn of_ending(ending: &str) -> Option<Self> {
-        Some(match ending {
+    /// The format for the extension of a path, in any case.
+    ///
+    /// # Errors
+    /// When no format has that extension.
+    pub fn of_path(path: &str) -> Result<Self, Diagnostic> {
+        let (_, ending) = path.rsplit_once('.').unwrap_or_default();
+        Ok(match ending.to_ascii_lowercase().as_str() {
             "blif" => Self::Blif,
             "aig" => Self::AigerBinary,
             "aag" => Self::AigerText,
             "v" | "sv" => Self::Verilog,
             "dot" | "gv" => Self::Dot,
             "nb" => Self::Nb,
-            _ => return None,
+            _ => return Err(EncodeError::UnknownFormat { path: path.to_owned() }.into()),
         })
     }
 

@@ -16,6 +16,8 @@ pub enum EncodeError {
     AigerClocks { clocks: Vec<String> },
     /// A circuit without outputs, in the project's own language.
     NbNoOutputs { circuit: String },
+    /// A file name without the extension of a format.
+    UnknownFormat { path: String },
 }
 
 impl From<EncodeError> for Diagnostic {
@@ -45,6 +47,11 @@ impl From<EncodeError> for Diagnostic {
                 format!("`{circuit}` has no outputs, but a circuit of a .nb file needs one"),
                 "give the model an output",
             ),
+            EncodeError::UnknownFormat { path } => {
+                let expected = "expected .blif, .aig, .aag, .v, .dot or .nb";
+                let message = format!("unrecognized circuit format of `{path}`; {expected}");
+                return Self::without_place(Code::BadValue, message);
+            }
         };
         Self::without_place(Code::BadValue, message).with_help(help)
     }
