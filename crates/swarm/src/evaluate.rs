@@ -3,6 +3,7 @@
 
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
+use crate::gate::GateObjective;
 use crate::walks::WalkMemory;
 use crate::{Work, distance, gate};
 use nbc_base::model::{Body, Evolution, SearchObjective};
@@ -42,7 +43,8 @@ pub(crate) fn evaluate_remembering(
 ) -> Vec<Evaluated> {
     match protocol.objective {
         SearchObjective::Distance => distance::evaluate(simulator, memory, protocol, tasks),
-        SearchObjective::Gate | SearchObjective::Wave => gate::evaluate(simulator, protocol, tasks),
+        SearchObjective::Gate => gate::evaluate(simulator, GateObjective::Settled, protocol, tasks),
+        SearchObjective::Wave => gate::evaluate(simulator, GateObjective::Wave, protocol, tasks),
     }
 }
 
@@ -50,7 +52,8 @@ pub(crate) fn evaluate_remembering(
 pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
     match protocol.objective {
         SearchObjective::Distance => protocol.distance_steps(),
-        SearchObjective::Gate | SearchObjective::Wave => gate::steps(protocol),
+        SearchObjective::Gate => gate::steps(GateObjective::Settled, protocol),
+        SearchObjective::Wave => gate::steps(GateObjective::Wave, protocol),
     }
 }
 

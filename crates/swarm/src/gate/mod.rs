@@ -7,6 +7,8 @@ mod settled;
 mod wave;
 mod worth;
 
+pub(crate) use objective::GateObjective;
+
 use crate::Work;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{CandidateOutcome, Scores};
@@ -14,7 +16,7 @@ use crate::gate::lanes::{HOLD, Lane, sensed, starts};
 use crate::gate::objective::{fitness, stages};
 use crate::holds::PatternHold;
 use crate::noise::RobotNoise;
-use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld, SearchObjective};
+use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld};
 use nbc_sim::Simulator;
 
 /// A candidate with a first fitness below this is dropped at once, even if its niche is empty.
@@ -23,8 +25,8 @@ const HOPELESS: f64 = 0.25;
 const FIRST_LOOK: usize = 3;
 
 /// Env steps of a full evaluation.
-pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
-    let cycles: usize = stages(protocol.objective, protocol.stimuli).iter().flatten().map(Vec::len).sum();
+pub(super) fn steps(objective: GateObjective, protocol: &EvaluationProtocol) -> u64 {
+    let cycles: usize = stages(objective, protocol.stimuli).iter().flatten().map(Vec::len).sum();
     cycles as u64 * u64::from(CYCLE_STEPS) * (1 + protocol.others.len() as u64)
 }
 
@@ -33,11 +35,12 @@ pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
 /// niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
+    objective: GateObjective,
     protocol: &EvaluationProtocol,
     tasks: &[EvaluationTask],
 ) -> Vec<Evaluated> {
-    let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(protocol, task)).collect();
-    let stages = stages(protocol.objective, protocol.stimuli);
+    let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(objective, protocol, task)).collect();
+    let stages = stages(objective, protocol.stimuli);
     for world in std::iter::once(&protocol.world).chain(&protocol.others) {
         for (stage, lanes) in stages.iter().enumerate() {
             for attempt in &mut attempts {
@@ -47,7 +50,7 @@ pub(crate) fn evaluate(
         }
         attempts.iter_mut().for_each(Attempt::leave_world);
     }
-    let all = steps(protocol);
+    let all = steps(objective, protocol);
     attempts.into_iter().map(|attempt| attempt.end(all)).collect()
 }
 
@@ -81,7 +84,7 @@ fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attemp
 
 /// A body during its evaluation.
 struct Attempt<'a> {
-    objective: SearchObjective,
+    objective: GateObjective,
     /// The behaviors that it may be scored as; if there are none, its own.
     asked: &'a [Behavior],
     /// The behavior at the fresh starts, as soon as they are done.
@@ -102,10 +105,10 @@ struct Attempt<'a> {
 }
 
 impl<'a> Attempt<'a> {
-    fn new(protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
+    fn new(objective: GateObjective, protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
         let displacement = Displacements::zero(protocol.stimuli);
         let scores = Scores { fitness: [1.0; 2], behavior: displacement.behavior(), displacement };
-        let (objective, asked) = (protocol.objective, protocol.behaviors.as_slice());
+        let asked = protocol.behaviors.as_slice();
         Self {
             objective,
             asked,
@@ -241,8 +244,8 @@ mod tests {
             let body = Body::parse(&rows, &Palette::paper()).unwrap();
             let protocol = EvaluationProtocol { others: others.to_vec(), ..EvaluationProtocol::of(&evolution) };
             let task = EvaluationTask { body, rivals: Rivals::none(2), expected: None };
-            let done = evaluate(&Simulator::default(), &protocol, &[task]);
-            assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(&protocol));
+            let done = evaluate(&Simulator::default(), GateObjective::Settled, &protocol, &[task]);
+            assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(GateObjective::Settled, &protocol));
             let CandidateOutcome::Measured(scores) = done[0].outcome else { panic!("{:?}", done[0]) };
             (scores.fitness, done[0].work.env_steps)
         };
@@ -273,7 +276,7 @@ mod tests {
         let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
         let scores = |behaviors: &[Behavior]| {
             let protocol = EvaluationProtocol { behaviors: behaviors.to_vec(), ..EvaluationProtocol::of(&evolution) };
-            let done = evaluate(&Simulator::default(), &protocol, &tasks);
+            let done = evaluate(&Simulator::default(), GateObjective::Wave, &protocol, &tasks);
             done.into_iter().map(|one| match one.outcome {
                 CandidateOutcome::Measured(scores) => Some((scores.behavior, scores.fitness)),
                 _ => None,
