@@ -1,20 +1,18 @@
-//! BLIF, the Berkeley logic interchange format: hierarchical in, flat out.
+//! The reader of BLIF, the Berkeley logic interchange format, with its hierarchy.
 
 use std::collections::BTreeMap;
-use std::fmt::Write;
 
-use crate::formats::blif_register::{cell_of, forced_cell};
+use crate::formats::blif_register::forced_cell;
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
-use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
-use crate::formats::starts::starts;
 use crate::formats::wording::{BlifError, ModelError, TextError};
-use crate::{NetId, Netlist, Node};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Severity};
 use nbc_base::model::Function;
 use nbc_base::source::{FileId, Span};
+
+pub use crate::formats::blif_text::write;
 
 /// Reads the first model of a file and expands the models it instantiates.
 ///
@@ -518,93 +516,4 @@ impl<'m, 't> Flat<'m, 't> {
 /// Whether a cell of Yosys is a register that can be read: one with an asynchronous set or reset.
 pub fn is_register_cell(cell: &str) -> bool {
     forced_cell(cell).is_some()
-}
-
-/// A design as BLIF text, with a `.latch` for each register.
-pub fn write(design: &Design) -> String {
-    let netlist = &design.logic;
-    let legal = |name: &str| visible(name, &['#', '\\', '=']);
-    let names = FileNames::new(netlist, &design.registers, &[constant(false), constant(true), "NIL"], true, legal);
-    let starts = starts(netlist);
-    let mut stand_ins = stand_ins(design);
-    // A memory element keeps its own name, by which it is compared.
-    stand_ins.retain(|cell, output| !starts.contains_key(cell) || netlist.net_name(*cell) == netlist.net_name(*output));
-    let name = |id: NetId| match netlist.node(id) {
-        Node::Constant(value) => constant(*value),
-        _ => names.net(*stand_ins.get(&id).unwrap_or(&id)),
-    };
-    let list = |ids: &[NetId]| ids.iter().map(|id| format!(" {}", names.net(*id))).collect::<String>();
-    let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
-    let (inputs, states) = netlist.inputs().split_at(design.inputs());
-    let (outputs, nexts) = netlist.outputs().split_at(design.outputs());
-    let mut text = format!(".model {title}\n.inputs{}\n.outputs{}\n", list(inputs), list(outputs));
-    for clock in names.own_clocks() {
-        let _ = writeln!(text, ".clock {clock}");
-    }
-    for (((register, state), next), forcing) in
-        design.registers.iter().zip(states).zip(nexts).zip(design.forcing_nets())
-    {
-        if register.forcing != Forcing::Never {
-            let clock = match names.clock(register) {
-                Some(ClockName::Net(id)) => name(id),
-                Some(ClockName::Own(clock)) => clock,
-                None => Register::CLOCK,
-            };
-            let forcing: Vec<&str> = forcing.iter().map(|&net| name(net)).collect();
-            text.push_str(&cell_of(register, clock, [names.net(*next), name(*state)], &forcing));
-            continue;
-        }
-        let kind = match register.kind {
-            RegisterKind::Rising => "re",
-            RegisterKind::Falling => "fe",
-            RegisterKind::High => "ah",
-            RegisterKind::Low => "al",
-        };
-        let clock = match names.clock(register) {
-            Some(ClockName::Net(id)) => format!(" {kind} {}", name(id)),
-            Some(ClockName::Own(clock)) => format!(" {kind} {clock}"),
-            None => String::new(),
-        };
-        let start = register.start.map_or(2, u8::from);
-        let _ = writeln!(text, ".latch {} {}{clock} {start}", names.net(*next), name(*state));
-    }
-    for id in cells_in_order(netlist) {
-        write_cell(&mut text, netlist, id, &name);
-        if let Some(&start) = starts.get(&id) {
-            let _ = writeln!(text, ".attr init {}", u8::from(start));
-        }
-    }
-    for value in [false, true] {
-        let used = |id: NetId| *netlist.node(id) == Node::Constant(value) && !netlist.fanout(id).is_empty();
-        if netlist.ids().any(used) {
-            let _ = writeln!(text, ".names {}{}", constant(value), if value { "\n1" } else { "" });
-        }
-    }
-    for &output in outputs.iter().chain(&nexts[..states.len()]) {
-        let driver = netlist.pins(output)[0];
-        // An output may be an input.
-        if stand_ins.get(&driver) != Some(&output) && name(driver) != names.net(output) {
-            let _ = writeln!(text, ".names {} {}\n1 1", name(driver), names.net(output));
-        }
-    }
-    text.push_str(".end\n");
-    text
-}
-
-/// A cell as the rows at which it is 1.
-fn write_cell<'n>(text: &mut String, netlist: &Netlist, id: NetId, name: &impl Fn(NetId) -> &'n str) {
-    let function = netlist.cell(id).expect("the order holds cells").function;
-    let pins = netlist.pins(id);
-    let list: String = pins.iter().map(|&pin| format!(" {}", name(pin))).collect();
-    let _ = writeln!(text, ".names{list} {}", name(id));
-    // A cell of one pin does not depend on the others of its function.
-    let missing = function.inputs() - pins.len();
-    for row in (0..1usize << pins.len()).filter(|row| function.row(row << missing)) {
-        let _ = writeln!(text, "{row:0width$b} 1", width = pins.len());
-    }
-}
-
-/// The name of a constant net.
-fn constant(value: bool) -> &'static str {
-    if value { "$true" } else { "$false" }
 }

@@ -4,6 +4,7 @@ pub mod aiger;
 pub mod bench;
 pub mod blif;
 mod blif_register;
+mod blif_text;
 pub mod buses;
 mod design;
 pub mod dot;
