@@ -46,9 +46,8 @@ impl CellKind {
 /// The cells to build from: for each available function, the properties of the robot that computes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellLibrary {
+    // Functions of two inputs come before those of three.
     kinds: BTreeMap<Function, CellKind>,
-    /// Those of three inputs.
-    wide: BTreeMap<Function, CellKind>,
 }
 
 impl CellLibrary {
@@ -59,16 +58,12 @@ impl CellLibrary {
 
     /// Adds or replaces the cell of a function.
     pub fn insert(&mut self, function: Function, kind: CellKind) {
-        self.of_mut(function).insert(function, kind);
-    }
-
-    fn of_mut(&mut self, function: Function) -> &mut BTreeMap<Function, CellKind> {
-        if function.inputs() == 3 { &mut self.wide } else { &mut self.kinds }
+        self.kinds.insert(function, kind);
     }
 
     /// The cell of a function.
     pub fn get(&self, function: Function) -> Option<&CellKind> {
-        self.kinds.get(&function).or_else(|| self.wide.get(&function))
+        self.kinds.get(&function)
     }
 
     /// The kind of each cell of a netlist; a cell of no kind takes one cycle.
@@ -79,28 +74,27 @@ impl CellLibrary {
 
     /// The functions of two inputs, in order of their bits.
     pub fn functions(&self) -> impl Iterator<Item = Function> + '_ {
-        self.kinds.keys().copied()
+        self.kinds().map(|(function, _)| function)
     }
 
     /// Whether it has cells of three inputs.
     pub fn is_wide(&self) -> bool {
-        !self.wide.is_empty()
-    }
-
-    /// The functions of three inputs with their cells, in order of their bits.
-    pub fn wide(&self) -> impl Iterator<Item = (Function, &CellKind)> {
-        self.wide.iter().map(|(&function, kind)| (function, kind))
+        self.kinds.last_key_value().is_some_and(|(function, _)| function.inputs() == 3)
     }
 
     /// The functions of two inputs with their cells, in order of their bits.
     pub fn kinds(&self) -> impl Iterator<Item = (Function, &CellKind)> {
+        self.all().filter(|(function, _)| function.inputs() == 2)
+    }
+
+    /// All functions with their cells, those of two inputs first.
+    pub fn all(&self) -> impl Iterator<Item = (Function, &CellKind)> {
         self.kinds.iter().map(|(&function, kind)| (function, kind))
     }
 
     /// The cells for which a quality is at least `least`.
     pub(crate) fn with(&self, quality: fn(&CellKind) -> f64, least: f64) -> Self {
-        let kinds = self.kinds().chain(self.wide());
-        kinds.filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
+        self.all().filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
     /// Whether these cells and constants can make every boolean function.
@@ -126,7 +120,7 @@ impl CellLibrary {
     pub fn reachable(&self) -> u16 {
         let mut set = START;
         loop {
-            let made = self.kinds.keys().fold(set, |set, &function| set | compositions(function, set));
+            let made = self.functions().fold(set, |set, function| set | compositions(function, set));
             if made == set {
                 return set;
             }

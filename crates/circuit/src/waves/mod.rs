@@ -42,7 +42,7 @@ pub struct WaveOptions {
 /// The cells that a wave machine with beats of so many cycles may use.
 pub fn usable(library: &CellLibrary, beat: u32) -> CellLibrary {
     let is_usable = |kind: &crate::CellKind| kind.clock <= beat && (beat > 1 || !kind.glitches);
-    let kinds = library.kinds().chain(library.wide());
+    let kinds = library.all();
     kinds.filter(|(_, kind)| is_usable(kind)).map(|(function, kind)| (function, kind.clone())).collect()
 }
 
