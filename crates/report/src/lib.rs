@@ -62,7 +62,6 @@ mod wires;
 
 pub use answer::{Answer, Outcome};
 pub use champions::{Champions, draw_champions};
-pub use chart::{Panel, Scale, range_of, tick_label};
 pub use color::Color;
 pub use comparison::draw_comparison;
 pub use curves::{draw_response, draw_schedule};
@@ -79,7 +78,7 @@ pub use film::{FRAMES_PER_CYCLE, Film, write_apng, write_gif};
 pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups, describe_groups, difficulty_of};
 pub use heatmap::{ArchiveMap, draw_heatmap, heat};
 pub use history::{History, ProgressLine};
-pub use html::{base64, embedded};
+pub use html::base64;
 pub use listing::{Listing, describe_robot};
 pub use logic_page::draw_logic_page;
 pub use looks::{Look, Looks, Mark, describe_material};
@@ -89,7 +88,7 @@ pub use portraits::{Portrait, draw_portraits};
 pub use pose::draw_pose;
 pub use progress::{Course, draw_progress};
 #[cfg(feature = "pictures")]
-pub use raster::{png, rasterize};
+pub use raster::png;
 pub use result::{RobotResult, RunResult, SwarmResult};
 pub use robustness::{YieldCurve, describe_robustness, draw_yields};
 pub use run_page::{PageSwarm, SwarmOutcome, draw_run_page};

@@ -126,11 +126,6 @@ impl Scene {
         (0..self.objects()).map(|object| self.channels(object).end).max().unwrap_or(0)
     }
 
-    /// Whether an object is terrain, which never moves.
-    pub fn is_still(&self, object: usize) -> bool {
-        matches!(self.objects[object], Placed::Still { .. })
-    }
-
     /// The positions of an object's points, in voxels, in order of creation (docs/physics.md 2), in a state of the
     /// scene.
     pub fn positions(&self, object: usize, state: &State, constants: &Constants) -> Vec<[f64; 2]> {
