@@ -534,14 +534,15 @@ pub use nbc_swarm::evolve_generation;
 ///
 /// ```no_run
 /// use std::path::Path;
-/// use nbc::{Behavior, Checkpoint, LocalExecutor, OwnBody, RobotRequest, Selected, Selection};
+/// use nbc::{Answer, Behavior, Checkpoint, LocalExecutor, OwnBody, RobotRequest, Selected, Selection};
 /// let run = Checkpoint::open(Path::new("out/gates/seed-1/checkpoint.nbc")).unwrap().unwrap();
 /// let selection = Selection { tries: 8, finalists: 2, max_error: 0.0, wide_margin: 0.0 };
 /// let nand: Behavior = nbc::behavior("nand").unwrap();
 /// let executor = LocalExecutor::new(nbc::Simulator::default());
 /// for request in RobotRequest::of_runs([&run], &[nand], &selection) {
-///     if let Some(Selected::Robot(robot)) = request.select(&selection, &executor, 0, &|_| ()) {
-///         println!("{}", nbc::print_robot(&robot));
+///     match request.select(&selection, &executor, 0, &|_| ()).unwrap() {
+///         Selected::Robot(robot) => println!("{}", nbc::print_robot(&robot)),
+///         none => println!("{}", Answer::of(nand, &none, selection.max_error)),
 ///     }
 /// }
 /// let body = nbc::Body::parse(&["343", "563"], &nbc::Palette::paper()).unwrap();
@@ -550,6 +551,7 @@ pub use nbc_swarm::evolve_generation;
 /// ```
 #[cfg(feature = "disk")]
 pub use {
+    nbc_session::report::Answer,
     nbc_session::store::print_robot,
     nbc_session::{OwnBody, RobotRequest, behavior},
     nbc_swarm::{Selected, Selection},

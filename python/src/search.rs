@@ -4,14 +4,14 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use nbc::{Behavior, Candidate, CandidateOutcome, Checkpoint, Elite, EvolutionRun, Executor, LocalExecutor, NicheKey};
-use nbc::{Palette, RobotRequest, Selected, Selection};
+use nbc::{Answer, Behavior, Candidate, CandidateOutcome, Checkpoint, Elite, EvolutionRun, Executor, LocalExecutor};
+use nbc::{NicheKey, Palette, Robot, RobotRequest, Selected, Selection};
 use numpy::{IntoPyArray, PyArray1, PyArray3, PyArrayMethods, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use rayon::prelude::*;
-use serde_json::Value;
+use serde_json::json;
 
 use crate::bodies::robot_record;
 use crate::errors::{bad_value, without_place};
@@ -233,7 +233,8 @@ impl Search {
         })
     }
 
-    /// The best robots of these behaviors in the archive, measured, as JSON; of all behaviors if none is named.
+    /// The best robots of these behaviors in the archive, measured, of all behaviors if none is named, and for each
+    /// behavior without one the reason, as JSON.
     fn robots(
         &self,
         py: Python<'_>,
@@ -254,18 +255,25 @@ impl Search {
             let executor = LocalExecutor::new(watch.simulator());
             let select = |(place, request): (usize, &RobotRequest)| {
                 if watch.is_stopped() {
-                    None
-                } else {
-                    request.select(&selection, &executor, place, &|more| watch.add(more))
+                    return None;
                 }
+                let selected = request.select(&selection, &executor, place, &|more| watch.add(more))?;
+                let behavior = request.behavior(&selected).expect("a behavior is asked for");
+                Some(match selected {
+                    Selected::Robot(robot) => Ok(robot),
+                    none => Err(Answer::of(behavior, &none, max_error).to_string()),
+                })
             };
-            requests.par_iter().enumerate().map(select).collect::<Vec<Option<Selected>>>()
+            requests.par_iter().enumerate().map(select).collect::<Vec<Option<Result<Box<Robot>, String>>>>()
         })?;
-        let robots = found.finished()?.into_iter().filter_map(|selected| match selected {
-            Some(Selected::Robot(robot)) => Some(robot_record(&robot)),
-            _ => None,
-        });
-        Ok(robots.collect::<Value>().to_string())
+        let (mut robots, mut reasons) = (Vec::new(), Vec::new());
+        for selected in found.finished()?.into_iter().flatten() {
+            match selected {
+                Ok(robot) => robots.push(robot_record(&robot)),
+                Err(reason) => reasons.push(reason),
+            }
+        }
+        Ok(json!({ "robots": robots, "reasons": reasons }).to_string())
     }
 
     /// Ends the search.

@@ -275,6 +275,9 @@ def test_robots_are_those_that_the_program_adds(program, tmp_path):
     assert nbc.library(tmp_path / "mine") == (found[0],) and path.endswith(f"{found[0].name}.yaml")
     with pytest.raises(ValueError, match="did you mean `nand`"):
         search.robots(["nandd"])
+    missing = next(word for word in ["RRRL", "LRRL", "RLLR"] if word not in search.archive.elites["behavior"])
+    with pytest.warns(nbc.MissingRobotWarning, match=f"{missing} .* none: no elite of this behavior"):
+        assert search.robots([missing]) == []
 
 
 def test_robots_are_measured_again_as_the_program_does(program, tmp_path):

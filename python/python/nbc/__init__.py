@@ -21,7 +21,16 @@ from . import evogym
 from ._nbc import __version__
 from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows, verify
 from .circuits import Circuit, Compiled, Hardened, Port, Program, Report, Swarm, TestResult, Yield, load, loads
-from .errors import Diagnostic, InternalError, Interrupted, InvalidBodyWarning, NbcError, RobotFault, Span
+from .errors import (
+    Diagnostic,
+    InternalError,
+    Interrupted,
+    InvalidBodyWarning,
+    MissingRobotWarning,
+    NbcError,
+    RobotFault,
+    Span,
+)
 from .evolution import Evaluation, Evolution, evaluate
 from .physics import CYCLE_STEPS, Flock, Trajectories, simulate
 from .search import Archive, Candidates, Search, evolve, read_archive
@@ -43,6 +52,7 @@ __all__ = [
     "InternalError",
     "Interrupted",
     "InvalidBodyWarning",
+    "MissingRobotWarning",
     "NbcError",
     "Port",
     "Program",

@@ -7,7 +7,16 @@ import warnings
 from dataclasses import dataclass
 from typing import Any, Dict, Iterable, Mapping, Optional, Sequence, Tuple
 
-__all__ = ["Diagnostic", "InternalError", "Interrupted", "InvalidBodyWarning", "NbcError", "RobotFault", "Span"]
+__all__ = [
+    "Diagnostic",
+    "InternalError",
+    "Interrupted",
+    "InvalidBodyWarning",
+    "MissingRobotWarning",
+    "NbcError",
+    "RobotFault",
+    "Span",
+]
 
 
 @dataclass(frozen=True)
@@ -96,6 +105,10 @@ class InvalidBodyWarning(UserWarning):
 
     ``warnings.simplefilter("error", nbc.InvalidBodyWarning)`` makes it an exception.
     """
+
+
+class MissingRobotWarning(UserWarning):
+    """There is no robot for some behaviors, each with the reason."""
 
 
 def report_invalid(found: Iterable[Tuple[int, str]], unread: Mapping[int, str], bodies: int) -> Dict[int, str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import time
+import warnings
 from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -12,7 +13,7 @@ import numpy.typing as npt
 
 from . import _nbc
 from .bodies import PAPER_MATERIALS, Material, Robot, _robot, rows
-from .errors import Interrupted
+from .errors import Interrupted, MissingRobotWarning
 from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
 from .names import unknown
 from .numbers import array_of, count, seconds
@@ -300,7 +301,8 @@ class Search:
         progress: Progress = False,
     ) -> List[Robot]:
         """The best robot of each behavior in the archive, measured as ``nbc library add`` does. A behavior without a
-        robot that is good enough is left out.
+        robot that is good enough is left out; if it was named, or there is no robot at all, a `MissingRobotWarning`
+        says why.
 
         Args:
             behaviors: behaviors such as ``RRRL``, or their functions such as ``nand``; by default all.
@@ -317,8 +319,11 @@ class Search:
             "wide_margin": float(wide_margin),
         }
         with reporting(progress, " screenings") as report:
-            found = self._native.robots(list(behaviors), choosing, report)
-        return [_robot(record) for record in json.loads(found)]
+            found = json.loads(self._native.robots(list(behaviors), choosing, report))
+        if found["reasons"] and (behaviors or not found["robots"]):
+            text = "there is no robot for some behaviors\n" + "".join(found["reasons"])
+            warnings.warn(text, MissingRobotWarning, stacklevel=2)
+        return [_robot(record) for record in found["robots"]]
 
     def close(self) -> None:
         """Frees the search. Later calls raise ValueError."""
