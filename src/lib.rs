@@ -26,9 +26,26 @@
 //! | `cli` | the program, with threads, pictures and files |
 //! | `play` (default) | the program's live page |
 //! | `cluster` | the program's work on several machines |
+//! | `program` | `program`, the program as a function |
 //!
 //! A feature adds names and never changes results.
 #![deny(missing_docs)]
+
+#[cfg(feature = "program")]
+mod cli;
+
+/// Runs the program in this process and returns its exit status. The first argument is the name of the program.
+///
+/// Like a process of its own, it watches signals, starts threads for the whole process, and uses standard input and
+/// output.
+///
+/// ```
+/// assert_eq!(nbc::program(["nbc", "check", "circuits/latch.nb"].map(Into::into)), 0);
+/// ```
+#[cfg(feature = "program")]
+pub fn program(arguments: impl IntoIterator<Item = std::ffi::OsString>) -> u8 {
+    cli::run(arguments).code()
+}
 
 /// ```
 /// use nbc::{CancelFlag, CompileOptions};

@@ -3,6 +3,7 @@
 
 mod bodies;
 mod circuits;
+mod command;
 mod errors;
 mod evaluation;
 mod evolution;
@@ -41,6 +42,7 @@ fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(bodies::robots, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::verify, module)?)?;
     module.add_function(wrap_pyfunction!(bodies::three_materials, module)?)?;
+    module.add_function(wrap_pyfunction!(command::program, module)?)?;
     module.add_function(wrap_pyfunction!(errors::nearest, module)?)?;
     module.add_function(wrap_pyfunction!(evaluation::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(program::write_file, module)?)?;

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import subprocess
+import sys
 from pathlib import Path
 from typing import Any, Callable, List
 
@@ -22,16 +23,22 @@ def root() -> Path:
 
 
 @pytest.fixture
-def program() -> Callable[..., str]:
-    """The program `nbc`: runs it with arguments, and returns its standard output."""
+def built_program() -> str:
+    """The program `nbc` that is built without Python."""
     places = [os.environ.get("NBC_PROGRAM"), ROOT / "target/release/nbc", ROOT / "target/debug/nbc"]
     found = next((str(place) for place in places if place and Path(place).exists()), None)
     if found is None:
         assert "CI" not in os.environ, "the program is built before these tests"
         pytest.skip("the program is not built")
+    return found
+
+
+@pytest.fixture
+def program() -> Callable[..., str]:
+    """The program of the package: runs it with arguments, and returns its standard output."""
 
     def run(*arguments: Any) -> str:
-        words = [found, *map(str, arguments)]
+        words = [sys.executable, "-m", "nbc", *map(str, arguments)]
         return subprocess.run(words, check=True, capture_output=True, text=True, cwd=ROOT).stdout
 
     return run

@@ -52,7 +52,6 @@ mod wording;
 mod world_runs;
 
 use std::ffi::OsString;
-use std::process::ExitCode;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
@@ -132,26 +131,21 @@ struct Cli {
     command: Command,
 }
 
-/// Runs the program on the process's arguments.
-pub fn main() -> ExitCode {
-    run(std::env::args_os())
-}
-
 /// Runs the program on a command line, its own name first.
-pub fn run(arguments: impl IntoIterator<Item = OsString>) -> ExitCode {
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Status {
     let arguments = options::circuit::with_named_files(arguments);
     let parsed = usage::with_negative_numbers(Cli::command())
         .try_get_matches_from(&arguments)
         .and_then(|found| Cli::from_arg_matches(&found));
     let cli = match parsed {
         Ok(cli) => cli,
-        Err(told) => return usage::tell(&told, &arguments, Cli::command).into(),
+        Err(told) => return usage::tell(&told, &arguments, Cli::command),
     };
     let mut context = Context::new(&cli.global, Cli::command);
     let outcome = threads::start(&context)
         .and_then(|()| cli.command.run(&mut context))
         .and_then(|status| context.flush().map(|()| status));
-    outcome.unwrap_or_else(|failure| context.report(failure)).into()
+    outcome.unwrap_or_else(|failure| context.report(failure))
 }
 
 #[cfg(test)]

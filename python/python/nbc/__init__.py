@@ -17,68 +17,28 @@ docs/python.md is the guide.
 
 from __future__ import annotations
 
-from . import evogym
-from ._nbc import __version__
-from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows, verify
-from .circuits import Circuit, Compiled, Hardened, Port, Program, Report, Swarm, TestResult, Yield, load, loads
-from .errors import (
-    Diagnostic,
-    InternalError,
-    Interrupted,
-    InvalidBodyWarning,
-    MissingRobotWarning,
-    NbcError,
-    RobotFault,
-    Span,
-)
-from .evolution import Evaluation, Evolution, evaluate
-from .physics import CYCLE_STEPS, Flock, Trajectories, simulate
-from .search import Archive, Candidates, Search, evolve, read_archive
-from .synthesis import Synthesis, synthesize
-from .threads import set_threads
+from ._nbc import __version__ as __version__
 
-__all__ = [
-    "CYCLE_STEPS",
-    "PAPER_MATERIALS",
-    "Archive",
-    "Candidates",
-    "Circuit",
-    "Compiled",
-    "Diagnostic",
-    "Evaluation",
-    "Evolution",
-    "Flock",
-    "Hardened",
-    "InternalError",
-    "Interrupted",
-    "InvalidBodyWarning",
-    "MissingRobotWarning",
-    "NbcError",
-    "Port",
-    "Program",
-    "Report",
-    "Robot",
-    "RobotFault",
-    "Search",
-    "Span",
-    "Swarm",
-    "Synthesis",
-    "THREE_MATERIALS",
-    "TestResult",
-    "Trajectories",
-    "Yield",
-    "__version__",
-    "evaluate",
-    "evogym",
-    "evolve",
-    "invalid",
-    "library",
-    "load",
-    "loads",
-    "read_archive",
-    "rows",
-    "set_threads",
-    "simulate",
-    "synthesize",
-    "verify",
-]
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from . import evogym as evogym
+    from .public import *
+else:
+    # The names are imported when one is used: the program of the package, `nbc`, starts without them and numpy.
+
+    def __getattr__(name):
+        """A name of the package or one of its modules, at its first use."""
+        from importlib import import_module
+
+        if name == "evogym":
+            return import_module(".evogym", __name__)
+        public = import_module(".public", __name__)
+        names = globals()
+        names.update((each, getattr(public, each)) for each in public.__all__)
+        names["__all__"] = [*public.__all__, "evogym"]
+        if name in names:
+            return names[name]
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+
+    def __dir__():
+        return sorted({*globals(), *__getattr__("__all__")})
