@@ -42,6 +42,7 @@ pub(in crate::cli) enum UsageError {
     /// A path without a run and without robots.
     NothingToExport { path: String },
     /// A choice of a circuit for a page that has all of them.
+    #[cfg(feature = "play")]
     OnlyExported,
     /// A live page, in a program that was built without what it is made of.
     NoLivePages,
@@ -108,6 +109,7 @@ impl From<UsageError> for Diagnostic {
                 Self::without_place(Code::Empty, format!("`{path}` contains neither a run nor robots"))
                     .with_help("name the folder of a run such as `out/gates`, a folder of robot files, or `shipped`")
             }
+            #[cfg(feature = "play")]
             UsageError::OnlyExported => bad("`--circuit` and `--swarm` choose what `--export` writes".to_owned())
                 .with_help("add `--export FILE`, or leave them out: the page shows every circuit of the file"),
             UsageError::NoLivePages => bad("this program was built without the page of `--live`".to_owned()).with_help(
