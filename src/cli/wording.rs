@@ -45,6 +45,7 @@ pub(in crate::cli) enum UsageError {
     #[cfg(feature = "play")]
     OnlyExported,
     /// A live page, in a program that was built without what it is made of.
+    #[cfg(feature = "play")]
     NoLivePages,
     /// A file for a new program that is there already.
     Exists { file: String },
@@ -112,6 +113,7 @@ impl From<UsageError> for Diagnostic {
             #[cfg(feature = "play")]
             UsageError::OnlyExported => bad("`--circuit` and `--swarm` choose what `--export` writes".to_owned())
                 .with_help("add `--export FILE`, or leave them out: the page shows every circuit of the file"),
+            #[cfg(feature = "play")]
             UsageError::NoLivePages => bad("this program was built without the page of `--live`".to_owned()).with_help(
                 "leave `--live` out for a recording, or build the program with the page (docs/packaging.md)",
             ),
