@@ -51,7 +51,7 @@ pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> R
     Ok(tally.character(settle, toppled))
 }
 
-/// As [`characterize`], but over an eighth of the switches and without settle times.
+/// As the characterization of a robot, but over an eighth of the switches and without settle times.
 ///
 /// # Errors
 /// The fault of a simulation.
