@@ -47,18 +47,28 @@ async function page() {
  */
 async function player() {
   const code = await bundle(script, "src/player/main.ts");
-  return alone("src/player/index.html", { script: code, style: await bundle(sheet, "src/style/player.css") });
+  const data = inert("data", "application/octet-stream");
+  return alone({ script: code, style: await bundle(sheet, "src/style/player.css"), data });
 }
 
 /** The same with the whole program: only the sources of a circuit are missing. */
 async function livePage(packed) {
+  const worker = await bundle(script, "src/tab/worker.ts");
   const parts = {
     script: await bundle(script, "src/tab/alone.ts"),
     style: await bundle(sheet, "src/style/app.css"),
-    worker: await bundle(script, "src/tab/worker.ts"),
-    program: packed.toString("base64"),
+    data: [
+      inert("sources", "application/json"),
+      inert("program", "application/octet-stream", packed.toString("base64")),
+      inert("worker", "text/plain", worker),
+    ].join("\n"),
   };
-  return alone("src/tab/alone.html", parts, [" 'wasm-unsafe-eval'", " worker-src blob:;"]);
+  return alone(parts, [" 'wasm-unsafe-eval'", " worker-src blob:;"]);
+}
+
+/** An element with data, which a browser does not run. */
+function inert(id, type, text = "") {
+  return `<script type="${type}" id="${id}">${text}</script>`;
 }
 
 const sheet = { ...common, minify: true };
@@ -69,13 +79,13 @@ async function bundle(options, entry) {
 }
 
 /** A document with its parts in it, and a policy that permits these. */
-function alone(file, parts, [scripts, more] = ["", ""]) {
+function alone(parts, [scripts, more] = ["", ""]) {
   const hash = text => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
   const policy =
     `default-src 'none'; script-src ${hash(parts.script)}${scripts};${more} style-src ${hash(parts.style)}; ` +
     "img-src data: blob:; base-uri 'none'; form-action 'none'";
   const all = { ...parts, policy };
-  return readFileSync(file, "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => all[name]);
+  return readFileSync("src/alone.html", "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => all[name]);
 }
 
 /** The licenses of the packages of which files are in the bundle. */

@@ -175,19 +175,23 @@ async function ofNode(requests) {
   return said;
 }
 
-/** The same in Chromium, whose frames are not looked at: the last request of a run is asked until it has its cycles. */
+/** The same in Chromium. The cycle of a frame is its second number (docs/play-protocol.md). */
 async function ofChromium(requests, page) {
   return page.evaluate(
     async ([requests, program]) => {
       const worker = new Worker("worker.js");
       const files = new Map();
       let hear = () => {};
+      let see = () => {};
+      let shown = 0;
       worker.onmessage = ({ data }) => {
         if (data.say === "file") {
           files.set(data.address, new Blob([data.bytes]).text());
         } else if (data.say === "live" && typeof data.data === "string") {
           hear(data.data);
         } else if (data.say === "live") {
+          shown = new DataView(data.data).getUint32(4, true);
+          see();
           worker.postMessage({ say: "drawn" });
         }
       };
@@ -210,7 +214,10 @@ async function ofChromium(requests, page) {
         worker.postMessage({ say: "live", text: JSON.stringify({ id, ...request }) });
         const { ok } = await answer;
         if (wait) {
-          await new Promise(done => setTimeout(done, 3000));
+          await new Promise(done => {
+            see = () => shown >= request.cycles && done();
+            see();
+          });
         }
         if (ok?.url !== undefined) {
           said.push(await files.get(ok.url));

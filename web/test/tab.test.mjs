@@ -56,7 +56,7 @@ test("the latch remembers in Firefox", { skip: noFox }, async () => {
   await fox.leave();
 });
 
-test("a stranger has a live latch, within two seconds where the machine is idle", { skip }, async t => {
+test("a stranger has a live latch, in a folder of any server of files", { skip }, async t => {
   const from = performance.now();
   const page = await visit(site.address);
   await walking(page);
@@ -80,6 +80,25 @@ test("files are kept over reloads, and the page opens without a network", { skip
   await page.waitForFunction(() => document.querySelector(".schematic")?.textContent.includes("mine"));
   await walking(page);
   await page.context().setOffline(false);
+  await page.leave();
+});
+
+test("a tab says that another has saved its file", { skip }, async () => {
+  const page = await visit(site.address);
+  await walking(page);
+  const save = async text => {
+    await typeProgram(page, text);
+    await page.locator('[data-do="save"]').click();
+  };
+  await save("circuit first(a, b) -> (q) {\n    q = a and b\n}\n");
+  await page.locator("dialog.ask input").fill("both.nb");
+  await page.locator('[data-do="save-as"]').click();
+  await page.waitForFunction(() => location.hash === "#both.nb");
+  const other = await page.context().newPage();
+  await other.goto(`${site.address}#both.nb`);
+  await other.waitForFunction(() => document.querySelector(".schematic")?.textContent.includes("first"));
+  await save("circuit second(a, b) -> (q) {\n    q = a or b\n}\n");
+  await other.getByText("both.nb was changed by another program").waitFor();
   await page.leave();
 });
 

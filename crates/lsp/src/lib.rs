@@ -46,7 +46,7 @@ mod used_files;
 mod wording;
 mod workspace;
 
-pub use message::{message, no_message, parse, refusal, written};
+pub use message::{message, parse, refusal, written};
 pub use server_end::ServerEnd;
 pub use service::LanguageService;
 pub use shell::{LanguageShell, LanguageWork};

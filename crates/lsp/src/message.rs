@@ -4,23 +4,18 @@ use lsp_server::{ErrorCode, Message};
 use serde_json::{Value, json};
 
 /// Why a value is not a message.
-pub(super) const NO_MESSAGE: &str = "expected a request, a notification or a response";
-
-/// The answer to a value that is not a message, by the number of its request.
-pub fn no_message(id: Value) -> Value {
-    refusal(&id, ErrorCode::InvalidRequest, NO_MESSAGE)
-}
+const NO_MESSAGE: &str = "expected a request, a notification or a response";
 
 /// The message that a value is.
 ///
 /// # Errors
-/// The number of the request, if there is one, of a value that is not a message.
+/// The answer to a value that is not a message, which has the number of its request if there is one.
 pub fn message(value: Value) -> Result<Message, Value> {
     let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned().unwrap_or_default();
     match Some(value).filter(Value::is_object).and_then(|value| serde_json::from_value(value).ok()) {
         // A notification has no number. One that seems to have one is a request with a number that is not possible.
         Some(message) if id.is_null() || !matches!(message, Message::Notification(_)) => Ok(message),
-        _ => Err(id),
+        _ => Err(refusal(&id, ErrorCode::InvalidRequest, NO_MESSAGE)),
     }
 }
 

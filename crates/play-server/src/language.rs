@@ -68,7 +68,7 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return Ok(None);
     }
-    nbc_lsp::message(value).map(Some).map_err(nbc_lsp::no_message)
+    nbc_lsp::message(value).map(Some)
 }
 
 /// The options of a page, with the permission to translate Verilog of the folder.

@@ -3,7 +3,6 @@
 #![expect(unsafe_code, reason = "the memory of a script's texts, and the names of exported functions")]
 
 use std::cell::RefCell;
-use std::panic;
 
 use core::time::Duration;
 
@@ -52,12 +51,10 @@ mod page {
 extern "C" fn begin(first: *mut u8, length: usize, now: f64) {
     let first = Some(text(first, length)).filter(|first| !first.is_empty());
     #[cfg(target_family = "wasm")]
-    panic::set_hook(Box::new(|about| {
+    std::panic::set_hook(Box::new(|about| {
         let message = about.to_string();
         page::fail(message.as_ptr(), message.len());
     }));
-    #[cfg(not(target_family = "wasm"))]
-    drop(panic::take_hook());
     STATE.with_borrow_mut(|state| state.tab = Some(Tab::new(first, time(now))));
 }
 

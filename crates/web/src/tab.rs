@@ -46,6 +46,7 @@ impl Tab {
         let (folder, shell, line) = (MemoryFolder::default(), Arc::<LocalShell>::default(), Arc::default());
         let site = PlaySite {
             folder: Arc::new(folder.clone()),
+            // A page that opens a file of its own is a live page already, and has nothing to make others of.
             live_pages: first.is_none(),
             file: first,
             making: CompileOptions::default(),
@@ -80,7 +81,7 @@ impl Tab {
 
     /// Takes a message of the client of the language service.
     pub fn receive_language(&mut self, text: &str, now: Duration) {
-        match nbc_lsp::parse(text.as_bytes()).and_then(|value| nbc_lsp::message(value).map_err(nbc_lsp::no_message)) {
+        match nbc_lsp::parse(text.as_bytes()).and_then(nbc_lsp::message) {
             Ok(message) => _ = self.service.receive(message, now),
             Err(refusal) => self.refusals.push(refusal.to_string()),
         }

@@ -43,8 +43,11 @@ export class FileStore {
     });
   }
 
-  put(path: string, text: string): void {
-    this.database.transaction(STORE, "readwrite").objectStore(STORE).put(text, path);
+  /** Keeps a file. Calls `failed` if the browser has no room, or forbids it. */
+  put(path: string, text: string, failed: () => void): void {
+    const change = this.database.transaction(STORE, "readwrite");
+    change.onabort = failed;
+    change.objectStore(STORE).put(text, path);
     this.#channel.postMessage([path, text]);
   }
 

@@ -102,6 +102,9 @@ export class TabHost implements Ways {
         this.#files.set(address, URL.createObjectURL(new Blob([bytes], { type })));
         break;
       }
+      case "unkept":
+        this.status.set(`This browser could not keep ${message.path}: save it with Take away.`);
+        break;
       case "failed":
         this.#fail(worker, message.message);
         break;
@@ -115,6 +118,7 @@ export class TabHost implements Ways {
     }
     this.#worker = null;
     this.#isReady = false;
+    this.#prepared();
     this.status.set(`The program failed and is started again: ${message}`);
     const { live, language } = this.#lines;
     [this.#lines.live, this.#lines.language] = [null, null];

@@ -28,6 +28,8 @@ export type FromWorker =
   | { say: "live"; data: string | ArrayBuffer }
   | { say: "language"; text: string }
   | { say: "template" }
+  /** A file was saved, but the browser did not keep it. */
+  | { say: "unkept"; path: string }
   | { say: "file"; address: string; type: string; bytes: ArrayBuffer }
   /** The program has failed, or could not be loaded; nothing more will come. */
   | { say: "failed"; message: string };

@@ -167,7 +167,7 @@ function pass(message: NonNullable<ReturnType<Engine["next"]>>): void {
       say({ say: "language", text: message.text });
       break;
     case "written":
-      store?.put(message.path, message.text);
+      store?.put(message.path, message.text, () => say({ say: "unkept", path: message.path }));
       break;
     case "kept":
       say({ say: "file", address: message.address, type: message.type, bytes: message.bytes }, [message.bytes]);

@@ -7,7 +7,7 @@ use crossbeam_channel::{Sender, bounded};
 use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::Value;
 
-use crate::message::{NO_MESSAGE, message, refusal};
+use crate::message::{message, parse, refusal};
 
 /// The most bytes of a message. A text of this length could not be checked anyway.
 const MOST: u64 = 64 << 20;
@@ -50,14 +50,14 @@ fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), 
             Ok(Some(arrived)) => arrived,
             Ok(None) => return Ok(()),
             Err(reason) => {
-                refuse(Value::Null, ErrorCode::InvalidRequest, &reason);
+                refuse(&refusal(&Value::Null, ErrorCode::InvalidRequest, &reason));
                 return Err(reason);
             }
         };
         let message = match arrived {
-            Arrived::Message(message) => message,
-            Arrived::Other { id, code, reason } => {
-                refuse(id, code, &reason);
+            Ok(message) => message,
+            Err(answer) => {
+                refuse(&answer);
                 continue;
             }
         };
@@ -68,32 +68,20 @@ fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), 
     }
 }
 
-/// Answers a text that is not a message with an error. The id is null if the text has none.
-fn refuse(id: Value, code: ErrorCode, reason: &str) {
-    let answer = refusal(&id, code, reason).to_string();
+/// Answers a text that is not a message.
+fn refuse(answer: &Value) {
+    let answer = answer.to_string();
     let mut output = io::stdout().lock();
     // A client that does not read misses it.
     let _ = write!(output, "Content-Length: {}\r\n\r\n{answer}", answer.len()).and_then(|()| output.flush());
 }
 
-/// A whole text from the client.
-#[derive(Debug)]
-enum Arrived {
-    Message(Message),
-    /// Not a message. The next one can still be read.
-    Other {
-        /// The number of the request, if there is one.
-        id: Value,
-        code: ErrorCode,
-        reason: String,
-    },
-}
-
-/// The next text; `None` at the end of the input.
+/// The next message, or the answer to a text that is not one, after which the next can still be read; `None` at the end
+/// of the input.
 ///
 /// # Errors
 /// When it is not known where the next text begins.
-fn read(input: &mut impl BufRead) -> Result<Option<Arrived>, String> {
+fn read(input: &mut impl BufRead) -> Result<Option<Result<Message, Value>>, String> {
     let Some(length) = length(input)? else { return Ok(None) };
     if length > MOST {
         return Err(format!("a message has {length} bytes, expected at most {MOST}"));
@@ -104,21 +92,7 @@ fn read(input: &mut impl BufRead) -> Result<Option<Arrived>, String> {
     if (read as u64) < length {
         return Err(format!("a message has {length} bytes, and the input ends after {read}"));
     }
-    Ok(Some(parse(&bytes)))
-}
-
-fn parse(bytes: &[u8]) -> Arrived {
-    let value: Value = match serde_json::from_slice(bytes) {
-        Ok(value) => value,
-        Err(error) => {
-            let reason = format!("the message is not JSON: {error}");
-            return Arrived::Other { id: Value::Null, code: ErrorCode::ParseError, reason };
-        }
-    };
-    match message(value) {
-        Ok(message) => Arrived::Message(message),
-        Err(id) => Arrived::Other { id, code: ErrorCode::InvalidRequest, reason: NO_MESSAGE.to_owned() },
-    }
+    Ok(Some(parse(&bytes).and_then(message)))
 }
 
 /// The length of the next text, from its header; `None` at the end of the input.
@@ -151,7 +125,7 @@ mod tests {
 
     use super::*;
 
-    fn first(text: &str) -> Result<Option<Arrived>, String> {
+    fn first(text: &str) -> Result<Option<Result<Message, Value>>, String> {
         read(&mut text.as_bytes())
     }
 
@@ -159,7 +133,7 @@ mod tests {
     fn messages_are_read_by_their_lengths() {
         let text = "content-length: 15\r\nContent-Type: x\r\n\r\n{\"method\":\"ab\"}rest";
         let read = first(text).unwrap().unwrap();
-        assert!(matches!(read, Arrived::Message(Message::Notification(told)) if told.method == "ab"));
+        assert!(matches!(read, Ok(Message::Notification(told)) if told.method == "ab"));
         assert!(first("").unwrap().is_none());
     }
 
@@ -183,8 +157,8 @@ mod tests {
             ("{\"id\":1.5,\"method\":\"shutdown\"}", json!(1.5), ErrorCode::InvalidRequest),
         ] {
             let framed = format!("Content-Length: {}\r\n\r\n{text}", text.len());
-            let Ok(Some(Arrived::Other { id, code: found, .. })) = first(&framed) else { panic!("{text}") };
-            assert_eq!((id, found as i32), (expected, code as i32), "{text}");
+            let Ok(Some(Err(answer))) = first(&framed) else { panic!("{text}") };
+            assert_eq!((&answer["id"], &answer["error"]["code"]), (&expected, &json!(code as i32)), "{text}");
         }
     }
 
@@ -195,7 +169,7 @@ mod tests {
             text in prop::collection::vec(any::<u8>(), 0..60),
         ) {
             let _ = read(&mut &[length.as_bytes(), &text].concat()[..]);
-            let _ = parse(&text);
+            let _ = parse(&text).and_then(message);
         }
     }
 }
