@@ -86,6 +86,7 @@ const ICONS = {
   redo: "M15 4l6 6-6 6v-4H9a3 3 0 000 6h4v3H9A6 6 0 019 8h6z",
   more: "M11 5h2v6h6v2h-6v6h-2v-6H5v-2h6z",
   less: "M5 11h14v2H5z",
+  whole: "M4 4h16v16H4zM6 6v12h12V6zM8 8h8v8H8z",
   close: "M6.4 5L12 10.6 17.6 5 19 6.4 13.4 12l5.6 5.6-1.4 1.4-5.6-5.6L6.4 19 5 17.6l5.6-5.6L5 6.4z",
   theme: "M12 3a9 9 0 100 18zm0 0v18a9 9 0 000-18zM12 5a7 7 0 010 14z",
   projector: "M3 5h18v11H3zM5 7v7h14V7zM8 19h8v2H8z",

@@ -10,6 +10,7 @@ const KNOWN = "welcomed";
 const KEYS: [string, string][] = [
   ["Space", "run or pause the robots"],
   [".", "one cycle"],
+  ["+ - 0", "zoom the schematic, and show all of it"],
   ["Ctrl+S", "save the program"],
   ["Ctrl+Space", "propose what to write"],
   ["Ctrl+.", "correct the error at the cursor"],

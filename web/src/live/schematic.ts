@@ -1,11 +1,14 @@
-// The schematic that the server drew, with nets and robots marked by their values now; it can be zoomed and moved.
+// The schematic that the server drew, with nets and robots marked by their values now; it can be zoomed and moved. Who
+// comes near a part opens it, and who goes far from it sees again what is around it.
 
 import { button, element, fill, iconButton } from "../element";
 import type { BitSource, ShownSchematic } from "../protocol";
 import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
-import { addHalo, hideLegend, placeBodies, threadNumber } from "./schematic_parts";
+import { GATES, Labels, levelOf, measuring } from "./labels";
+import { addHalo, leaveDrawing, placeBodies, threadNumber } from "./schematic_parts";
+import { Viewport, type Box } from "./viewport";
 import { threadColor } from "./waves";
 
 interface Marked {
@@ -16,20 +19,26 @@ interface Marked {
   number: Element | null;
   thread: number | null;
 }
-interface Box {
-  x: number;
-  y: number;
-  width: number;
-  height: number;
-}
-
-/** A good scale for reading; and those below which the whole cannot be read, and bodies are only noise. */
-const READABLE = 0.6;
-const UNREADABLE = 0.34;
-const FAR = 0.3;
+/** The scale at which a drawing that is too large begins, a good one for reading, a step of the zoom, and the share of the pane at which a part is opened. */
+const FIRST = 0.36;
+const READABLE = 0.8;
+const STEP = 1.25;
+const OPENS = 0.5;
+/** Pixels around the whole, and above it, where the buttons are. */
+const MARGIN = 10;
+const BUTTONS = 36;
+/** That of the drawing. */
+const FONT = '"DejaVu Sans", Verdana, sans-serif';
+/** A press that moves fewer pixels is a click. */
+const SLACK = 4;
 
 export class Schematic implements View {
-  readonly host = element("div", { class: "schematic pane", tabindex: 0, "aria-label": "Schematic of the circuit" });
+  readonly host = element("div", {
+    class: "schematic pane",
+    tabindex: 0,
+    role: "group",
+    "aria-label": "Schematic of the circuit",
+  });
   readonly #tools: HTMLElement;
   /** The sheets from the whole to the one that is shown. */
   readonly #crumbs = element("nav", { class: "crumbs", "aria-label": "Part of the circuit" });
@@ -39,18 +48,22 @@ export class Schematic implements View {
   /** The robots, of which one is reached by the tab key. */
   #robots: SVGElement[] = [];
   #marked: Marked[] = [];
+  #labels: Labels | null = null;
   #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
-  #box: Box = this.#whole;
-  #width = 0;
-  #height = 0;
+  readonly #view = new Viewport();
+  /** Whether the whole is shown, also after the pane has another size. */
+  #fitted = true;
+  readonly #measure = measuring(FONT);
+  /** The pointers that are down, where each is. */
+  readonly #pointers = new Map<number, [number, number]>();
 
   constructor(private readonly swarm: LiveSwarm) {
     this.#tools = element(
       "div",
       { class: "zoom" },
-      iconButton("more", "Zoom in", () => this.#zoom(0.8)),
-      iconButton("less", "Zoom out", () => this.#zoom(1.25)),
-      iconButton("reset", "Show all of the schematic", () => this.#show(this.#whole)),
+      iconButton("more", "Zoom in (+)", () => this.#zoom(STEP)),
+      iconButton("less", "Zoom out (-)", () => this.#zoom(1 / STEP)),
+      iconButton("whole", "Show all of the schematic (0)", () => this.#fit()),
     );
     swarm.definition.on(definition => {
       this.#schematic = definition?.schematic ?? { sheets: [], bodies: [], homes: [] };
@@ -66,7 +79,7 @@ export class Schematic implements View {
   }
 
   draw(): void {
-    if (this.#width === 0) {
+    if (this.#view.width === 0) {
       return;
     }
     for (const marked of this.#marked) {
@@ -85,11 +98,19 @@ export class Schematic implements View {
   }
 
   #resize(): void {
-    const hidden = this.#width === 0;
-    this.#width = this.host.clientWidth;
-    this.#height = this.host.clientHeight;
-    if (hidden && this.#width > 0) {
-      this.#showFirst();
+    const hidden = this.#view.width === 0;
+    // Not rounded to pixels, as the client's width is.
+    const { width, height } = this.host.getBoundingClientRect();
+    this.#view.width = Math.max(0, width - 2 * this.host.clientLeft);
+    this.#view.height = Math.max(0, height - 2 * this.host.clientTop);
+    if (this.#view.width > 0 && this.#view.height > 0) {
+      if (hidden) {
+        this.#showFirst();
+      } else if (this.#fitted) {
+        this.#fit();
+      } else {
+        this.#show();
+      }
     }
   }
 
@@ -115,16 +136,16 @@ export class Schematic implements View {
     this.#marked = [];
     this.#robots = [];
     this.#svg = null;
+    this.#labels = null;
     const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
     if (text === "" || !(parsed instanceof SVGSVGElement)) {
       this.host.replaceChildren(element("p", { class: "empty" }, "This circuit has no schematic."));
       return;
     }
     this.#svg = document.importNode(parsed, true);
-    const { x, y, width, height } = this.#svg.viewBox.baseVal;
-    this.#whole = { x, y, width, height };
-    this.#svg.removeAttribute("width");
-    this.#svg.removeAttribute("height");
+    const { name, about } = sheets[sheet] ?? { name: "", about: "" };
+    this.#svg.setAttribute("aria-label", `${name}: ${about}`);
+    this.#whole = leaveDrawing(this.#svg);
     placeBodies(this.#svg, bodies);
     fill(
       this.#crumbs,
@@ -134,9 +155,9 @@ export class Schematic implements View {
       }),
     );
     this.#crumbs.hidden = sheets.length < 2;
-    this.host.replaceChildren(this.#svg, this.#crumbs, this.#tools);
-    hideLegend(this.#svg);
+    this.host.replaceChildren(this.#crumbs, this.#tools, this.#svg);
     this.#mark(this.#svg);
+    this.#labels = new Labels(this.#svg, this.#measure);
     this.#showFirst();
   }
 
@@ -153,7 +174,10 @@ export class Schematic implements View {
         }
         this.#marked.push({ element: part, source, shown: undefined, number, thread: null });
       }
-      if (kind === "part") {
+      if (isNet) {
+        // The panels of inputs and outputs and the robots say the values.
+        part.setAttribute("aria-hidden", "true");
+      } else if (kind === "part") {
         part.setAttribute("tabindex", "0");
         part.setAttribute("role", "button");
         part.setAttribute("aria-label", `open ${part.querySelector("title")?.textContent ?? name}`);
@@ -163,6 +187,7 @@ export class Schematic implements View {
         this.#robots.push(part);
         part.setAttribute("role", "button");
         part.setAttribute("aria-label", part.querySelector("title")?.textContent ?? `robot ${name}`);
+        part.setAttribute("aria-pressed", "false");
       }
     }
   }
@@ -171,7 +196,11 @@ export class Schematic implements View {
     const { pointed, followed } = this.swarm.selection;
     for (const { element: marked, source } of this.#marked) {
       marked.classList.toggle("pointed", sameSource(source, pointed.value));
-      marked.classList.toggle("followed", "robot" in source && source.robot === followed.value);
+      const isFollowed = "robot" in source && source.robot === followed.value;
+      marked.classList.toggle("followed", isFollowed);
+      if (marked.getAttribute("role") === "button") {
+        marked.setAttribute("aria-pressed", String(isFollowed));
+      }
     }
   }
 
@@ -187,33 +216,57 @@ export class Schematic implements View {
     return found === null ? null : Number(found.dataset["id"]?.slice(5));
   }
 
-  #show(box: Box): void {
-    this.#box = box;
-    this.#svg?.setAttribute("viewBox", `${box.x} ${box.y} ${box.width} ${box.height}`);
-    // Voxels of a pixel or two are not worth drawing.
-    this.host.classList.toggle("far", this.#scale() < FAR);
+  /** Shows what the viewport says, with texts that can be read. */
+  #show(): void {
+    const { x, y, width, height } = this.#view.box;
+    this.#svg?.setAttribute("viewBox", `${x} ${y} ${width} ${height}`);
+    this.host.dataset["level"] = levelOf(this.#view.scale);
+    this.#labels?.arrange(this.#view.scale, this.#most());
   }
 
-  /** All of it, or as much around the first box or robot as can be read. */
+  /** The most pixels of a port's name beside the drawing. */
+  #most(): number {
+    return 0.22 * this.#view.width;
+  }
+
+  #fit(): void {
+    this.#fitted = true;
+    this.#view.fit(this.#whole, scale => {
+      const [left, right] = this.#labels?.beside(scale) ?? [0, 0];
+      const most = this.#most();
+      return {
+        left: MARGIN + Math.min(left, most),
+        right: MARGIN + Math.min(right, most),
+        top: BUTTONS,
+        bottom: MARGIN,
+      };
+    });
+    this.#show();
+  }
+
+  /** All of it, or, if that cannot be read, its left edge with the first box or robot. */
   #showFirst(): void {
-    this.#show(this.#whole);
-    const svg = this.#svg;
-    const find = (kind: string): SVGGraphicsElement | null => svg?.querySelector(`[data-id^="${kind}-"]`) ?? null;
-    const first = find("part") ?? find("cell");
-    if (svg !== null && first && this.#width > 0 && this.#scale() < UNREADABLE) {
-      this.#center(first, READABLE);
+    if (this.#view.width === 0) {
+      return;
+    }
+    this.#fit();
+    const first = this.#svg?.querySelector<SVGGraphicsElement>('[data-id^="part-"], [data-id^="cell-"]');
+    if (first && this.#view.scale < GATES) {
+      const left = Math.min(this.#labels?.beside(FIRST)[0] ?? 0, this.#most()) + MARGIN;
+      const across = this.#view.width / FIRST;
+      const { y, height } = first.getBBox();
+      const { x, width } = this.#whole;
+      const seen = width < across ? { x, width } : { x: x - left / FIRST, width: across };
+      this.#fitted = false;
+      this.#view.center({ ...seen, y, height }, FIRST);
+      this.#show();
     }
   }
 
-  /** Pixels in a unit of the drawing. */
-  #scale(): number {
-    return Math.min(this.#width / this.#box.width, this.#height / this.#box.height);
-  }
-
   #center(part: SVGGraphicsElement, scale: number): void {
-    const { x, y, width, height } = part.getBBox();
-    const [across, down] = [this.#width / scale, this.#height / scale];
-    this.#show({ x: x + width / 2 - across / 2, y: y + height / 2 - down / 2, width: across, height: down });
+    this.#fitted = false;
+    this.#view.center(part.getBBox(), scale);
+    this.#show();
   }
 
   /** Brings the robot that is followed into view. */
@@ -225,21 +278,45 @@ export class Schematic implements View {
       this.draw();
     }
     const part = this.#svg?.querySelector<SVGGraphicsElement>(`[data-id="cell-${robot}"]`);
-    if (part && robot !== null && this.#box !== this.#whole) {
-      this.#center(part, Math.max(READABLE, this.#scale()));
+    if (part && robot !== null && !this.#fitted) {
+      this.#center(part, Math.max(READABLE, this.#view.scale));
     }
   }
 
-  /** Shows `factor` times as much around a place, given as shares of the width and height. */
-  #zoom(factor: number, atX = 0.5, atY = 0.5): void {
-    const { x, y, width, height } = this.#box;
-    const limited = Math.min(2, Math.max(0.02, (width * factor) / this.#whole.width)) * (this.#whole.width / width);
-    this.#show({
-      x: x + width * (1 - limited) * atX,
-      y: y + height * (1 - limited) * atY,
-      width: width * limited,
-      height: height * limited,
-    });
+  /** Shows `factor` times as large what is at a place of the pane, in pixels; a part there opens when it fills much of it. */
+  #zoom(factor: number, x = this.#view.width / 2, y = this.#view.height / 2): void {
+    const outer = this.#schematic.sheets[this.#sheet]?.outer ?? null;
+    if (factor < 1 && this.#view.isWhole && outer !== null) {
+      const before = this.#sheet;
+      this.#open(outer);
+      const part = this.#svg?.querySelector<SVGGraphicsElement>(`[data-id="part-${before}"]`);
+      if (part) {
+        this.#center(part, Math.max(READABLE, this.#view.scale));
+      }
+      return;
+    }
+    this.#fitted = false;
+    this.#view.zoom(factor, x, y);
+    const part = factor > 1 ? this.#partAt(x, y) : null;
+    if (part === null) {
+      this.#show();
+    } else {
+      this.#open(part);
+    }
+  }
+
+  /** The part that fills much of the pane at a place. */
+  #partAt(x: number, y: number): number | null {
+    const { box, scale, width, height } = this.#view;
+    const [across, down] = [box.x + x / scale, box.y + y / scale];
+    for (const part of this.#svg?.querySelectorAll<SVGGraphicsElement>('[data-id^="part-"]') ?? []) {
+      const own = part.getBBox();
+      const isThere = across >= own.x && across <= own.x + own.width && down >= own.y && down <= own.y + own.height;
+      if (isThere && Math.max((own.width * scale) / width, (own.height * scale) / height) >= OPENS) {
+        return this.#partOf(part);
+      }
+    }
+    return null;
   }
 
   #listen(): void {
@@ -264,12 +341,20 @@ export class Schematic implements View {
       return;
     }
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    const factor = { "+": STEP, "=": STEP, "-": 1 / STEP }[event.key];
+    if (event.ctrlKey || event.metaKey || event.altKey) {
+      return;
+    }
     if (step !== undefined) {
       const at = this.#robots.findIndex(robot => robot.tabIndex === 0);
       this.#reach(Math.min(this.#robots.length - 1, Math.max(0, at + step)));
+    } else if (factor !== undefined) {
+      this.#zoom(factor, ...this.#focus());
+    } else if (event.key === "0") {
+      this.#fit();
     } else if ((event.key === "Enter" || event.key === " ") && source !== null && "robot" in source) {
       selection.follow(source.robot);
-    } else if (event.key === "Escape") {
+    } else if (event.key === "Escape" && selection.followed.value !== null) {
       selection.followed.set(null);
     } else {
       return;
@@ -277,57 +362,109 @@ export class Schematic implements View {
     event.preventDefault();
   }
 
+  /** The place in the pane of what has the focus, or its middle. */
+  #focus(): [number, number] {
+    const focused = this.#svg?.querySelector<SVGGraphicsElement>(":focus");
+    const { box, scale, width, height } = this.#view;
+    if (!focused) {
+      return [width / 2, height / 2];
+    }
+    const own = focused.getBBox();
+    const [x, y] = [(own.x + own.width / 2 - box.x) * scale, (own.y + own.height / 2 - box.y) * scale];
+    return x > 0 && x < width && y > 0 && y < height ? [x, y] : [width / 2, height / 2];
+  }
+
   #reach(index: number): void {
     this.#robots.forEach((robot, i) => (robot.tabIndex = i === index ? 0 : -1));
     const robot = this.#robots[index];
     robot?.focus();
-    if (robot instanceof SVGGraphicsElement && this.#box !== this.#whole) {
-      this.#center(robot, Math.max(READABLE, this.#scale()));
+    if (robot instanceof SVGGraphicsElement && !this.#fitted) {
+      this.#center(robot, Math.max(READABLE, this.#view.scale));
     }
   }
 
-  /** The wheel zooms with Ctrl, as pinching does; without, the page scrolls as everywhere. */
+  /** The wheel zooms with Ctrl, as pinching a touch pad does; without, the page scrolls as everywhere. */
   #wheel(event: WheelEvent): void {
     if (event.ctrlKey) {
       event.preventDefault();
-      const box = this.host.getBoundingClientRect();
-      const [x, y] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
-      this.#zoom(Math.exp(event.deltaY / 300), x, y);
+      this.#zoom(Math.exp(-event.deltaY / 300), ...this.#place(event));
     }
+  }
+
+  #place(event: MouseEvent): [number, number] {
+    const box = this.host.getBoundingClientRect();
+    return [event.clientX - box.left - this.host.clientLeft, event.clientY - box.top - this.host.clientTop];
   }
 
   #isTool(target: EventTarget | null): boolean {
     return target instanceof Node && (this.#tools.contains(target) || this.#crumbs.contains(target));
   }
 
-  /** Drags the picture; a press that does not move follows a robot. */
+  /** One pointer drags the picture and two pinch it; a press that does not move follows a robot or opens a part. */
   #drag(start: PointerEvent): void {
-    const svg = this.#svg;
-    if (svg === null || start.button !== 0 || this.#isTool(start.target)) {
+    if (this.#svg === null || start.button !== 0 || this.#isTool(start.target)) {
       return;
     }
-    const from = this.#box;
-    const scale = 1 / (svg.getScreenCTM()?.a ?? 1);
-    let moved = false;
+    this.#pointers.set(start.pointerId, this.#place(start));
+    const from = this.#place(start);
+    let isClick = this.#pointers.size === 1;
     const move = (event: PointerEvent): void => {
-      const [x, y] = [event.clientX - start.clientX, event.clientY - start.clientY];
-      moved ||= Math.hypot(x, y) > 4;
-      if (moved) {
-        this.#show({ ...from, x: from.x - x * scale, y: from.y - y * scale });
+      if (event.pointerId !== start.pointerId) {
+        isClick = false;
+        return;
+      }
+      const to = this.#place(event);
+      isClick &&= Math.hypot(to[0] - from[0], to[1] - from[1]) <= SLACK;
+      if (!isClick) {
+        this.#moved(event.pointerId, to);
       }
     };
-    const end = (): void => {
-      window.removeEventListener("pointermove", move);
-      const source = this.#sourceOf(start.target);
-      const part = this.#partOf(start.target);
-      if (!moved && part !== null) {
-        this.#open(part);
-      } else if (!moved && source !== null && "robot" in source) {
-        this.swarm.selection.follow(source.robot);
+    const end = (event: PointerEvent): void => {
+      if (event.pointerId !== start.pointerId) {
+        return;
+      }
+      this.#pointers.delete(start.pointerId);
+      for (const [name, listener] of [
+        ["pointermove", move],
+        ["pointerup", end],
+        ["pointercancel", end],
+      ] as const) {
+        window.removeEventListener(name, listener);
+      }
+      if (isClick && event.type === "pointerup") {
+        this.#click(start.target);
       }
     };
     window.addEventListener("pointermove", move);
-    window.addEventListener("pointerup", end, { once: true });
+    window.addEventListener("pointerup", end);
+    window.addEventListener("pointercancel", end);
+  }
+
+  #click(target: EventTarget | null): void {
+    const source = this.#sourceOf(target);
+    const part = this.#partOf(target);
+    if (part !== null) {
+      this.#open(part);
+    } else if (source !== null && "robot" in source) {
+      this.swarm.selection.follow(source.robot);
+    }
+  }
+
+  /** A pointer has moved to a place. */
+  #moved(pointer: number, to: [number, number]): void {
+    const from = this.#pointers.get(pointer) ?? to;
+    const other = [...this.#pointers].find(([id]) => id !== pointer)?.[1];
+    this.#pointers.set(pointer, to);
+    this.#fitted = false;
+    if (other === undefined) {
+      this.#view.move(to[0] - from[0], to[1] - from[1]);
+      this.#show();
+      return;
+    }
+    const apart = (place: [number, number]): number =>
+      Math.max(1, Math.hypot(place[0] - other[0], place[1] - other[1]));
+    this.#view.move((to[0] - from[0]) / 2, (to[1] - from[1]) / 2);
+    this.#zoom(apart(to) / apart(from), (to[0] + other[0]) / 2, (to[1] + other[1]) / 2);
   }
 }
 

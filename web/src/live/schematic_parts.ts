@@ -1,6 +1,7 @@
 // Parts of the schematic's drawing that are added or hidden after it has come.
 
 import type { ShownSchematic } from "../protocol";
+import type { Box } from "./viewport";
 
 /** The drawing of the whole with the bodies of its robots, as a file. */
 export function wholeOf({ sheets, bodies }: ShownSchematic): string {
@@ -30,27 +31,47 @@ export function addHalo(net: SVGElement): void {
   net.prepend(halo);
 }
 
-/** A place for the number of a thread, below the function of a robot. */
-export function threadNumber(cell: SVGElement): Element | null {
-  const frame = cell.querySelector("rect");
-  if (frame === null) {
-    return null;
-  }
-  const [x, y] = ["x", "y"].map(name => Number(frame.getAttribute(name)));
+/** A place for the number of a thread. */
+export function threadNumber(cell: SVGElement): Element {
   const number = document.createElementNS(cell.namespaceURI, "text");
   number.setAttribute("class", "thread");
-  number.setAttribute("x", String((x ?? 0) + 6));
-  number.setAttribute("y", String((y ?? 0) + 30));
   cell.append(number);
   return number;
 }
 
-/** Colors show values here, so the legend of the critical path would mislead. */
-export function hideLegend(svg: SVGSVGElement): void {
+/**
+ * Leaves the boxes and wires of a drawing for paper, and says where they are: the page has a ground, titles and a legend
+ * of its own. Who hears the page comes from robot to robot, which are no picture.
+ */
+export function leaveDrawing(svg: SVGSVGElement): Box {
+  ["width", "height"].forEach(name => svg.removeAttribute(name));
+  svg.setAttribute("role", "group");
+  svg.querySelector(":scope > title")?.remove();
+  const { width, height } = svg.viewBox.baseVal;
+  const ground = svg.querySelector(":scope > rect");
+  const title = svg.querySelector(":scope > text");
   for (const text of svg.querySelectorAll(":scope > text")) {
-    if (text.textContent === "critical path") {
+    const samples = { "critical path": 1, "a part with robots": 2 }[text.textContent ?? ""] ?? 0;
+    for (let i = 0; i < samples; i++) {
       text.previousElementSibling?.remove();
+    }
+    if (samples > 0) {
       text.remove();
     }
   }
+  ground?.remove();
+  title?.remove();
+  const boxes = [...svg.querySelectorAll("rect")].map(rect =>
+    ["x", "y", "width", "height"].map(name => Number(rect.getAttribute(name))),
+  );
+  const points = [...svg.querySelectorAll("polyline")].flatMap(line =>
+    (line.getAttribute("points") ?? "").split(" ").map(point => point.split(",").map(Number)),
+  );
+  const xs = [...boxes.flatMap(([x = 0, , wide = 0]) => [x, x + wide]), ...points.map(([x = 0]) => x)];
+  const ys = [...boxes.flatMap(([, y = 0, , high = 0]) => [y, y + high]), ...points.map(([, y = 0]) => y)];
+  if (xs.length === 0) {
+    return { x: 0, y: 0, width, height };
+  }
+  const [left, top] = [Math.min(...xs), Math.min(...ys)];
+  return { x: left, y: top, width: Math.max(1, Math.max(...xs) - left), height: Math.max(1, Math.max(...ys) - top) };
 }

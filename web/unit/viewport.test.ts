@@ -1,0 +1,52 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { fitText, levelOf } from "../src/live/labels";
+import { Viewport } from "../src/live/viewport";
+
+function pane(width: number, height: number): Viewport {
+  const view = new Viewport();
+  Object.assign(view, { width, height });
+  return view;
+}
+
+test("the whole is seen between its margins, which may depend on the scale", () => {
+  const view = pane(400, 300);
+  view.fit({ x: 50, y: 10, width: 1000, height: 100 }, scale => ({
+    left: scale < 0.5 ? 60 : 0,
+    right: 40,
+    top: 0,
+    bottom: 0,
+  }));
+  assert.equal(view.scale, 0.3);
+  assert.ok(Math.abs((50 - view.box.x) * view.scale - 60) < 1e-9, "it begins after its left margin");
+  assert.equal(Math.round(view.box.width * view.scale), 400);
+  assert.ok(view.isWhole);
+});
+
+test("what is zoomed at stays where it is", () => {
+  const view = pane(400, 300);
+  view.fit({ x: 0, y: 0, width: 800, height: 600 }, () => ({ left: 0, right: 0, top: 0, bottom: 0 }));
+  const place = (): [number, number] => [view.box.x + 100 / view.scale, view.box.y + 50 / view.scale];
+  const before = place();
+  view.zoom(2, 100, 50);
+  assert.equal(view.scale, 1);
+  assert.deepEqual(place(), before);
+  assert.ok(!view.isWhole);
+  view.zoom(1000, 100, 50);
+  assert.equal(view.scale, 4, "there is a largest scale");
+  view.zoom(1e-6);
+  assert.equal(view.scale, 0.25, "and a smallest one, half of the whole");
+});
+
+test("a text is cut where it says least, and left out when nothing is left of it", () => {
+  const width = (text: string): number => 10 * text.length;
+  assert.equal(fitText("register", 80, width), "register");
+  assert.equal(fitText("register", 60, width), "regis…");
+  assert.equal(fitText("pc/a/q", 50, width, true), "…/a/q");
+  assert.equal(fitText("register", 30, width), "");
+});
+
+test("blocks are seen before gates, and these before robots", () => {
+  assert.deepEqual([0.1, 0.3, 1].map(levelOf), ["blocks", "gates", "robots"]);
+});
