@@ -4,9 +4,6 @@ use std::io;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag;
-
 use crate::cli::Status;
 use nbc_circuit::CancelFlag;
 use nbc_session::store::{DiskWorld, GuardedWorld};
@@ -21,16 +18,34 @@ impl Interrupt {
     ///
     /// # Errors
     /// When the system cannot watch signals.
+    #[cfg(unix)]
     pub fn watch() -> io::Result<Self> {
+        use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
+        use signal_hook::flag;
         let interrupt = Self::default();
         for signal in [SIGINT, SIGTERM] {
             flag::register_conditional_shutdown(signal, Status::Interrupted.code().into(), interrupt.0.clone())?;
         }
-        for signal in [SIGINT, SIGTERM] {
+        for signal in [SIGINT, SIGTERM, SIGUSR1] {
             flag::register(signal, interrupt.0.clone())?;
         }
-        #[cfg(unix)]
-        flag::register(signal_hook::consts::SIGUSR1, interrupt.0.clone())?;
+        Ok(interrupt)
+    }
+
+    /// Watches Ctrl-C and the end of the console from now on.
+    ///
+    /// # Errors
+    /// When the system cannot watch them.
+    #[cfg(windows)]
+    pub fn watch() -> io::Result<Self> {
+        let interrupt = Self::default();
+        let raised = interrupt.clone();
+        let raise = move || {
+            if raised.0.swap(true, Ordering::Relaxed) {
+                std::process::exit(Status::Interrupted.code().into());
+            }
+        };
+        ctrlc::set_handler(raise).map_err(io::Error::other)?;
         Ok(interrupt)
     }
 

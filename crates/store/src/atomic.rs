@@ -58,7 +58,8 @@ pub(super) fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io:
     }
     draft.file().sync_all()?;
     draft.persist(&folder, target)?;
-    fs::File::open(&folder)?.sync_all()
+    // Windows opens no folder as a file, and keeps names without that.
+    if cfg!(windows) { Ok(()) } else { fs::File::open(&folder)?.sync_all() }
 }
 
 /// Creates a folder and its parents.

@@ -1,14 +1,14 @@
 //! Reading regular files up to a limit of size.
 
 use std::fs::{self, File, FileType};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 
 use nbc_base::budget::Limit;
 use nbc_base::diag::io_words;
 use nbc_base::source::{EntryKind, FileError};
 
-/// The path of standard input, which may be a pipe.
+/// The path of standard input, which may be a pipe. Windows has no such path.
 const STANDARD_INPUT: &str = "/dev/stdin";
 
 /// The bytes of a regular file of at most `limit` bytes. Folders, pipes and devices are rejected before they are
@@ -17,6 +17,9 @@ const STANDARD_INPUT: &str = "/dev/stdin";
 /// # Errors
 /// When there is no such file, or it is not a regular one, too large, or the system rejects it.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
+    if cfg!(windows) && path == Path::new(STANDARD_INPUT) {
+        return up_to(limit, io::stdin().lock());
+    }
     let about = fs::metadata(path).map_err(|error| refusal(&error))?;
     if !about.is_file() && path != Path::new(STANDARD_INPUT) {
         return Err(FileError::NotRegular(kind(about.file_type())));
@@ -24,9 +27,13 @@ pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     if about.len() > limit {
         return Err(FileError::TooLarge { limit });
     }
+    // The system does not know the size of every file.
+    up_to(limit, File::open(path).map_err(|error| refusal(&error))?)
+}
+
+/// All bytes, if there are no more than the limit; one byte more shows that there are.
+fn up_to(limit: u64, file: impl Read) -> Result<Vec<u8>, FileError> {
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(|error| refusal(&error))?;
-    // The system does not know the size of every file, so one byte more than the limit shows that a file is too large.
     file.take(limit + 1).read_to_end(&mut bytes).map_err(|error| refusal(&error))?;
     if bytes.len() as u64 > limit { Err(FileError::TooLarge { limit }) } else { Ok(bytes) }
 }

@@ -18,10 +18,13 @@ schedule short(s1, s2) {
 
 ";
 
-/// The program. It has one thread, because tests run side by side.
+/// The program, or that of another machine with what runs it: the words of `NBC_FOREIGN`, such as `wine64 nbc.exe`. It
+/// has one thread, because tests run side by side.
 pub fn program() -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_nbc"));
-    command.env("RAYON_NUM_THREADS", "1");
+    let foreign = std::env::var("NBC_FOREIGN");
+    let mut words = foreign.as_deref().unwrap_or(env!("CARGO_BIN_EXE_nbc")).split(' ');
+    let mut command = Command::new(words.next().expect("a text has a first word"));
+    command.args(words).env("RAYON_NUM_THREADS", "1");
     command
 }
 
