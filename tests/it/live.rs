@@ -52,6 +52,23 @@ fn a_live_swarm_does_what_a_test_does() {
 }
 
 #[test]
+fn a_swarm_in_parts_does_the_same() {
+    let mut session = session();
+    let checked = session.open("latch.nb").unwrap();
+    let compiled = session.compile(&checked, &"d_latch".into(), &CompileOptions::default()).unwrap();
+    let (mut whole, mut parted) = (session.swarm(&compiled), session.swarm(&compiled));
+    for (inputs, at) in [([false, true], 2), ([true, true], 4), ([true, false], 1)] {
+        let begun = parted.begin(&inputs).unwrap();
+        assert_eq!(begun, parted.begin(&inputs).unwrap(), "a cycle that has begun changes nothing");
+        let part = |robots| parted.part(&begun, &compiled.assembly, Session::LIVE_CYCLES, robots);
+        let states = [part(0..at), part(at..5)].map(|part| part.simulate(&nbc::Simulator::default()));
+        assert_eq!(parted.end(begun, &states), whole.step(&inputs));
+    }
+    assert_eq!(parted.trace(), whole.trace());
+    assert_eq!(parted.snapshot().robots(), whole.snapshot().robots());
+}
+
+#[test]
 fn a_restored_swarm_does_the_same_again() {
     let mut session = session();
     let checked = session.open("latch.nb").unwrap();

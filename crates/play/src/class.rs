@@ -3,10 +3,11 @@
 //! again.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex, MutexGuard};
 
 use core::time::Duration;
 
+use crate::lock::lock;
 use crate::message::{ClassMember, ClassPlace, ClassRoll};
 use crate::refusal::Refused;
 use nbc_base::diag::is_hidden;
@@ -64,7 +65,7 @@ impl Class {
     }
 
     fn lock(&self) -> MutexGuard<'_, Members> {
-        self.members.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.members)
     }
 
     /// Takes a learner into the class. Who has the key of a name takes it over from another page.

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use core::time::Duration;
 
+use crate::lock::lock;
 use crate::message::RequestResult;
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
@@ -158,10 +159,6 @@ impl Drop for Jobs {
     fn drop(&mut self) {
         lock(&self.running).values().for_each(Running::stop);
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> std::sync::MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 impl Job {

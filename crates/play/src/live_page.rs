@@ -1,12 +1,13 @@
 //! A circuit as one HTML file that has the whole program in it: the page of a browser tab, with the files of a source.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use serde::Serialize;
 use serde_json::to_string;
 
 use crate::export::ExportedPage;
+use crate::lock::lock;
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::{
     CancelFlag, EntryKind, FileError, OverlayWorld, SharedWorld, SourceWorld, VerilogError, VerilogFile, VerilogModules,
@@ -53,7 +54,7 @@ pub fn live_page(
     let mut session = Session::new(noted.clone());
     let again = session.open(&checked.path)?;
     let compiled = session.compile(&again, &again.circuit(choice)?, options)?;
-    let read = noted.read.lock().unwrap_or_else(PoisonError::into_inner);
+    let read = lock(&noted.read);
     let folder = checked.path.rsplit_once('/').map_or("", |(folder, _)| folder);
     let circuit = &compiled.plan.circuit.circuit;
     let sources = LiveSources {
@@ -83,7 +84,7 @@ struct NotingWorld {
 
 impl NotingWorld {
     fn note(&self, path: &str, text: &str) {
-        self.read.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_owned(), text.to_owned());
+        lock(&self.read).insert(path.to_owned(), text.to_owned());
     }
 }
 

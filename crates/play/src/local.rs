@@ -1,11 +1,13 @@
 //! A site in memory, whose work is done by whoever has it: what a page needs where there are no threads and no disk.
 
 use std::collections::{BTreeMap, VecDeque};
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use crate::lesson_texts::LessonTexts;
+use crate::local_crew::LocalCrew;
+use crate::lock::lock;
 use crate::outbox::Line;
-use crate::shell::{CancelSource, PageFolder, Portions, Shell, WorkKind};
+use crate::shell::{CancelSource, Crew, PageFolder, Portions, Shell, WorkKind};
 use nbc_base::source::{EntryKind, FileError, MemoryWorld, SharedWorld, SourceWorld};
 use nbc_circuit::CancelFlag;
 
@@ -193,6 +195,7 @@ pub struct LocalShell {
     work: Mutex<VecDeque<Portions>>,
     kept: Mutex<(u64, VecDeque<KeptFile>)>,
     template: Mutex<Option<Arc<str>>>,
+    crew: LocalCrew,
 }
 
 impl LocalShell {
@@ -214,6 +217,11 @@ impl LocalShell {
     /// Sets the page that live pages are made of.
     pub fn set_template(&self, text: &str) {
         *lock(&self.template) = Some(text.into());
+    }
+
+    /// Who else simulates.
+    pub fn local_crew(&self) -> &LocalCrew {
+        &self.crew
     }
 
     /// The oldest file that was kept and not yet taken.
@@ -242,8 +250,8 @@ impl Shell for LocalShell {
     fn lessons(&self) -> Vec<LessonTexts> {
         vec![LessonTexts::Shipped]
     }
-}
 
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+    fn crew(&self) -> Option<&dyn Crew> {
+        Some(&self.crew)
+    }
 }

@@ -1,8 +1,10 @@
 //! The swarm of a page: it is simulated at the chosen speed, its last cycles are recorded, and frames of it are sent.
 
 use std::collections::VecDeque;
+use std::sync::Arc;
 use std::vec::IntoIter;
 
+use core::task::Poll;
 use core::time::Duration;
 
 use crate::frame::SwarmFrame;
@@ -11,8 +13,10 @@ use crate::jobs::{Job, PortionEnd};
 use crate::message::{PlayEvent, RequestResult};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
+use crate::shared_cycle::SharedCycle;
+use crate::shell::{Crew, Shell};
 use nbc_session::{Compiled, Excerpt, Observer, Session};
-use nbc_swarm::{LiveSwarm, RobotTrace, SwarmSnapshot};
+use nbc_swarm::{LiveSwarm, RobotFault, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
 const FRAME_TIME: Duration = Duration::from_millis(15);
@@ -76,6 +80,7 @@ pub(super) enum Change {
 /// What a page sees of a swarm, if it has one.
 pub(super) struct Runner {
     outbox: Outbox,
+    shell: Arc<dyn Shell>,
     shown: Option<RunningSwarm>,
 }
 
@@ -101,6 +106,8 @@ pub(super) struct RunningSwarm {
     /// An input bit that changes by itself, the cycles from change to change, and the cycle of the last one.
     clock: Option<(usize, u32, u32)>,
     pace: Option<Pace>,
+    /// The next cycle while others simulate parts of it.
+    shared: Option<SharedCycle>,
     /// When the last cycles were done.
     times: VecDeque<Duration>,
     starts: Vec<[f64; 2]>,
@@ -119,11 +126,11 @@ pub(super) struct RunningSwarm {
 
 impl Runner {
     /// No swarm.
-    pub(super) fn new(outbox: Outbox) -> Self {
-        Self { outbox, shown: None }
+    pub(super) fn new(outbox: Outbox, shell: Arc<dyn Shell>) -> Self {
+        Self { outbox, shell, shown: None }
     }
 
-    /// The time until there is something to do; `None` if there is nothing until a request.
+    /// The time until there is something to do; `None` if there is nothing until a request, or a part of a cycle.
     pub(super) fn due(&self, now: Duration) -> Option<Duration> {
         self.shown.as_ref().and_then(|shown| shown.due(now))
     }
@@ -132,7 +139,7 @@ impl Runner {
     pub(super) fn advance(&mut self, now: Duration) {
         let Some(shown) = &mut self.shown else { return };
         if shown.is_due(now)
-            && let Some(reason) = shown.go_on(now)
+            && let Some(reason) = shown.go_on(now, self.shell.crew())
         {
             self.outbox.event(PlayEvent::Stopped { reason });
         }
@@ -183,6 +190,7 @@ impl RunningSwarm {
             inputs: vec![false; trace.inputs.iter().map(|port| port.width).sum()],
             clock: None,
             pace: None,
+            shared: None,
             times: VecDeque::new(),
             starts,
             poses: Poses::of(&swarm),
@@ -202,7 +210,8 @@ impl RunningSwarm {
     }
 
     fn due(&self, now: Duration) -> Option<Duration> {
-        let until_cycle = self.pace.as_ref().map(|pace| pace.next.saturating_sub(now));
+        let pace = self.pace.as_ref().filter(|_| self.shared.is_none());
+        let until_cycle = pace.map(|pace| pace.next.saturating_sub(now));
         let until_frame = self.is_new.then_some(FRAME_TIME);
         until_cycle.into_iter().chain(until_frame).min()
     }
@@ -211,10 +220,16 @@ impl RunningSwarm {
         self.pace.as_ref().is_some_and(|pace| pace.next <= now)
     }
 
-    /// Simulates the next cycle, and sets the time of the one after it. Returns the reason if the swarm cannot
-    /// continue.
-    fn go_on(&mut self, now: Duration) -> Option<String> {
-        let fault = self.cycle().or_else(|| self.ground_ends());
+    /// Simulates the next cycle, and sets the time of the one after it, unless others still simulate. Returns the
+    /// reason if the swarm cannot continue.
+    fn go_on(&mut self, now: Duration, crew: Option<&dyn Crew>) -> Option<String> {
+        let crew = crew.filter(|crew| SharedCycle::is_worth_it(*crew, self.starts.len()));
+        let cycle = match crew {
+            Some(crew) => self.cycle_with(crew),
+            None => Poll::Ready(self.cycle()),
+        };
+        let Poll::Ready(fault) = cycle else { return None };
+        let fault = fault.or_else(|| self.ground_ends());
         if fault.is_some() {
             self.pace = None;
         }
@@ -236,6 +251,34 @@ impl RunningSwarm {
 
     /// Simulates a cycle with the inputs. Returns the reason if a robot failed, so that there is no such cycle.
     fn cycle(&mut self) -> Option<String> {
+        self.shared = None;
+        self.flip_clock();
+        let fault = self.swarm.step(&self.inputs).err();
+        self.note(fault)
+    }
+
+    /// The same, together with others.
+    fn cycle_with(&mut self, crew: &dyn Crew) -> Poll<Option<String>> {
+        let Some(shared) = self.shared.take() else {
+            self.flip_clock();
+            return match SharedCycle::begin(crew, &self.swarm, &self.compiled.assembly, &self.inputs) {
+                Ok(shared) => {
+                    self.shared = Some(shared);
+                    Poll::Pending
+                }
+                Err(fault) => Poll::Ready(self.note(Some(fault))),
+            };
+        };
+        let Some(others) = crew.take() else {
+            self.shared = Some(shared);
+            return Poll::Pending;
+        };
+        let fault = shared.end(others, &mut self.swarm).err();
+        Poll::Ready(self.note(fault))
+    }
+
+    /// Changes the input that changes by itself, if it is time for it.
+    fn flip_clock(&mut self) {
         let now = self.now();
         if let Some((bit, half, last)) = &mut self.clock
             && now >= last.saturating_add(*half)
@@ -243,16 +286,20 @@ impl RunningSwarm {
             self.inputs[*bit] = !self.inputs[*bit];
             *last = now;
         }
-        if let Err(fault) = self.swarm.step(&self.inputs) {
-            self.is_new = true;
+    }
+
+    /// Notes a cycle that was simulated, or returns the reason why there is no such cycle.
+    fn note(&mut self, fault: Option<RobotFault>) -> Option<String> {
+        self.is_new = true;
+        if let Some(fault) = fault {
             return Some(fault.to_string());
         }
+        let now = self.now();
         let logged = LoggedCycle::last_of(&self.swarm);
         self.poses = Poses::of(&self.swarm);
         self.swarm.forget();
-        self.sent = self.sent.min(now);
-        self.history.push(now + 1, logged, &self.swarm);
-        self.is_new = true;
+        self.sent = self.sent.min(now - 1);
+        self.history.push(now, logged, &self.swarm);
         None
     }
 
@@ -265,6 +312,8 @@ impl RunningSwarm {
     }
 
     fn change(&mut self, change: Change, now: Duration) -> Result<(), Refused> {
+        // A cycle that others still simulate has not been seen: it is simulated again, with what is changed.
+        self.shared = None;
         match change {
             Change::Inputs(bits) if bits.len() != self.inputs.len() => {
                 return Err(Refused::Bits { expected: self.inputs.len() });

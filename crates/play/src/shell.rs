@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::lesson_texts::LessonTexts;
 use nbc_base::source::{FileError, SharedWorld};
 use nbc_circuit::CancelFlag;
+use nbc_swarm::{CyclePart, PartStates};
 
 /// The kinds of long work. A shell can give each its own place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +37,23 @@ pub trait Shell: Send + Sync {
 
     /// The lessons of the page, as their files are now.
     fn lessons(&self) -> Vec<LessonTexts>;
+
+    /// Who simulates parts of a swarm's cycle while the page simulates another, if there is anybody.
+    fn crew(&self) -> Option<&dyn Crew> {
+        None
+    }
+}
+
+/// Others that simulate parts of a cycle. They have one cycle at a time.
+pub trait Crew: Send + Sync {
+    /// How many parts they simulate at the same time.
+    fn size(&self) -> usize;
+
+    /// Gives them the parts of a cycle, whatever they had before.
+    fn give(&self, parts: Vec<CyclePart>);
+
+    /// The states of all parts, once, when all are there.
+    fn take(&self) -> Option<Vec<PartStates>>;
 }
 
 /// Gives the flag that ends what begins now.

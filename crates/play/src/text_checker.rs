@@ -1,9 +1,10 @@
 //! The session of a page, in which its long requests check its texts, one after the other.
 
 use std::collections::BTreeMap;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use crate::jobs::Job;
+use crate::lock::lock;
 use crate::refusal::Refused;
 use crate::shell::PageFolder;
 use nbc_circuit::CancelFlag;
@@ -83,8 +84,4 @@ impl TextChecker {
         let checked = self.checked(path, job)?;
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
     }
-}
-
-fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

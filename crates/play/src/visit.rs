@@ -58,7 +58,7 @@ impl Visit {
             checking: None,
             files: PageFiles::new(folder),
             jobs: Jobs::new(outbox.clone(), site.making.clone()),
-            runner: Runner::new(outbox.clone()),
+            runner: Runner::new(outbox.clone(), site.shell.clone()),
             outbox,
             site,
             swarms: 0,

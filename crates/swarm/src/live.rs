@@ -2,9 +2,12 @@
 //! cycle the outputs of the others in the previous cycle.
 
 use std::collections::BTreeSet;
+use std::ops::Range;
 
 use crate::sensing::Sensing;
-use crate::{Assembly, CycleTrace, KeptSwarm, Recording, RobotFault, RobotTrace, Room, SwarmTrace};
+use crate::{
+    Assembly, CyclePart, CycleTrace, KeptSwarm, PartStates, Recording, RobotFault, RobotTrace, Room, SwarmTrace,
+};
 use nbc_base::model::{CYCLE_STEPS, Pattern};
 use nbc_sim::{Flock, Simulator, Snapshot};
 
@@ -34,6 +37,14 @@ pub struct SwarmSnapshot {
     sensing: Sensing,
     trace: SwarmTrace,
     forgotten: usize,
+}
+
+/// A cycle of a swarm before its robots have moved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BegunCycle {
+    inputs: Vec<bool>,
+    /// What each robot senses.
+    sensed: Vec<Pattern>,
 }
 
 impl SwarmSnapshot {
@@ -94,13 +105,58 @@ impl LiveSwarm {
     /// # Panics
     /// When there are not as many bits as the input ports have.
     pub fn step(&mut self, inputs: &[bool]) -> Result<&CycleTrace, RobotFault> {
+        let begun = self.begin(inputs)?;
+        let mut done = 0;
+        self.go_through(|flock, _, stop| {
+            flock.advance(&begun.sensed, stop - done);
+            done = stop;
+        });
+        self.finish(begun)
+    }
+
+    /// Begins a cycle as [`LiveSwarm::step`] does. Until it has ended, the swarm is as it was before.
+    ///
+    /// # Errors
+    /// When the simulation of a robot has failed before.
+    ///
+    /// # Panics
+    /// When there are not as many bits as the input ports have.
+    pub fn begin(&self, inputs: &[bool]) -> Result<BegunCycle, RobotFault> {
         let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
-        if let Some(fault) = self.trace.fault() {
-            return Err(fault);
-        }
         let sensed = self.sensing.sense(&self.trace, self.cycles(), inputs);
-        self.advance(&sensed);
+        self.trace.fault().map_or(Ok(BegunCycle { inputs: inputs.to_vec(), sensed }), Err)
+    }
+
+    /// The part of some robots in a begun cycle of the swarm, which was made of this assembly for `cycles`.
+    pub fn part(&self, begun: &BegunCycle, assembly: &Assembly, cycles: usize, robots: Range<usize>) -> CyclePart {
+        CyclePart {
+            setting: assembly.setting(cycles),
+            bodies: assembly.members[robots.clone()].iter().map(|member| member.robot.body.clone()).collect(),
+            starts: robots.clone().map(|robot| self.flock.snapshot(robot)).collect(),
+            patterns: begun.sensed[robots].to_vec(),
+            stops: self.stops.iter().copied().collect(),
+        }
+    }
+
+    /// Ends a begun cycle with the states of all robots, part by part in order, as [`LiveSwarm::step`] would.
+    ///
+    /// # Errors
+    /// When the simulation of a robot has failed in this cycle.
+    ///
+    /// # Panics
+    /// When robots or stops are missing.
+    pub fn end(&mut self, begun: BegunCycle, parts: &[PartStates]) -> Result<&CycleTrace, RobotFault> {
+        let robots: usize = parts.iter().map(|part| part[0].len()).sum();
+        assert_eq!(robots, self.flock.len(), "a state for each robot");
+        self.go_through(|flock, at, _| {
+            parts.iter().flat_map(|part| &part[at]).enumerate().for_each(|(i, state)| flock.restore(i, state));
+        });
+        self.finish(begun)
+    }
+
+    /// Takes the outputs of a cycle whose robots have moved.
+    fn finish(&mut self, BegunCycle { inputs, sensed }: BegunCycle) -> Result<&CycleTrace, RobotFault> {
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {
             robot.fault = self.flock.fault(i);
         }
@@ -109,9 +165,9 @@ impl LiveSwarm {
             return Err(fault);
         }
         let bits: Vec<bool> = self.trace.robots.iter().map(|robot| moved_right(robot, self.window)).collect();
-        let outputs = self.trace.shown.iter().map(|&signal| signal.bit(inputs, &bits)).collect();
+        let outputs = self.trace.shown.iter().map(|&signal| signal.bit(&inputs, &bits)).collect();
         self.sensing.take(self.cycles(), &bits);
-        self.trace.cycles.push(CycleTrace { inputs: inputs.to_vec(), sensed, bits, outputs });
+        self.trace.cycles.push(CycleTrace { inputs, sensed, bits, outputs });
         Ok(&self.trace.cycles[self.trace.cycles.len() - 1])
     }
 
@@ -190,12 +246,10 @@ impl LiveSwarm {
         true
     }
 
-    /// Simulates a cycle under what the robots sense, from stop to stop.
-    fn advance(&mut self, sensed: &[Pattern]) {
-        let mut done = 0;
-        for &stop in &self.stops {
-            self.flock.advance(sensed, stop - done);
-            done = stop;
+    /// Takes the robots from stop to stop of a cycle by `reach`, with the number of each stop and its env step.
+    fn go_through(&mut self, mut reach: impl FnMut(&mut dyn Flock, usize, u32)) {
+        for (at, &stop) in self.stops.iter().enumerate() {
+            reach(&mut *self.flock, at, stop);
             if stop % SAMPLE_STRIDE == 0 {
                 for (i, robot) in self.trace.robots.iter_mut().enumerate() {
                     robot.com_x.push(self.flock.center(i)[0]);

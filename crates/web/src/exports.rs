@@ -6,6 +6,7 @@ use std::cell::RefCell;
 
 use core::time::Duration;
 
+use crate::parts;
 use crate::tab::{Tab, TabMessage};
 use nbc_play::PageMessage;
 
@@ -30,11 +31,15 @@ fn time(milliseconds: f64) -> Duration {
     Duration::try_from_secs_f64(milliseconds / 1000.0).unwrap_or_default()
 }
 
+/// The bytes in room of [`room`].
+fn bytes(place: *mut u8, length: usize) -> Box<[u8]> {
+    // SAFETY: a script passes what `room` has returned for this length, once.
+    unsafe { Box::from_raw(core::ptr::slice_from_raw_parts_mut(place, length)) }
+}
+
 /// The text in room of [`room`].
 fn text(place: *mut u8, length: usize) -> String {
-    // SAFETY: a script passes what `room` has returned for this length, once.
-    let bytes = unsafe { Box::from_raw(core::ptr::slice_from_raw_parts_mut(place, length)) };
-    String::from_utf8_lossy(&bytes).into_owned()
+    String::from_utf8_lossy(&bytes(place, length)).into_owned()
 }
 
 #[cfg(target_family = "wasm")]
@@ -78,6 +83,26 @@ extern "C" fn template(place: *mut u8, length: usize) {
     with_tab(|tab| tab.set_template(&text));
 }
 
+/// [`Tab::set_crew`].
+#[unsafe(no_mangle)]
+extern "C" fn crew(size: usize) {
+    with_tab(|tab| tab.set_crew(size));
+}
+
+/// [`Tab::receive_part`].
+#[unsafe(no_mangle)]
+extern "C" fn receive_part(number: usize, place: *mut u8, length: usize) {
+    let states = bytes(place, length);
+    with_tab(|tab| tab.receive_part(number, &states));
+}
+
+/// Simulates a part of a cycle for another tab. Its states are then the first part of the present message.
+#[unsafe(no_mangle)]
+extern "C" fn simulate(place: *mut u8, length: usize) {
+    let states = parts::simulated(&bytes(place, length)).expect("a part comes from the same program");
+    STATE.with_borrow_mut(|state| state.parts[0] = states);
+}
+
 /// [`Tab::receive`].
 #[unsafe(no_mangle)]
 extern "C" fn receive(place: *mut u8, length: usize, now: f64) {
@@ -106,7 +131,7 @@ extern "C" fn advance(now: f64) -> f64 {
 
 /// [`Tab::next`]: makes the next message the present one. Returns its kind: 0 for none, 1 for a text and 2 for a frame
 /// for the page, 3 for a text of the language service, 4 for a file that was written (path, text), 5 for one to fetch
-/// (address, media type, bytes).
+/// (address, media type, bytes), 6 for a part of a cycle (number, bytes).
 #[unsafe(no_mangle)]
 extern "C" fn next(has_room: bool) -> u32 {
     let message = with_tab(|tab| tab.next(has_room));
@@ -116,6 +141,7 @@ extern "C" fn next(has_room: bool) -> u32 {
         Some(TabMessage::Page(PageMessage::Frame(frame))) => (2, [frame, Vec::new(), Vec::new()]),
         Some(TabMessage::Language(text)) => (3, [text.into_bytes(), Vec::new(), Vec::new()]),
         Some(TabMessage::Written { path, text }) => (4, [path.into_bytes(), text.into_bytes(), Vec::new()]),
+        Some(TabMessage::Part(number, part)) => (6, [number.to_string().into_bytes(), part, Vec::new()]),
         Some(TabMessage::Kept(file)) => (5, [file.address.into_bytes(), file.media_type.into(), file.bytes]),
     };
     STATE.with_borrow_mut(|state| state.parts = parts);

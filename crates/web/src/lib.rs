@@ -3,6 +3,7 @@
 
 mod exports;
 mod language;
+mod parts;
 mod tab;
 
 pub use tab::{Tab, TabMessage};

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use core::time::Duration;
 
 use crate::language::LanguageQueue;
+use crate::parts;
 use nbc_lsp::LanguageService;
 use nbc_play::{KeptFile, LocalLine, LocalShell, MemoryFolder, PageMessage, PlaySite, Visit};
 use nbc_session::CompileOptions;
@@ -38,6 +39,8 @@ pub enum TabMessage {
     },
     /// A file that the page will fetch.
     Kept(KeptFile),
+    /// A part of a cycle for somebody else to simulate: its number and bytes.
+    Part(usize, Vec<u8>),
 }
 
 impl Tab {
@@ -67,6 +70,17 @@ impl Tab {
     /// Sets the page that live pages are made of.
     pub fn set_template(&self, text: &str) {
         self.shell.set_template(text);
+    }
+
+    /// Sets how many others simulate. What is not there when there are none will not come.
+    pub fn set_crew(&self, size: usize) {
+        self.shell.local_crew().set_size(size);
+    }
+
+    /// Takes what became of a part of a cycle.
+    pub fn receive_part(&self, number: usize, states: &[u8]) {
+        let states = parts::read_states(states).expect("the states of a part come from the same program");
+        self.shell.local_crew().receive(number, states);
     }
 
     /// Takes a request of the page.
@@ -103,6 +117,9 @@ impl Tab {
 
     /// The next message. A frame is left until there is room for it, and replaced by newer ones meanwhile.
     pub fn next(&mut self, has_room: bool) -> Option<TabMessage> {
+        if let Some((number, part)) = self.shell.local_crew().next_part() {
+            return Some(TabMessage::Part(number, parts::write_part(&part)));
+        }
         if let Some(file) = self.shell.take_kept() {
             return Some(TabMessage::Kept(file));
         }
@@ -175,6 +192,44 @@ mod tests {
             let Some(TabMessage::Language(answer)) = tab.next(true) else { panic!("{text}") };
             assert!(answer.contains("\"error\""), "{answer}");
         }
+    }
+
+    /// The frames of eight robots up to their third cycle, with so many others who simulate.
+    fn frames(crew: usize) -> Vec<Vec<u8>> {
+        let mut tab = Tab::new(None, Duration::ZERO);
+        let text = "circuit each(a[8]) -> (q[8]) { q = not a }\n";
+        tab.set_crew(crew);
+        let (mut given, mut frames, mut now) = (0, Vec::new(), Duration::ZERO);
+        for request in [
+            json!({ "id": 1, "do": "program", "path": "each.nb", "text": text }),
+            json!({ "id": 2, "do": "compile", "path": "each.nb", "circuit": "each", "swarm": null }),
+            json!({ "id": 3, "do": "step", "cycles": 3 }),
+        ] {
+            tab.receive(&request.to_string(), now);
+            for _ in 0..20 {
+                now += Duration::from_millis(20);
+                tab.advance(now);
+                while let Some(message) = tab.next(true) {
+                    match message {
+                        TabMessage::Part(number, part) => {
+                            given += 1;
+                            tab.receive_part(number, &parts::simulated(&part).unwrap());
+                        }
+                        TabMessage::Page(PageMessage::Frame(frame)) => frames.push(frame),
+                        _ => {}
+                    }
+                }
+            }
+        }
+        assert_eq!(given, 3 * crew.min(1), "a part of each cycle");
+        frames
+    }
+
+    #[test]
+    fn a_swarm_does_the_same_with_others() {
+        let (alone, together) = (frames(0), frames(2));
+        assert!(alone.len() >= 4);
+        assert_eq!(alone.last(), together.last());
     }
 
     #[test]

@@ -4,7 +4,8 @@ export type EngineMessage =
   | { kind: "page"; data: string | ArrayBuffer }
   | { kind: "language"; text: string }
   | { kind: "written"; path: string; text: string }
-  | { kind: "kept"; address: string; type: string; bytes: ArrayBuffer };
+  | { kind: "kept"; address: string; type: string; bytes: ArrayBuffer }
+  | { kind: "part"; number: number; bytes: ArrayBuffer };
 
 interface Exports {
   memory: WebAssembly.Memory;
@@ -14,6 +15,9 @@ interface Exports {
   insert: (path: number, pathLength: number, place: number, length: number) => void;
   receive: (place: number, length: number, now: number) => void;
   greet: () => void;
+  crew: (size: number) => void;
+  receive_part: (number: number, place: number, length: number) => void;
+  simulate: (place: number, length: number) => void;
   receive_language: (place: number, length: number, now: number) => void;
   advance: (now: number) => number;
   next: (hasRoom: boolean) => number;
@@ -26,28 +30,43 @@ export class Engine {
   readonly #encoder = new TextEncoder();
   readonly #decoder = new TextDecoder();
 
-  private constructor(instance: WebAssembly.Instance, first: string, now: number) {
+  private constructor(instance: WebAssembly.Instance) {
     this.#exports = instance.exports as unknown as Exports;
-    this.#exports.begin(...this.#put(first), now);
   }
 
   /**
-   * Starts a compiled program, which tells its page to open `first` if that is not empty. `failed` receives the message
-   * of a panic, after which the engine is of no use.
+   * Starts a compiled program. `failed` receives the message of a panic after `begin`; after any panic the engine is of
+   * no use.
    */
-  static async start(
-    module: WebAssembly.Module,
-    first: string,
-    now: number,
-    failed: (message: string) => void,
-  ): Promise<Engine> {
+  static async start(module: WebAssembly.Module, failed: (message: string) => void): Promise<Engine> {
     let memory: WebAssembly.Memory | undefined;
     const fail = (place: number, length: number): void => {
       failed(new TextDecoder().decode(new Uint8Array(memory!.buffer, place, length)));
     };
     const instance = await WebAssembly.instantiate(module, { page: { fail } });
     memory = instance.exports["memory"] as WebAssembly.Memory;
-    return new Engine(instance, first, now);
+    return new Engine(instance);
+  }
+
+  /** Begins the program of a page, which opens `first` if that is not empty. */
+  begin(first: string, now: number): void {
+    this.#exports.begin(...this.#put(first), now);
+  }
+
+  /** Sets how many others simulate parts of cycles. */
+  crew(size: number): void {
+    this.#exports.crew(size);
+  }
+
+  /** Takes what became of a part. */
+  receivePart(number: number, bytes: ArrayBuffer): void {
+    this.#exports.receive_part(number, ...this.#putBytes(new Uint8Array(bytes)));
+  }
+
+  /** Simulates a part for another engine. Needs no `begin`. */
+  simulate(bytes: ArrayBuffer): ArrayBuffer {
+    this.#exports.simulate(...this.#putBytes(new Uint8Array(bytes)));
+    return this.#bytes(0);
   }
 
   /** Adds a file, or replaces it. */
@@ -93,13 +112,18 @@ export class Engine {
         return { kind: "written", path: this.#text(0), text: this.#text(1) };
       case 5:
         return { kind: "kept", address: this.#text(0), type: this.#text(1), bytes: this.#bytes(2) };
+      case 6:
+        return { kind: "part", number: Number(this.#text(0)), bytes: this.#bytes(1) };
       default:
         return null;
     }
   }
 
   #put(text: string): [number, number] {
-    const bytes = this.#encoder.encode(text);
+    return this.#putBytes(this.#encoder.encode(text));
+  }
+
+  #putBytes(bytes: Uint8Array): [number, number] {
     const place = this.#exports.room(bytes.length);
     // The memory moves when it grows, so it is looked up each time.
     new Uint8Array(this.#exports.memory.buffer, place, bytes.length).set(bytes);

@@ -20,7 +20,10 @@ export type ToWorker =
   /** The address of the page that live exports are made of. */
   | { say: "template"; address: string }
   /** The last frame was drawn. */
-  | { say: "drawn" };
+  | { say: "drawn" }
+  /** To a worker that only simulates parts of cycles for another. */
+  | { say: "assist"; module: WebAssembly.Module }
+  | { say: "part"; number: number; bytes: ArrayBuffer };
 
 export type FromWorker =
   | { say: "loading"; done: number; all: number }
@@ -30,6 +33,9 @@ export type FromWorker =
   | { say: "template" }
   /** A file was saved, but the browser did not keep it. */
   | { say: "unkept"; path: string }
+  /** An assistant is ready, or has simulated a part. */
+  | { say: "assisting" }
+  | { say: "part"; number: number; bytes: ArrayBuffer }
   | { say: "file"; address: string; type: string; bytes: ArrayBuffer }
   /** The program has failed, or could not be loaded; nothing more will come. */
   | { say: "failed"; message: string };

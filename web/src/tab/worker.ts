@@ -1,12 +1,17 @@
 // The worker of a page without a server: it has the program, and does its work in portions, so that messages are never
-// kept waiting for long.
+// kept waiting for long. As an assistant it simulates parts of cycles for another worker.
 
+import { Crew } from "./crew";
 import { Engine } from "./engine";
 import { FileStore } from "./files";
 import type { FromWorker, Source, ToWorker } from "./messages";
 
+/** Milliseconds in which the program is alone, so that the page is there soon. */
+const ALONE = 1000;
+
 const pause = new MessageChannel();
 let engine: Engine | null = null;
+let crew: Crew | null = null;
 let store: FileStore | null = null;
 /** Messages that came before the program was there. */
 const waiting: ToWorker[] = [];
@@ -22,6 +27,10 @@ pause.port1.onmessage = () => {
 onmessage = ({ data }: MessageEvent<ToWorker>) => {
   if (data.say === "begin") {
     begin(data).catch((error: unknown) => fail(String(error)));
+    return;
+  }
+  if (data.say === "assist") {
+    assist(data.module).catch((error: unknown) => fail(String(error)));
     return;
   }
   const started = engine;
@@ -47,14 +56,48 @@ async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: 
   store = keeps ? await FileStore.open() : null;
   const kept = (await store?.all()) ?? [];
   let panic: string | null = null;
-  const started = await Engine.start(await compiling, first, performance.now(), message => (panic = message));
+  const module = await compiling;
+  const started = await Engine.start(module, message => (panic = message));
   failing = () => panic;
+  started.begin(first, performance.now());
   [...files, ...kept].forEach(([path, text]) => started.insert(path, text));
   store?.follow((path, text) => engine?.insert(path, text));
   engine = started;
   say({ say: "ready", keeps: store !== null });
   guard(() => waiting.splice(0).forEach(message => take(started, message)));
   work();
+  setTimeout(() => gather(module), ALONE);
+}
+
+/** Starts others that simulate. A browser that has none, or not in this place, goes on without them. */
+function gather(module: WebAssembly.Module): void {
+  const tell = (call: (engine: Engine) => void): void => {
+    const told = engine;
+    if (told !== null) {
+      guard(() => call(told));
+      soon();
+    }
+  };
+  try {
+    crew = new Crew(
+      module,
+      size => tell(engine => engine.crew(size)),
+      (number, bytes) => tell(engine => engine.receivePart(number, bytes)),
+    );
+  } catch {
+    crew = null;
+  }
+}
+
+async function assist(module: WebAssembly.Module): Promise<void> {
+  const assistant = await Engine.start(module, () => {});
+  onmessage = ({ data }: MessageEvent<ToWorker>) => {
+    if (data.say === "part") {
+      const bytes = assistant.simulate(data.bytes);
+      say({ say: "part", number: data.number, bytes }, [bytes]);
+    }
+  };
+  say({ say: "assisting" });
 }
 
 /** The message of a panic, if there was one. */
@@ -168,6 +211,9 @@ function pass(message: NonNullable<ReturnType<Engine["next"]>>): void {
       break;
     case "written":
       store?.put(message.path, message.text, () => say({ say: "unkept", path: message.path }));
+      break;
+    case "part":
+      crew?.give(message.number, message.bytes);
       break;
     case "kept":
       say({ say: "file", address: message.address, type: message.type, bytes: message.bytes }, [message.bytes]);

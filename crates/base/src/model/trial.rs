@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::{Body, FaultKind, GroundProfile, Schedule, SettingError, WorldFactors};
 
 /// The environment of a trial: the strip of ground that a robot walks on (docs/physics.md 1), and its physics.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Setting {
     /// Ground voxels in a row.
     pub world_width: usize,

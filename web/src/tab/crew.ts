@@ -1,0 +1,62 @@
+// Workers that simulate parts of a swarm's cycle for the worker with the page's program. They need no files and no
+// memory of their own; what becomes of a part depends on it alone.
+
+import type { FromWorker, ToWorker } from "./messages";
+
+/** The most of them: a swarm seldom has robots for more. */
+const MOST = 7;
+
+export class Crew {
+  readonly #workers: Worker[] = [];
+  #size = 0;
+
+  /**
+   * Starts workers by the script of this one, as far as there are processors. `changed` learns how many can be given
+   * parts, `done` what becomes of them.
+   */
+  constructor(
+    module: WebAssembly.Module,
+    private readonly changed: (size: number) => void,
+    done: (number: number, bytes: ArrayBuffer) => void,
+  ) {
+    const wanted = Math.min(MOST, (navigator.hardwareConcurrency ?? 1) - 1);
+    for (let i = 0; i < wanted; i += 1) {
+      const worker = new Worker(location.href);
+      worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+        if (data.say === "assisting") {
+          this.#size += 1;
+          changed(this.#size);
+        } else if (data.say === "part") {
+          done(data.number, data.bytes);
+        } else {
+          this.#end();
+        }
+      };
+      worker.onerror = event => {
+        event.preventDefault();
+        this.#end();
+      };
+      post(worker, { say: "assist", module });
+      this.#workers.push(worker);
+    }
+  }
+
+  /** Gives a part to one of them. */
+  give(number: number, bytes: ArrayBuffer): void {
+    const worker = this.#workers[number % this.#workers.length];
+    if (worker !== undefined) {
+      post(worker, { say: "part", number, bytes }, [bytes]);
+    }
+  }
+
+  /** Without one of them no cycle ends, so the program goes on alone. */
+  #end(): void {
+    this.#workers.splice(0).forEach(worker => worker.terminate());
+    this.#size = 0;
+    this.changed(0);
+  }
+}
+
+function post(worker: Worker, message: ToWorker, transfer: Transferable[] = []): void {
+  worker.postMessage(message, { transfer });
+}
