@@ -329,6 +329,16 @@ export type LessonStep = {
 /** A tab of the page in which a lesson can begin. */
 export type LessonTab = "swarm" | "tests" | "robots";
 
+/** A row of such a table. */
+export type ListingRow = {
+  /** The digits of the output for which it is, `-` for any; the first row that fits is the one. */
+  bits: string,
+  /** These, and what the table has for them, as in the source. */
+  at: string,
+  text: string,
+  line: number,
+};
+
 /** The best body of a niche. */
 export type NicheEntry = {
   /** The bin on each axis. */
@@ -371,6 +381,8 @@ export type PlayLimits = {
 export type PortEntry = {
   name: string,
   width: number,
+  /** The members of its enumeration, each with its name and its digits. */
+  members?: Array<[string, string]>,
 };
 
 /** How a body walks, and which gate it is. */
@@ -510,6 +522,21 @@ export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { id: number, error: Refusal, }
   | { id: number, progress: [number, number], } | PlayEvent;
 
+/** A table over an output, such as the instructions of a machine or the transitions of its states. */
+export type ShownListing = {
+  /** The output that chooses the row. */
+  port: string,
+  rows: Array<ListingRow>,
+};
+
+/** A register of the circuit. */
+export type ShownRegister = {
+  /** The name of its net, after those of the calls that it is in where another has the same. */
+  name: string,
+  /** The robots that have its bits, the most significant first. */
+  robots: Array<number>,
+};
+
 /** A schematic, of which the page shows a sheet at a time. */
 export type ShownSchematic = {
   /** The sheets, each after the one around it; the first shows the whole. */
@@ -541,6 +568,9 @@ export type ShownSwarm = {
   /** The source of each bit of the outputs. */
   shown: Array<BitSource>,
   robots: Array<SwarmRobot>,
+  registers: Array<ShownRegister>,
+  /** The table of the circuit over one of its outputs. */
+  listing: ShownListing | null,
   looks: Array<VoxelLook>,
   schematic: ShownSchematic,
   timing: string,
@@ -579,7 +609,12 @@ export type SwarmAnswer = {
 
 /** A robot of the swarm. */
 export type SwarmRobot = {
+  /** The name by which files and the schematic know its net. */
   net: string,
+  /** The name in the source, or for a net without one what drives it, such as `nand(d, e)`. */
+  label: string,
+  /** Whether the source has a name for it. */
+  named: boolean,
   function: string,
   robot: string,
   /** Words with their texts. */
@@ -644,6 +679,8 @@ export type TestResult = {
   inputs: Array<PortEntry>,
   outputs: Array<PortEntry>,
   rows: Array<RowResult>,
+  /** What the environment wrote as text. */
+  printed: string | null,
 };
 
 /** A row of a test. */

@@ -18,6 +18,8 @@ const SWARM = {
   ],
   outputs: [],
   robots: [],
+  registers: [],
+  listing: null,
   shown: [],
   looks: [],
   schematic: { sheets: [], bodies: [], homes: [] },

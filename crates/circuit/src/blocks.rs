@@ -25,6 +25,11 @@ pub struct Blocks {
     of: Vec<BlockId>,
 }
 
+/// Whether the calls of a circuit keep a state: a register or a latch of the prelude.
+pub fn keeps_state(circuit: &str) -> bool {
+    ["register", "latch"].contains(&circuit)
+}
+
 impl Blocks {
     /// Adds a block inside another.
     pub fn add(&mut self, name: impl Into<String>, circuit: impl Into<String>, outer: BlockId) -> BlockId {

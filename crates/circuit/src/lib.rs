@@ -37,7 +37,7 @@ pub mod timing;
 pub mod waves;
 mod wording;
 
-pub use blocks::{BlockId, Blocks};
+pub use blocks::{BlockId, Blocks, keeps_state};
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
 pub use elaborate::{

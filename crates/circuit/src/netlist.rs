@@ -282,6 +282,31 @@ impl Netlist {
             Node::Cell(_) => format!("n{}", id.index()),
         }
     }
+
+    /// Whether a net has a name of its own; [`Netlist::net_name`] numbers the others.
+    pub fn is_named(&self, id: NetId) -> bool {
+        !matches!(self.node(id), Node::Cell(Cell { name: None, .. }))
+    }
+
+    /// What readers call a net: its name, else what drives it, such as `nand(d, not(e))`.
+    pub fn net_label(&self, id: NetId) -> String {
+        self.label_within(id, 2)
+    }
+
+    /// The label of a net with so many functions inside each other; those further inside are left out.
+    fn label_within(&self, id: NetId, depth: usize) -> String {
+        match self.cell(id) {
+            Some(cell) if !self.is_named(id) => {
+                let pins = self.pins(id).into_iter();
+                let pins: Vec<String> = match depth {
+                    0 => vec!["…".to_owned()],
+                    _ => pins.map(|pin| self.label_within(pin, depth - 1)).collect(),
+                };
+                format!("{}({})", cell.function, pins.join(", "))
+            }
+            _ => self.net_name(id),
+        }
+    }
 }
 
 impl fmt::Display for Netlist {
@@ -322,6 +347,19 @@ mod tests {
         let sum = netlist.add_gate(Function::XOR, &[a, b]);
         netlist.add_output("s", sum);
         assert_eq!(netlist.to_string(), "netlist half(a, b) -> (s) {\n    n2 = xor(a, b)\n    s = n2\n}\n");
+    }
+
+    #[test]
+    fn a_net_without_a_name_is_called_what_drives_it() {
+        let mut netlist = Netlist::new("label");
+        let a = netlist.add_input("a");
+        let first = netlist.add_gate(Function::NOT, &[a]);
+        let second = netlist.add_gate(Function::NAND, &[first, a]);
+        let third = netlist.add_gate(Function::NOT, &[second]);
+        assert!(netlist.is_named(a) && !netlist.is_named(third));
+        assert_eq!([a, first, third].map(|net| netlist.net_label(net)), ["a", "not(a)", "not(nand(not(…), a))"]);
+        netlist.rename(second, "inner");
+        assert_eq!(netlist.net_label(third), "not(inner)");
     }
 
     #[test]

@@ -92,7 +92,7 @@ fn exported(session: &Session, checked: &Checked, compiled: &Compiled) -> Result
     if bodies.len() > MOST_BODIES {
         return Err(ExportError::TooManyBodies { bodies: bodies.len(), most: MOST_BODIES });
     }
-    let mut swarm = describe(1, compiled, &session.swarm(compiled));
+    let mut swarm = describe(1, checked, compiled, &session.swarm(compiled));
     // The walks are those on flat ground.
     swarm.ground.clear();
     Ok(ExportedSwarm {

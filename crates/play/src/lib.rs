@@ -25,6 +25,7 @@ mod runner;
 mod shared_cycle;
 mod shell;
 mod site;
+mod state;
 mod taking;
 mod text_checker;
 #[cfg(test)]

@@ -13,12 +13,14 @@ use crate::message::{
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
 use crate::site::SCHEME;
+use crate::state;
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::waves::WaveMachine;
+use nbc_circuit::{NetId, Netlist};
 use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestCase, TestOptions};
-use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, SwarmTrace};
+use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace};
 
 /// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
 /// of, and its tests.
@@ -89,7 +91,7 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
 /// # Errors
 /// When it has too many robots, or the request is stopped.
 pub(super) fn loading(
-    session: &Session,
+    (session, checked): (&Session, &Checked),
     compiled: Compiled,
     inputs: Vec<Vec<bool>>,
     answer: impl FnOnce(SwarmAnswer) -> RequestResult,
@@ -101,13 +103,16 @@ pub(super) fn loading(
         return Err(Refused::TooManyRobots { robots, most: Limit::PageRobots.most() as usize });
     }
     let swarm = session.swarm(&compiled);
-    let answer = answer(SwarmAnswer { swarm: Box::new(describe(number, &compiled, &swarm)) });
+    let answer = answer(SwarmAnswer { swarm: Box::new(describe(number, checked, &compiled, &swarm)) });
     Ok(LoadingSwarm::new(RunningSwarm::new(number, compiled, swarm), inputs, (job.id, answer)))
 }
 
 /// What a page is told about a swarm.
-pub(super) fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
-    let (assembly, trace) = (&compiled.assembly, swarm.trace());
+pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
+    let (assembly, trace, netlist) = (&compiled.assembly, swarm.trace(), &compiled.mapping.netlist);
+    // A swarm has its robots in the order of the cells.
+    let nets: Vec<NetId> = netlist.cells().map(|(cell, _)| cell).collect();
+    let source = checked.program.circuit(&compiled.plan.circuit.circuit);
     let all = Looks::of(assembly.members.iter().map(|member| &member.robot.body), SCHEME);
     ShownSwarm {
         number,
@@ -116,7 +121,14 @@ pub(super) fn describe(number: u32, compiled: &Compiled, swarm: &LiveSwarm) -> S
         inputs: PortEntry::of(&assembly.inputs),
         outputs: PortEntry::of(&assembly.outputs),
         shown: assembly.shown.iter().copied().map(Into::into).collect(),
-        robots: trace.recording.robots.iter().map(|recorded| robot(recorded, trace, assembly, &all)).collect(),
+        robots: trace
+            .recording
+            .robots
+            .iter()
+            .map(|recorded| robot(recorded, trace, assembly, (netlist, &nets), &all))
+            .collect(),
+        registers: state::registers(netlist),
+        listing: source.and_then(|source| state::listing(checked, source, &assembly.outputs)),
         looks: looks(&all),
         schematic: compiled.schematic(SCHEME).pages().into(),
         timing: compiled.swarm_timing().describe(),
@@ -147,14 +159,27 @@ fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
     }
 }
 
-fn robot(recorded: &Recorded, trace: &SwarmTrace, assembly: &Assembly, looks: &Looks) -> SwarmRobot {
+fn robot(
+    recorded: &Recorded,
+    trace: &SwarmTrace,
+    assembly: &Assembly,
+    (netlist, nets): (&Netlist, &[NetId]),
+    looks: &Looks,
+) -> SwarmRobot {
     let (robot, member) = (&trace.robots[recorded.robot], &assembly.members[recorded.robot]);
     let (body, character) = (&member.robot.body, &member.robot.character);
+    let net = nets[recorded.robot];
+    let called = |source| match source {
+        StimulusSource::Robot(robot) => netlist.net_label(nets[robot]),
+        _ => assembly.source_name(source),
+    };
     SwarmRobot {
         net: robot.net.clone(),
+        label: netlist.net_label(net),
+        named: netlist.is_named(net),
         function: robot.function.name(),
         robot: robot.robot.clone(),
-        about: report::about_robot(assembly, recorded.robot),
+        about: report::about_robot(assembly, recorded.robot, &called),
         senses: robot.senses.iter().map(|&source| source.into()).collect(),
         body: body.rows(),
         size: [body.width(), body.height()],

@@ -301,7 +301,7 @@ impl Visit {
                 let compile = compile.take().expect("it is compiled once");
                 let checked = checker.open(&path, job)?;
                 let (compiled, inputs) = compile(&session, &checked, job)?;
-                loading = Some(programs::loading(&session, compiled, inputs, answer, (number, job))?);
+                loading = Some(programs::loading((&session, &checked), compiled, inputs, answer, (number, job))?);
                 return Ok(PortionEnd::More);
             };
             let step = swarm.advance(job)?;

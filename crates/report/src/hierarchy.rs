@@ -1,10 +1,11 @@
 //! The parts of a circuit, each small enough to be seen at once: the calls of the source, opened where they are small
 //! and divided where they are large.
 
-use std::collections::btree_map::Entry;
-use std::collections::{BTreeMap, BTreeSet, VecDeque};
+use std::collections::{BTreeMap, BTreeSet};
 
 use nbc_circuit::{BlockId, NetId, Netlist, Node};
+
+use crate::net_names::{NetNames, Word, call_name, distinct_names, written};
 
 /// A part with at most so many cells has no parts in it.
 const FLAT: usize = 25;
@@ -17,8 +18,6 @@ const ROOM: usize = 30;
 const MOST: usize = 40;
 /// How many of them there are in a division of a larger part.
 const DIVISION: usize = 24;
-/// The most letters of two names of a division, so that both are read in its box.
-const LETTERS: usize = 16;
 
 /// A part of a circuit.
 #[derive(Clone, Debug, Default)]
@@ -53,25 +52,41 @@ enum Item {
     Part(usize),
 }
 
+impl Item {
+    fn part(self) -> Option<usize> {
+        match self {
+            Self::Part(inner) => Some(inner),
+            Self::Cell(_) => None,
+        }
+    }
+}
+
 impl Hierarchy {
     /// The parts of a netlist.
     pub fn of(netlist: &Netlist) -> Self {
         let mut tree = Tree::of(netlist);
         tree.dissolve_small();
-        tree.divide_large(&ranks(netlist), &named_nets(netlist));
+        tree.divide_large(&ranks(netlist), &NetNames::of(netlist));
         tree.finish()
     }
 
-    /// The names of the parts from the whole circuit, which is left out, to this part.
-    pub fn path(&self, part: usize) -> Vec<&str> {
-        let mut path = Vec::new();
-        let mut at = part;
-        while let Some(outer) = self.parts[at].outer {
-            path.push(self.parts[at].name.as_str());
-            at = outer;
+    /// The parts around a part and itself, outermost first; the whole circuit is left out.
+    pub fn path(&self, part: usize) -> Vec<usize> {
+        path_of(&self.parts, part)
+    }
+
+    /// What readers call a part, and what else is said of it: the circuit that is called and the name of the call, the
+    /// circuit first where no other part beside it is a call of the same, and it is no register.
+    pub fn titles(&self, part: usize) -> (&str, Option<&str>) {
+        let CircuitPart { name, circuit, outer, .. } = &self.parts[part];
+        let Some(circuit) = circuit.as_deref() else { return (name, None) };
+        let (circuit, call) = (written(circuit), call_name(name, circuit));
+        if call == circuit {
+            return (circuit, None);
         }
-        path.reverse();
-        path
+        let beside = outer.iter().flat_map(|&outer| &self.parts[outer].inner);
+        let same = beside.filter(|&&other| self.parts[other].circuit.as_deref().map(written) == Some(circuit)).count();
+        if same > 1 || nbc_circuit::keeps_state(circuit) { (call, Some(circuit)) } else { (circuit, Some(call)) }
     }
 
     /// The cells and wires of a part, each with the part directly inside in which it is.
@@ -153,7 +168,7 @@ impl Tree {
     }
 
     /// Divides parts with too many cells and parts inside. What is connected stays together.
-    fn divide_large(&mut self, ranks: &BTreeMap<NetId, usize>, nets: &BTreeMap<NetId, String>) {
+    fn divide_large(&mut self, ranks: &BTreeMap<NetId, usize>, nets: &NetNames<'_>) {
         let first: Vec<usize> = self.first_ranks(ranks);
         for at in 0..first.len() {
             while self.items(at) > MOST {
@@ -174,7 +189,7 @@ impl Tree {
         first
     }
 
-    fn divide(&mut self, at: usize, ranks: &BTreeMap<NetId, usize>, first: &[usize], nets: &BTreeMap<NetId, String>) {
+    fn divide(&mut self, at: usize, ranks: &BTreeMap<NetId, usize>, first: &[usize], nets: &NetNames<'_>) {
         let part = &mut self.parts[at];
         let cells = std::mem::take(&mut part.cells).into_iter().map(|cell| (ranks[&cell], Item::Cell(cell)));
         let inner = std::mem::take(&mut part.inner).into_iter();
@@ -183,13 +198,9 @@ impl Tree {
         let mut items: Vec<(usize, Item)> = cells.chain(inner.map(|inner| (rank(inner), Item::Part(inner)))).collect();
         items.sort_by_key(|(rank, _)| *rank);
         let count = items.len().div_ceil(DIVISION);
-        let each = items.len().div_ceil(count);
-        let mut given = BTreeSet::new();
-        for (number, items) in items.chunks(each).enumerate() {
-            let mut name = self.division_name(items, nets).unwrap_or_else(|| format!("part {}", number + 1));
-            if !given.insert(name.clone()) {
-                name += &format!(", part {}", number + 1);
-            }
+        let chunks: Vec<&[(usize, Item)]> = items.chunks(items.len().div_ceil(count)).collect();
+        let words = chunks.iter().map(|items| self.words(at, items, nets)).collect::<Vec<_>>();
+        for (name, items) in distinct_names(&words).into_iter().zip(chunks) {
             let division = self.add(CircuitPart { name, outer: Some(at), ..CircuitPart::default() });
             for &(_, item) in items {
                 match item {
@@ -205,37 +216,39 @@ impl Tree {
         }
     }
 
-    /// The names of the first and the last part of a division that has parts only; else those of the parts and nets
-    /// that most of its robots are of. None has a name if all nets are nameless.
-    fn division_name(&self, items: &[(usize, Item)], nets: &BTreeMap<NetId, String>) -> Option<String> {
-        let parts: Vec<&str> = items.iter().filter_map(|(_, item)| self.part_name(*item)).collect();
+    /// What items of a part can be called together: the first and the last if all are parts; else the names of the
+    /// parts and nets that their robots are of, those of most robots first.
+    fn words(&self, at: usize, items: &[(usize, Item)], nets: &NetNames<'_>) -> Vec<Word> {
+        let named = |inner: usize| {
+            let CircuitPart { name, circuit, .. } = &self.parts[inner];
+            circuit.as_deref().map_or(name.as_str(), |circuit| call_name(name, circuit))
+        };
+        let parts: Vec<&str> = items.iter().filter_map(|(_, item)| item.part()).map(named).collect();
         if let [first, .., last] = parts[..]
             && parts.len() == items.len()
             && first != last
         {
-            return Some(format!("{first} to {last}"));
+            return vec![Word::new(format!("{first} to {last}"))];
         }
-        let mut robots: BTreeMap<&str, usize> = BTreeMap::new();
+        let calls: Vec<&str> = path_of(&self.parts, at)
+            .into_iter()
+            .filter(|&part| self.parts[part].circuit.is_some())
+            .map(|part| self.parts[part].name.as_str())
+            .collect();
+        let mut words: BTreeMap<String, Word> = BTreeMap::new();
         for (_, item) in items {
-            match item {
-                Item::Part(inner) => *robots.entry(&self.parts[*inner].name).or_default() += self.parts[*inner].size,
+            let (name, place, robots) = match item {
+                Item::Part(inner) => (named(*inner).to_owned(), None, self.parts[*inner].size),
                 Item::Cell(cell) => {
-                    nets.get(cell).into_iter().for_each(|net| *robots.entry(net).or_default() += 1);
+                    let (name, place) = nets.within(*cell, &calls);
+                    (name, place, 1)
                 }
-            }
+            };
+            words.entry(name.clone()).or_insert_with(|| Word::new(name)).count(robots, place);
         }
-        let mut names: Vec<(&str, usize)> = robots.into_iter().collect();
-        names.sort_by_key(|&(name, robots)| (name.starts_with("to "), std::cmp::Reverse(robots)));
-        let (first, _) = names.first()?;
-        let both = names.get(1).map(|(second, _)| format!("{first}, {second}"));
-        Some(both.filter(|both| both.chars().count() <= LETTERS).unwrap_or_else(|| (*first).to_owned()))
-    }
-
-    fn part_name(&self, item: Item) -> Option<&str> {
-        match item {
-            Item::Part(inner) => Some(&self.parts[inner].name),
-            Item::Cell(_) => None,
-        }
+        let mut words: Vec<Word> = words.into_values().collect();
+        words.sort_by_key(Word::order);
+        words
     }
 
     /// The parts that are left, each after the one around it.
@@ -267,30 +280,12 @@ fn is_shown(netlist: &Netlist, id: NetId) -> bool {
     matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. })
 }
 
-/// The names that the source gives to nets of cells, or the outputs that show them, without the place of a bit in its
-/// bus. A net without one has that of a call, or `to` the first name that is reached from it.
-fn named_nets(netlist: &Netlist) -> BTreeMap<NetId, String> {
-    let named = netlist.cells().filter_map(|(id, cell)| Some((id, cell.name.clone()?)));
-    let shown = netlist.outputs().iter().flat_map(|&output| {
-        let name = netlist.net_name(output);
-        netlist.pins(output).into_iter().map(move |driver| (driver, name.clone()))
-    });
-    let called = netlist.cells().filter_map(|(id, _)| {
-        let call = *netlist.blocks().around(netlist.block(id)).first()?;
-        Some((id, netlist.blocks().name(call).to_owned()))
-    });
-    let bus = |(id, name): (NetId, String)| (id, name.split(['[', '/', '.']).next().unwrap_or(&name).to_owned());
-    let mut nets: BTreeMap<NetId, String> = called.chain(shown.chain(named).map(bus)).collect();
-    let mut open: VecDeque<(NetId, String)> = nets.iter().map(|(&id, name)| (id, format!("to {name}"))).collect();
-    while let Some((id, name)) = open.pop_front() {
-        for pin in netlist.pins(id).into_iter().filter(|&pin| netlist.cell(pin).is_some()) {
-            if let Entry::Vacant(place) = nets.entry(pin) {
-                place.insert(name.clone());
-                open.push_back((pin, name.clone()));
-            }
-        }
-    }
-    nets
+/// The parts around a part and itself, without the whole circuit.
+fn path_of(parts: &[CircuitPart], part: usize) -> Vec<usize> {
+    let mut path: Vec<usize> = std::iter::successors(Some(part), |&at| parts[at].outer).collect();
+    path.pop();
+    path.reverse();
+    path
 }
 
 /// The place of each cell and wire in an order in which each comes soon after those it reads: that of a search from the
@@ -351,8 +346,8 @@ mod tests {
         assert_eq!(check(2, 10).parts.len(), 1, "20 cells are seen at once");
         let few = check(4, 10);
         assert_eq!(few.parts[0].inner.len(), 4);
-        assert_eq!(few.path(2), ["c[1]"]);
-        assert_eq!(few.parts[2].circuit.as_deref(), Some("chain"));
+        assert_eq!(few.path(2), [2]);
+        assert_eq!(few.titles(2), ("c[1]", Some("chain")), "other parts are calls of the same circuit");
     }
 
     #[test]
@@ -375,18 +370,58 @@ mod tests {
         }
         netlist.add_output("last", net);
         let hierarchy = Hierarchy::of(&netlist);
-        let names: Vec<&str> =
-            hierarchy.parts[0].inner.iter().map(|&inner| hierarchy.parts[inner].name.as_str()).collect();
-        assert_eq!(names, ["c[0], c[1]", "carry", "carry, part 3"]);
+        let names: Vec<&str> = hierarchy.parts[0].inner.iter().map(|&inner| hierarchy.titles(inner).0).collect();
+        assert_eq!(names, ["c[0], c[1]", "carry[37..14]", "carry[59..38]"]);
+    }
+
+    /// A call of each of these names and circuits, with three inverters in each, among many others.
+    fn calls(called: &[(&str, &str)]) -> Hierarchy {
+        let mut netlist = chains(0, 0);
+        let mut net = netlist.inputs()[0];
+        for (name, circuit) in called {
+            let block = netlist.blocks_mut().add(*name, *circuit, BlockId::TOP);
+            for _ in 0..10 {
+                net = netlist.add_gate(Function::NOT, &[net]);
+                netlist.put_into(net, block);
+            }
+        }
+        netlist.add_output("last", net);
+        Hierarchy::of(&netlist)
+    }
+
+    #[test]
+    fn a_call_is_called_as_its_circuit_where_that_is_enough() {
+        let called = [
+            ("pc", "machine"),
+            ("a", "register"),
+            ("equal_1", "equal"),
+            ("x", "half"),
+            ("s", "prelude.add"),
+            ("y", "half"),
+        ];
+        let hierarchy = calls(&called);
+        let titles: Vec<(&str, Option<&str>)> =
+            hierarchy.parts[0].inner.iter().map(|&inner| hierarchy.titles(inner)).collect();
+        assert_eq!(
+            titles,
+            [
+                ("machine", Some("pc")),
+                ("a", Some("register")),
+                ("equal", None),
+                ("x", Some("half")),
+                ("add", Some("s")),
+                ("y", Some("half"))
+            ]
+        );
     }
 
     #[test]
     fn large_parts_are_divided_in_order() {
         let many = check(60, 30);
         assert_eq!(many.parts[0].inner.len(), 3);
-        assert_eq!(many.path(1), ["c[0] to c[19]"]);
+        assert_eq!(many.parts[1].name, "c[0] to c[19]");
         let flat = check(1, 2_000);
-        assert!(flat.path(1)[0].starts_with("c[0]"), "{:?}", flat.path(1));
+        assert!(flat.parts[1].name.starts_with("c[0]"), "{:?}", flat.parts[1].name);
         assert!(flat.parts.len() > 80 && flat.parts[0].inner.len() <= MOST);
     }
 }

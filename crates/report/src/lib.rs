@@ -29,6 +29,7 @@ mod layers;
 mod listing;
 mod logic_page;
 mod looks;
+mod net_names;
 mod page_bodies;
 mod phases;
 mod portraits;

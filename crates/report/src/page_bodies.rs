@@ -31,13 +31,13 @@ pub fn materials(body: &Body) -> String {
     material_words(body).join("; ")
 }
 
-/// The description of a robot of a swarm for a page: pairs of a word and a text.
-pub fn about_robot(assembly: &Assembly, number: usize) -> Vec<[String; 2]> {
+/// The description of a robot of a swarm for a page: pairs of a word and a text. `called` is what a source is called.
+pub fn about_robot(assembly: &Assembly, number: usize, called: &dyn Fn(StimulusSource) -> String) -> Vec<[String; 2]> {
     let member = &assembly.members[number];
     let (robot, body, character) = (&member.robot, &member.robot.body, &member.robot.character);
     let wired = |source: &StimulusSource| match source {
         StimulusSource::Constant(value) => format!("nothing (always {})", u8::from(*value)),
-        StimulusSource::Input(_) | StimulusSource::Robot(_) => assembly.source_name(*source),
+        StimulusSource::Input(_) | StimulusSource::Robot(_) => called(*source),
     };
     let (clock, switches) = (counted(character.clock as usize, "cycle"), character.switches);
     let pair = |word: &str, text: String| [word.to_owned(), text];
@@ -63,7 +63,7 @@ pub fn cell_data(assembly: &Assembly) -> Vec<Value> {
         json!({
             "net": member.net,
             "function": member.robot.function().name(),
-            "about": about_robot(assembly, number),
+            "about": about_robot(assembly, number, &|source| assembly.source_name(source)),
             "reads": wired.map(|&source| assembly.source_name(source)).collect::<Vec<_>>(),
         })
     };

@@ -45,7 +45,7 @@ pub struct SchematicPages {
 pub struct SheetPage {
     /// Its name in the sheet around it.
     pub name: String,
-    /// What it is, such as `adder, 37 robots`.
+    /// What else it is, such as `adder, 37 robots`.
     pub about: String,
     /// The sheet around it.
     pub outer: Option<usize>,
@@ -81,8 +81,8 @@ impl<'a> Schematic<'a> {
         let page = |(number, part): (usize, &CircuitPart)| {
             let (svg, bundles) = self.draw(number, &bodies);
             SheetPage {
-                name: part.name.clone(),
-                about: about(part),
+                name: self.hierarchy.titles(number).0.to_owned(),
+                about: self.about(number),
                 outer: part.outer,
                 svg: embedded(&svg.emptied("body-")),
                 bundles,
@@ -107,7 +107,8 @@ impl<'a> Schematic<'a> {
         let sheet = Sheet::of(self.circuit, &self.hierarchy, part);
         let plan = SheetPlan::of(&sheet.netlist);
         let path = self.hierarchy.path(part);
-        let title = if path.is_empty() { self.circuit.name.clone() } else { path.join(" / ") };
+        let titles: Vec<&str> = path.iter().map(|&part| self.hierarchy.titles(part).0).collect();
+        let title = if path.is_empty() { self.circuit.name.clone() } else { titles.join(" / ") };
         let mut svg = Svg::new(plan.width, plan.height, &format!("schematic of {title}"));
         let mut symbols = Symbols { svg: &mut svg, netlist: &sheet.netlist, plan: &plan };
         let critical = self.critical_wires(&sheet);
@@ -118,7 +119,7 @@ impl<'a> Schematic<'a> {
         for net in plan.nets(&sheet.netlist) {
             let names: Vec<String> = sheet.nets[&net].iter().map(|&id| self.circuit.net_name(id)).collect();
             let (id, title) = match &names[..] {
-                [name] => (format!("net-{name}"), name.clone()),
+                [name] => (format!("net-{name}"), self.circuit.net_label(sheet.nets[&net][0])),
                 _ => (format!("nets-{}", bundles.len()), counted(names.len(), "net")),
             };
             if names.len() != 1 {
@@ -127,7 +128,10 @@ impl<'a> Schematic<'a> {
             svg.group(&id, &title, |svg| draw_net(svg, &sheet.netlist, &plan, net, &critical));
         }
         let mut symbols = Symbols { svg: &mut svg, netlist: &sheet.netlist, plan: &plan };
-        let prefix = if path.is_empty() { String::new() } else { path.join("/") + "/" };
+        let calls: Vec<&CircuitPart> = path.iter().map(|&part| &self.hierarchy.parts[part]).collect();
+        let calls: Vec<&str> =
+            calls.iter().filter(|part| part.circuit.is_some()).map(|part| part.name.as_str()).collect();
+        let prefix = calls.join("/") + "/";
         for (&id, shown) in &sheet.shown {
             match shown {
                 SheetItem::Cell(cell) => {
@@ -138,24 +142,39 @@ impl<'a> Schematic<'a> {
                     });
                     let net = self.circuit.net_name(*cell);
                     let title = self.title_of(*cell, robot);
-                    let short = net.strip_prefix(&prefix).unwrap_or(&net);
+                    let own = net.strip_prefix(&prefix).unwrap_or(&net);
+                    let short = if self.circuit.is_named(*cell) { own } else { "" };
                     symbols.draw_cell(id, (self.numbers[cell], &title, short), body);
                 }
                 SheetItem::Part(inner) => {
-                    let part = &self.hierarchy.parts[*inner];
-                    symbols.draw_part(id, *inner, (&part.name, &about(part)));
+                    symbols.draw_part(id, *inner, (self.hierarchy.titles(*inner).0, &self.about(*inner)));
                 }
-                SheetItem::Port => symbols.draw_port(id),
+                SheetItem::Port => {
+                    let key = match &sheet.ports[&id][..] {
+                        [net] => self.circuit.net_name(*net),
+                        _ => sheet.netlist.net_name(id),
+                    };
+                    symbols.draw_port(id, &key);
+                }
                 SheetItem::Wire | SheetItem::Constant => symbols.draw_box(id),
             }
         }
         (svg, bundles)
     }
 
+    /// `register, 37 robots`
+    fn about(&self, part: usize) -> String {
+        let robots = counted(self.hierarchy.parts[part].size, "robot");
+        self.hierarchy.titles(part).1.map_or(robots.clone(), |more| format!("{more}, {robots}"))
+    }
+
     /// `q = nand(set, nq), robot nand_1`
     fn title_of(&self, cell: NetId, robot: Option<&Robot>) -> String {
-        let pins: Vec<String> = self.circuit.pins(cell).into_iter().map(|net| self.circuit.net_name(net)).collect();
         let robot = robot.map_or(String::new(), |robot| format!(", robot {}", robot.name));
+        if !self.circuit.is_named(cell) {
+            return self.circuit.net_label(cell) + &robot;
+        }
+        let pins: Vec<String> = self.circuit.pins(cell).into_iter().map(|net| self.circuit.net_label(net)).collect();
         let function = self.circuit.cell(cell).map_or(String::new(), |cell| cell.function.to_string());
         format!("{} = {function}({}){robot}", self.circuit.net_name(cell), pins.join(", "))
     }
@@ -166,12 +185,6 @@ impl<'a> Schematic<'a> {
         let pair = |pair: &[Option<NetId>]| Some((pair[0]?, pair[1]?)).filter(|(from, to)| from != to);
         nodes.windows(2).filter_map(pair).collect()
     }
-}
-
-/// `adder, 37 robots`
-fn about(part: &CircuitPart) -> String {
-    let robots = counted(part.size, "robot");
-    part.circuit.as_ref().map_or(robots.clone(), |circuit| format!("{circuit}, {robots}"))
 }
 
 /// The scale at which a robot fits its place.

@@ -37,6 +37,8 @@ pub struct Sheet {
     pub shown: BTreeMap<NetId, SheetItem>,
     /// The nets of the circuit that each node drives here.
     pub nets: BTreeMap<NetId, Vec<NetId>>,
+    /// The nets of the circuit that each port shows.
+    pub ports: BTreeMap<NetId, Vec<NetId>>,
     /// The node of each cell and wire of the part and of those inside it, and of each port of the circuit.
     nodes: BTreeMap<NetId, NetId>,
 }
@@ -69,7 +71,8 @@ impl Sheet {
     /// The sheet of a part of a circuit.
     pub fn of(circuit: &Netlist, hierarchy: &Hierarchy, part: usize) -> Self {
         let netlist = Netlist::new(&circuit.name);
-        let sheet = Self { netlist, shown: BTreeMap::new(), nets: BTreeMap::new(), nodes: BTreeMap::new() };
+        let (shown, nets, ports, nodes) = Default::default();
+        let sheet = Self { netlist, shown, nets, ports, nodes };
         let inside = hierarchy.inside(part);
         let beside = |&id: &NetId| circuit.pins(id).into_iter().chain(circuit.fanout(id).into_iter().map(|(id, _)| id));
         let near = match part {
@@ -123,10 +126,11 @@ impl Builder<'_> {
 
     fn port_names(&self, nets: &BTreeSet<NetId>) -> PortNames {
         let home = |id: NetId| match self.hierarchy.home.get(&id) {
-            Some(&part) if part != 0 && part != self.part => self.hierarchy.parts[part].name.clone(),
+            Some(&part) if part != 0 && part != self.part => self.hierarchy.titles(part).0.to_owned(),
             _ => "others".to_owned(),
         };
-        PortNames::of(nets.iter().map(|&id| (id, self.circuit.net_name(id), home(id))).collect())
+        let unnamed = |id: NetId| (!self.circuit.is_named(id)).then(|| home(id));
+        PortNames::of(nets.iter().map(|&id| (id, self.circuit.net_label(id), unnamed(id))).collect())
     }
 
     /// Adds a node for everything that is shown, in order of the circuit.
@@ -137,12 +141,16 @@ impl Builder<'_> {
                 Node::Constant(_) => {}
                 Node::Output(_) if self.sinks.0.contains_key(&id) => {
                     let place = self.sink(id);
-                    self.node(place, None);
+                    self.port(place, id, None);
                 }
                 Node::Output(_) => {}
-                _ if self.is_inside(id) || self.sources.0.contains_key(&id) => {
+                _ if self.is_inside(id) => {
                     let place = self.source(id);
                     self.node(place, Some(id));
+                }
+                _ if self.sources.0.contains_key(&id) => {
+                    let place = self.source(id);
+                    self.port(place, id, Some(id));
                 }
                 _ => {}
             }
@@ -150,8 +158,14 @@ impl Builder<'_> {
         let leaving: Vec<NetId> = self.inside.keys().copied().filter(|id| self.sinks.0.contains_key(id)).collect();
         for id in leaving {
             let place = self.sink(id);
-            self.node(place, None);
+            self.port(place, id, None);
         }
+    }
+
+    /// The node of a port that shows a net, as [`Builder::node`].
+    fn port(&mut self, place: Place, shown: NetId, id: Option<NetId>) {
+        self.node(place.clone(), id);
+        self.sheet.ports.entry(self.made[&place]).or_default().push(shown);
     }
 
     /// Whether anything on the sheet reads a constant.
@@ -248,8 +262,8 @@ impl Builder<'_> {
 struct PortNames(BTreeMap<NetId, String>);
 
 impl PortNames {
-    /// Those of nets with their names, and with what they are called together with others that have no name.
-    fn of(nets: Vec<(NetId, String, String)>) -> Self {
+    /// Those of nets with what they are called, and, if they have no name, with what they are together with others.
+    fn of(nets: Vec<(NetId, String, Option<String>)>) -> Self {
         let is_few = nets.len() <= MOST_BITS;
         let mut known = BTreeSet::new();
         let mut port = |name: String| {
@@ -259,10 +273,9 @@ impl PortNames {
             }
             "others".to_owned()
         };
-        let name = |(id, name, home): (NetId, String, String)| {
-            let bus = name.rfind('[').map(|at| name[..at].to_owned());
-            let is_unnamed = name.starts_with('n') && name.len() > 1 && name[1..].bytes().all(|c| c.is_ascii_digit());
-            let together = if is_unnamed { home } else { bus.unwrap_or_else(|| name.clone()) };
+        let name = |(id, name, home): (NetId, String, Option<String>)| {
+            let bus = || name.rfind('[').map_or(name.clone(), |at| name[..at].to_owned());
+            let together = home.unwrap_or_else(bus);
             (id, port(if is_few { name } else { together }))
         };
         Self(nets.into_iter().map(name).collect())

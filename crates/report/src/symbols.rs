@@ -71,11 +71,12 @@ impl Symbols<'_> {
     }
 
     /// A port of the circuit or of the part, with its direction and name.
-    pub fn draw_port(&mut self, id: NetId) {
+    /// `key` is what the port is known by: its net where it has one alone.
+    pub fn draw_port(&mut self, id: NetId, key: &str) {
         let name = self.netlist.net_name(id);
         let direction = if self.netlist.inputs().contains(&id) { "input" } else { "output" };
         let (corner, size) = (self.corner(id), self.plan.size(self.netlist, id));
-        self.svg.group(&format!("{direction}-{name}"), &name, |svg| draw_label(svg, corner, size, &name));
+        self.svg.group(&format!("{direction}-{key}"), &name, |svg| draw_label(svg, corner, size, &name));
     }
 
     /// A constant or a wire.

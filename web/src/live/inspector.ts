@@ -78,7 +78,7 @@ export class Inspector implements View {
     fill(
       this.#facts,
       button("Show all robots", () => this.swarm.selection.followed.set(null), { "data-do": "all" }),
-      element("h3", {}, `${robot.net} = ${gateName(robot.function)}`),
+      element("h3", {}, robot.named ? `${robot.label} = ${gateName(robot.function)}` : gateName(robot.function)),
       truthTableElement(robot.function),
       factList(robot.about),
     );

@@ -153,7 +153,7 @@ export class Spacetime extends Diagram {
     for (const { robot, y } of ends) {
       pen.font = `${this.#isPointed(robot) ? "600 " : ""}${size}px ${colors.value.font}`;
       pen.fillText(
-        definition?.robots[robot]?.net ?? "",
+        definition?.robots[robot]?.label ?? "",
         Math.min(this.x(time, scale.start), this.pane.width - 40) + 6,
         y,
       );

@@ -200,7 +200,7 @@ export class LiveSwarm {
       return String(Number(source.constant));
     }
     if ("robot" in source) {
-      return definition?.robots[source.robot]?.net ?? "";
+      return definition?.robots[source.robot]?.label ?? "";
     }
     return bitsOf(definition?.inputs ?? [])[source.input]?.name ?? "";
   }

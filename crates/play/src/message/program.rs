@@ -59,11 +59,21 @@ pub(crate) struct TestRowEntry {
 pub(crate) struct PortEntry {
     pub(crate) name: String,
     pub(crate) width: usize,
+    /// The members of its enumeration, each with its name and its digits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(test, ts(optional))]
+    pub(crate) members: Option<Vec<[String; 2]>>,
 }
 
 impl PortEntry {
     /// The ports of columns.
     pub(crate) fn of(columns: &[Column]) -> Vec<Self> {
-        columns.iter().map(|Column { name, width, .. }| Self { name: name.clone(), width: *width }).collect()
+        let one = |Column { name, width, members }: &Column| {
+            let digits = |value: u128| format!("{value:0width$b}", width = *width);
+            let members = members.as_ref().map(|known| &known.members);
+            let members = members.map(|all| all.iter().map(|one| [one.name.clone(), digits(one.value)]).collect());
+            Self { name: name.clone(), width: *width, members }
+        };
+        columns.iter().map(one).collect()
     }
 }

@@ -29,6 +29,9 @@ pub(crate) struct ShownSwarm {
     /// The source of each bit of the outputs.
     pub(crate) shown: Vec<BitSource>,
     pub(crate) robots: Vec<SwarmRobot>,
+    pub(crate) registers: Vec<ShownRegister>,
+    /// The table of the circuit over one of its outputs.
+    pub(crate) listing: Option<ShownListing>,
     pub(crate) looks: Vec<VoxelLook>,
     pub(crate) schematic: ShownSchematic,
     pub(crate) timing: String,
@@ -76,6 +79,37 @@ impl From<SchematicPages> for ShownSchematic {
     }
 }
 
+/// A register of the circuit.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownRegister {
+    /// The name of its net, after those of the calls that it is in where another has the same.
+    pub(crate) name: String,
+    /// The robots that have its bits, the most significant first.
+    pub(crate) robots: Vec<usize>,
+}
+
+/// A table over an output, such as the instructions of a machine or the transitions of its states.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownListing {
+    /// The output that chooses the row.
+    pub(crate) port: String,
+    pub(crate) rows: Vec<ListingRow>,
+}
+
+/// A row of such a table.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ListingRow {
+    /// The digits of the output for which it is, `-` for any; the first row that fits is the one.
+    pub(crate) bits: String,
+    /// These, and what the table has for them, as in the source.
+    pub(crate) at: String,
+    pub(crate) text: String,
+    pub(crate) line: usize,
+}
+
 /// A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
@@ -98,7 +132,12 @@ pub(crate) struct ShownWaves {
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct SwarmRobot {
+    /// The name by which files and the schematic know its net.
     pub(crate) net: String,
+    /// The name in the source, or for a net without one what drives it, such as `nand(d, e)`.
+    pub(crate) label: String,
+    /// Whether the source has a name for it.
+    pub(crate) named: bool,
     pub(crate) function: &'static str,
     pub(crate) robot: String,
     /// Words with their texts.

@@ -34,6 +34,8 @@ pub(crate) struct TestResult {
     inputs: Vec<PortEntry>,
     outputs: Vec<PortEntry>,
     rows: Vec<RowResult>,
+    /// What the environment wrote as text.
+    printed: Option<String>,
 }
 
 /// The verdict of a row.
@@ -83,6 +85,7 @@ impl From<&TestVerdict> for TestResult {
             inputs: PortEntry::of(&verdict.inputs),
             outputs: PortEntry::of(&verdict.outputs),
             rows: verdict.rows.iter().take(listed(&verdict.inputs, &verdict.outputs)).map(RowResult::from).collect(),
+            printed: verdict.printed.clone(),
         }
     }
 }
