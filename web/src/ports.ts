@@ -46,16 +46,6 @@ export function toBits(value: bigint, width: number): number[] {
   return Array.from({ length: width }, (_, i) => Number((value >> BigInt(width - 1 - i)) & 1n));
 }
 
-/** A number as typed: decimal, or binary or hexadecimal after `0b` or `0x`; null if it is none or too wide. */
-export function parseNumber(text: string, width: number): bigint | null {
-  const plain = text.trim().toLowerCase();
-  if (!/^(\d+|0b[01]+|0x[\da-f]+)$/.test(plain)) {
-    return null;
-  }
-  const value = BigInt(plain);
-  return value >> BigInt(width) === 0n ? value : null;
-}
-
 /** The bits of `text` with one of them changed. */
 export function withBit(text: string, index: number, bit: number): string {
   return text.slice(0, index) + String(bit) + text.slice(index + 1);

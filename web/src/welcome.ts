@@ -10,6 +10,7 @@ const KNOWN = "welcomed";
 const KEYS: [string, string][] = [
   ["Space", "run or pause the robots"],
   [".", "one cycle"],
+  ["F", "let a pane fill the page; Escape goes back"],
   ["+ - 0", "zoom the schematic, and show all of it"],
   ["Ctrl+S", "save the program"],
   ["Ctrl+Space", "propose what to write"],

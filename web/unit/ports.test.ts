@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { bitsOf, keepBits, offsetOf, parseNumber, toBits, toNumber, totalWidth, withBit } from "../src/ports";
+import { bitsOf, keepBits, offsetOf, toBits, toNumber, totalWidth, withBit } from "../src/ports";
 
 const ports = [
   { name: "a", width: 3 },
@@ -30,15 +30,6 @@ test("numbers become bits and bits numbers", () => {
   }
   const wide = (1n << 70n) + 5n;
   assert.equal(toNumber(toBits(wide, 80)), wide);
-});
-
-test("typed numbers are understood or refused", () => {
-  assert.equal(parseNumber(" 5 ", 3), 5n);
-  assert.equal(parseNumber("0b101", 3), 5n);
-  assert.equal(parseNumber("0xF", 4), 15n);
-  for (const text of ["", "8", "-1", "1.5", "five", "0b2"]) {
-    assert.equal(parseNumber(text, 3), null, text);
-  }
 });
 
 test("one bit changes", () => {

@@ -42,11 +42,11 @@ export class Controls implements View {
   readonly #rate = element("output", { class: "rate", title: "Cycles simulated in a second" });
   #asked: number | null = null;
 
-  /** With the button of the truth table; `whole` is what fills the screen. */
+  /** With buttons for what is `beside` the robots, and for how `large` they are. */
   constructor(
     private readonly swarm: LiveSwarm,
-    truth: HTMLElement,
-    whole: HTMLElement,
+    beside: HTMLElement[],
+    large: HTMLElement[],
   ) {
     this.host.append(
       iconButton("reset", "Back to the start", () => swarm.reset(), { "data-do": "reset" }),
@@ -54,12 +54,12 @@ export class Controls implements View {
       iconButton("step", "One cycle (.)", () => swarm.step(), { "data-do": "step" }),
       this.#waveStep,
       this.#crowd,
-      truth,
+      ...beside,
       this.#speeds(),
       this.#slider,
       this.#cycle,
       this.#rate,
-      fullScreen(whole),
+      ...large,
     );
     swarm.running.follow(running => {
       changeIcon(this.#play, running ? "pause" : "play", running ? "Pause (Space)" : "Play (Space)");
@@ -140,20 +140,4 @@ export class Controls implements View {
       ...SPEEDS.map(([label, factor]) => element("option", { value: label, selected: factor === 1 }, label)),
     );
   }
-}
-
-/** Shows the robots with their inputs on the whole screen, and back. A phone that cannot do this has no button. */
-function fullScreen(whole: HTMLElement): HTMLElement {
-  const made = iconButton(
-    "full",
-    "Full screen",
-    () => void (document.fullscreenElement === null ? whole.requestFullscreen() : document.exitFullscreen()),
-    { "data-do": "full", hidden: !document.fullscreenEnabled },
-  );
-  document.addEventListener("fullscreenchange", () => {
-    const full = document.fullscreenElement === whole;
-    made.setAttribute("aria-pressed", String(full));
-    made.title = full ? "Leave full screen (Esc)" : "Full screen";
-  });
-  return made;
 }

@@ -17,7 +17,7 @@ export abstract class Diagram implements View {
     protected readonly timeline: Timeline,
     name: string,
     label: string,
-    private readonly changed: () => void,
+    protected readonly changed: () => void,
   ) {
     this.pane = new CanvasPane(name, label, changed);
     timeline.zoom.on(changed);

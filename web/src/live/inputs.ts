@@ -1,9 +1,10 @@
 // The inputs: a switch for each bit, a number with steps for each bus.
 
 import { element, fill, iconButton } from "../element";
-import { bitsOf, offsetOf, parseNumber, toBits, toNumber, type PortBit } from "../ports";
+import { bitsOf, offsetOf, toBits, toNumber, type PortBit } from "../ports";
 import type { PortEntry } from "../protocol";
 import type { View } from "./animation";
+import { numberFormat, numberText, typedNumber } from "./numbers";
 import type { LiveSwarm } from "./swarm";
 
 /** Buses up to this width have a switch for each bit, too. */
@@ -17,6 +18,7 @@ export class InputPanel implements View {
 
   constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.on(() => this.#build());
+    numberFormat.on(() => this.#build());
     swarm.inputs.on(() => this.draw());
     swarm.clock.on(() => this.#marks.forEach(mark => mark()));
   }
@@ -49,6 +51,9 @@ export class InputPanel implements View {
     const [first] = bits;
     if (first !== undefined && first.index === this.swarm.definition.value?.waves?.clock) {
       return waveClock(first);
+    }
+    if (port.members !== undefined && numberFormat.value === "names") {
+      return this.#choice(port, port.members);
     }
     if (port.width === 1) {
       return this.#switch(bits[0] as PortBit, port.name);
@@ -99,6 +104,33 @@ export class InputPanel implements View {
     return Number(this.swarm.inputs.value[index] ?? 0);
   }
 
+  /** The members of an enumeration, to pick one. A value that is none of them is shown as a number. */
+  #choice(port: PortEntry, members: [string, string][]): HTMLElement {
+    const start = offsetOf(this.swarm.definition.value?.inputs ?? [], port);
+    const other = element("option", { value: "", hidden: true });
+    const field = element(
+      "select",
+      {
+        "aria-label": `input ${port.name}`,
+        "data-input": port.name,
+        onchange: () => this.#set(port, start, BigInt(`0b${field.value}`)),
+      },
+      other,
+      ...members.map(([name, digits]) => element("option", { value: digits }, name)),
+    );
+    let before: bigint | null = null;
+    this.#updates.push(() => {
+      const value = this.#current(port, start);
+      if (value !== before) {
+        before = value;
+        const digits = toBits(value, port.width).join("");
+        other.textContent = String(value);
+        field.value = members.some(([, known]) => known === digits) ? digits : "";
+      }
+    });
+    return element("label", { class: "number" }, element("span", { class: "name" }, port.name), field);
+  }
+
   #number(port: PortEntry): HTMLElement {
     const start = offsetOf(this.swarm.definition.value?.inputs ?? [], port);
     const field = element("input", {
@@ -108,7 +140,7 @@ export class InputPanel implements View {
       spellcheck: "false",
       "aria-label": `input ${port.name}`,
       "data-input": port.name,
-      title: `A number below 2 to the power of ${port.width}; 0b and 0x are understood`,
+      title: `A number of ${port.width} bits, such as 5, -3, 0x1f or 0b11`,
       onchange: () => this.#type(field, port, start),
       onkeydown: event => {
         const step = { ArrowUp: 1n, ArrowDown: -1n }[event.key];
@@ -119,7 +151,7 @@ export class InputPanel implements View {
       },
     });
     this.#updates.push(() => {
-      const text = String(this.#current(port, start));
+      const text = numberText(this.#current(port, start), port);
       if (document.activeElement !== field && field.value !== text) {
         field.value = text;
       }
@@ -139,11 +171,11 @@ export class InputPanel implements View {
   }
 
   #type(field: HTMLInputElement, port: PortEntry, start: number): void {
-    const value = parseNumber(field.value, port.width);
+    const value = typedNumber(field.value, port);
     field.setAttribute("aria-invalid", String(value === null));
     if (value !== null) {
       this.#set(port, start, value);
-      field.value = String(value);
+      field.value = numberText(value, port);
     }
   }
 
@@ -153,7 +185,7 @@ export class InputPanel implements View {
     this.#set(port, start, (this.#current(port, start) + step + size) % size);
     const field = this.host.querySelector<HTMLInputElement>(`input[data-input="${port.name}"]`);
     if (field !== null) {
-      field.value = String(this.#current(port, start));
+      field.value = numberText(this.#current(port, start), port);
     }
   }
 

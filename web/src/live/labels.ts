@@ -94,7 +94,7 @@ export class Labels {
 
   /** Arranges all texts for a scale, in pixels of a unit; names of ports have at most `most` pixels. */
   arrange(scale: number, most: number): void {
-    const ends = new Map<string, number>();
+    const ends = new Map<string, number[]>();
     for (const label of this.#all) {
       if (label.kind === "cell") {
         this.#arrangeCell(label, scale);
@@ -200,7 +200,7 @@ export class Labels {
   }
 
   /** In its box, or else outside beside it, where no other name is. */
-  #arrangePort(label: Labelled, scale: number, most: number, ends: Map<string, number>): void {
+  #arrangePort(label: Labelled, scale: number, most: number, ends: Map<string, number[]>): void {
     const { kind, box, lines } = label;
     const [name] = lines;
     if (name === undefined) {
@@ -214,12 +214,13 @@ export class Labels {
       return;
     }
     const column = `${kind} ${box.x}`;
-    const isFree = middle * scale - (ends.get(column) ?? -Infinity) >= LEAST + 1;
+    const taken = ends.get(column) ?? [];
+    const isFree = taken.every(other => Math.abs(middle * scale - other) >= LEAST + 1);
     if (kind === "box" || !isFree) {
       hide(name);
       return;
     }
-    ends.set(column, middle * scale);
+    ends.set(column, [...taken, middle * scale]);
     const [x, anchor] =
       kind === "input" ? [box.x - BESIDE / scale, "end"] : [box.x + box.width + BESIDE / scale, "start"];
     this.#place(name, x as number, middle + (0.36 * LEAST) / scale, anchor as Anchor, most, scale);
@@ -228,7 +229,10 @@ export class Labels {
   #place(line: Line, x: number, y: number, anchor: Anchor, room: number, scale: number): void {
     const size = Math.max(LEAST, line.size * scale);
     const keepsEnd = /[/[]|^…/.test(line.text);
-    const text = fitText(line.text, room, text => this.measure(text, size, line.bold), keepsEnd);
+    // A name that would be cut may be less bold.
+    const bold = line.bold && this.measure(line.text, size, true) <= room;
+    const text = fitText(line.text, room, text => this.measure(text, size, bold), keepsEnd);
+    line.element.setAttribute("font-weight", bold ? "bold" : "normal");
     show(line.element, text !== "");
     if (text !== "") {
       line.element.textContent = text;

@@ -4,6 +4,7 @@ import { element, fill } from "../element";
 import { offsetOf, toNumber } from "../ports";
 import type { BitSource, PortEntry } from "../protocol";
 import type { View } from "./animation";
+import { FORMATS, numberFormat, numberText, type NumberFormat } from "./numbers";
 import type { LiveSwarm } from "./swarm";
 
 /** Wider buses have no lamps, only their number. */
@@ -15,6 +16,7 @@ export class OutputPanel implements View {
 
   constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.on(() => this.#build());
+    numberFormat.on(() => this.draw());
   }
 
   draw(): void {
@@ -34,8 +36,16 @@ export class OutputPanel implements View {
         const start = offsetOf(ports, port);
         return this.#port(port, definition?.shown.slice(start, start + port.width) ?? []);
       }),
+      this.#hasNumbers() && formatChoice(),
     );
     this.draw();
+  }
+
+  /** Whether any number is shown, for which one can choose how it is written. */
+  #hasNumbers(): boolean {
+    const { inputs = [], outputs = [], registers = [] } = this.swarm.definition.value ?? {};
+    const wide = [...inputs, ...outputs].some(({ width, members }) => width > 1 || members !== undefined);
+    return wide || registers.some(({ robots }) => robots.length > 1);
   }
 
   #port(port: PortEntry, sources: BitSource[]): HTMLElement {
@@ -44,10 +54,11 @@ export class OutputPanel implements View {
     );
     const few = port.width <= LIT;
     const number = element("output", { class: "number", "data-output": port.name });
-    if (port.width > 1) {
+    const numbered = port.width > 1 || port.members !== undefined;
+    if (numbered) {
       this.#updates.push(() => {
         const values = sources.map(source => this.swarm.value(source));
-        const text = values.includes(null) ? "–" : String(toNumber(values as number[]));
+        const text = values.includes(null) ? "–" : numberText(toNumber(values as number[]), port);
         if (number.textContent !== text) {
           number.textContent = text;
         }
@@ -58,7 +69,7 @@ export class OutputPanel implements View {
       { class: "output" },
       element("span", { class: "name" }, port.name),
       few && element("span", { class: port.width > 1 ? "lamps small" : "lamps" }, ...lamps),
-      port.width > 1 && number,
+      numbered && number,
     );
   }
 
@@ -82,4 +93,17 @@ export class OutputPanel implements View {
     });
     return lamp;
   }
+}
+
+function formatChoice(): HTMLElement {
+  return element(
+    "select",
+    {
+      class: "format",
+      "aria-label": "How numbers are written",
+      title: "How numbers are written",
+      onchange: event => numberFormat.set((event.target as HTMLSelectElement).value as NumberFormat),
+    },
+    ...FORMATS.map(([name, label]) => element("option", { value: name, selected: name === numberFormat.value }, label)),
+  );
 }

@@ -39,7 +39,8 @@ export class Schematic implements View {
     role: "group",
     "aria-label": "Schematic of the circuit",
   });
-  readonly #tools: HTMLElement;
+  /** The buttons above it. */
+  readonly tools: HTMLElement;
   /** The sheets from the whole to the one that is shown. */
   readonly #crumbs = element("nav", { class: "crumbs", "aria-label": "Part of the circuit" });
   #schematic: ShownSchematic = { sheets: [], bodies: [], homes: [] };
@@ -51,14 +52,14 @@ export class Schematic implements View {
   #labels: Labels | null = null;
   #whole: Box = { x: 0, y: 0, width: 1, height: 1 };
   readonly #view = new Viewport();
-  /** Whether the whole is shown, also after the pane has another size. */
-  #fitted = true;
+  /** What is shown after the pane has another size: what is seen at first, the whole, or what the reader chose. */
+  #shows: "first" | "whole" | "own" = "first";
   readonly #measure = measuring(FONT);
   /** The pointers that are down, where each is. */
   readonly #pointers = new Map<number, [number, number]>();
 
   constructor(private readonly swarm: LiveSwarm) {
-    this.#tools = element(
+    this.tools = element(
       "div",
       { class: "zoom" },
       iconButton("more", "Zoom in (+)", () => this.#zoom(STEP)),
@@ -104,9 +105,9 @@ export class Schematic implements View {
     this.#view.width = Math.max(0, width - 2 * this.host.clientLeft);
     this.#view.height = Math.max(0, height - 2 * this.host.clientTop);
     if (this.#view.width > 0 && this.#view.height > 0) {
-      if (hidden) {
+      if (hidden || this.#shows === "first") {
         this.#showFirst();
-      } else if (this.#fitted) {
+      } else if (this.#shows === "whole") {
         this.#fit();
       } else {
         this.#show();
@@ -155,7 +156,7 @@ export class Schematic implements View {
       }),
     );
     this.#crumbs.hidden = sheets.length < 2;
-    this.host.replaceChildren(this.#crumbs, this.#tools, this.#svg);
+    this.host.replaceChildren(this.#crumbs, this.tools, this.#svg);
     this.#mark(this.#svg);
     this.#labels = new Labels(this.#svg, this.#measure);
     this.#showFirst();
@@ -230,7 +231,7 @@ export class Schematic implements View {
   }
 
   #fit(): void {
-    this.#fitted = true;
+    this.#shows = "whole";
     this.#view.fit(this.#whole, scale => {
       const [left, right] = this.#labels?.beside(scale) ?? [0, 0];
       const most = this.#most();
@@ -257,14 +258,14 @@ export class Schematic implements View {
       const { y, height } = first.getBBox();
       const { x, width } = this.#whole;
       const seen = width < across ? { x, width } : { x: x - left / FIRST, width: across };
-      this.#fitted = false;
       this.#view.center({ ...seen, y, height }, FIRST);
       this.#show();
     }
+    this.#shows = "first";
   }
 
   #center(part: SVGGraphicsElement, scale: number): void {
-    this.#fitted = false;
+    this.#shows = "own";
     this.#view.center(part.getBBox(), scale);
     this.#show();
   }
@@ -278,7 +279,7 @@ export class Schematic implements View {
       this.draw();
     }
     const part = this.#svg?.querySelector<SVGGraphicsElement>(`[data-id="cell-${robot}"]`);
-    if (part && robot !== null && !this.#fitted) {
+    if (part && robot !== null && this.#shows === "own") {
       this.#center(part, Math.max(READABLE, this.#view.scale));
     }
   }
@@ -295,7 +296,7 @@ export class Schematic implements View {
       }
       return;
     }
-    this.#fitted = false;
+    this.#shows = "own";
     this.#view.zoom(factor, x, y);
     const part = factor > 1 ? this.#partAt(x, y) : null;
     if (part === null) {
@@ -378,7 +379,7 @@ export class Schematic implements View {
     this.#robots.forEach((robot, i) => (robot.tabIndex = i === index ? 0 : -1));
     const robot = this.#robots[index];
     robot?.focus();
-    if (robot instanceof SVGGraphicsElement && !this.#fitted) {
+    if (robot instanceof SVGGraphicsElement && this.#shows === "own") {
       this.#center(robot, Math.max(READABLE, this.#view.scale));
     }
   }
@@ -397,7 +398,7 @@ export class Schematic implements View {
   }
 
   #isTool(target: EventTarget | null): boolean {
-    return target instanceof Node && (this.#tools.contains(target) || this.#crumbs.contains(target));
+    return target instanceof Node && (this.tools.contains(target) || this.#crumbs.contains(target));
   }
 
   /** One pointer drags the picture and two pinch it; a press that does not move follows a robot or opens a part. */
@@ -455,7 +456,7 @@ export class Schematic implements View {
     const from = this.#pointers.get(pointer) ?? to;
     const other = [...this.#pointers].find(([id]) => id !== pointer)?.[1];
     this.#pointers.set(pointer, to);
-    this.#fitted = false;
+    this.#shows = "own";
     if (other === undefined) {
       this.#view.move(to[0] - from[0], to[1] - from[1]);
       this.#show();

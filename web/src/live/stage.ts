@@ -4,6 +4,7 @@ import { colors, enlargement } from "../theme";
 import { LaneGrid, followWithSlack, middleOf } from "./camera";
 import { crowdGrid, detailOf, drawDot, drawSilhouette, type Cell } from "./crowd";
 import { drawGround, drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
+import { fitText } from "./labels";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
 import type { BitSource } from "../protocol";
@@ -204,14 +205,17 @@ export class Stage implements View {
     // A low lane has the net and its gate in one line.
     const low = height < LOW * size;
     const above = middle - (low ? 5 : 9) * size;
-    pen.fillText(robot.net, left, above, low ? (width - badge) / 2 : width - badge);
-    const beside = Math.min((width - badge) / 2, pen.measureText(robot.net).width) + 8 * size;
+    // A robot whose net has no name is called by its gate.
+    const gate = gateName(robot.function);
+    const name = robot.named ? robot.label : gate;
+    pen.fillText(name, left, above, low && robot.named ? (width - badge) / 2 : width - badge);
+    const beside = Math.min((width - badge) / 2, pen.measureText(name).width) + 8 * size;
     pen.fillStyle = colors.value.dim;
     pen.font = `${12 * size}px ${colors.value.font}`;
-    if (low) {
-      pen.fillText(gateName(robot.function), left + beside, above, width - badge - beside);
-    } else {
-      pen.fillText(gateName(robot.function), left, middle + 5 * size, width);
+    if (robot.named && low) {
+      pen.fillText(gate, left + beside, above, width - badge - beside);
+    } else if (robot.named) {
+      pen.fillText(gate, left, middle + 5 * size, width);
     }
     // A robot of one input senses nothing but a constant by its other sides.
     const senses = robot.senses.filter(source => !("constant" in source));
@@ -224,7 +228,11 @@ export class Stage implements View {
     drawStimulus(pen, this.swarm.value(source), x, top, 12 * size, colors.value);
     pen.fillStyle = colors.value.dim;
     pen.font = `${11 * size}px ${colors.value.font}`;
-    pen.fillText(this.swarm.nameOf(source), x + 16 * size, top + 10 * size, width - 20 * size);
+    // What is too long is cut, and a net without a name is then called by its gate alone.
+    const fit = (text: string): string => fitText(text, width - 20 * size, text => pen.measureText(text).width);
+    const label = this.swarm.nameOf(source);
+    const name = fit(label.includes("(") && fit(label) !== label ? label.slice(0, label.indexOf("(")) : label);
+    pen.fillText(name, x + 16 * size, top + 10 * size);
   }
 
   #drawWalk(pen: Pen, robot: number, area: { left: number; top: number; width: number; height: number }): void {
@@ -291,7 +299,7 @@ export class Stage implements View {
       this.reveal(robot);
     } else if (event.key === "Enter" && current >= 0) {
       selection.follow(current);
-    } else if (event.key === "Escape") {
+    } else if (event.key === "Escape" && selection.followed.value !== null) {
       selection.followed.set(null);
     } else {
       return;

@@ -8,12 +8,14 @@ import { Animation } from "./animation";
 import { ClockPanel } from "./clock";
 import { Controls } from "./controls";
 import { InputPanel } from "./inputs";
+import { Filling } from "./fill";
 import { Inspector } from "./inspector";
 import { legend } from "./legend";
 import { OutputPanel } from "./outputs";
 import { Schematic } from "./schematic";
 import { Spacetime } from "./spacetime";
 import { Stage } from "./stage";
+import { StateView } from "./state_view";
 import type { LiveSwarm } from "./swarm";
 import { Timeline } from "./timeline";
 import { TruthView } from "./truth_view";
@@ -37,21 +39,25 @@ export class SwarmViews {
     const timeline = new Timeline();
     const [inputs, outputs] = [new InputPanel(swarm), new OutputPanel(swarm)];
     const truth = new TruthView(swarm, showsTruth);
-    this.controls = new Controls(swarm, truth.toggle, this.host);
+    const state = new StateView(swarm);
+    const filling = new Filling(this.host);
     this.stage = new Stage(swarm, wake);
+    const robots = filling.button("stage", this.stage.pane.host, "The robots");
+    this.controls = new Controls(swarm, [truth.toggle, state.toggle], [robots, fullScreen(this.host)]);
     const inspector = new Inspector(swarm);
     const schematic = new Schematic(swarm);
+    schematic.tools.append(filling.button("schematic", schematic.host, "The gates"));
     const [waveform, spacetime] = [new Waveform(swarm, timeline, wake), new Spacetime(swarm, timeline, wake)];
     const clock = new ClockPanel(swarm);
     this.host.append(
       head,
       element("div", { class: "ports" }, inputs.host, clock.host, outputs.host),
       this.controls.host,
-      element("div", { class: "scene" }, this.stage.pane.host, inspector.host, truth.host),
-      element("div", { class: "diagrams" }, schematic.host, diagrams(waveform, spacetime, timeline)),
+      element("div", { class: "scene" }, this.stage.pane.host, inspector.host, truth.host, state.host),
+      element("div", { class: "diagrams" }, schematic.host, diagrams([waveform, spacetime], timeline, filling)),
       this.#legend,
     );
-    for (const view of [inputs, outputs, this.stage, inspector, schematic, waveform, spacetime]) {
+    for (const view of [inputs, outputs, state, this.stage, inspector, schematic, waveform, spacetime]) {
       this.#animation.add(view);
     }
     this.#follow(wake);
@@ -99,17 +105,44 @@ const MATERIALS: Record<string, string> = {
   s3_grow: "grows while stimulus 3 is present",
 };
 
-function diagrams(waveform: Waveform, spacetime: Spacetime, timeline: Timeline): HTMLElement {
+function diagrams([waveform, spacetime]: [Waveform, Spacetime], timeline: Timeline, filling: Filling): HTMLElement {
   return element(
     "div",
     { class: "times" },
     element(
       "div",
-      { class: "zoom" },
-      iconButton("more", "Show fewer cycles", () => timeline.zoomBy(1)),
-      iconButton("less", "Show more cycles", () => timeline.zoomBy(-1)),
+      { class: "framed" },
+      element(
+        "div",
+        { class: "zoom" },
+        waveform.toggle,
+        iconButton("more", "Show fewer cycles", () => timeline.zoomBy(1)),
+        iconButton("less", "Show more cycles", () => timeline.zoomBy(-1)),
+        filling.button("waveform", waveform.pane.host, "The waveforms"),
+      ),
+      waveform.pane.host,
     ),
-    waveform.pane.host,
-    spacetime.pane.host,
+    element(
+      "div",
+      { class: "framed" },
+      element("div", { class: "zoom" }, filling.button("spacetime", spacetime.pane.host, "The paths")),
+      spacetime.pane.host,
+    ),
   );
+}
+
+/** Shows the robots with their inputs on the whole screen, and back. A phone that cannot do this has no button. */
+function fullScreen(whole: HTMLElement): HTMLElement {
+  const made = iconButton(
+    "full",
+    "Full screen",
+    () => void (document.fullscreenElement === null ? whole.requestFullscreen() : document.exitFullscreen()),
+    { "data-do": "full", hidden: !document.fullscreenEnabled },
+  );
+  document.addEventListener("fullscreenchange", () => {
+    const full = document.fullscreenElement === whole;
+    made.setAttribute("aria-pressed", String(full));
+    made.title = full ? "Leave full screen (Esc)" : "Full screen";
+  });
+  return made;
 }

@@ -1,32 +1,50 @@
-// Inputs, robots and outputs over time.
+// Inputs, outputs and registers over time, and the robots on demand.
 
-import { offsetOf, toNumber } from "../ports";
-import type { BitSource, PortEntry } from "../protocol";
+import { button } from "../element";
+import { recall, remember } from "../memory";
+import { toNumber } from "../ports";
+import type { BitSource } from "../protocol";
 import { sameSource } from "../selection";
 import { colors, enlargement } from "../theme";
 import { AXIS, Diagram } from "./diagram";
+import { numberFormat, numberText, type Valued } from "./numbers";
 import type { Pen } from "./pane";
+import { waveRows, type WaveRow } from "./rows";
 import type { LiveSwarm } from "./swarm";
 import type { Timeline } from "./timeline";
 
-interface Row {
-  name: string;
-  group: "input" | "robot" | "output";
-  /** The most significant bit first; more than one is a bus. */
-  sources: BitSource[];
-}
-
 export class Waveform extends Diagram {
-  #rows: Row[] = [];
+  /** Shows and hides the robots. */
+  readonly toggle = button("Robots", () => this.#switch(), {
+    "data-do": "wave-robots",
+    title: "Show the bit of each robot, too",
+  });
+  #rows: WaveRow[] = [];
+  #robots = recall<boolean>("wave-robots") ?? false;
 
   constructor(swarm: LiveSwarm, timeline: Timeline, changed: () => void) {
-    super(swarm, timeline, "waveform", "Waveforms of inputs, robots and outputs", changed);
-    const list = (): void => {
-      this.#rows = rowsOf(swarm);
-      changed();
-    };
-    swarm.definition.on(list);
-    swarm.selection.opened.on(list);
+    super(swarm, timeline, "waveform", "Waveforms of inputs, outputs and registers", changed);
+    for (const changing of [swarm.definition, swarm.selection.opened, swarm.selection.followed]) {
+      changing.on(() => this.#list());
+    }
+    numberFormat.on(changed);
+    this.toggle.setAttribute("aria-pressed", String(this.#robots));
+  }
+
+  #switch(): void {
+    this.#robots = !this.#robots;
+    remember("wave-robots", this.#robots);
+    this.toggle.setAttribute("aria-pressed", String(this.#robots));
+    this.#list();
+  }
+
+  #list(): void {
+    const { definition, selection } = this.swarm;
+    const { followed, opened } = selection;
+    const asked = followed.value === null ? [] : [followed.value];
+    const robots = this.#robots ? "all" : asked;
+    this.#rows = definition.value === null ? [] : waveRows(definition.value, { opened: opened.value, robots });
+    this.changed();
   }
 
   draw(): void {
@@ -44,7 +62,7 @@ export class Waveform extends Diagram {
     pen.rect(0, 0, this.pane.width, bottom);
     pen.clip();
     for (let row = first; row < end; row++) {
-      this.#drawRow(pen, this.#rows[row] as Row, row * height - this.pane.scrolled, height);
+      this.#drawRow(pen, this.#rows[row] as WaveRow, row * height - this.pane.scrolled, height);
     }
     pen.restore();
   }
@@ -59,7 +77,7 @@ export class Waveform extends Diagram {
     return Math.max(15, Math.min(24, room)) * Math.max(1, enlargement.value * 0.85);
   }
 
-  #drawRow(pen: Pen, row: Row, top: number, height: number): void {
+  #drawRow(pen: Pen, row: WaveRow, top: number, height: number): void {
     const pointed = row.sources.some(source => sameSource(source, this.swarm.selection.pointed.value));
     if (pointed) {
       pen.fillStyle = colors.value.highlight;
@@ -69,8 +87,7 @@ export class Waveform extends Diagram {
     pen.textBaseline = "middle";
     pen.font = `${row.group === "robot" ? "" : "600 "}${12 * enlargement.value}px ${colors.value.font}`;
     pen.fillStyle = row.group === "robot" ? colors.value.dim : colors.value.ink;
-    const sign = { input: "› ", robot: "", output: " ›" }[row.group];
-    const name = row.group === "output" ? row.name + sign : sign + row.name;
+    const name = { input: `› ${row.name}`, output: `${row.name} ›`, register: row.name, robot: row.name }[row.group];
     pen.fillText(name, 6, top + height / 2, this.label - 12);
     pen.save();
     pen.beginPath();
@@ -80,7 +97,7 @@ export class Waveform extends Diagram {
     if (row.sources.length === 1) {
       this.#drawBit(pen, row.sources[0] as BitSource, top + 3, top + height - 3);
     } else {
-      this.#drawBus(pen, row.sources, top + 3, top + height - 3);
+      this.#drawBus(pen, row, top + 3, top + height - 3);
     }
     pen.restore();
   }
@@ -130,7 +147,7 @@ export class Waveform extends Diagram {
   }
 
   /** A box for each value, with the value in it where there is room. */
-  #drawBus(pen: Pen, sources: BitSource[], high: number, low: number): void {
+  #drawBus(pen: Pen, { sources, valued }: WaveRow, high: number, low: number): void {
     const [start, from, to] = this.#cycles();
     const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));
     pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
@@ -140,48 +157,26 @@ export class Waveform extends Diagram {
       while (right <= to && value(right) === value(left)) {
         right++;
       }
-      this.#drawBusValue(pen, this.x(left - 1, start), this.x(right - 1, start), high, low, value(left));
+      this.#drawBusValue(pen, this.x(left - 1, start), this.x(right - 1, start), high, low, [value(left), valued]);
       left = right;
     }
   }
 
-  #drawBusValue(pen: Pen, left: number, right: number, high: number, low: number, value: bigint): void {
+  #drawBusValue(
+    pen: Pen,
+    left: number,
+    right: number,
+    high: number,
+    low: number,
+    [value, valued]: [bigint, Valued],
+  ): void {
     pen.strokeStyle = value === 0n ? colors.value.zero : colors.value.one;
     pen.strokeRect(left + 0.5, high, right - left - 1, low - high);
-    const text = String(value);
+    const text = numberText(value, valued);
     const inner = Math.max(left, this.label);
     if (pen.measureText(text).width + 8 < right - inner) {
       pen.fillStyle = colors.value.ink;
       pen.fillText(text, inner + 4, (high + low) / 2 + 0.5);
     }
   }
-}
-
-function rowsOf(swarm: LiveSwarm): Row[] {
-  const definition = swarm.definition.value;
-  if (definition === null) {
-    return [];
-  }
-  const { inputs, outputs, robots, shown } = definition;
-  const range = (ports: PortEntry[], port: PortEntry): number[] =>
-    Array.from({ length: port.width }, (_, i) => offsetOf(ports, port) + i);
-  // A robot that drives an output of the same name is shown there.
-  const opened = swarm.selection.opened.value;
-  const isShown = opened === null ? () => true : (robot: number) => opened.includes(robot);
-  const lamps = new Set(outputs.filter(port => port.width === 1).map(port => port.name));
-  return [
-    ...inputs.map(
-      (port): Row => ({ name: port.name, group: "input", sources: range(inputs, port).map(input => ({ input })) }),
-    ),
-    ...robots.flatMap(({ net }, robot): Row[] =>
-      lamps.has(net) || !isShown(robot) ? [] : [{ name: net, group: "robot", sources: [{ robot }] }],
-    ),
-    ...outputs.map(
-      (port): Row => ({
-        name: port.name,
-        group: "output",
-        sources: range(outputs, port).map(i => shown[i] ?? { constant: false }),
-      }),
-    ),
-  ];
 }

@@ -34,6 +34,8 @@ export function verdictTable(verdict: TestResult, leads: Leads): HTMLElement {
       element("tbody", {}, ...rows.map(row => tableRow(row, leads, hasThreads(verdict)))),
     ),
     left > 0 && element("p", { class: "dim" }, counted(left, "more row")),
+    verdict.printed !== null &&
+      element("figure", {}, element("figcaption", {}, "Written"), element("pre", {}, verdict.printed)),
   );
 }
 

@@ -1,0 +1,114 @@
+// What a circuit keeps, beside the robots: its registers by name, and the table over an output of it, such as the
+// program of a machine, with the row that holds now.
+
+import { button, element, fill } from "../element";
+import { recall, remember } from "../memory";
+import { offsetOf, toNumber } from "../ports";
+import type { BitSource, ListingRow, ShownSwarm } from "../protocol";
+import type { View } from "./animation";
+import { numberFormat, numberText, type Valued } from "./numbers";
+import type { LiveSwarm } from "./swarm";
+
+/** The first row that is for these digits; null if there is none. */
+export function rowFor(rows: ListingRow[], digits: string): number | null {
+  const fits = (bits: string): boolean =>
+    bits.length === digits.length && [...bits].every((bit, i) => bit === "-" || bit === digits[i]);
+  const found = rows.findIndex(({ bits }) => fits(bits));
+  return found < 0 ? null : found;
+}
+
+export class StateView implements View {
+  readonly host = element("div", { class: "table state", tabindex: 0, role: "group", "aria-label": "State" });
+  /** Shows and hides it; hidden where there is nothing to show. */
+  readonly toggle = button("State", () => this.#switch(), { "data-do": "state" });
+  #open = recall<boolean>("state") ?? false;
+  #updates: (() => void)[] = [];
+
+  constructor(private readonly swarm: LiveSwarm) {
+    swarm.definition.follow(definition => this.#build(definition));
+    numberFormat.on(() => this.draw());
+  }
+
+  draw(): void {
+    if (!this.host.hidden) {
+      this.#updates.forEach(update => update());
+    }
+  }
+
+  #switch(): void {
+    this.#open = !this.#open;
+    remember("state", this.#open);
+    this.#showOpen();
+  }
+
+  #showOpen(): void {
+    this.toggle.hidden = this.#updates.length === 0;
+    this.toggle.setAttribute("aria-pressed", String(this.#open));
+    this.host.hidden = this.toggle.hidden || !this.#open;
+    this.draw();
+  }
+
+  #build(definition: ShownSwarm | null): void {
+    this.#updates = [];
+    const { registers = [], listing = null } = definition ?? {};
+    this.toggle.title = listing === null ? "The registers" : "The registers, and the rows of the program";
+    fill(
+      this.host,
+      definition !== null && registers.length > 0 && this.#registers(definition),
+      definition !== null && listing !== null && this.#listing(definition, listing),
+    );
+    this.#showOpen();
+  }
+
+  #registers({ registers, outputs }: ShownSwarm): HTMLElement {
+    const rows = registers.map(({ name, robots }) => {
+      const sources = robots.map(robot => ({ robot }));
+      const value = element("td", { "data-register": name });
+      // One that is an output may have its enumeration.
+      const valued = outputs.find(port => port.name === name && port.width === robots.length) ?? {
+        width: robots.length,
+      };
+      this.#updates.push(() => setText(value, this.#text(sources, valued)));
+      const point = (source: BitSource | null): void => this.swarm.selection.point(source);
+      const pointed = { onmouseenter: () => point(sources[0] ?? null), onmouseleave: () => point(null) };
+      return element("tr", pointed, element("th", { scope: "row" }, name), value);
+    });
+    return element("table", { class: "rows registers", "aria-label": "Registers" }, element("tbody", {}, ...rows));
+  }
+
+  #text(sources: BitSource[], valued: Valued): string {
+    const values = sources.map(source => this.swarm.value(source));
+    return values.includes(null) ? "–" : numberText(toNumber(values as number[]), valued);
+  }
+
+  #listing({ outputs, shown }: ShownSwarm, { port, rows }: NonNullable<ShownSwarm["listing"]>): HTMLElement {
+    const made = rows.map(({ at, text, line }) =>
+      element("tr", { title: `line ${line}` }, element("th", { scope: "row" }, at), element("td", {}, text)),
+    );
+    const entry = outputs.find(({ name }) => name === port);
+    const start = entry === undefined ? 0 : offsetOf(outputs, entry);
+    const sources = shown.slice(start, start + (entry?.width ?? 0));
+    let before: number | null = null;
+    this.#updates.push(() => {
+      const row = rowFor(rows, sources.map(source => String(this.swarm.value(source) ?? "?")).join(""));
+      if (row !== before) {
+        before = row;
+        made.forEach((one, i) =>
+          i === row ? one.setAttribute("aria-current", "true") : one.removeAttribute("aria-current"),
+        );
+      }
+    });
+    return element(
+      "table",
+      { class: "rows listing" },
+      element("caption", {}, `by ${port}`),
+      element("tbody", {}, ...made),
+    );
+  }
+}
+
+function setText(part: HTMLElement, text: string): void {
+  if (part.textContent !== text) {
+    part.textContent = text;
+  }
+}
