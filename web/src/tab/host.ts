@@ -12,6 +12,9 @@ export interface TabOptions extends Start {
   template?: string;
 }
 
+/** The most files that are kept for the page to fetch, which it does at once. */
+const MOST_FILES = 8;
+
 const KEEPS_NOTHING = "This browser keeps no files: save what you need with Take away.";
 
 export class TabHost implements Ways {
@@ -100,6 +103,11 @@ export class TabHost implements Ways {
       case "file": {
         const { address, type, bytes } = message;
         this.#files.set(address, URL.createObjectURL(new Blob([bytes], { type })));
+        const [oldest] = this.#files;
+        if (oldest !== undefined && this.#files.size > MOST_FILES) {
+          this.#files.delete(oldest[0]);
+          URL.revokeObjectURL(oldest[1]);
+        }
         break;
       }
       case "unkept":
