@@ -15,6 +15,7 @@ const [task, ...named] = process.argv.slice(2);
 const given = named.map(name => path.resolve(name));
 process.chdir(path.dirname(fileURLToPath(import.meta.url)));
 
+// Whoever starts this may be in another folder.
 const common = { absWorkingDir: process.cwd(), bundle: true, logLevel: "warning", charset: "utf8", sourcemap: false };
 
 const script = {

@@ -6,15 +6,18 @@ import { LanguageServer } from "./editor/server";
 import { Header } from "./header";
 import { Layout } from "./layout";
 import { ClassPanel } from "./learn/class";
-import { lessonPath, Lessons } from "./learn/lessons";
+import { lessonAddress, lessonPath, Lessons } from "./learn/lessons";
 import { LearnPanel } from "./learn/panel";
 import type { Ways } from "./line";
 import { SwarmPanel } from "./live/panel";
 import { LiveSwarm } from "./live/swarm";
+import { paper } from "./print";
+import { Places } from "./place";
 import { Program, type Choice, type Origin } from "./program";
 import type { Greeting } from "./protocol";
 import { RobotsPanel } from "./robots/panel";
 import { TakeAway } from "./take";
+import { recall, remember } from "./memory";
 import { isShare, type SharedProgram } from "./share/link";
 import { sharedBits } from "./share/share";
 import { TestsPanel } from "./tests/panel";
@@ -22,6 +25,8 @@ import { prefersStillness } from "./theme";
 import { Welcome } from "./welcome";
 
 const LATCH = "latch";
+/** The name under which the program that was shown last is remembered. */
+const LAST = "last-program";
 
 export class App {
   readonly #connection: Connection;
@@ -33,6 +38,9 @@ export class App {
   readonly #lessons: Lessons;
   readonly #class: ClassPanel;
   readonly #layout: Layout;
+  readonly #learn: LearnPanel;
+  readonly #paper: HTMLElement;
+  readonly #places = new Places(tab => this.#layout.show(tab));
   #begun = false;
   #lessonsRead: Promise<void> = Promise.resolve();
 
@@ -43,7 +51,11 @@ export class App {
     this.#swarm = new LiveSwarm(this.#connection);
     this.#program = new Program(this.#connection, this.#swarm);
     this.#program.preferred = preferred;
-    this.#edit = new EditPanel(this.#connection, this.#program, this.#language, shared => this.#share(shared));
+    this.#edit = new EditPanel(this.#connection, this.#program, this.#language, {
+      folder: ways.folder,
+      shared: shared => this.#share(shared),
+      shown: isSame => this.#place(isSame),
+    });
     this.#lessons = new Lessons(this.#connection);
     this.#class = new ClassPanel(this.#connection);
     const take = new TakeAway(this.#connection, ways, this.#program, this.#swarm, () => this.#layout.tab.value);
@@ -52,12 +64,14 @@ export class App {
     const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () =>
       this.#layout.show("swarm"),
     );
+    this.#paper = paper(this.#program, this.#swarm, tests);
     const robots = new RobotsPanel(this.#connection, this.#program, {
       declare: line => this.#edit.editor.insertAtTop(line),
       append: line => this.#edit.editor.append(line),
       show: () => this.#layout.show("swarm"),
     });
-    const learn = new LearnPanel(
+    const welcome = new Welcome(this.#swarm, () => this.#layout.show("learn"));
+    this.#learn = new LearnPanel(
       { program: this.#program, swarm: this.#swarm, tests, robots },
       this.#lessons,
       {
@@ -65,23 +79,25 @@ export class App {
         openSaved: (saved, path, text) => void this.#openSaved(saved, path, text),
         replace: text => this.#edit.editor.replace(text),
         show: tab => this.#layout.show(tab),
+        moved: () => this.#place(),
+        begun: () => welcome.close(),
       },
       this.#class,
     );
-    const welcome = new Welcome(this.#swarm, () => this.#layout.show("learn"));
     this.#header.add(welcome.help);
     this.#layout = new Layout(
       this.#header.host,
       this.#edit.host,
-      [welcome.strip, learn.strip.host],
+      [welcome.strip, this.#learn.strip.host],
       [
         { name: "swarm", label: "Swarm", panel: swarm.host },
         { name: "tests", label: "Tests", panel: tests.host },
         { name: "robots", label: "Robots", panel: robots.host },
-        { name: "learn", label: "Learn", panel: learn.host },
+        { name: "learn", label: "Learn", panel: this.#learn.host },
       ],
     );
     this.#layout.tab.follow(tab => {
+      this.#places.note({ tab });
       robots.shown(tab === "robots");
       swarm.wake();
       this.#watch();
@@ -93,7 +109,7 @@ export class App {
   }
 
   start(): void {
-    document.body.append(this.#layout.host);
+    document.body.append(this.#layout.host, this.#paper);
     this.#connection.state.on(state => this.#connected(state));
     this.#connection.open();
   }
@@ -132,7 +148,7 @@ export class App {
       return true;
     }
     // A reload would only fail again.
-    window.history.replaceState(null, "", `#${encodeURI(this.#program.path.value)}`);
+    this.#places.rename(encodeURI(this.#program.path.value));
     if (this.#program.path.value === "" && this.#program.hello !== null) {
       await this.#openNamed(this.#program.hello, "");
     }
@@ -156,11 +172,43 @@ export class App {
     if ((await this.#openFragment()) || named === "" || named === path.value || this.#program.hello === null) {
       return;
     }
+    if (named === this.#learn.address) {
+      return;
+    }
     if (await this.#edit.mayLeave()) {
       await this.#openNamed(this.#program.hello, named);
     } else {
-      window.history.pushState(null, "", `#${encodeURI(path.value)}`);
+      this.#place();
     }
+  }
+
+  /** Notes where the page is: at a step of a lesson, or at a program. */
+  #place(isSame = false): void {
+    const { path } = this.#program;
+    const fragment = this.#learn.address ?? encodeURI(path.value);
+    if (fragment !== "") {
+      remember(LAST, path.value);
+      if (isSame) {
+        this.#places.rename(fragment);
+      } else {
+        this.#places.note({ fragment });
+      }
+    }
+  }
+
+  /** Opens the step of an address; whether there is such a lesson. */
+  async #openLesson(hello: Greeting, { name, step }: NonNullable<ReturnType<typeof lessonAddress>>): Promise<boolean> {
+    const isKnown = this.#places.isKnown;
+    await this.#lessonsRead;
+    const lesson = this.#lessons.named(name);
+    if (lesson === null) {
+      return false;
+    }
+    if (lesson.program === null && this.#program.path.value === "") {
+      await this.#openNamed(hello, recall<string>(LAST) ?? "");
+    }
+    this.#learn.openStep(lesson, step, !isKnown);
+    return true;
   }
 
   /** The program of the address, else that of the command line, else the latch. */
@@ -171,6 +219,10 @@ export class App {
   }
 
   async #openNamed(hello: Greeting, named: string): Promise<void> {
+    const step = lessonAddress(named);
+    if (step !== null && (await this.#openLesson(hello, step))) {
+      return;
+    }
     if (named !== "") {
       const isFile = hello.files.some(file => file.path === named);
       const text = isFile ? null : ((await this.#lessonAt(named)) ?? this.#program.draftAlone(named));
@@ -182,7 +234,7 @@ export class App {
         return;
       }
       // Back must not lead there again.
-      window.history.replaceState(null, "", location.pathname);
+      this.#places.rename("");
     }
     const example = exampleNamed(hello, LATCH);
     const own = hello.files.some(file => file.path === example) ? { path: example } : { example };

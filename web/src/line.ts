@@ -17,6 +17,12 @@ export interface LineEvents {
 /** Begins a line. */
 export type Dial = (events: LineEvents) => Line;
 
+/** The files that a browser has, where there is no server. */
+export interface BrowserFolder {
+  files: () => [path: string, text: string][];
+  insert: (path: string, text: string) => void;
+}
+
 /** The ways from a page to its program, wherever that is. */
 export interface Ways {
   live: Dial;
@@ -27,6 +33,10 @@ export interface Ways {
   prepare: () => Promise<void>;
   /** What the page waits for, or what is unusual about its program; empty for nothing. */
   status: Observable<string>;
+  /** The folder, if it is in the browser. */
+  folder: BrowserFolder | null;
+  /** Whether the address of the page has no secret in it. */
+  isPublic: boolean;
 }
 
 /** The ways to the server of the page. */
@@ -36,6 +46,8 @@ export const SERVER: Ways = {
   file: address => new URL(address, document.baseURI).href,
   prepare: () => Promise.resolve(),
   status: new Observable(""),
+  folder: null,
+  isPublic: false,
 };
 
 function socket(name: string, events: LineEvents): Line {

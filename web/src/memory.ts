@@ -7,6 +7,36 @@ export function rememberApart(name: string): void {
   prefix = `nbc:${name}:`;
 }
 
+const LEARNER = "class-name";
+
+/** The name in the class of the learner at this tab, until it is closed. */
+export function learner(): string | null {
+  try {
+    return sessionStorage.getItem(LEARNER);
+  } catch {
+    return null;
+  }
+}
+
+/** Sets it. A browser that forbids this asks for the name again. */
+export function setLearner(name: string | null): void {
+  try {
+    if (name === null) {
+      sessionStorage.removeItem(LEARNER);
+    } else {
+      sessionStorage.setItem(LEARNER, name);
+    }
+  } catch {
+    // Then there is none.
+  }
+}
+
+/** The name of what is the learner's own: those who use the same browser one after the other do not share it. */
+export function own(name: string): string {
+  const who = learner();
+  return who === null ? name : `learner:${who}:${name}`;
+}
+
 export function recall<T>(name: string): T | null {
   try {
     const text = localStorage.getItem(prefix + name);

@@ -2,6 +2,7 @@
 
 import { wholeOf } from "./live/schematic_parts";
 import { CANCELLED, type Connection } from "./connection";
+import { download, downloadBytes } from "./download";
 import { button, element, fill } from "./element";
 import type { LiveSwarm } from "./live/swarm";
 import { closeOutside } from "./menu";
@@ -9,7 +10,8 @@ import type { Ways } from "./line";
 import type { Program } from "./program";
 import type { TakeKind, TakenFile } from "./protocol";
 import { RequestError } from "./request";
-import { LinkMenu } from "./share/menu";
+import { takenName, type Taken } from "./taken_names";
+import { LinkMenu, type LinkPlaces } from "./share/menu";
 import { shareOf } from "./share/share";
 
 const PICTURES: [TakeKind, string][] = [
@@ -59,26 +61,44 @@ export class TakeAway {
       ),
     );
     this.host.addEventListener("toggle", () => {
+      // What was said of the file before says nothing of the next one.
+      if (this.#work === null) {
+        fill(this.#status);
+      }
+      links.show(this.#places());
       this.host.querySelector<HTMLElement>('[data-take="live"]')!.hidden = program.hello?.live_pages !== true;
     });
     closeOutside(this.host as HTMLDetailsElement);
   }
 
+  #places(): LinkPlaces {
+    const isOnDisk = location.protocol === "file:";
+    return { here: isOnDisk ? null : location.href.replace(/#.*/, ""), isPublic: this.ways.isPublic, publicPage: null };
+  }
+
   #program(): void {
-    downloadText(this.program.text, "text/plain", this.program.path.value.split("/").at(-1) ?? "program.nb");
+    downloadBytes(this.program.text, "text/plain", this.program.path.value.split("/").at(-1) ?? "program.nb");
   }
 
   #schematic(): void {
     const definition = this.swarm.definition.value;
     if (definition !== null) {
-      downloadText(wholeOf(definition.schematic), "image/svg+xml", `${definition.circuit.replace(/\W+/g, "_")}.svg`);
+      downloadBytes(wholeOf(definition.schematic), "image/svg+xml", this.#name("schematic", "svg"));
     }
   }
 
   #take(what: TakeKind, label: string): Promise<void> {
     const now = this.swarm.frame.value?.now ?? 0;
     const cycles = Math.max(1, Math.min(now, Number(this.#cycles.value) || 40));
-    return this.#make(label, signal => this.connection.request("take", { what, cycles }, { signal }));
+    const named = (ending: string): string =>
+      this.#name(what, ending, [Math.max(0, now - cycles) + Number(now > 0), now]);
+    return this.#make(label, named, signal => this.connection.request("take", { what, cycles }, { signal }));
+  }
+
+  #name(what: Taken["what"], ending: string, cycles?: [number, number]): string {
+    const circuit = this.swarm.definition.value?.circuit ?? "circuit";
+    const swarm = this.program.choice.value?.swarm ?? null;
+    return takenName({ circuit, swarm, what, ending, ...(cycles ? { cycles } : {}) });
   }
 
   /** The circuit as a page of its own, with the whole simulator or as a recording. */
@@ -87,14 +107,20 @@ export class TakeAway {
     if (choice !== null) {
       await this.program.settled();
       const path = this.program.path.value;
-      await this.#make("the page", async signal => {
+      const named = (ending: string): string => this.#name(live ? "live" : "player", ending);
+      await this.#make("the page", named, async signal => {
         await (live ? this.ways.prepare() : null);
         return this.connection.request("export", { path, live, ...choice }, { signal });
       });
     }
   }
 
-  async #make(label: string, ask: (signal: AbortSignal) => Promise<TakenFile>): Promise<void> {
+  /** Makes a file, whose name follows from its ending. */
+  async #make(
+    label: string,
+    named: (ending: string) => string,
+    ask: (signal: AbortSignal) => Promise<TakenFile>,
+  ): Promise<void> {
     this.#work?.abort();
     const work = new AbortController();
     this.#work = work;
@@ -104,8 +130,9 @@ export class TakeAway {
       button("Stop", () => work.abort()),
     );
     try {
-      const { url, name } = await ask(work.signal);
-      download(this.ways.file(url), name);
+      const taken = await ask(work.signal);
+      const name = named(taken.name.split(".").at(-1) ?? "");
+      download(this.ways.file(taken.url), name);
       fill(this.#status, `${name} is ready`);
     } catch (error) {
       const known = error instanceof RequestError;
@@ -114,18 +141,8 @@ export class TakeAway {
         known && error.code !== CANCELLED ? `${error.message}${error.help ? `; ${error.help}` : ""}` : "",
       );
     }
+    if (this.#work === work) {
+      this.#work = null;
+    }
   }
-}
-
-function downloadText(text: string, type: string, name: string): void {
-  const url = URL.createObjectURL(new Blob([text], { type }));
-  download(url, name);
-  setTimeout(() => URL.revokeObjectURL(url), 10_000);
-}
-
-function download(url: string, name: string): void {
-  const link = element("a", { href: url, download: name });
-  document.body.append(link);
-  link.click();
-  link.remove();
 }

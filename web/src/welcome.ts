@@ -71,6 +71,11 @@ export class Welcome {
     );
   }
 
+  /** Whoever begins a lesson has read enough. */
+  close(): void {
+    this.#close();
+  }
+
   #close(then: () => void = () => {}): void {
     remember(KNOWN, true);
     this.strip.hidden = true;

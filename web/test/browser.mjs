@@ -1,6 +1,8 @@
 // A page in Chromium. Errors in the page fail the test.
 
 import assert from "node:assert/strict";
+import { existsSync, readFileSync, writeFileSync } from "node:fs";
+import path from "node:path";
 
 import { chromium } from "playwright-core";
 
@@ -46,27 +48,74 @@ export async function visit(url, options = {}) {
 
 /** Puts files into the browser's memory, from a document beside the page. */
 async function seed(page, begins) {
-  if (begins === null) {
-    return;
+  if (begins !== null) {
+    await page.route("**/favicon.ico", route => route.fulfill({ status: 204 }));
+    await page.goto(begins.at);
+    await page.evaluate(putFiles, begins.files);
   }
-  await page.route("**/favicon.ico", route => route.fulfill({ status: 204 }));
-  await page.goto(begins.at);
-  await page.evaluate(
-    files =>
-      new Promise(done => {
-        const opening = indexedDB.open("nbc", 1);
-        opening.onupgradeneeded = () => opening.result.createObjectStore("files");
-        opening.onsuccess = () => {
-          const change = opening.result.transaction("files", "readwrite");
-          files.forEach(([path, text]) => change.objectStore("files").put(text, path));
-          change.oncomplete = () => {
-            opening.result.close();
-            done();
-          };
-        };
-      }),
-    begins.files,
-  );
+}
+
+/** In a document of the site: keeps files as another tab does. */
+function putFiles(files) {
+  return new Promise(done => {
+    const opening = indexedDB.open("nbc", 1);
+    opening.onupgradeneeded = () => opening.result.createObjectStore("files");
+    opening.onsuccess = () => {
+      const change = opening.result.transaction("files", "readwrite");
+      files.forEach(([name, text]) => change.objectStore("files").put(text, name));
+      change.oncomplete = () => {
+        opening.result.close();
+        const others = new BroadcastChannel("nbc-files");
+        files.forEach(file => others.postMessage(file));
+        others.close();
+        done();
+      };
+    };
+  });
+}
+
+/** In a document of the site: the text of a file that the browser keeps. */
+function getFile(name) {
+  return new Promise(done => {
+    const opening = indexedDB.open("nbc", 1);
+    opening.onsuccess = () => {
+      const reading = opening.result.transaction("files").objectStore("files").get(name);
+      reading.onsuccess = () => {
+        opening.result.close();
+        done(reading.result ?? null);
+      };
+    };
+  });
+}
+
+/** The files of the page of `here` (test/opened.mjs), on the disk or in the browser. */
+export function filesOf(here) {
+  const onDisk = name => path.join(here.place.folder, name);
+  const beside = async (work, given) => {
+    const other = await here.page.context().newPage();
+    await other.goto(seedOf(here.program.url).at);
+    const result = await other.evaluate(work, given);
+    await other.close();
+    return result;
+  };
+  const isTab = () => seedOf(here.program.url) !== null;
+  const read = async name =>
+    isTab() ? beside(getFile, name) : existsSync(onDisk(name)) ? readFileSync(onDisk(name), "utf8") : null;
+  return {
+    read,
+    /** Waits until a file has such a text. A browser keeps it soon after the page says that it is saved. */
+    has: async (name, text) => {
+      for (;;) {
+        const found = (await read(name)) ?? "";
+        if (text.test(found)) {
+          return;
+        }
+        assert.ok(isTab(), `${name}: ${found}`);
+      }
+    },
+    /** Writes a file as another program or tab does. */
+    write: async (name, text) => (isTab() ? beside(putFiles, [[name, text]]) : writeFileSync(onDisk(name), text)),
+  };
 }
 
 /** Waits until the swarm has been compiled and its run has begun. */

@@ -79,6 +79,29 @@ test("learners save beside each other, never over each other", async () => {
   await ben.leave();
 });
 
+test("learners who use the same browser have drafts and progress of their own", async () => {
+  const page = await learner("Eve");
+  const shown = text => page.locator(".cm-content").getByText(text).waitFor();
+  await page.getByText("You are in the class as Eve").waitFor();
+  await typeProgram(page, `${LATCH}\n// of Eve\n`);
+  await page.locator('.file[data-unsaved="true"]').waitFor();
+  await page.locator("[data-do=leave-class]").click();
+  await page.locator("[data-do=join]").waitFor();
+  assert.equal(await page.locator('.file[data-unsaved="false"]').count(), 1, "nobody else sees her draft");
+  await page.locator("[data-do=class-name]").fill("Mel");
+  await page.locator("[data-do=join]").click();
+  await page.getByText("You are in the class as Mel").waitFor();
+  await typeProgram(page, `${LATCH}\n// of Mel\n`);
+  await page.locator('.file[data-unsaved="true"]').waitFor();
+  await page.locator("[data-do=leave-class]").click();
+  await page.locator("[data-do=join]").waitFor();
+  await page.locator("[data-do=class-name]").fill("Eve");
+  await page.locator("[data-do=join]").click();
+  await page.getByText("You are in the class as Eve").waitFor();
+  await shown("// of Eve");
+  await page.leave();
+});
+
 test("the addresses of learners and teacher open nothing of each other", async () => {
   const teacher = here.program.teacher();
   const status = async address => (await fetch(address)).status;

@@ -51,7 +51,7 @@ test("a reload in a lesson that nobody has touched shows its program", async () 
 
 test("a step that does not count says what it still needs", async () => {
   await begin("and");
-  const missing = here.page.locator(".strip .missing");
+  const missing = here.page.locator(".strip .missing li");
   assert.equal(await missing.count(), 0);
   await typeProgram(
     here.page,

@@ -27,11 +27,16 @@ export function folderWith(files) {
   return { folder, remove: () => rmSync(folder, { recursive: true, force: true }) };
 }
 
-/** The files with which the page at an address begins in a browser that has none. */
+/** The files with which the page at an address begins in a browser that has none, and a document beside it. */
 const seeds = new Map();
 
 export function seedOf(url) {
-  return seeds.get(url) ?? null;
+  return seeds.get(url.replace(/#.*/, "")) ?? null;
+}
+
+/** Whether a test needs what a browser tab does not have: the reason to skip it there. */
+export function needs(what) {
+  return SITE !== undefined && `a browser tab has no ${what}`;
 }
 
 async function playSite(folder, file) {
@@ -39,8 +44,8 @@ async function playSite(folder, file) {
   const url = file === undefined ? address : `${address}#${encodeURI(file)}`;
   const names = readdirSync(folder).filter(name => /\.\w+$/.test(name));
   const files = names.map(name => [name, readFileSync(path.join(folder, name), "utf8")]);
-  seeds.set(url, { at: `${address}NOTICES.txt`, files });
-  return { url, stop };
+  seeds.set(address, { at: `${address}NOTICES.txt`, files });
+  return { url, address, stop };
 }
 
 /** Serves a folder, and opens its `file` first. `more` are further options. */
@@ -67,6 +72,8 @@ export async function serve(folder, file, { port = 0, token, more = [] } = {}) {
   const url = await addressOf(child, output);
   return {
     url,
+    /** The address without a file. */
+    address: url,
     port: Number(new URL(url).port),
     token: new URL(url).pathname.split("/")[1],
     /** The address of the teacher's page, if there is a class. */

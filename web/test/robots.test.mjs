@@ -1,10 +1,9 @@
 // The designer: from an empty box to a NAND, with the mouse and with the keyboard.
 
 import assert from "node:assert/strict";
-import { existsSync } from "node:fs";
-import path from "node:path";
 import { test } from "node:test";
 
+import { filesOf } from "./browser.mjs";
 import { opened } from "./opened.mjs";
 import { LATCH } from "./program.mjs";
 
@@ -115,7 +114,7 @@ test("it is kept as a robot file, and the program uses it", async () => {
   await here.page.locator(".keeping input").fill("mine");
   await here.page.locator("[data-do=keep]").click();
   await here.page.getByText("wrote robots/mine.yaml").waitFor();
-  assert.ok(existsSync(path.join(here.place.folder, "robots", "mine.yaml")));
+  await filesOf(here).has("robots/mine.yaml", /name: mine/);
   // Another one of that name is not replaced without a question, and what takes long can be stopped.
   await here.page.locator("[data-do=keep]").click();
   await here.page.getByText("robots/mine.yaml` is there already").waitFor();

@@ -53,13 +53,13 @@ test("a link has the program, its circuit and its inputs, and the secret only if
   await setInput(here.page, "b", 1);
   here.link = await copied(here.page, "link");
   here.code = await copied(here.page, "any-link");
-  assert.ok(here.link.startsWith(`${here.sender.url}#share=`), here.link);
+  assert.ok(here.link.startsWith(`${here.sender.address}#share=`), here.link);
   assert.ok(here.code.startsWith("#share=") && here.link.endsWith(here.code), here.code);
   assert.ok(here.code.length < 600, `${here.code.length} letters`);
 });
 
 test("behind the address of another server it opens as a draft, with the circuit and the inputs", async () => {
-  const page = await visit(`${here.receiver.url}${here.code}`);
+  const page = await visit(`${here.receiver.address}${here.code}`);
   await page.locator("[data-notice=shared]").waitFor();
   assert.equal(await page.locator(".file").textContent(), "two_2.nb", "the folder has another program of that name");
   assert.equal(await page.locator(".file").getAttribute("data-unsaved"), "true");
@@ -114,7 +114,7 @@ test("a link can be pasted where programs are opened, and a wrong one says what 
 test("a hostile address opens the page as usual, with a notice, and runs nothing", async () => {
   const script = '<img src=x onerror="window.harmed=1"><script>window.harmed=1</script>';
   for (const fragment of ["share=", "share=%3Cscript%3E", "share=AAAA", "%", "%E0%A4%A"]) {
-    const page = await visit(`${here.receiver.url}#${fragment}`);
+    const page = await visit(`${here.receiver.address}#${fragment}`);
     await walking(page);
     assert.equal(await page.locator(".file").textContent(), "latch.nb");
     assert.equal(await page.locator("[data-notice=shared]").count(), fragment.startsWith("share=") ? 1 : 0, fragment);

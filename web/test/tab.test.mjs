@@ -102,6 +102,85 @@ test("a tab says that another has saved its file", { skip }, async () => {
   await page.leave();
 });
 
+/** Begins a program of that name, and saves it. */
+async function saved(page, name) {
+  await page.locator('[data-do="open"]').click();
+  await page.getByLabel("Name of the new file").fill(name);
+  await page.locator('[data-do="new"]').click();
+  await page.locator('[data-do="save"]').click();
+  await page.locator('[data-do="save-as"]').click();
+  await page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
+  await page.waitForFunction(() => document.querySelector('[data-do="save"]').disabled);
+}
+
+async function imported(page, file, name = "files.zip") {
+  const buffer = Buffer.isBuffer(file) ? file : readFileSync(file);
+  await page.locator('[data-do="import"]').setInputFiles({ name, mimeType: "application/zip", buffer });
+}
+
+test("the files of the browser go into an archive and come back from it", { skip }, async () => {
+  const page = await visit(site.address);
+  await walking(page);
+  await saved(page, "main.nb");
+  await saved(page, "größe/逻辑.nb");
+  await page.locator('[data-do="open"]').click();
+  const coming = page.waitForEvent("download");
+  await page.locator('[data-do="export"]').click();
+  const download = await coming;
+  assert.match(download.suggestedFilename(), /^nbc-files-\d{8}-\d{6}\.zip$/);
+  const archive = readFileSync(await download.path());
+  await page.leave();
+
+  const other = await visit(site.address);
+  await walking(other);
+  await other.locator('[data-do="open"]').click();
+  await imported(other, archive.subarray(0, 99));
+  await other.getByText("Cannot import files.zip: this is not a zip archive, or its end is missing.").waitFor();
+  await imported(other, archive);
+  await other.getByText("2 files imported.").waitFor();
+  await other.locator('[data-open="größe/逻辑.nb"]').click();
+  await other.waitForFunction(() => document.querySelector(".file").textContent === "größe/逻辑.nb");
+  await typeProgram(other, "circuit own(a, b) -> (q) {\n    q = a nor b\n}\n");
+  await other.locator('[data-do="save"]').click();
+  await other.locator('.file[data-unsaved="false"]').waitFor();
+  // What is there already is not replaced without a question.
+  await other.locator('[data-do="open"]').click();
+  await imported(other, archive);
+  await other.getByText("Other files of these names are there already: größe/逻辑.nb.").waitFor();
+  await other.locator('[data-do="keep-files"]').click();
+  await other.getByText("1 file imported.").waitFor();
+  await imported(other, archive);
+  await other.locator('[data-do="replace-files"]').click();
+  await other.keyboard.press("Escape");
+  await other.locator("[data-notice=changed]").getByText("größe/逻辑.nb was changed by another program").waitFor();
+  // They are kept over a reload.
+  await other.reload();
+  await walking(other);
+  await other.locator('[data-do="open"]').click();
+  await other.locator('[data-open="main.nb"]').click();
+  await other.locator(".cm-content").getByText("circuit mine").waitFor();
+  await other.leave();
+});
+
+test("while a robot is measured the page answers, and the measurement can be stopped", { skip }, async () => {
+  const page = await visit(site.address);
+  await walking(page);
+  await page.locator("#tab-robots").click();
+  await page.locator("[data-robot=nand_5x5] [data-do=design]").first().click();
+  await page.locator(".keeping input").fill("mine");
+  await page.locator("[data-do=keep]").click();
+  await page.getByText("measuring it over").waitFor();
+  await page.locator("[data-do=evolve]").click();
+  await typeProgram(page, "circuit broken(a) -> (q) {\n    q = b\n}\n");
+  await page.locator(".cm-lintRange-error").waitFor();
+  await page.locator('.swarm .status[data-state="errors"]').waitFor({ state: "attached" });
+  await page.locator("[data-do=stop-keep]").click();
+  await page.getByText("nothing was kept").waitFor();
+  await page.locator("[data-do=evolve]").click();
+  await page.getByRole("button", { name: "Evolve from here" }).waitFor();
+  await page.leave();
+});
+
 test("at a slow network the page is there at once and says what it waits for", { skip }, async () => {
   const slow = await serveFiles(SITE, { rate: 50_000 });
   const page = await visit(slow.address, { waitUntil: "commit" });

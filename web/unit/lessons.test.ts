@@ -4,7 +4,7 @@ import { test } from "node:test";
 import type { LessonCheck, LessonEntry, NicheEntry } from "../src/protocol";
 import { holds } from "../src/learn/checks";
 import { Progress } from "../src/learn/progress";
-import { isLessonPath } from "../src/learn/lessons";
+import { isLessonPath, lessonAddress } from "../src/learn/lessons";
 import { missing } from "../src/learn/missing";
 import { sizeOf, sizeText, starsOf } from "../src/learn/score";
 import type { Situation } from "../src/learn/situation";
@@ -69,15 +69,53 @@ test("a lesson on the latch is done by using it as a memory", () => {
   const progress = new Progress({}, {});
   const held = (d: number, e: number, q: number): Situation =>
     situation(Array.from({ length: 3 }, () => ({ d, e, q })));
-  assert.equal(progress.advance(latch, held(1, 0, 1)), false);
-  assert.equal(progress.advance(latch, held(1, 1, 1)), true);
-  assert.equal(progress.advance(latch, held(0, 0, 1)), false);
-  assert.equal(progress.advance(latch, held(1, 0, 1)), true);
-  assert.equal(progress.advance(latch, held(0, 0, 0)), false);
-  assert.equal(progress.advance(latch, held(0, 0, 1)), true);
+  assert.equal(progress.advance(latch, 0, held(1, 0, 1)), false);
+  assert.equal(progress.advance(latch, 0, held(1, 1, 1)), true);
+  assert.equal(progress.advance(latch, 1, held(0, 0, 1)), false);
+  assert.equal(progress.advance(latch, 1, held(1, 0, 1)), true);
+  assert.equal(progress.advance(latch, 2, held(0, 0, 0)), false);
+  assert.equal(progress.advance(latch, 2, held(0, 0, 1)), true);
   assert.equal(progress.isFinished(latch), true);
   progress.restart(latch);
   assert.equal(progress.done(latch), 0);
+});
+
+test("a step that is done out of turn counts, and the next one is the first that is open", () => {
+  const shows = (q: number): LessonCheck => ({ is: "shows", values: { q } });
+  const three = lesson([shows(1), shows(2), shows(3)]);
+  const progress = new Progress({}, {});
+  assert.equal(progress.advance(three, 1, situation([{ q: 2 }])), true);
+  assert.deepEqual([progress.done(three), progress.isFinished(three)], [1, false]);
+  assert.deepEqual([progress.next(three), progress.next(three, 1)], [0, 2]);
+  assert.equal(progress.advance(three, 2, situation([{ q: 3 }])), true);
+  assert.equal(progress.next(three, 2), 0);
+  // Browsers remember how many of the first steps were done from before.
+  assert.deepEqual([...new Progress({ one: 2 }, {}).steps(three)], [0, 1]);
+});
+
+test("an address names a lesson and its step, from 1", () => {
+  assert.deepEqual(lessonAddress("lesson/full-adder/2"), { name: "full-adder", step: 1 });
+  assert.deepEqual(lessonAddress("lesson/nand"), { name: "nand", step: 0 });
+  for (const other of ["lesson_nand.nb", "lesson/a.nb", "lesson/", "lesson/nand/x", "lesson/nand/2/3"]) {
+    assert.equal(lessonAddress(other), null, other);
+  }
+});
+
+test("a step says why it does not count", () => {
+  const needs = (check: LessonCheck, given: Situation, program = ""): string =>
+    missing(lesson([check], { program }), 0, given, true).join();
+  const now = situation([{ a: 1, q: 0 }]);
+  assert.equal(needs({ is: "shows", values: { a: 1, q: 1 } }, now), "the swarm shows a = 1, q = 1 – now q = 0");
+  assert.match(needs({ is: "keeps", values: { a: 1 } }, now), / – not for long enough yet$/);
+  assert.match(needs({ is: "has-shown", patterns: [{ a: 0 }, { a: 1 }] }, now), / – not yet a = 0$/);
+  assert.match(needs({ is: "without", words: ["xor", "nand"] }, situation([], { text: PROGRAM })), / – there is nand$/);
+  assert.match(needs({ is: "tests-pass" }, situation([], { tests: 3, passed: 1, failed: 1 })), / – 1 of 3 fail$/);
+  assert.match(needs({ is: "tests-pass" }, situation([], { errors: 2, circuits: 0 })), / – the program has 2 errors$/);
+  assert.match(needs({ is: "tests-kept" }, situation([], { text: "" }), PROGRAM), / – missing: test different/);
+  const robots: LessonCheck = { is: "counts", what: "robots", than: "<=", number: 1 };
+  assert.equal(needs(robots, situation([], { robots: ["nor", "nor"] })), "the circuit has at most 1 robot – it has 2");
+  // A step that has not been begun says so only to who asks.
+  assert.deepEqual(missing(lesson([robots]), 0, situation([], { robots: ["nor", "nor"] })), []);
 });
 
 test("a search counts at once, and only the body of a niche that was clicked", () => {
@@ -159,13 +197,13 @@ test("a step says what it still needs as soon as a part of it is done, or a test
   const one = lesson([], { program, steps: [{ task: "", checks, hints: [] }] });
   const needs = (given: Partial<Situation>): string[] => missing(one, 0, situation([], given));
   assert.deepEqual(needs({ text: program, tests: 1, passed: 1 }), []);
-  assert.deepEqual(needs({ text: program, tests: 1, failed: 1 }), ["all tests have been run and pass"]);
-  const kept = "every line of the lesson’s tests is still there";
+  assert.deepEqual(needs({ text: program, tests: 1, failed: 1 }), ["all tests have been run and pass – 1 of 1 fail"]);
+  const kept = "every line of the lesson’s tests is still there – missing: 0 | 1";
   assert.deepEqual(needs({ text: program.replace("0 | 1", "0 | 0"), tests: 1, passed: 1 }), [kept]);
   assert.deepEqual(needs({ text: program, tests: 1 }), [], "the task says enough");
   const robots = lesson([{ is: "robots-only", gates: ["nand"] }]);
   const built = situation([], { robots: ["nor"], tests: 1, passed: 1 });
-  assert.deepEqual(missing(robots, 0, built), ["all robots of the circuit are nand"]);
+  assert.deepEqual(missing(robots, 0, built), ["all robots of the circuit are nand – there is also nor"]);
 });
 
 test("a lesson is open under its own path and that of a learner of a class", () => {

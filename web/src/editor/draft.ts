@@ -1,6 +1,6 @@
 // The unsaved text of each file, which survives a reload.
 
-import { recall, remember } from "../memory";
+import { own, recall, remember } from "../memory";
 
 export interface Draft {
   text: string;
@@ -11,7 +11,7 @@ export interface Draft {
 }
 
 function name(folder: string, path: string): string {
-  return `draft:${folder}:${path}`;
+  return own(`draft:${folder}:${path}`);
 }
 
 export function draftOf(folder: string, path: string): Draft | null {

@@ -27,6 +27,8 @@ export class FilePicker {
     private readonly open: (origin: Origin) => void,
     private readonly begin: (path: string) => void,
     private readonly share: (link: string) => Promise<string | null>,
+    /** The section of all files as an archive, if there is one. */
+    private readonly archive: HTMLElement | null = null,
   ) {
     this.host.addEventListener("click", event => {
       if (event.target === this.host) {
@@ -46,13 +48,16 @@ export class FilePicker {
       ),
       this.#new(files),
       this.#shared(),
+      this.archive,
       ...byFolder(files.map(({ path }) => path)).map(([folder, paths]) => this.#folder(folder, paths)),
       this.#list(
         "Examples",
         examples.map(({ name, about }) => ({ label: name, about, origin: { example: name } })),
       ),
     );
-    this.host.showModal();
+    if (!this.host.open) {
+      this.host.showModal();
+    }
   }
 
   #list(title: string, entries: { label: string; about: string; origin: Origin }[]): HTMLElement {

@@ -1,16 +1,27 @@
 // The half of the page with the program: what file it is, whether it is saved, and the editor.
 
 import type { Connection } from "../connection";
+import type { BrowserFolder } from "../line";
+import { archiveSection } from "./archive";
 import { button, element } from "../element";
 import { Notices } from "../notices";
 import type { Origin, Program } from "../program";
 import type { FileChange, FileText } from "../protocol";
 import { RequestError } from "../request";
-import { LinkError, decodeShare, isShare, type SharedProgram } from "../share/link";
+import { LinkError, decodeShare, type SharedProgram } from "../share/link";
 import { Editor } from "./editor";
 import { FilePicker, NEW_PROGRAM, askLeave, askPath, freePath } from "./files";
 import { problemList } from "./problems";
 import type { LanguageServer } from "./server";
+
+export interface EditDoors {
+  /** The folder, if it is in the browser. */
+  folder: BrowserFolder | null;
+  /** A shared program was opened. */
+  shared: (shared: SharedProgram) => void;
+  /** A program is shown: another one, or the same under a new name. */
+  shown: (isSame: boolean) => void;
+}
 
 export class EditPanel {
   readonly host: HTMLElement;
@@ -28,13 +39,14 @@ export class EditPanel {
     private readonly connection: Connection,
     private readonly program: Program,
     server: LanguageServer,
-    private readonly shared: (shared: SharedProgram) => void,
+    private readonly doors: EditDoors,
   ) {
     this.editor = new Editor({ changed: text => program.edit(text), save: () => void this.save() });
     this.#picker = new FilePicker(
       origin => void this.open(origin),
       path => this.begin(path, NEW_PROGRAM),
       link => this.openLink(link),
+      doors.folder === null ? null : archiveSection(doors.folder, () => void this.pick()),
     );
     this.host = element(
       "section",
@@ -51,6 +63,13 @@ export class EditPanel {
     program.path.on(() => this.#showName());
     program.unsaved.follow(() => this.#showName());
     connection.events.on(event => event?.event === "changed" && this.#changed(event));
+    connection.state.on(state => {
+      // What could not be saved or opened without the server now may be.
+      if (state === "open") {
+        this.notices.hide("save");
+        this.notices.hide("open");
+      }
+    });
     addEventListener("keydown", event => {
       if ((event.ctrlKey || event.metaKey) && event.key === "s") {
         // The editor has its own binding, and has then handled the key.
@@ -125,7 +144,7 @@ export class EditPanel {
       shared.circuit === null ? null : { circuit: shared.circuit, swarm: shared.swarm },
     );
     this.#showText();
-    this.shared(shared);
+    this.doors.shared(shared);
     const back =
       before === "" || before === path ? [] : [{ label: `Back to ${before}`, run: () => void this.#return(before) }];
     this.notices.show("shared", `A shared program, not saved yet: ${path}. Read it before you trust it.`, back);
@@ -151,8 +170,15 @@ export class EditPanel {
   }
 
   async pick(): Promise<void> {
-    const files = await this.connection.request("files", {});
-    this.#picker.show(files, this.program.hello?.examples ?? []);
+    try {
+      const files = await this.connection.request("files", {});
+      this.#picker.show(files, this.program.hello?.examples ?? []);
+    } catch (error) {
+      if (!(error instanceof RequestError)) {
+        throw error;
+      }
+      this.notices.show("open", `Cannot list the programs: ${error.message}`);
+    }
   }
 
   async save(): Promise<void> {
@@ -170,7 +196,7 @@ export class EditPanel {
       for (const name of ["changed", "draft", "save"]) {
         this.notices.hide(name);
       }
-      this.#remember(true);
+      this.doors.shown(true);
       this.#showName();
     } catch (error) {
       this.#saveFailed(error, path);
@@ -213,17 +239,7 @@ export class EditPanel {
   #showText(): void {
     this.editor.open(this.program.uri, this.program.text);
     this.#showName();
-    this.#remember();
-  }
-
-  /** The address names the program, so that a reload shows it again, and Back the one before. */
-  #remember(isSame = false): void {
-    const before = location.hash.slice(1);
-    const after = encodeURI(this.program.path.value);
-    if (before !== after) {
-      const replaces = isSame || before === "" || isShare(before);
-      window.history[replaces ? "replaceState" : "pushState"](null, "", `#${after}`);
-    }
+    this.doors.shown(false);
   }
 
   #showName(): void {

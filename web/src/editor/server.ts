@@ -7,7 +7,8 @@ import { Observable } from "../observable";
 import { quickFixes } from "./fixes";
 import { sanitize } from "./sanitize";
 
-const TIMEOUT = 10_000;
+/** For an answer, in milliseconds. A lost line ends all requests, so that a busy machine may take its time. */
+const TIMEOUT = 120_000;
 
 export class LanguageServer {
   /** The client of the present connection. */

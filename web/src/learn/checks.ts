@@ -22,10 +22,8 @@ export function holds(check: LessonCheck, situation: Situation, lesson: LessonEn
         now - situation.hold >= 1 &&
         cycles(now - situation.hold, now).every(cycle => has(situation, check.values, cycle))
       );
-    case "has-shown": {
-      const lately = cycles(Math.max(1, now - LATELY), now);
-      return check.patterns.every(values => lately.some(cycle => has(situation, values, cycle)));
-    }
+    case "has-shown":
+      return check.patterns.every(values => wasShown(situation, values));
     case "designs":
       return (
         design.probe !== null && !("fault" in design.probe) && (design.probe.function === check.gate) !== check.except
@@ -61,6 +59,12 @@ export function holds(check: LessonCheck, situation: Situation, lesson: LessonEn
     case "niche-chosen":
       return search.chosen !== null && search.chosen.body.join() === design.body.join();
   }
+}
+
+/** Whether these values were there lately. */
+export function wasShown(situation: Situation, values: Values): boolean {
+  const { now } = situation;
+  return cycles(Math.max(1, now - LATELY), now).some(cycle => has(situation, values, cycle));
 }
 
 function has(situation: Situation, values: Values, cycle: number): boolean {

@@ -2,7 +2,7 @@
 
 import type { Connection } from "../connection";
 import { button, element, fill } from "../element";
-import { recall, remember } from "../memory";
+import { learner, recall, remember, setLearner } from "../memory";
 import { RequestError } from "../request";
 
 /** Where a learner is. */
@@ -13,7 +13,6 @@ interface Place {
   size: number | null;
 }
 
-const NAME = "class-name";
 const LONGEST = 24;
 
 export class ClassPanel {
@@ -29,7 +28,7 @@ export class ClassPanel {
     this.host.hidden = !hasClass;
     this.#joined = null;
     this.#show();
-    const name = remembered();
+    const name = learner();
     if (hasClass && name !== null) {
       await this.#join(name);
     }
@@ -57,7 +56,9 @@ export class ClassPanel {
       const joined = await this.connection.request("join", key === null ? { name } : { name, key });
       keepKey(name, joined.key);
       this.#joined = name;
-      keepName(name);
+      if (learner() !== name) {
+        become(name);
+      }
       this.#send();
     } catch (error) {
       if (!(error instanceof RequestError)) {
@@ -74,7 +75,7 @@ export class ClassPanel {
       keepKey(this.#joined, null);
     }
     this.#joined = null;
-    keepName(null);
+    become(null);
     this.#show();
   }
 
@@ -96,7 +97,7 @@ export class ClassPanel {
       autocomplete: "off",
       spellcheck: "false",
       "data-do": "class-name",
-      value: remembered() ?? "",
+      value: learner() ?? "",
     });
     const join = (): void => void this.#join(field.value.trim());
     // A handler that returns false would swallow the key.
@@ -134,23 +135,13 @@ function keepKey(name: string, key: string | null): void {
   remember(KEYS, [...(key === null ? [] : [[name, key]]), ...others].slice(0, MOST_KEYS));
 }
 
-/** The name in this tab, until it is closed. */
-function remembered(): string | null {
-  try {
-    return sessionStorage.getItem(NAME);
-  } catch {
-    return null;
-  }
-}
-
-function keepName(name: string | null): void {
-  try {
-    if (name === null) {
-      sessionStorage.removeItem(NAME);
-    } else {
-      sessionStorage.setItem(NAME, name);
-    }
-  } catch {
-    // Then a reload asks for the name again.
+/**
+ * Makes the page that of a learner, with drafts and progress of their own. What the page shows of others goes away with
+ * a reload, where the browser can remember who it is.
+ */
+function become(name: string | null): void {
+  setLearner(name);
+  if (learner() === name) {
+    location.reload();
   }
 }

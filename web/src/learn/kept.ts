@@ -1,7 +1,7 @@
 // The programs that a learner wrote in a lesson and that were replaced, and where they were saved, remembered by the
 // browser.
 
-import { recall, remember } from "../memory";
+import { own, recall, remember } from "../memory";
 
 export interface KeptProgram {
   text: string;
@@ -24,15 +24,15 @@ export function keepProgram(folder: string, lesson: string, program: KeptProgram
 }
 
 function name(folder: string, lesson: string): string {
-  return `kept:${folder}:${lesson}`;
+  return own(`kept:${folder}:${lesson}`);
 }
 
 /** The file in which the program of a lesson was saved last. */
 export function savedFile(folder: string, lesson: string): string | null {
-  return recall<string>(`lesson-file:${folder}:${lesson}`);
+  return recall<string>(own(`lesson-file:${folder}:${lesson}`));
 }
 
 /** Notes it; null forgets it. */
 export function noteSavedFile(folder: string, lesson: string, path: string | null): void {
-  remember(`lesson-file:${folder}:${lesson}`, path);
+  remember(own(`lesson-file:${folder}:${lesson}`), path);
 }

@@ -46,3 +46,14 @@ export function isLessonPath(lesson: LessonEntry, path: string): boolean {
   const start = own.replace(/nb$/, "");
   return path === own || (path.startsWith(start) && /^[^./]+\.nb$/.test(path.slice(start.length)));
 }
+
+/** The address of a step. */
+export function stepAddress(lesson: LessonEntry, step: number): string {
+  return `lesson/${lesson.name}/${step + 1}`;
+}
+
+/** The lesson and the step of an address such as `lesson/latch/2`; null if it is none. */
+export function lessonAddress(fragment: string): { name: string; step: number } | null {
+  const [, name, step] = /^lesson\/([\w-]+)(?:\/(\d{1,3}))?$/.exec(fragment) ?? [];
+  return name === undefined ? null : { name, step: Math.max(1, Number(step ?? 1)) - 1 };
+}

@@ -1,22 +1,30 @@
-// What a step of a lesson still needs, in words.
+// What a step of a lesson still needs, and why it does not count yet, in words.
 
 import { counted } from "../counted";
 import type { LessonCheck, LessonEntry } from "../protocol";
-import { holds } from "./checks";
+import { holds, wasShown } from "./checks";
 import type { Situation } from "./situation";
+import { circuitsHave, testLines } from "./source";
+
+type Values = { [port: string]: number | undefined };
 
 /** Conditions of the text, which may hold before anything is done. */
 const OF_TEXT = ["tests-kept", "without", "robots-only"];
 
 /**
- * What the step of that number still needs, once a learner has done a part of it or run a test. Before that its task
- * says enough.
+ * What the step of that number still needs, once a learner has done a part of it or run a test, or asks for it. Before
+ * that its task says enough.
  */
-export function missing(lesson: LessonEntry, step: number, situation: Situation): string[] {
+export function missing(lesson: LessonEntry, step: number, situation: Situation, isAsked = false): string[] {
   const checks = lesson.steps[step]?.checks ?? [];
   const open = checks.filter(check => !holds(check, situation, lesson));
   const isBegun = checks.some(check => !OF_TEXT.includes(check.is) && !open.includes(check));
-  return isBegun || situation.passed + situation.failed > 0 ? open.map(check => wordsOf(check)) : [];
+  const isSaid = isAsked || isBegun || situation.passed + situation.failed > 0;
+  return isSaid ? open.map(check => joined(wordsOf(check), reason(check, situation, lesson))) : [];
+}
+
+function joined(wanted: string, why: string): string {
+  return why === "" ? wanted : `${wanted} – ${why}`;
 }
 
 /** What a condition asks for. */
@@ -57,7 +65,78 @@ export function wordsOf(check: LessonCheck): string {
   }
 }
 
-function valuesText(values: { [port: string]: number | undefined }): string {
+/** Why a condition does not hold; empty where there is no more to say. */
+function reason(check: LessonCheck, situation: Situation, lesson: LessonEntry): string {
+  const { now, text, tests, passed, failed, design } = situation;
+  switch (check.is) {
+    case "shows":
+    case "keeps":
+      return shownText(check.values, situation);
+    case "has-shown":
+      return `not yet ${check.patterns
+        .filter(values => !wasShown(situation, values))
+        .map(valuesText)
+        .join("; ")}`;
+    case "designs":
+      if (design.probe === null) {
+        return "it is being simulated";
+      }
+      return "fault" in design.probe ? design.probe.fault : `it is ${design.probe.function ?? "no gate"}`;
+    case "counts":
+      return { robots: `it has ${situation.robots.length}`, cycles: `${now} so far` }[check.what as string] ?? "";
+    case "robots-only": {
+      const others = [...new Set(situation.robots.filter(gate => !check.gates.includes(gate)))];
+      return others.length === 0 ? notCompiled(situation) : `there is also ${others.join(", ")}`;
+    }
+    case "without":
+      return `there is ${check.words.filter(word => circuitsHave(text, word)).join(", ")}`;
+    case "circuit":
+      return situation.circuit === null ? notCompiled(situation) : `${situation.circuit} is`;
+    case "tests-pass":
+      return tests === 0 ? notCompiled(situation) || "there is none" : testsText(tests, passed, failed);
+    case "tests-fail":
+      return passed === 0 ? "none has been run" : "those that were run pass";
+    case "tests-kept": {
+      const kept = testLines(text);
+      return `missing: ${[...testLines(lesson.program ?? "")].find(line => !kept.has(line)) ?? ""}`;
+    }
+    case "program-changed":
+      return text.trim() === (lesson.program ?? "").trim() ? "it is still that of the lesson" : notCompiled(situation);
+    default:
+      return "";
+  }
+}
+
+function notCompiled({ isChecked, errors, circuits }: Situation): string {
+  if (!isChecked) {
+    return "the program is being checked";
+  }
+  return errors > 0 ? `the program has ${counted(errors, "error")}` : circuits === 0 ? "there is no circuit" : "";
+}
+
+function testsText(tests: number, passed: number, failed: number): string {
+  const run = passed + failed;
+  return failed > 0
+    ? `${failed} of ${tests} fail`
+    : run === 0
+      ? "none has been run"
+      : `${run} of ${tests} have been run`;
+}
+
+/** What the ports show now that should show something else. */
+function shownText(values: Values, { now, port }: Situation): string {
+  const wrong = Object.entries(values).filter(([name, value]) => port(name, now) !== value);
+  if (wrong.length === 0) {
+    return "not for long enough yet";
+  }
+  const text = ([name]: [string, unknown]): string => {
+    const shown = port(name, now);
+    return shown === null ? `there is no ${name}` : `${name} = ${shown}`;
+  };
+  return now === 0 ? "it has not run yet" : `now ${wrong.map(text).join(", ")}`;
+}
+
+function valuesText(values: Values): string {
   return Object.entries(values)
     .map(([name, value]) => `${name} = ${value}`)
     .join(", ");

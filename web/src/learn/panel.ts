@@ -3,7 +3,7 @@
 import { button, element, fill } from "../element";
 import type { TabName } from "../layout";
 import type { LiveSwarm } from "../live/swarm";
-import { recall, remember } from "../memory";
+import { own, recall, remember } from "../memory";
 import type { Program } from "../program";
 import type { Finding, LessonEntry } from "../protocol";
 import type { RobotsPanel } from "../robots/panel";
@@ -11,7 +11,7 @@ import type { TestsPanel } from "../tests/panel";
 import { prefersStillness } from "../theme";
 import type { ClassPanel } from "./class";
 import { keepProgram, noteSavedFile, savedFile } from "./kept";
-import { isLessonPath, lessonPath, type Lessons } from "./lessons";
+import { isLessonPath, lessonPath, stepAddress, type Lessons } from "./lessons";
 import { Progress } from "./progress";
 import { missing } from "./missing";
 import { prose } from "./prose";
@@ -34,6 +34,10 @@ export interface LearnDoors {
   /** Replaces the text of the program. */
   replace: (text: string) => void;
   show: (tab: TabName) => void;
+  /** Notes that another step is shown. */
+  moved: () => void;
+  /** Notes that a lesson is open. */
+  begun: () => void;
 }
 
 export class LearnPanel {
@@ -42,6 +46,10 @@ export class LearnPanel {
   readonly #progress = new Progress();
   readonly #cards = element("div", { class: "course" });
   #lesson: LessonEntry | null = null;
+  /** The number of the step that is shown. */
+  #step = 0;
+  /** Whether the learner has asked what this step still needs. */
+  #isAsked = false;
   /** The size of the present circuit, where the lesson asks for one. */
   #size: number | null = null;
   /** What the present step still needs, once a part of it is done. */
@@ -57,6 +65,8 @@ export class LearnPanel {
       again: lesson => this.#again(lesson),
       bringBack: (lesson, text) => this.#bringBack(lesson, text),
       begin: lesson => this.#begin(lesson),
+      resume: lesson => this.openStep(lesson, this.#step),
+      why: () => this.#ask(),
       leave: () => this.#leave(),
     });
     this.host.append(course.host, this.#cards);
@@ -70,7 +80,11 @@ export class LearnPanel {
     parts.robots.designer.design.on(check);
     parts.robots.evolution.search.on(check);
     lessons.list.on(() => {
-      this.#lesson = lessons.named(this.#lesson?.name ?? recall("lesson"));
+      const lesson = lessons.named(this.#lesson?.name ?? recall(own("lesson")));
+      if (lesson !== null && this.#lesson === null) {
+        this.#step = this.#progress.next(lesson);
+      }
+      this.#lesson = lesson;
       this.#show();
     });
     this.#show();
@@ -82,20 +96,74 @@ export class LearnPanel {
       return;
     }
     // A lesson's program must be there, so that a chance agreement elsewhere does not count.
-    if (lesson.program !== null && !this.#isOpen(lesson)) {
-      const isNone = this.parts.program.path.value === "";
-      this.#note(isNone ? [] : [`the lesson’s program ${lessonPath(lesson)} is open in the editor`]);
+    this.strip.showPlace(this.#isHere(lesson) || this.parts.program.path.value === "");
+    if (!this.#isHere(lesson)) {
+      this.#note([]);
       return;
     }
     const situation = situationOf(this.parts);
-    const advanced = this.#progress.advance(lesson, situation);
-    this.#note(missing(lesson, this.#progress.done(lesson), situation));
+    const advanced = this.#progress.advance(lesson, this.#step, situation);
+    if (advanced) {
+      this.strip.fold();
+      this.#move(lesson, this.#progress.next(lesson, this.#step));
+      this.doors.moved();
+    }
+    const isDone = this.#progress.steps(lesson).has(this.#step);
+    this.#note(isDone ? [] : missing(lesson, this.#step, situation, this.#isAsked));
     const size = this.#progress.isFinished(lesson) ? sizeOf(lesson, situation) : null;
     const better = size !== null && this.#progress.noteSize(lesson, size);
     if (advanced || better || size !== this.#size) {
       this.#size = size;
       this.#show();
     }
+  }
+
+  /** Whether what the lesson is about is there. */
+  #isHere(lesson: LessonEntry): boolean {
+    return lesson.program === null || this.#isOpen(lesson);
+  }
+
+  /** What the address of the page is, if it is that of a step. */
+  get address(): string | null {
+    const lesson = this.#lesson;
+    return lesson !== null && this.#isHere(lesson) ? stepAddress(lesson, this.#step) : null;
+  }
+
+  /** Shows a step of a lesson, with its program; in the tab of the lesson, if that is to be shown. */
+  openStep(lesson: LessonEntry, step: number, showsTab = true): void {
+    this.#take(lesson, Math.min(step, lesson.steps.length - 1));
+    if (lesson.program !== null) {
+      this.#open(lesson, lesson.program, savedFile(this.parts.program.folder, lesson.name));
+    }
+    if (showsTab) {
+      this.doors.show(lesson.tab);
+    }
+    // A file that is still being read is shown later.
+    if (this.#isHere(lesson)) {
+      this.doors.moved();
+    }
+    this.#show();
+  }
+
+  #take(lesson: LessonEntry, step: number): void {
+    this.#lesson = lesson;
+    this.#size = null;
+    remember(own("lesson"), lesson.name);
+    this.doors.begun();
+    this.#move(lesson, step);
+  }
+
+  /** Goes to a step; past the last one, the last stays. */
+  #move(lesson: LessonEntry, step: number): void {
+    this.#step = Math.min(step, lesson.steps.length - 1);
+    this.#isAsked = false;
+    this.#missing = [];
+    this.strip.showMissing([]);
+  }
+
+  #ask(): void {
+    this.#isAsked = true;
+    this.#check();
   }
 
   #isOpen(lesson: LessonEntry): boolean {
@@ -107,23 +175,17 @@ export class LearnPanel {
   #note(needed: string[]): void {
     if (needed.join() !== this.#missing.join()) {
       this.#missing = needed;
-      this.#show();
+      this.strip.showMissing(needed);
     }
   }
 
   #begin(lesson: LessonEntry): void {
-    this.#lesson = lesson;
-    this.#size = null;
-    remember("lesson", lesson.name);
     if (this.#progress.isFinished(lesson)) {
+      this.#take(lesson, 0);
       this.#again(lesson);
-      return;
+    } else {
+      this.openStep(lesson, this.#progress.next(lesson));
     }
-    if (lesson.program !== null) {
-      this.#open(lesson, lesson.program, savedFile(this.parts.program.folder, lesson.name));
-    }
-    this.doors.show(lesson.tab);
-    this.#show();
   }
 
   /** Notes where the program of a lesson was saved, to go on with it. */
@@ -141,6 +203,7 @@ export class LearnPanel {
     const { swarm } = this.parts;
     this.#progress.restart(lesson);
     this.#size = null;
+    this.#move(lesson, 0);
     if (lesson.program !== null) {
       const wasOpen = this.#isOpen(lesson);
       this.#open(lesson, lesson.program);
@@ -159,6 +222,7 @@ export class LearnPanel {
       }
     }
     this.doors.show(lesson.tab);
+    this.doors.moved();
     this.#show();
   }
 
@@ -204,7 +268,8 @@ export class LearnPanel {
 
   #leave(): void {
     this.#lesson = null;
-    remember("lesson", null);
+    remember(own("lesson"), null);
+    this.doors.moved();
     this.#show();
     this.doors.show("learn");
   }
@@ -221,23 +286,26 @@ export class LearnPanel {
     const lesson = this.#lesson;
     this.strip.show(lesson, {
       folder: this.parts.program.folder,
+      step: this.#step,
       size: this.#size,
-      missing: this.#missing,
       place: lesson === null ? "" : `${all.indexOf(lesson) + 1} of ${all.length}`,
       next: lesson === null ? null : this.lessons.after(lesson),
     });
     this.course.tell(
-      lesson === null
-        ? null
-        : { lesson: lesson.name, done: this.#progress.done(lesson), size: this.#progress.size(lesson) },
+      lesson === null ? null : { lesson: lesson.name, done: this.#place(lesson), size: this.#progress.size(lesson) },
       finished,
     );
   }
 
+  /** How many steps there are before the one that is shown; all if the lesson is finished. */
+  #place(lesson: LessonEntry): number {
+    return this.#progress.isFinished(lesson) ? lesson.steps.length : this.#step;
+  }
+
   #card(lesson: LessonEntry, index: number): HTMLElement {
-    const done = this.#progress.done(lesson);
+    const done = this.#progress.steps(lesson);
     const finished = this.#progress.isFinished(lesson);
-    const label = finished ? "Do it again" : done > 0 || lesson === this.#lesson ? "Go on" : "Begin";
+    const label = finished ? "Do it again" : done.size > 0 || lesson === this.#lesson ? "Go on" : "Begin";
     const next = this.lessons.list.value.find(other => !this.#progress.isFinished(other));
     const suggested = lesson === (this.#lesson ?? next);
     return element(
@@ -250,7 +318,7 @@ export class LearnPanel {
         element("h3", {}, lesson.title),
       ),
       ...lesson.text.map(text => element("p", {}, ...prose(text))),
-      element("ul", { class: "steps" }, ...lesson.steps.map((step, i) => stepElement(step.task, i < done))),
+      element("ul", { class: "steps" }, ...lesson.steps.map((step, i) => stepElement(step.task, done.has(i)))),
       scoreElement(lesson, this.#progress.size(lesson), "Your smallest so far:"),
       button(label, () => this.#begin(lesson), {
         class: suggested && !finished ? "primary" : "",

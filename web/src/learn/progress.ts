@@ -1,6 +1,6 @@
 // How far one is in the lessons, and the smallest circuits so far, remembered by the browser.
 
-import { recall, remember } from "../memory";
+import { own, recall, remember } from "../memory";
 import type { LessonEntry } from "../protocol";
 import { holds } from "./checks";
 import type { Situation } from "./situation";
@@ -9,39 +9,55 @@ const NAME = "lessons";
 const SIZES = "lesson-sizes";
 
 export class Progress {
-  /** The number of steps done by the name of the lesson. */
-  readonly #done: Record<string, number>;
+  /** The steps that are done by the name of the lesson, or how many of the first ones are. */
+  readonly #done: Record<string, number[] | number>;
   /** The size of the smallest circuit that was right. */
   readonly #sizes: Record<string, number>;
 
   constructor(
-    stored: Record<string, number> | null = recall(NAME),
-    sizes: Record<string, number> | null = recall(SIZES),
+    stored: Record<string, number[] | number> | null = recall(own(NAME)),
+    sizes: Record<string, number> | null = recall(own(SIZES)),
   ) {
     this.#done = { ...stored };
     this.#sizes = { ...sizes };
   }
 
+  /** The steps of a lesson that are done, from 0. */
+  steps(lesson: LessonEntry): Set<number> {
+    const done = this.#done[lesson.name] ?? 0;
+    const all = typeof done === "number" ? Array.from({ length: done }, (_, i) => i) : done;
+    return new Set(all.filter(step => step < lesson.steps.length));
+  }
+
+  /** How many steps are done. */
   done(lesson: LessonEntry): number {
-    return Math.min(lesson.steps.length, this.#done[lesson.name] ?? 0);
+    return this.steps(lesson).size;
   }
 
   isFinished(lesson: LessonEntry): boolean {
     return this.done(lesson) === lesson.steps.length;
   }
 
-  /** Checks the next step; whether it is done now. */
-  advance(lesson: LessonEntry, situation: Situation): boolean {
-    const step = lesson.steps[this.done(lesson)];
-    if (step === undefined || !step.checks.every(check => holds(check, situation, lesson))) {
+  /** The first step from `from` on that is not done, or else any such step; the number of steps if all are done. */
+  next(lesson: LessonEntry, from = 0): number {
+    const done = this.steps(lesson);
+    const open = [...lesson.steps.keys()].filter(step => !done.has(step));
+    return open.find(step => step >= from) ?? open[0] ?? lesson.steps.length;
+  }
+
+  /** Checks a step; whether it is done now. */
+  advance(lesson: LessonEntry, number: number, situation: Situation): boolean {
+    const step = lesson.steps[number];
+    const done = this.steps(lesson);
+    if (step === undefined || done.has(number) || !step.checks.every(check => holds(check, situation, lesson))) {
       return false;
     }
-    this.#set(lesson, this.done(lesson) + 1);
+    this.#set(lesson, [...done, number]);
     return true;
   }
 
   restart(lesson: LessonEntry): void {
-    this.#set(lesson, 0);
+    this.#set(lesson, []);
   }
 
   /** The size of the smallest circuit of a lesson; null if there is none. */
@@ -56,12 +72,12 @@ export class Progress {
       return false;
     }
     this.#sizes[lesson.name] = size;
-    remember(SIZES, this.#sizes);
+    remember(own(SIZES), this.#sizes);
     return true;
   }
 
-  #set(lesson: LessonEntry, steps: number): void {
+  #set(lesson: LessonEntry, steps: number[]): void {
     this.#done[lesson.name] = steps;
-    remember(NAME, this.#done);
+    remember(own(NAME), this.#done);
   }
 }

@@ -3,10 +3,14 @@
 import { button, element, fill, iconButton } from "../element";
 import { closeOutside } from "../menu";
 import type { LessonEntry } from "../protocol";
+import { own, recall, remember } from "../memory";
 import { keptPrograms } from "./kept";
+import { lessonPath, stepAddress } from "./lessons";
 import type { Progress } from "./progress";
 import { prose } from "./prose";
 import { STARS, sizeText, starsOf } from "./score";
+
+const READ = "lessons-read";
 
 interface StripDoors {
   /** Starts the lesson again. */
@@ -14,15 +18,19 @@ interface StripDoors {
   /** Brings back a program that was replaced. */
   bringBack: (lesson: LessonEntry, text: string) => void;
   begin: (lesson: LessonEntry) => void;
+  /** Opens the program of the lesson. */
+  resume: (lesson: LessonEntry) => void;
+  /** Says what the step still needs. */
+  why: () => void;
   leave: () => void;
 }
 
 interface Shown {
   folder: string;
+  /** The number of the step that is shown. */
+  step: number;
   /** The size of the present circuit. */
   size: number | null;
-  /** What the present step still needs. */
-  missing: string[];
   /** Where the lesson is in the course. */
   place: string;
   next: LessonEntry | null;
@@ -32,18 +40,35 @@ export class Strip {
   readonly host = element("aside", { class: "strip", "aria-label": "Lesson", hidden: true });
   /** The hints that were asked for, of the step that they are about. */
   #hints = { step: "", shown: 0 };
+  #missing = missingElement([]);
+  /** The lesson whose text was folded away or out, and which of these. */
+  #text = { lesson: "", isOpen: true };
 
   constructor(
     private readonly progress: Progress,
     private readonly doors: StripDoors,
   ) {}
 
+  /** Shows what the step still needs. */
+  showMissing(missing: string[]): void {
+    const before = this.#missing;
+    this.#missing = missingElement(missing);
+    before.replaceWith(this.#missing);
+  }
+
+  /** Shows whether the program of the lesson is in the editor. */
+  showPlace(isHere: boolean): void {
+    // This is called after each frame.
+    if (this.host.dataset["away"] !== String(!isHere)) {
+      this.host.dataset["away"] = String(!isHere);
+    }
+  }
+
   show(lesson: LessonEntry | null, shown: Shown): void {
     this.host.hidden = lesson === null;
     if (lesson === null) {
       return;
     }
-    const done = this.progress.done(lesson);
     const finished = this.progress.isFinished(lesson);
     const focused = this.host.contains(document.activeElement)
       ? (document.activeElement as HTMLElement).dataset["do"]
@@ -54,22 +79,21 @@ export class Strip {
       element(
         "div",
         { class: "said" },
-        element("h3", {}, lesson.title, element("span", { class: "place" }, ` ${shown.place}`)),
-        element("div", { class: "about" }, ...lesson.text.map(text => element("p", {}, ...prose(text)))),
+        element(
+          "div",
+          { class: "top" },
+          element("h3", {}, lesson.title, element("span", { class: "place" }, ` ${shown.place}`)),
+          this.#steps(lesson, shown.step),
+        ),
+        this.#about(lesson),
         element(
           "div",
           { class: "todo" },
-          element(
-            "ul",
-            { class: "steps", "aria-live": "polite" },
-            ...lesson.steps.slice(0, done + 1).map((step, i) => stepElement(step.task, i < done)),
-          ),
-          !finished &&
-            shown.missing.length > 0 &&
-            element("p", { class: "missing", role: "status" }, `Not yet: ${shown.missing.join("; ")}.`),
+          element("p", { class: "task", "aria-live": "polite" }, ...prose(lesson.steps[shown.step]?.task ?? "")),
+          this.#missing,
           finished && element("p", { class: "pass", role: "status" }, praise(shown.next)),
           finished && scoreElement(lesson, shown.size, "Your circuit:"),
-          ...this.#hintElements(lesson, done, shown),
+          ...this.#hintElements(lesson, shown),
         ),
       ),
       element("div", { class: "ways" }, ...this.#buttons(lesson, finished, shown)),
@@ -80,14 +104,65 @@ export class Strip {
     }
   }
 
-  /** The hints that were asked for, and the button for another one. */
-  #hintElements(lesson: LessonEntry, done: number, shown: Shown): (HTMLElement | false)[] {
-    const step = lesson.steps[done];
-    if (step === undefined) {
+  /** The steps as links to them. */
+  #steps(lesson: LessonEntry, present: number): HTMLElement {
+    const done = this.progress.steps(lesson);
+    const link = (step: number): HTMLElement =>
+      element(
+        "a",
+        {
+          href: `#${stepAddress(lesson, step)}`,
+          "aria-current": step === present ? "step" : null,
+          "aria-label": `Step ${step + 1}, ${done.has(step) ? "done" : "to do"}`,
+        },
+        done.has(step) ? "✓" : String(step + 1),
+      );
+    return element(
+      "ol",
+      { class: "steps", "aria-label": "Steps" },
+      ...lesson.steps.map((_, step) => element("li", { "data-done": done.has(step) }, link(step))),
+    );
+  }
+
+  /** Folds the text away, as when a step is done. */
+  fold(): void {
+    this.#text.isOpen = false;
+  }
+
+  /** The text of the lesson, which can be folded away. */
+  #about(lesson: LessonEntry): HTMLElement {
+    if (this.#text.lesson !== lesson.name) {
+      const isNew = !this.#read().includes(lesson.name) && this.progress.done(lesson) === 0;
+      this.#text = { lesson: lesson.name, isOpen: isNew };
+    }
+    const about = element(
+      "details",
+      { class: "about", open: this.#text.isOpen },
+      element("summary", { "data-do": "about" }, "Explanation"),
+      ...lesson.text.map(text => element("p", {}, ...prose(text))),
+    );
+    about.addEventListener("toggle", () => {
+      this.#text.isOpen = about.open;
+      if (!about.open) {
+        remember(own(READ), [...new Set([...this.#read(), lesson.name])]);
+      }
+    });
+    return about;
+  }
+
+  /** The lessons whose text was folded away. */
+  #read(): string[] {
+    return recall<string[]>(own(READ)) ?? [];
+  }
+
+  /** The hints that were asked for, the button for another one, and that which says what is missing. */
+  #hintElements(lesson: LessonEntry, shown: Shown): (HTMLElement | false)[] {
+    const step = lesson.steps[shown.step];
+    if (step === undefined || this.progress.steps(lesson).has(shown.step)) {
       return [];
     }
     const hints = step.hints.length > 0 ? step.hints : lesson.hints;
-    const name = `${lesson.name} ${done}`;
+    const name = `${lesson.name} ${shown.step}`;
     if (this.#hints.step !== name) {
       this.#hints = { step: name, shown: 0 };
     }
@@ -104,7 +179,12 @@ export class Strip {
           { class: "hints", role: "status", "aria-label": "Hints" },
           ...hints.slice(0, count).map(hint => element("li", {}, ...prose(hint))),
         ),
-      count < hints.length && button(label, more, { class: "link", "data-do": "hint" }),
+      element(
+        "p",
+        { class: "row" },
+        count < hints.length && button(label, more, { class: "link", "data-do": "hint" }),
+        button("What is missing?", () => this.doors.why(), { class: "link", "data-do": "why" }),
+      ),
     ];
   }
 
@@ -112,6 +192,11 @@ export class Strip {
     const { next } = shown;
     const kept = keptPrograms(shown.folder, lesson.name);
     return [
+      button("Back to the lesson’s program", () => this.doors.resume(lesson), {
+        class: "resume",
+        "data-do": "resume",
+        title: `${lessonPath(lesson)} is what the lesson is about`,
+      }),
       finished &&
         next !== null &&
         button(`Next: ${next.title}`, () => this.doors.begin(next), { class: "primary", "data-do": "next" }),
@@ -143,6 +228,14 @@ export class Strip {
     closeOutside(menu);
     return menu;
   }
+}
+
+function missingElement(missing: string[]): HTMLElement {
+  return element(
+    "ul",
+    { class: "missing", role: "status", "aria-label": "Not yet", hidden: missing.length === 0 },
+    ...missing.map(one => element("li", {}, `Not yet: ${one}.`)),
+  );
 }
 
 export function stepElement(task: string, done: boolean): HTMLElement {

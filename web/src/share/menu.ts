@@ -3,24 +3,51 @@
 import { button, element, fill } from "../element";
 import { LinkError, encodeShare, type SharedProgram } from "./link";
 
+/** Where links can lead. */
+export interface LinkPlaces {
+  /** The address of this page, if others can open it. */
+  here: string | null;
+  /** Whether everybody can: it has no secret in it. */
+  isPublic: boolean;
+  /** The address of a page that everybody can open, if one is known. */
+  publicPage: string | null;
+}
+
 export class LinkMenu {
-  readonly host: HTMLElement;
+  readonly host = element("div", { class: "links" });
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
 
-  constructor(private readonly share: () => SharedProgram) {
-    this.host = element(
-      "div",
-      { class: "links" },
-      button("Copy a link for this server", () => void this.#copy(location.href.replace(/#.*/, "")), {
-        "data-take": "link",
-        title: "Whoever has this link can use this server",
-      }),
-      button("Copy a link for any nbc play", () => void this.#copy(""), {
-        "data-take": "any-link",
-        title: "To be pasted into Open a program, or behind the address of another nbc play",
-      }),
+  constructor(private readonly share: () => SharedProgram) {}
+
+  /** Offers the links that there are. */
+  show({ here, isPublic, publicPage }: LinkPlaces): void {
+    const isElsewhere = publicPage !== null && publicPage !== here;
+    fill(this.#status);
+    fill(
+      this.host,
+      here !== null && isPublic && this.#button("Copy a link to this page", here, "link", "Whoever has it can open it"),
+      here !== null &&
+        !isPublic &&
+        this.#button("Copy a link for this server", here, "link", "Whoever has this link can use this server"),
+      isElsewhere &&
+        this.#button(
+          "Copy a link to the public page",
+          publicPage,
+          "public-link",
+          `Whoever has it can open it, at ${publicPage}`,
+        ),
+      this.#button(
+        "Copy a link for any nbc play",
+        "",
+        "any-link",
+        "To be pasted into Open a program, or behind the address of another nbc play",
+      ),
       this.#status,
     );
+  }
+
+  #button(label: string, address: string, what: string, title: string): HTMLElement {
+    return button(label, () => void this.#copy(address), { "data-take": what, title });
   }
 
   async #copy(address: string): Promise<void> {

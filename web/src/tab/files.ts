@@ -43,10 +43,11 @@ export class FileStore {
     });
   }
 
-  /** Keeps a file. Calls `failed` if the browser has no room, or forbids it. */
-  put(path: string, text: string, failed: () => void): void {
+  /** Keeps a file. Calls `done` with whether that was possible: a browser may have no room, or forbid it. */
+  put(path: string, text: string, done: (isKept: boolean) => void): void {
     const change = this.database.transaction(STORE, "readwrite");
-    change.onabort = failed;
+    change.oncomplete = () => done(true);
+    change.onabort = () => done(false);
     change.objectStore(STORE).put(text, path);
     this.#channel.postMessage([path, text]);
   }

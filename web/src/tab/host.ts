@@ -1,11 +1,13 @@
 // The program in a worker of the page. One that has failed is replaced: the page then says again what it works on.
 
-import type { Dial, LineEvents, Ways } from "../line";
+import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
+import type { Request } from "../protocol";
+import { Aside } from "./aside";
 import type { FromWorker, Source, Start, ToWorker } from "./messages";
 
-export interface TabOptions extends Start {
-  /** Starts the worker. */
+export interface TabOptions extends Omit<Start, "program"> {
+  /** Starts a worker. */
   worker: () => Worker;
   program: () => Source;
   /** The address of the page that live exports are made of, if they can be made. */
@@ -13,7 +15,10 @@ export interface TabOptions extends Start {
 }
 
 /** The most files that are kept for the page to fetch, which it does at once. */
-const MOST_FILES = 8;
+const MOST_MADE = 8;
+/** Requests that take long, each with the program that does them, and what stops one. */
+const ASIDE = /"do":"(probe|evolve|keep|cancel)"/;
+const PLACES: { [Verb in Request["do"]]?: "probe" | "search" } = { probe: "probe", evolve: "search", keep: "search" };
 
 const KEEPS_NOTHING = "This browser keeps no files: save what you need with Take away.";
 
@@ -21,16 +26,30 @@ export class TabHost implements Ways {
   readonly live: Dial = events => this.#dial("live", events);
   readonly language: Dial = events => this.#dial("language", events);
   readonly status = new Observable("Loading the simulator …");
+  readonly folder: BrowserFolder = {
+    files: () => [...this.#files].sort(([a], [b]) => (a < b ? -1 : 1)),
+    insert: (path, text) => this.#insert(path, text),
+  };
+  readonly isPublic = true;
+  /** The addresses of what the program has made. */
+  readonly #made = new Map<string, string>();
+  /** The texts of the files by their paths. */
   readonly #files = new Map<string, string>();
+  readonly #asides = { probe: this.#aside(), search: this.#aside() };
+  /** The paths of files that the browser could not keep. */
+  readonly #unkept = new Set<string>();
+  #module: WebAssembly.Module | null = null;
   readonly #lines: { live: LineEvents | null; language: LineEvents | null } = { live: null, language: null };
   #worker: Worker | null = null;
   #prepared: () => void = () => {};
   #isReady = false;
 
-  constructor(private readonly options: TabOptions) {}
+  constructor(private readonly options: TabOptions) {
+    options.files.forEach(([path, text]) => this.#files.set(path, text));
+  }
 
   /** The address of a file that the program has made. */
-  readonly file = (address: string): string => this.#files.get(address) ?? address;
+  readonly file = (address: string): string => this.#made.get(address) ?? address;
 
   /** Loads what live exports are made of. */
   prepare(): Promise<void> {
@@ -56,13 +75,62 @@ export class TabHost implements Ways {
       queueMicrotask(events.opened);
     }
     return {
-      send: text => post(worker, { say: name, text }),
+      send: text => {
+        if (name === "language" || !ASIDE.test(text) || !this.#sendAside(JSON.parse(text) as Request, text)) {
+          post(worker, { say: name, text });
+        }
+      },
       close: () => {
         if (this.#lines[name] === events) {
           this.#lines[name] = null;
         }
       },
     };
+  }
+
+  /** Sends a request to the program beside that of the page; whether it is one of its requests. */
+  #sendAside(request: Request, text: string): boolean {
+    const { probe, search } = this.#asides;
+    if (request.do === "cancel") {
+      return probe.cancel(request.of) || search.cancel(request.of);
+    }
+    const place = PLACES[request.do];
+    if (place === undefined || this.#module === null) {
+      return false;
+    }
+    this.#asides[place].send(request.id, text);
+    return true;
+  }
+
+  #aside(): Aside {
+    const start = (): { worker: Worker; begin: Start } => ({
+      worker: this.options.worker(),
+      begin: { program: { module: this.#module! }, first: "", files: [...this.#files], keeps: false },
+    });
+    return new Aside(start, {
+      received: text => this.#lines.live?.received(text),
+      wrote: (path, text) => this.#insert(path, text),
+      failed: message => this.#worker !== null && this.#fail(this.#worker, message),
+    });
+  }
+
+  /** Adds a file to all programs, and to those that the browser keeps. */
+  #insert(path: string, text: string): void {
+    if (this.#worker !== null) {
+      post(this.#worker, { say: "insert", path, text });
+    }
+    this.#note(path, text);
+  }
+
+  #showUnkept(): void {
+    const paths = [...this.#unkept].join(", ");
+    this.status.set(paths === "" ? "" : `This browser could not keep ${paths}: save it with Take away.`);
+  }
+
+  /** Notes a file that the program of the page has. */
+  #note(path: string, text: string): void {
+    this.#files.set(path, text);
+    Object.values(this.#asides).forEach(aside => aside.insert(path, text));
   }
 
   #start(): Worker {
@@ -72,8 +140,8 @@ export class TabHost implements Ways {
       event.preventDefault();
       this.#fail(worker, event.message ?? "the worker cannot be started");
     };
-    const { first, files, keeps, program } = this.options;
-    post(worker, { say: "begin", program: program(), first, files, keeps });
+    const { first, keeps, program } = this.options;
+    post(worker, { say: "begin", program: program(), first, files: [...this.#files], keeps });
     return worker;
   }
 
@@ -84,6 +152,8 @@ export class TabHost implements Ways {
         break;
       case "ready":
         this.#isReady = true;
+        this.#module = message.module;
+        message.files.forEach(([path, text]) => this.#files.set(path, text));
         this.status.set(message.keeps || !this.options.keeps ? "" : KEEPS_NOTHING);
         this.#lines.live?.opened();
         this.#lines.language?.opened();
@@ -102,16 +172,20 @@ export class TabHost implements Ways {
         break;
       case "file": {
         const { address, type, bytes } = message;
-        this.#files.set(address, URL.createObjectURL(new Blob([bytes], { type })));
-        const [oldest] = this.#files;
-        if (oldest !== undefined && this.#files.size > MOST_FILES) {
-          this.#files.delete(oldest[0]);
+        this.#made.set(address, URL.createObjectURL(new Blob([bytes], { type })));
+        const [oldest] = this.#made;
+        if (oldest !== undefined && this.#made.size > MOST_MADE) {
+          this.#made.delete(oldest[0]);
           URL.revokeObjectURL(oldest[1]);
         }
         break;
       }
-      case "unkept":
-        this.status.set(`This browser could not keep ${message.path}: save it with Take away.`);
+      case "wrote":
+        this.#note(message.path, message.text);
+        break;
+      case "kept":
+        this.#unkept[message.isKept ? "delete" : "add"](message.path);
+        this.#showUnkept();
         break;
       case "failed":
         this.#fail(worker, message.message);
@@ -124,6 +198,7 @@ export class TabHost implements Ways {
     if (worker !== this.#worker) {
       return;
     }
+    Object.values(this.#asides).forEach(aside => aside.close());
     this.#worker = null;
     this.#isReady = false;
     this.#prepared();

@@ -1,22 +1,27 @@
 // What a page and the worker with its program say to each other.
 
-/** Where the program is: an address, or its bytes, compressed by gzip. */
-export type Source = { address: string; bytes: number } | { packed: ArrayBuffer };
+import type { KeptFiles } from "./files";
+
+/** Where the program is: an address, or its bytes, compressed by gzip; or what another worker has compiled. */
+export type Source = { address: string; bytes: number } | { packed: ArrayBuffer } | { module: WebAssembly.Module };
 
 /** What the program begins with. */
 export interface Start {
+  program: Source;
   /** The file that the page opens first; empty for none in particular. */
   first: string;
   /** Files that the page comes with. */
-  files: [path: string, text: string][];
+  files: KeptFiles;
   /** Whether the browser keeps files. */
   keeps: boolean;
 }
 
 export type ToWorker =
-  | ({ say: "begin"; program: Source } & Start)
+  | ({ say: "begin" } & Start)
   | { say: "live" | "language"; text: string }
   | { say: "greet" }
+  /** A file that was written elsewhere. */
+  | { say: "insert"; path: string; text: string }
   /** The address of the page that live exports are made of. */
   | { say: "template"; address: string }
   /** The last frame was drawn. */
@@ -27,12 +32,14 @@ export type ToWorker =
 
 export type FromWorker =
   | { say: "loading"; done: number; all: number }
-  | { say: "ready"; keeps: boolean }
+  | { say: "ready"; keeps: boolean; module: WebAssembly.Module; files: KeptFiles }
   | { say: "live"; data: string | ArrayBuffer }
   | { say: "language"; text: string }
   | { say: "template" }
-  /** A file was saved, but the browser did not keep it. */
-  | { say: "unkept"; path: string }
+  /** A file was saved here, or by another tab. */
+  | { say: "wrote"; path: string; text: string }
+  /** Whether the browser keeps a file that was saved. */
+  | { say: "kept"; path: string; isKept: boolean }
   /** An assistant is ready, or has simulated a part. */
   | { say: "assisting" }
   | { say: "part"; number: number; bytes: ArrayBuffer }

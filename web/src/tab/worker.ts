@@ -52,21 +52,27 @@ function fail(message: string): void {
 }
 
 async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
-  const compiling = WebAssembly.compileStreaming(await read(program));
+  const compiling = "module" in program ? program.module : WebAssembly.compileStreaming(await read(program));
   store = keeps ? await FileStore.open() : null;
-  const kept = (await store?.all()) ?? [];
+  const all = [...files, ...((await store?.all()) ?? [])];
   let panic: string | null = null;
   const module = await compiling;
   const started = await Engine.start(module, message => (panic = message));
   failing = () => panic;
   started.begin(first, performance.now());
-  [...files, ...kept].forEach(([path, text]) => started.insert(path, text));
-  store?.follow((path, text) => engine?.insert(path, text));
+  all.forEach(([path, text]) => started.insert(path, text));
+  store?.follow((path, text) => {
+    engine?.insert(path, text);
+    say({ say: "wrote", path, text });
+  });
   engine = started;
-  say({ say: "ready", keeps: store !== null });
+  say({ say: "ready", keeps: store !== null, module, files: all });
   guard(() => waiting.splice(0).forEach(message => take(started, message)));
   work();
-  setTimeout(() => gather(module), ALONE);
+  // A program that another worker has compiled is beside that of the page, and shows no swarm.
+  if (!("module" in program)) {
+    setTimeout(() => gather(module), ALONE);
+  }
 }
 
 /** Starts others that simulate. A browser that has none, or not in this place, goes on without them. */
@@ -104,7 +110,7 @@ async function assist(module: WebAssembly.Module): Promise<void> {
 let failing: () => string | null = () => null;
 
 /** The program as a response that the browser compiles while it comes. */
-async function read(program: Source): Promise<Response> {
+async function read(program: Exclude<Source, { module: unknown }>): Promise<Response> {
   const packed = "packed" in program ? new Blob([program.packed]).stream() : await fetched(program);
   return new Response(packed.pipeThrough(new DecompressionStream("gzip")), {
     headers: { "content-type": "application/wasm" },
@@ -138,6 +144,11 @@ async function template(engine: Engine, address: string): Promise<void> {
   say({ say: "template" });
 }
 
+/** Keeps a file in the browser, if it keeps any. */
+function keep(path: string, text: string): void {
+  store?.put(path, text, isKept => say({ say: "kept", path, isKept }));
+}
+
 function take(engine: Engine, message: ToWorker): void {
   const now = performance.now();
   switch (message.say) {
@@ -149,6 +160,10 @@ function take(engine: Engine, message: ToWorker): void {
       break;
     case "greet":
       engine.greet();
+      break;
+    case "insert":
+      engine.insert(message.path, message.text);
+      keep(message.path, message.text);
       break;
     case "template":
       void template(engine, message.address);
@@ -210,7 +225,8 @@ function pass(message: NonNullable<ReturnType<Engine["next"]>>): void {
       say({ say: "language", text: message.text });
       break;
     case "written":
-      store?.put(message.path, message.text, () => say({ say: "unkept", path: message.path }));
+      keep(message.path, message.text);
+      say({ say: "wrote", path: message.path, text: message.text });
       break;
     case "part":
       crew?.give(message.number, message.bytes);

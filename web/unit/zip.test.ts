@@ -1,0 +1,96 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { ZipError, unzip, zip } from "../src/tab/zip";
+
+const FILES: [string, string][] = [
+  ["latch.nb", "circuit latch(d, e) -> (q) {}\n".repeat(100)],
+  ["sub/folder/größe 逻辑.nb", "// ü\n"],
+  ["empty.nb", ""],
+];
+
+/** Made by zipfile of Python: a folder, files deflated and stored, hidden ones, and one that is no text. */
+const FOREIGN =
+  "UEsDBBQAAAAAAAAAIQAAAAAAAAAAAAAAAAAJAAAAY2lyY3VpdHMvUEsDBBQAAAgIAINEe11mWPHVIwAAAHgAAAATAAAAY2lyY3VpdHMvZ3LD" +
+  "tsOfZS5uYkvOLEouzSxRSNdI1FTQtVPQKNRUqFYoVLBVSFSo5UqmmSwAUEsDBBQAAAAAAINEe13VI9JTCAAAAAgAAAANAAAAcm9ib3RzL2Eu" +
+  "eWFtbG5hbWU6IGEKUEsDBBQAAAAAAINEe12DFtyMAQAAAAEAAAAMAAAAX19NQUNPU1gvLl9heFBLAwQUAAAAAACDRHtdgxbcjAEAAAABAAAA" +
+  "CwAAAC5naXQvY29uZmlneFBLAwQUAAAAAACDRHtdWr1RdwYAAAAGAAAACwAAAHBpY3R1cmUucG5niVBOR//+UEsBAhQDFAAAAAAAAAAhAAAA" +
+  "AAAAAAAAAAAAAAkAAAAAAAAAAAAAAIABAAAAAGNpcmN1aXRzL1BLAQIUAxQAAAgIAINEe11mWPHVIwAAAHgAAAATAAAAAAAAAAAAAACAAScA" +
+  "AABjaXJjdWl0cy9ncsO2w59lLm5iUEsBAhQDFAAAAAAAg0R7XdUj0lMIAAAACAAAAA0AAAAAAAAAAAAAAIABewAAAHJvYm90cy9hLnlhbWxQ" +
+  "SwECFAMUAAAAAACDRHtdgxbcjAEAAAABAAAADAAAAAAAAAAAAAAAgAGuAAAAX19NQUNPU1gvLl9hUEsBAhQDFAAAAAAAg0R7XYMW3IwBAAAA" +
+  "AQAAAAsAAAAAAAAAAAAAAIAB2QAAAC5naXQvY29uZmlnUEsBAhQDFAAAAAAAg0R7XVq9UXcGAAAABgAAAAsAAAAAAAAAAAAAAIABAwEAAHBp" +
+  "Y3R1cmUucG5nUEsFBgAAAAAGAAYAXwEAADIBAAAAAA==";
+
+function bytesOf(base64: string): Uint8Array {
+  return Uint8Array.from(atob(base64), letter => letter.charCodeAt(0));
+}
+
+/** The reason for which an archive is refused. */
+async function refusal(bytes: Uint8Array): Promise<string> {
+  try {
+    await unzip(bytes);
+  } catch (error) {
+    assert.ok(error instanceof ZipError, String(error));
+    return error.message;
+  }
+  return "";
+}
+
+function changed(bytes: Uint8Array, change: (view: DataView) => void): Uint8Array {
+  const copy = bytes.slice();
+  change(new DataView(copy.buffer));
+  return copy;
+}
+
+/** Where the directory begins. */
+function directoryOf(bytes: Uint8Array): number {
+  return new DataView(bytes.buffer, bytes.byteOffset).getUint32(bytes.length - 6, true);
+}
+
+test("files come back with their names and texts, and the same files give the same archive", async () => {
+  const packed = await zip(FILES);
+  assert.deepEqual(await unzip(packed), { files: FILES, leftOut: [] });
+  assert.deepEqual(await zip(FILES), packed);
+  assert.ok(packed.length < 1000, `${packed.length} bytes`);
+  assert.deepEqual(await unzip(await zip([])), { files: [], leftOut: [] });
+});
+
+test("an archive of another program is read, without what systems hide and what is no text", async () => {
+  const { files, leftOut } = await unzip(bytesOf(FOREIGN));
+  assert.deepEqual(files, [
+    ["circuits/größe.nb", "circuit g(a) -> (q) { q = a }\n".repeat(4)],
+    ["robots/a.yaml", "name: a\n"],
+  ]);
+  assert.deepEqual(leftOut, ["picture.png"]);
+});
+
+test("a broken archive is refused, wherever it ends and whatever byte is wrong", async () => {
+  const packed = await zip(FILES);
+  for (let length = 0; length < packed.length; length += 7) {
+    assert.notEqual(await refusal(packed.subarray(0, length)), "", `${length} bytes`);
+  }
+  for (let at = 0; at < packed.length; at++) {
+    // Whatever it says, it ends.
+    await refusal(changed(packed, view => view.setUint8(at, view.getUint8(at) ^ 0xff)));
+  }
+  assert.match(await refusal(new TextEncoder().encode("no zip")), /not a zip archive/);
+});
+
+test("what is too large, encrypted or outside of the folder is refused", async () => {
+  const packed = await zip(FILES);
+  const at = directoryOf(packed);
+  assert.match(await refusal(new Uint8Array(20_000_001)), /larger than 20 MB/);
+  assert.match(await refusal(changed(packed, view => view.setUint16(at + 8, 0x0801, true))), /is encrypted/);
+  assert.match(await refusal(changed(packed, view => view.setUint16(at + 10, 9, true))), /a way that is not known/);
+  assert.match(
+    await refusal(changed(packed, view => view.setUint16(packed.length - 12, 2000, true))),
+    /more than 1000/,
+  );
+  // More bytes than the directory says, as in an archive that unfolds into very many.
+  assert.match(await refusal(changed(packed, view => view.setUint32(at + 24, 5, true))), /damaged/);
+  assert.match(await refusal(await zip([["large.nb", "a".repeat(1_000_001)]])), /large.nb is larger than 1 MB/);
+  assert.match(await refusal(await zip([["../latch.nb", ""]])), /outside of its folder/);
+  assert.match(await refusal(await zip([["/etc/latch.nb", ""]])), /outside of its folder/);
+  const twice: [string, string] = ["a.nb", ""];
+  assert.match(await refusal(await zip([twice, twice])), /two files a.nb/);
+});
