@@ -20,10 +20,9 @@ pub struct MemoryFolder {
 #[derive(Default)]
 struct Files {
     world: MemoryWorld,
-    /// The sizes in bytes and the stamps of the files.
+    /// The sizes in bytes of the files and the hashes of their texts, of which stamps are made: a page that
+    /// returns later finds out from its stamp whether a file is still what it was.
     known: BTreeMap<String, (usize, u64)>,
-    /// The number of the last change.
-    changes: u64,
     /// The paths that were written since they were taken.
     written: Vec<String>,
 }
@@ -32,9 +31,7 @@ impl MemoryFolder {
     /// Adds a file, or replaces it.
     pub fn insert(&self, path: &str, text: &str) {
         let mut files = lock(&self.files);
-        files.changes += 1;
-        let stamp = files.changes;
-        files.known.insert(path.to_owned(), (text.len(), stamp));
+        files.known.insert(path.to_owned(), (text.len(), hash(text)));
         files.world.insert(identity(path), text);
     }
 
@@ -72,7 +69,7 @@ impl PageFolder for MemoryFolder {
     }
 
     fn stamp(&self, path: &str) -> Option<String> {
-        lock(&self.files).known.get(path).map(|(_, stamp)| stamp.to_string())
+        lock(&self.files).known.get(path).map(|(size, hash)| format!("{hash:x}.{size}"))
     }
 
     fn may_write(&self, path: &str) -> Result<(), FileError> {
@@ -119,6 +116,12 @@ impl SourceWorld for MemoryFiles {
     fn identity(&self, path: &str) -> String {
         identity(path)
     }
+}
+
+/// FNV-1a of 64 bits.
+fn hash(text: &str) -> u64 {
+    let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+    text.bytes().fold(0xcbf2_9ce4_8422_2325, mix)
 }
 
 /// The path of a file from the root, which is the folder: what leads outside ends there.

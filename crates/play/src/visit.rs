@@ -501,11 +501,15 @@ mod tests {
         tab.folder.insert("a.nb", "");
         tab.now += LOOK;
         tab.visit.advance(tab.now);
-        assert_eq!(tab.texts()[0]["event"], "changed");
-        let saved = tab.ask(&json!({ "id": 2, "do": "save", "path": "a.nb", "text": LATCH, "stamp": "1" }));
+        let changed = tab.texts().remove(0);
+        assert_eq!(changed["event"], "changed");
+        let (old, new) = (&read[0]["ok"]["stamp"], &changed["stamp"]);
+        let saved = tab.ask(&json!({ "id": 2, "do": "save", "path": "a.nb", "text": LATCH, "stamp": old }));
         assert_eq!(saved[0]["error"]["code"], "changed");
-        let saved = tab.ask(&json!({ "id": 3, "do": "save", "path": "a.nb", "text": LATCH, "stamp": "2" }));
+        let saved = tab.ask(&json!({ "id": 3, "do": "save", "path": "a.nb", "text": LATCH, "stamp": new }));
         assert_eq!(saved[0]["to"], "save");
+        // The draft of a page knows its file again after a reload.
+        assert_eq!(saved[0]["ok"]["stamp"], *old);
         assert_eq!(tab.folder.take_written(), Some(("a.nb".to_owned(), LATCH.to_owned())));
     }
 
