@@ -140,12 +140,18 @@ export class Spacetime extends Diagram {
   #drawNames(pen: Pen, robots: number[], scale: Scale): void {
     const definition = this.swarm.definition.value;
     const time = this.swarm.running.value ? this.swarm.playback.time : this.#newest();
-    const named = robots.length <= NAMED ? robots : robots.filter(robot => this.#isPointed(robot));
+    const size = 11 * enlargement.value;
+    // What has no room is left out: those without a name in the program first.
+    const room = Math.max(1, Math.floor((scale.bottom - scale.top) / (size + 1)));
+    const rank = (robot: number): number => (definition?.robots[robot]?.named === true ? 0 : 1);
+    const named =
+      robots.length <= NAMED
+        ? [...robots].sort((a, b) => rank(a) - rank(b)).slice(0, room)
+        : robots.filter(robot => this.#isPointed(robot));
     const ends = named.flatMap(robot => {
       const place = this.#placeAt(robot, time);
       return place === null || time === 0 ? [] : [{ robot, y: scale.y(place) }];
     });
-    const size = 11 * enlargement.value;
     spread(ends, size + 1, scale.top + 4, scale.bottom - 4);
     pen.textAlign = "left";
     pen.textBaseline = "middle";
