@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
-use nbc_play::{live_page, live_template};
+use nbc_play::{PUBLIC_PAGE, live_page, live_template};
 use nbc_play_server::{LessonSource, PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
@@ -61,7 +61,7 @@ pub struct PlayArguments {
     token: Option<String>,
     /// Write the circuit to this HTML file, which plays without a server, and start none
     #[arg(long, value_name = "OUT", requires = "file", value_parser = new_path())]
-    #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages"])]
+    #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages", "public_page"])]
     export: Option<PathBuf>,
     /// Write a page that simulates and can be edited, instead of a recording
     #[arg(long, requires = "export", conflicts_with_all = ["library", "effort", "objective", "runs"])]
@@ -75,6 +75,9 @@ pub struct PlayArguments {
     /// Let learners join a class with a name, and print the address of a page that shows who is at which lesson
     #[arg(long)]
     class: bool,
+    /// The address of a page made by `.ci/site` that everybody can open. The page offers links to it
+    #[arg(long, value_name = "URL", value_parser = web_address)]
+    public_page: Option<String>,
     /// The pages that may be open at once, at most 64
     #[arg(long, default_value_t = 16, value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_PAGES))]
     pages: usize,
@@ -86,7 +89,8 @@ impl PlayArguments {
     /// # Errors
     /// When the file cannot be found, the address cannot be listened at, or the circuit cannot be exported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let Self { file, port, host, no_open, page, token, export, live, making, lessons, class, pages } = self;
+        let Self { file, port, host, no_open, page, token, export, live, making, lessons, class, public_page, pages } =
+            self;
         if let (Some(output), Some(file)) = (export, &file) {
             return write_page(file, &output, &making, live, context);
         }
@@ -97,8 +101,9 @@ impl PlayArguments {
         file.as_deref().map(source_path).transpose()?;
         let interrupt = Interrupt::watch()?;
         let lessons = lessons.into_iter().map(source).collect();
-        let pages = Some(pages);
-        let server = PlayServer::bind(&PlayOptions { file, making, host, port, page, token, lessons, class, pages })?;
+        let (pages, public_page) = (Some(pages), public_page.or_else(|| PUBLIC_PAGE.map(str::to_owned)));
+        let options = PlayOptions { file, making, host, port, page, token, lessons, class, public_page, pages };
+        let server = PlayServer::bind(&options)?;
         let faults = server.faults_of_lessons();
         context.tell(&faults.list, &faults.sources);
         tell(&server, context)?;
@@ -169,4 +174,13 @@ fn source(folder: PathBuf) -> LessonSource {
 
 fn token(text: &str) -> Result<String, String> {
     if is_token(text) { Ok(text.to_owned()) } else { Err("expected at least 16 letters and digits".to_owned()) }
+}
+
+fn web_address(text: &str) -> Result<String, String> {
+    let is_plain = !text.contains(|letter: char| letter == '#' || letter.is_whitespace() || letter.is_control());
+    let rest = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://"));
+    match rest {
+        Some(rest) if is_plain && !rest.is_empty() => Ok(text.to_owned()),
+        _ => Err("expected an address that begins with `https://`, without `#`".to_owned()),
+    }
 }

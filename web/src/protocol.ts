@@ -236,6 +236,8 @@ export type Greeting = {
   limits: PlayLimits,
   /** Whether pages with the whole program in them can be made. */
   live_pages: boolean,
+  /** The address of a page that everybody can open, for links to it. */
+  public_page: string | null,
   /** Whether there is a class to join. */
   class: boolean,
   cycle_seconds: number,

@@ -73,7 +73,8 @@ export class TakeAway {
 
   #places(): LinkPlaces {
     const isOnDisk = location.protocol === "file:";
-    return { here: isOnDisk ? null : location.href.replace(/#.*/, ""), isPublic: this.ways.isPublic, publicPage: null };
+    const publicPage = this.program.hello?.public_page ?? null;
+    return { here: isOnDisk ? null : location.href.replace(/#.*/, ""), isPublic: this.ways.isPublic, publicPage };
   }
 
   #program(): void {

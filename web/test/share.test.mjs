@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { after, before, test } from "node:test";
 
 import { closeBrowser, setInput, typeProgram, visit, walking } from "./browser.mjs";
-import { LATCH, folderWith, play } from "./program.mjs";
+import { LATCH, folderWith, needs, play } from "./program.mjs";
 
 const TWO = `circuit first(a, b) -> (q) {
     q = a and b
@@ -109,6 +109,18 @@ test("a link can be pasted where programs are opened, and a wrong one says what 
   await page.locator("[data-do=open-shared]").click();
   await file(page, "two_2.nb");
   await page.leave();
+});
+
+test("a public page that is known has links, too", { skip: needs("server") }, async () => {
+  const publicPage = "https://robots.example/nbc/";
+  const program = await play(here.places[0].folder, "two.nb", { more: ["--public-page", publicPage] });
+  const page = await visit(program.url, permissions);
+  await walking(page);
+  const link = await copied(page, "public-link");
+  assert.ok(link.startsWith(`${publicPage}#share=`), link);
+  assert.equal(await here.page.locator('[data-take="public-link"]').count(), 0, "where none is known");
+  await page.leave();
+  await program.stop();
 });
 
 test("a hostile address opens the page as usual, with a notice, and runs nothing", async () => {

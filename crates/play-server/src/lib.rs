@@ -66,6 +66,8 @@ pub struct PlayOptions {
     pub lessons: Vec<LessonSource>,
     /// Whether pages can join a class, which a page of its own shows.
     pub class: bool,
+    /// The address of a page that everybody can open, to which the page makes links.
+    pub public_page: Option<String>,
     /// The pages for which there is room, at most [`PlayOptions::MOST_PAGES`]; 16 if it is not said.
     pub pages: Option<usize>,
 }
@@ -109,6 +111,7 @@ impl PlayServer {
             file,
             making: options.making.clone(),
             live_pages: nbc_play::live_template().is_some(),
+            public_page: options.public_page.clone(),
             class: None,
             shell: threads.clone(),
         };
@@ -181,6 +184,7 @@ pub fn serve_texts(folder: &Path, texts: &[&str]) {
         file: None,
         making: CompileOptions::default(),
         live_pages: false,
+        public_page: None,
         class: None,
         shell: Arc::new(Threads::new(&[])),
     };

@@ -172,6 +172,7 @@ mod tests {
             file: None,
             making: CompileOptions::default(),
             live_pages: false,
+            public_page: None,
             class: None,
             shell: threads.clone(),
         };

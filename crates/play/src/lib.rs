@@ -43,6 +43,6 @@ pub use local_crew::LocalCrew;
 pub use message::{ClassCourse, ClassRoll};
 pub use outbox::Line;
 pub use shell::{CancelSource, Crew, PageFolder, Portions, Shell, WorkKind};
-pub use site::PlaySite;
+pub use site::{PUBLIC_PAGE, PlaySite};
 pub use visit::Visit;
 pub use wording::ExportError;

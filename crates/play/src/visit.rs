@@ -280,6 +280,7 @@ impl Visit {
                 message: Limit::PageMessage.most() as usize,
             },
             live_pages: self.site.live_pages,
+            public_page: self.site.public_page.clone(),
             class: self.site.class.is_some(),
             cycle_seconds: 0.25,
         }
@@ -372,6 +373,7 @@ mod tests {
                 file: None,
                 making,
                 live_pages: true,
+                public_page: None,
                 class: None,
                 shell: shell.clone(),
             });

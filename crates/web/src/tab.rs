@@ -51,6 +51,7 @@ impl Tab {
             folder: Arc::new(folder.clone()),
             // A page that opens a file of its own is a live page already, and has nothing to make others of.
             live_pages: first.is_none(),
+            public_page: nbc_play::PUBLIC_PAGE.map(str::to_owned),
             file: first,
             making: CompileOptions::default(),
             class: None,

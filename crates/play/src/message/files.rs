@@ -20,6 +20,8 @@ pub(crate) struct Greeting {
     pub(crate) limits: PlayLimits,
     /// Whether pages with the whole program in them can be made.
     pub(crate) live_pages: bool,
+    /// The address of a page that everybody can open, for links to it.
+    pub(crate) public_page: Option<String>,
     /// Whether there is a class to join.
     pub(crate) class: bool,
     pub(crate) cycle_seconds: f64,
