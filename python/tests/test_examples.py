@@ -25,7 +25,7 @@ MODULES = ["nbc"] + [
 
 @pytest.mark.parametrize("name", MODULES)
 def test_docstrings(name):
-    if name == "nbc.evogym.envs":
+    if name in ("nbc.evogym.base", "nbc.evogym.envs", "nbc.evogym.vector"):
         pytest.importorskip("gymnasium")
     found = doctest.testmod(importlib.import_module(name), optionflags=doctest.NORMALIZE_WHITESPACE)
     assert found.failed == 0

@@ -42,3 +42,28 @@ else:
 
     def __dir__():
         return sorted({*globals(), *__getattr__("__all__")})
+
+    import sys
+
+    class _Gymnasium:
+        """Finds gymnasium as the other finders do, so that it knows the tasks of `nbc.evogym.envs` when it is loaded.
+        A finder is quick to make, and the rest waits for that."""
+
+        def find_spec(self, name, path=None, target=None):
+            """The spec of gymnasium; None for other modules, which the other finders find."""
+            if name != "gymnasium":
+                return None
+            from .registration import find_gymnasium
+
+            sys.meta_path.remove(self)
+            spec = find_gymnasium()
+            if spec is None:
+                sys.meta_path.insert(0, self)
+            return spec
+
+    if sys.modules.get("gymnasium") is None:
+        sys.meta_path.insert(0, _Gymnasium())
+    else:
+        from .registration import register_tasks as _register_tasks
+
+        _register_tasks()

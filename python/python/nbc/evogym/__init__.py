@@ -13,16 +13,19 @@ from __future__ import annotations
 from .comparison import Comparison, compare
 from .exchange import actions, connections, from_structure, to_structure
 from .picture import draw as draw_world
+from .picture import save_gif
 from .sim import EvoSim, Scenes
 from .tasks import TASKS, Task
 from .utils import __all__ as _helpers
 from .utils import *
+from .viewer import EvoViewer
 from .world import EvoWorld, WorldObject
 
 __all__ = [
     "TASKS",
     "Comparison",
     "EvoSim",
+    "EvoViewer",
     "EvoWorld",
     "Scenes",
     "Task",
@@ -32,6 +35,7 @@ __all__ = [
     "connections",
     "draw_world",
     "from_structure",
+    "save_gif",
     "to_structure",
 ]
 

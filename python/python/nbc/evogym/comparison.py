@@ -122,7 +122,7 @@ def compare(
 def _follow(name: str, there: Episode, actions: np.random.Generator) -> Comparison:
     task = task_of(name)
     worlds = TaskWorlds(task, [task.make_world(there.body)])
-    worlds.reset([0], None, there.goals)
+    worlds.reset([0], [None], [there.goals or None])
     count, start = int(worlds.actuators[0]), time.process_time()
     rewards = [float(worlds.step(actions.uniform(0.6, 1.6, count))[0][0]) for _ in there.rewards]
     return Comparison(name, there, np.array(rewards), time.process_time() - start)

@@ -14,7 +14,7 @@ Evolution Gym itself is not needed.
 
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+from typing import Any, List, Optional, Tuple
 
 import numpy as np
 import numpy.typing as npt
@@ -170,19 +170,31 @@ def _whole(array: npt.NDArray[Any], name: str) -> npt.NDArray[np.int64]:
 
 
 def _check(structure: npt.NDArray[np.int64], given: npt.NDArray[Any]) -> None:
+    for a, b in apart(structure, given):
+        raise ValueError(not_joined(structure, a, b))
+
+
+def apart(structure: npt.NDArray[np.int64], given: npt.NDArray[Any]) -> List[Tuple[int, int]]:
+    """The neighbors that connections leave apart, by their numbers in reading order.
+
+    Raises:
+        ValueError: for other shapes, and connections between voxels that are no neighbors.
+    """
     if given.ndim != 2 or given.shape[0] != 2:
         raise ValueError(f"the connections have the shape {given.shape}, expected (2, edges)")
     pairs = np.sort(_whole(given, "the connections"), axis=0)
     found = {(int(a), int(b)) for a, b in pairs.T}
     expected = {(int(a), int(b)) for a, b in connections(structure).T}
     width = structure.shape[1]
-    for a, b in sorted(expected - found):
-        raise ValueError(
-            f"{_place(a, width)} and {_place(b, width)} are not connected; "
-            "the voxels of nbc are joined to all neighbors"
-        )
     for a, b in sorted(found - expected):
         raise ValueError(f"{_place(a, width)} and {_place(b, width)} are connected, but are not neighboring voxels")
+    return sorted(expected - found)
+
+
+def not_joined(structure: npt.NDArray[np.int64], a: int, b: int) -> str:
+    """Why a body whose neighbors a and b are apart cannot be simulated."""
+    places = f"{_place(a, structure.shape[1])} and {_place(b, structure.shape[1])}"
+    return f"{places} are not connected; the voxels of nbc are joined to all neighbors"
 
 
 def _place(number: int, width: int) -> str:

@@ -1,8 +1,9 @@
-"""Pictures of worlds as arrays, without a display."""
+"""Pictures of worlds as arrays, without a display, and films of them."""
 
 from __future__ import annotations
 
-from typing import Any, Optional, Tuple
+import os
+from typing import Any, Iterable, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -10,7 +11,7 @@ import numpy.typing as npt
 from .sim import Scenes
 from .world import EvoWorld
 
-__all__ = ["draw"]
+__all__ = ["draw", "save_gif"]
 
 # Rigid, soft, horizontal and vertical actuator, fixed.
 _COLORS = np.array(
@@ -32,7 +33,6 @@ def draw(
     hide_grid: bool = False,
     hide_edges: bool = False,
     hide_voxels: bool = False,
-    verbose: bool = False,
 ) -> npt.NDArray[np.uint8]:
     """A world as a picture, shape (height, width, 3).
 
@@ -43,31 +43,81 @@ def draw(
         width, height: pixels.
         view: the voxels across.
         follow: the object that is in the middle.
-        hide_background, hide_grid, hide_edges, hide_voxels, verbose: Evolution Gym's; ``verbose`` does nothing.
+        hide_background, hide_grid, hide_edges, hide_voxels: what is not drawn.
     """
-    image = np.tile(np.array([255.0] * 3) if hide_background else _SKY, (height, width, 1))
-    scale = width / view
-    if any(each.name == follow for each in world.objects.values()):
+    if follow in world.objects:
         middle = scenes.points([scene], follow)[0].mean(axis=0)
     else:
         middle = np.array([view / 2, view / 4])
-    corner = (middle[0] - view / 2, middle[1] - height / scale / 2.5)
+    corner = (float(middle[0]) - view / 2, float(middle[1]) - height * view / width / 2.5)
+    hidden = Hidden(hide_background, hide_grid, hide_edges, hide_voxels)
+    return paint(scenes, scene, world, corner, width / view, (width, height), hidden)
+
+
+class Hidden(NamedTuple):
+    """What is not drawn."""
+
+    background: bool = False
+    grid: bool = False
+    edges: bool = False
+    voxels: bool = False
+
+
+def paint(
+    scenes: Scenes,
+    scene: int,
+    world: EvoWorld,
+    corner: Tuple[float, float],
+    scale: float,
+    size: Tuple[int, int],
+    hidden: Hidden,
+) -> npt.NDArray[np.uint8]:
+    """A part of a world as a picture: from its lower left corner in voxels, with so many pixels for a voxel, and a
+    width and a height in pixels."""
+    width, height = size
+    image = np.empty((height, width, 3), dtype=np.float32)
+    image[:] = 255.0 if hidden.background else _SKY
     x = corner[0] + (np.arange(width) + 0.5) / scale
     y = corner[1] + (height - np.arange(height) - 0.5) / scale
-    if not hide_grid:
+    if not hidden.grid:
         image[:, np.mod(x, 1) < 1.2 / scale] = _GRID
         image[np.mod(y, 1) < 1.2 / scale] = _GRID
     for each in world.ordered():
         codes = each.structure[each.structure > 0]
         points = scenes.points([scene], each.name)[0]
         for corners, code in zip(points[scenes.voxels(scene, each.name)], codes):
-            color = None if hide_voxels else _COLORS[code - 1]
-            _fill(image, corners, color, not hide_edges, corner, scale)
+            color = None if hidden.voxels else _COLORS[code - 1]
+            _fill(image, corners, color, not hidden.edges, corner, scale)
     return image.round().astype(np.uint8)
 
 
+def save_gif(path: Union[str, os.PathLike[str]], pictures: Iterable[npt.NDArray[np.uint8]], fps: float = 50) -> None:
+    """Writes pictures as a film that repeats, by Pillow.
+
+    Args:
+        path: the file.
+        pictures: arrays of one shape (height, width, 3), such as those that ``render`` returns.
+        fps: pictures per second. A GIF counts in hundredths of a second, and many programs show at most 50.
+
+    Raises:
+        ImportError: where Pillow is not installed.
+        ValueError: when there is no picture.
+    """
+    try:
+        from PIL import Image
+    except ImportError:
+        raise ImportError("Pillow writes films, and is not installed: `pip install pillow`") from None
+    if not fps > 0:
+        raise ValueError(f"fps is {fps}, expected a positive number")
+    frames = [Image.fromarray(np.asarray(each)) for each in pictures]
+    if not frames:
+        raise ValueError("the film has no pictures")
+    pause = max(1, round(100 / fps)) * 10
+    frames[0].save(path, format="GIF", save_all=True, append_images=frames[1:], duration=pause, loop=0)
+
+
 def _fill(
-    image: npt.NDArray[np.float64],
+    image: npt.NDArray[np.float32],
     corners: npt.NDArray[np.float64],
     color: Optional[npt.NDArray[np.float64]],
     has_edges: bool,

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import operator
-from typing import Any, Dict, List, Sequence, Tuple
+from typing import Any, Dict, List, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
 from ..numbers import array_of, count
-from .world import EvoWorld
+from .exchange import not_joined
+from .world import EvoWorld, WorldObject
 
 __all__ = ["EvoSim", "Scenes"]
 
@@ -20,7 +21,7 @@ VOXEL_SIZE = 0.1
 
 class Scenes:
     """Worlds that are simulated at once, each on its own. Worlds with the same terrain and objects, and any robots,
-    share the lanes of the processor.
+    share the lanes of the processor. They can be pickled and copied.
 
     >>> import numpy as np
     >>> from nbc.evogym import EvoWorld, Scenes
@@ -36,14 +37,16 @@ class Scenes:
         """Puts the objects of each world at their start.
 
         Raises:
-            ValueError: for a world in which nothing can move.
+            ValueError: for a world in which nothing can move, and for neighbors that are not joined.
         """
         self.names = [[each.name for each in world.ordered()] for world in worlds]
-        objects = [
-            [(np.ascontiguousarray(each.structure, dtype=np.uint8), *each.pos) for each in world.ordered()]
-            for world in worlds
-        ]
-        self._native = _nbc.Scenes(objects)
+        self._objects = [[_packed(each) for each in world.ordered()] for world in worlds]
+        self._start()
+
+    def _start(self) -> None:
+        self._native = _nbc.Scenes(self._objects)
+        ends = [max(self._native.channels(n, k)[1] for k in range(len(own))) for n, own in enumerate(self.names)]
+        self._targets = sum(ends)
 
     def __len__(self) -> int:
         return len(self._native)
@@ -58,11 +61,12 @@ class Scenes:
             steps: env steps with these targets.
 
         Raises:
-            ValueError: when there is not one finite target for each actuator.
+            TypeError, ValueError: when there is not one finite target for each actuator.
         """
-        targets = np.ascontiguousarray(array_of(actions), dtype=np.float64).ravel()
-        if not np.isfinite(targets).all():
-            raise ValueError("the actions have values that are not finite")
+        targets = np.ascontiguousarray(targets_of(actions)).ravel()
+        if len(targets) != self._targets:
+            expected = f"expected {self._targets}, one for each actuator"
+            raise ValueError(f"the actions have {len(targets)} targets, {expected}")
         self._native.act(targets)
         self._native.step(count(steps, "steps"))
 
@@ -108,6 +112,16 @@ class Scenes:
         """Frees the worlds. Later calls raise ValueError."""
         self._native.close()
 
+    def __getstate__(self) -> Dict[str, Any]:
+        states = [self._native.state(n) for n in range(len(self))]
+        return {"names": self.names, "objects": self._objects, "states": states}
+
+    def __setstate__(self, kept: Dict[str, Any]) -> None:
+        self.names, self._objects = kept["names"], kept["objects"]
+        self._start()
+        for n, state in enumerate(kept["states"]):
+            self._native.restore(n, *state)
+
     def _place(self, scene: int, name: str) -> int:
         scene = self._known(scene)
         try:
@@ -122,9 +136,32 @@ class Scenes:
         return number
 
 
+def targets_of(actions: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Targets of actuators as finite numbers.
+
+    Raises:
+        TypeError, ValueError: for what are no numbers, and those that are not finite.
+    """
+    array = array_of(actions)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"the actions have the dtype {array.dtype}, expected numbers")
+    targets = array.astype(np.float64)
+    if not np.isfinite(targets).all():
+        place = tuple(np.argwhere(~np.isfinite(targets))[0].tolist())
+        where = place[0] if len(place) == 1 else place
+        raise ValueError(f"the action at {where} is {targets[place]}, which is not finite")
+    return targets
+
+
+def _packed(each: WorldObject) -> Tuple[npt.NDArray[np.uint8], int, int]:
+    for a, b in each.apart:
+        raise ValueError(f"the object `{each.name}`: {not_joined(each.structure, a, b)}")
+    return np.ascontiguousarray(each.structure, dtype=np.uint8), each.pos[0], each.pos[1]
+
+
 class EvoSim:
-    """One world, with the methods of ``evogym.EvoSim``. It keeps the positions of all env steps since the start, as
-    that does, and can be pickled.
+    """One world, with the methods of ``evogym.EvoSim``. It keeps the states of all env steps since the start, as that
+    does, and can be pickled and copied.
 
     >>> import numpy as np
     >>> from nbc.evogym import EvoSim, EvoWorld
@@ -141,18 +178,25 @@ class EvoSim:
     VOXEL_SIZE = VOXEL_SIZE
 
     def __init__(self, world: EvoWorld) -> None:
-        self._world = world.copy()
-        self._objects = {each.name: each for each in self._world.ordered()}
-        self._scenes = Scenes([self._world])
-        self._robots = {name: self._scenes.actuators(0, name) for name in self._objects}
-        self._robots = {name: (first, end) for name, (first, end) in self._robots.items() if end > first}
+        self.follow(world.copy(), Scenes([world]))
+
+    @classmethod
+    def of(cls, world: EvoWorld, scenes: Scenes) -> EvoSim:
+        """The simulation of a world that another simulates, too, as the only one of some scenes."""
+        made = cls.__new__(cls)
+        made.follow(world, scenes)
+        return made
+
+    def follow(self, world: EvoWorld, scenes: Scenes) -> None:
+        """Becomes the simulation of another world, from its state of now."""
+        self.world, self.scenes = world, scenes
+        self._objects = {each.name: each for each in world.ordered()}
+        places = {name: scenes.actuators(0, name) for name in self._objects}
+        self._robots = {name: (first, end) for name, (first, end) in places.items() if end > first}
         self._targets = np.ones(max((end for _, end in self._robots.values()), default=0))
-        is_fixed = {name: bool((each.structure[each.structure > 0] == 5).all()) for name, each in self._objects.items()}
-        self._moves = [name for name in self._objects if not is_fixed[name]]
-        self._still = {name: self._scenes.points([0], name) for name in self._objects if name not in self._moves}
-        self._history: List[Dict[str, Tuple[_Points, _Points]]] = []
-        self._turns: List[Dict[str, float]] = []
-        self.force_save()
+        # The scene that goes back to earlier states.
+        self._past: Optional[Scenes] = None
+        self._history = [scenes._native.state(0)]
 
     def get_actuator_indices(self, robot_name: str) -> npt.NDArray[np.int64]:
         """The places of a robot's actuators in its flattened structure."""
@@ -168,7 +212,7 @@ class EvoSim:
         """Sets the targets of a robot's actuators, in order of `get_actuator_indices`, as fractions of their rest
         length."""
         first, end = self._robot(robot_name)
-        targets = np.asarray(array_of(action), dtype=np.float64).ravel()
+        targets = targets_of(action).ravel()
         if len(targets) != end - first:
             raise ValueError(f"the action has {len(targets)} values, expected {end - first} for {robot_name}")
         self._targets[first:end] = targets
@@ -176,28 +220,29 @@ class EvoSim:
     def step(self) -> bool:
         """Simulates an env step. Returns whether a robot became unstable; then time and positions stay as they were,
         and only `reset` helps."""
-        self._scenes.step(self._targets)
-        if self._scenes.faults[0]:
-            return True
-        self.force_save()
-        return False
+        self.scenes.step(self._targets)
+        return not self.keep()
+
+    def keep(self) -> bool:
+        """Keeps the state after an env step of the scenes. Returns False if a robot became unstable in it."""
+        if self.scenes.faults[0]:
+            return False
+        self._history.append(self.scenes._native.state(0))
+        return True
 
     def reset(self) -> None:
         """Goes back to time 0."""
-        self._scenes.reset(0)
-        del self._history[1:], self._turns[1:]
+        self.scenes.reset(0)
+        del self._history[1:]
 
-    def force_save(self) -> None:
-        """Keeps the positions of now."""
-        now = {name: self._scenes.points([0], name) for name in self._moves}
-        time = self.get_time()
-        del self._history[time:], self._turns[time:]
-        self._history.append(now)
-        self._turns.append({name: float(self._scenes.turns([0], name)[0]) for name in self._moves})
+    def revert(self, time: int) -> None:
+        """Goes back to an earlier time."""
+        self.scenes._native.restore(0, *self._history[self._known(time)])
+        del self._history[time + 1 :]
 
     def get_time(self) -> int:
         """Env steps since the start."""
-        return int(self._scenes.clock[0])
+        return len(self._history) - 1
 
     def pos_at_time(self, time: int) -> _Points:
         """The positions of all points in voxels, shape (2, P), objects in Evolution Gym's order."""
@@ -209,33 +254,37 @@ class EvoSim:
 
     def object_pos_at_time(self, time: int, object_name: str) -> _Points:
         """The positions of an object's points in voxels, shape (2, P)."""
-        return self._at(time, object_name)[0].T
+        # In the order of Evolution Gym's arrays, in which `mean` adds one point after another.
+        return np.array(self._at(time, object_name).points([0], object_name)[0].T, order="F")
 
     def object_vel_at_time(self, time: int, object_name: str) -> _Points:
         """The velocities of an object's points in voxels per second, shape (2, P)."""
-        return self._at(time, object_name)[1].T
+        return np.array(self._at(time, object_name).points([0], object_name)[1].T, order="F")
 
     def object_orientation_at_time(self, time: int, object_name: str) -> float:
         """How far an object has turned since the start, in radians from 0 to 2π, counterclockwise."""
-        self._at(time, object_name)
-        return self._turns[time].get(object_name, 0.0)
+        return float(self._at(time, object_name).turns([0], object_name)[0])
 
     def __getstate__(self) -> Dict[str, Any]:
-        state = {name: value for name, value in self.__dict__.items() if name != "_scenes"}
-        return {**state, "kept": self._scenes._native.state(0)}
+        return {**self.__dict__, "_past": None}
 
-    def __setstate__(self, state: Dict[str, Any]) -> None:
-        points, clock, fault = state.pop("kept")
-        self.__dict__.update(state)
-        self._scenes = Scenes([self._world])
-        self._scenes._native.restore(0, points, clock, fault)
-
-    def _at(self, time: int, name: str) -> Tuple[_Points, _Points]:
+    def _at(self, time: int, name: str) -> Scenes:
+        """The world at a time."""
         if name not in self._objects:
             raise ValueError(f"the world has no object `{name}`")
-        if not 0 <= time < len(self._history):
-            raise ValueError(f"time is {time}, expected 0 to {len(self._history) - 1}")
-        return self._still[name] if name in self._still else self._history[time][name]
+        number = self._known(time)
+        if number == self.get_time():
+            return self.scenes
+        if self._past is None:
+            self._past = Scenes([self.world])
+        self._past._native.restore(0, *self._history[number])
+        return self._past
+
+    def _known(self, time: int) -> int:
+        number = operator.index(time)
+        if not 0 <= number <= self.get_time():
+            raise ValueError(f"time is {number}, expected 0 to {self.get_time()}")
+        return number
 
     def _robot(self, name: str) -> Tuple[int, int]:
         if name not in self._robots:

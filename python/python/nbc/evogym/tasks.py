@@ -6,7 +6,7 @@ world.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from math import pi
 from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
@@ -14,8 +14,10 @@ from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
 import numpy as np
 import numpy.typing as npt
 
+from ..registration import EPISODES
+from ..names import unknown
 from ..numbers import array_of
-from .sim import VOXEL_SIZE, Scenes
+from .sim import VOXEL_SIZE, Scenes, targets_of
 from .world import EvoWorld
 
 __all__ = ["TASKS", "Task", "TaskWorlds", "task_of"]
@@ -107,21 +109,27 @@ def shape(now: Moment) -> _Floats:
     return now.robot.relative
 
 
+def depths(points: _Floats, middle: Tuple[float, float], sight: int, reach: float, above: bool) -> _Floats:
+    """How far below (or above) a place the highest (lowest) point is in each column, up to ``reach``, in voxels."""
+    x, y = middle
+    points = points[points[:, 1] > y] if above else points[points[:, 1] < y]
+    found = np.full(2 * sight + 1, reach, dtype=np.float64)
+    for column in range(2 * sight + 1):
+        at = x + (column - sight)
+        own = points[(points[:, 0] > at - 0.5) & (points[:, 0] < at + 0.5), 1]
+        if len(own):
+            found[column] = own.min() - y if above else y - own.max()
+    return np.clip(found, 0, reach)
+
+
 def surface(now: Moment, names: Sequence[str], sight: int, above: bool = False, reach: float = 5.0) -> _Floats:
     """How far below (or above) the robot's center of mass the terrain is in each column, up to ``reach`` voxels."""
     # In voxels: a column may end exactly at a point, so the last bit matters.
-    found = np.empty((len(now.robot.middle), 2 * sight + 1))
-    for world, (x, y) in enumerate(now.robot.middle):
-        points = now.worlds.terrain(world, names)
-        points = points[points[:, 1] > y] if above else points[points[:, 1] < y]
-        for column in range(2 * sight + 1):
-            middle = x + (column - sight)
-            own = points[(points[:, 0] > middle - 0.5) & (points[:, 0] < middle + 0.5), 1]
-            if not len(own):
-                found[world, column] = reach
-            else:
-                found[world, column] = own.min() - y if above else y - own.max()
-    return np.clip(found, 0, reach) * VOXEL_SIZE
+    found = [
+        depths(now.worlds.terrain(world, names), (x, y), sight, reach, above)
+        for world, (x, y) in enumerate(now.robot.middle)
+    ]
+    return np.stack(found) * VOXEL_SIZE
 
 
 def pair(now: Moment, name: str) -> _Floats:
@@ -326,13 +334,17 @@ class Task:
 
     world: str
     at: Tuple[int, int]
-    steps: int
     observes: Tuple[_Part, ...]
     judge: _Judge
     others: Tuple[str, ...] = ()
     blocks: Tuple[Tuple[int, int, int], ...] = ()
     has_goals: bool = False
     falls: bool = False
+    name: str = ""
+    steps: int = 0
+
+    def __reduce__(self) -> Tuple[Any, ...]:
+        return task_of, (self.name,)
 
     @property
     def turns(self) -> Optional[str]:
@@ -380,70 +392,72 @@ _BEAM: Tuple[_Part, ...] = (
 )
 _CAVE = partial(surface, names=("terrain",), sight=5)
 
-TASKS: Dict[str, Task] = {
-    "Walker-v0": Task("Walker-v0", (1, 1), 500, (velocity, shape), partial(walks, goal=(0, 99, 1.0))),
+_TASKS: Dict[str, Task] = {
+    "Walker-v0": Task("Walker-v0", (1, 1), (velocity, shape), partial(walks, goal=(0, 99, 1.0))),
     "BidirectionalWalker-v0": Task(
-        "BidirectionalWalker-v0", (33, 1), 1000, (velocity, shape, goal), visits, has_goals=True
+        "BidirectionalWalker-v0", (33, 1), (velocity, shape, goal), visits, has_goals=True
     ),
-    "BridgeWalker-v0": Task("BridgeWalker-v0", (2, 5), 500, (velocity, turn, shape), partial(walks, goal=(0, 60, 1.0))),
+    "BridgeWalker-v0": Task("BridgeWalker-v0", (2, 5), (velocity, turn, shape), partial(walks, goal=(0, 60, 1.0))),
     "CaveCrawler-v0": Task(
-        "CaveCrawler-v0", (1, 2), 1000, (velocity, shape, _CAVE, partial(_CAVE, above=True)),
+        "CaveCrawler-v0", (1, 2), (velocity, shape, _CAVE, partial(_CAVE, above=True)),
         partial(walks, goal=(0, 69, 1.0)),
     ),
     "Jumper-v0": Task(
-        "Jumper-v0", (32, 1), 500, (velocity, shape, partial(surface, names=("ground",), sight=2)), jumps
+        "Jumper-v0", (32, 1), (velocity, shape, partial(surface, names=("ground",), sight=2)), jumps
     ),
-    "Flipper-v0": Task("Flipper-v0", (60, 1), 600, (turn, shape), flips),
-    "Balancer-v0": Task("Balancer-v0", (15, 3), 600, (turn, shape), partial(balances, x=17, y=5.0)),
-    "Balancer-v1": Task("Balancer-v1", (10, 1), 600, (turn, shape), partial(balances, x=17.5, y=6)),
-    "UpStepper-v0": Task("UpStepper-v0", (1, 1), 600, _stairs(), partial(walks, goal=(0, 69, 2.0), tilt=_STEEP)),
-    "DownStepper-v0": Task("DownStepper-v0", (1, 11), 500, _stairs(), partial(walks, goal=(0, 74, 2.0), tilt=_OVER)),
+    "Flipper-v0": Task("Flipper-v0", (60, 1), (turn, shape), flips),
+    "Balancer-v0": Task("Balancer-v0", (15, 3), (turn, shape), partial(balances, x=17, y=5.0)),
+    "Balancer-v1": Task("Balancer-v1", (10, 1), (turn, shape), partial(balances, x=17.5, y=6)),
+    "UpStepper-v0": Task("UpStepper-v0", (1, 1), _stairs(), partial(walks, goal=(0, 69, 2.0), tilt=_STEEP)),
+    "DownStepper-v0": Task("DownStepper-v0", (1, 11), _stairs(), partial(walks, goal=(0, 74, 2.0), tilt=_OVER)),
     "ObstacleTraverser-v0": Task(
-        "ObstacleTraverser-v0", (2, 1), 1000, _stairs(), partial(walks, goal=(0, 79, 2.0), tilt=_OVER)
+        "ObstacleTraverser-v0", (2, 1), _stairs(), partial(walks, goal=(0, 79, 2.0), tilt=_OVER)
     ),
-    "ObstacleTraverser-v1": Task("ObstacleTraverser-v1", (2, 4), 1000, _stairs(), partial(walks, goal=(0, 59, 2.0))),
-    "Hurdler-v0": Task("Hurdler-v0", (2, 4), 1000, _stairs(), partial(walks, tilt=_OVER)),
+    "ObstacleTraverser-v1": Task("ObstacleTraverser-v1", (2, 4), _stairs(), partial(walks, goal=(0, 59, 2.0))),
+    "Hurdler-v0": Task("Hurdler-v0", (2, 4), _stairs(), partial(walks, tilt=_OVER)),
     "GapJumper-v0": Task(
-        "GapJumper-v0", (1, 6), 1000, _stairs([f"platform_{n}" for n in range(1, 6)]), partial(walks, lowest=0.4)
+        "GapJumper-v0", (1, 6), _stairs([f"platform_{n}" for n in range(1, 6)]), partial(walks, lowest=0.4)
     ),
     "PlatformJumper-v0": Task(
-        "PlatformJumper-v0", (1, 6), 1000, _stairs([f"platform_{n}" for n in range(1, 8)]),
+        "PlatformJumper-v0", (1, 6), _stairs([f"platform_{n}" for n in range(1, 8)]),
         partial(walks, lowest=0.4, tilt=_OVER),
     ),
     "Traverser-v0": Task(
-        "Traverser-v0", (1, 9), 600, _stairs(["ground", *(f"block_{n}" for n in range(len(_SOUP)))]),
+        "Traverser-v0", (1, 9), _stairs(["ground", *(f"block_{n}" for n in range(len(_SOUP)))]),
         partial(walks, goal=(0, 59, 2.0)), blocks=_SOUP,
     ),
     "Lifter-v0": Task(
-        "Lifter-v0", (2, 3), 300, (partial(pair, name="package"), partial(turn_of, name="package"), shape), lifts,
+        "Lifter-v0", (2, 3), (partial(pair, name="package"), partial(turn_of, name="package"), shape), lifts,
         others=("package",),
     ),
     "Catcher-v0": Task(
-        "Walker-v0", (22, 1), 400,
+        "Walker-v0", (22, 1),
         (partial(way_to, name="package"), velocity, partial(velocity_of, name="package"),
          partial(turn_of, name="package"), shape),
         catches, others=("package",), falls=True,
     ),
-    "Carrier-v0": Task("Carrier-v0", (1, 1), 500, _package(), carries, others=("package",)),
-    "Carrier-v1": Task("Carrier-v1", (1, 4), 1000, _package(), carries_to_table, others=("package",)),
-    "Pusher-v0": Task("Pusher-v0", (1, 1), 500, _package(), partial(pushes, place=99), others=("package",)),
-    "Pusher-v1": Task("Pusher-v1", (13, 1), 600, _package(), partial(pushes, place=69), others=("package",)),
+    "Carrier-v0": Task("Carrier-v0", (1, 1), _package(), carries, others=("package",)),
+    "Carrier-v1": Task("Carrier-v1", (1, 4), _package(), carries_to_table, others=("package",)),
+    "Pusher-v0": Task("Pusher-v0", (1, 1), _package(), partial(pushes, place=99), others=("package",)),
+    "Pusher-v1": Task("Pusher-v1", (13, 1), _package(), partial(pushes, place=69), others=("package",)),
     "BeamToppler-v0": Task(
-        "BeamToppler-v0", (1, 1), 1000, _BEAM, partial(moves_beam, topples=True), others=("beam",)
+        "BeamToppler-v0", (1, 1), _BEAM, partial(moves_beam, topples=True), others=("beam",)
     ),
-    "BeamSlider-v0": Task("BeamSlider-v0", (1, 1), 1000, _BEAM, partial(moves_beam, topples=False), others=("beam",)),
-    "Thrower-v0": Task("Thrower-v0", (1, 1), 300, _package(), throws, others=("package",)),
-    "AreaMaximizer-v0": Task("ShapeChange", _SHAPE, 600, (shape,), partial(changes_area, sign=1)),
-    "AreaMinimizer-v0": Task("ShapeChange", _SHAPE, 600, (shape,), partial(changes_area, sign=-1)),
-    "WingspanMazimizer-v0": Task("ShapeChange", _SHAPE, 600, (shape,), partial(changes_span, axis=0)),
-    "HeightMaximizer-v0": Task("ShapeChange", _SHAPE, 500, (shape,), partial(changes_span, axis=1)),
-    "Climber-v0": Task("Climber-v0", (1, 1), 400, (velocity, shape), partial(walks, x=0, y=1, goal=(1, 86, 1.0))),
-    "Climber-v1": Task("Climber-v1", (1, 1), 600, (velocity, shape), partial(walks, x=0, y=1, goal=(1, 65, 1.0))),
+    "BeamSlider-v0": Task("BeamSlider-v0", (1, 1), _BEAM, partial(moves_beam, topples=False), others=("beam",)),
+    "Thrower-v0": Task("Thrower-v0", (1, 1), _package(), throws, others=("package",)),
+    "AreaMaximizer-v0": Task("ShapeChange", _SHAPE, (shape,), partial(changes_area, sign=1)),
+    "AreaMinimizer-v0": Task("ShapeChange", _SHAPE, (shape,), partial(changes_area, sign=-1)),
+    "WingspanMazimizer-v0": Task("ShapeChange", _SHAPE, (shape,), partial(changes_span, axis=0)),
+    "HeightMaximizer-v0": Task("ShapeChange", _SHAPE, (shape,), partial(changes_span, axis=1)),
+    "Climber-v0": Task("Climber-v0", (1, 1), (velocity, shape), partial(walks, x=0, y=1, goal=(1, 86, 1.0))),
+    "Climber-v1": Task("Climber-v1", (1, 1), (velocity, shape), partial(walks, x=0, y=1, goal=(1, 65, 1.0))),
     "Climber-v2": Task(
-        "Climber-v2", (1, 1), 1000,
+        "Climber-v2", (1, 1),
         (velocity, turn, shape, partial(surface, names=("pipe",), sight=3, above=True)), partial(walks, x=0.2, y=1),
     ),
 }
+
+TASKS: Dict[str, Task] = {name: replace(task, name=name, steps=EPISODES[name]) for name, task in _TASKS.items()}
 """The tasks by their names in Evolution Gym."""
 
 
@@ -454,67 +468,91 @@ def task_of(name: str) -> Task:
         ValueError: when there is none.
     """
     if name not in TASKS:
-        raise ValueError(f"there is no task {name!r}; `nbc.evogym.TASKS` has those that there are")
+        raise ValueError(unknown("task", name, TASKS))
     return TASKS[name]
 
 
 class TaskWorlds:
-    """Worlds of one task with different robots."""
+    """Worlds of one task with different robots. They can be pickled and copied."""
 
     def __init__(self, task: Task, worlds: Sequence[EvoWorld]) -> None:
         self.task, self.worlds, self.scenes = task, list(worlds), Scenes(worlds)
-        self._all = list(range(len(worlds)))
+        self.goals: List[List[int]] = [[0] for _ in worlds]
+        self.goal = np.zeros(len(worlds))
+        self._prepare()
+
+    def _prepare(self) -> None:
+        """Finds out what the worlds and their states say."""
+        self._all = list(range(len(self.worlds)))
         places = [self.scenes.actuators(n, "robot") for n in self._all]
         self.actuators = np.array([end - first for first, end in places])
         self._layouts: Dict[str, _Layout] = {}
-        for name in ("robot", *task.others):
+        for name in ("robot", *self.task.others):
             self._layouts[name] = _Layout([len(self.scenes.points([n], name)[0]) for n in self._all])
         self._is_fixed = [
             {each.name: bool((each.structure[each.structure > 0] == 5).all()) for each in world.objects.values()}
-            for world in worlds
+            for world in self.worlds
         ]
         self._terrain: Dict[Tuple[int, str], _Floats] = {}
-        self.goals: List[List[int]] = [[0] for _ in worlds]
-        self.goal = np.zeros(len(worlds))
-        self.now = self._look()
+        self.look()
 
     def __len__(self) -> int:
         return len(self._all)
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {each: getattr(self, each) for each in ("task", "worlds", "scenes", "goals", "goal")}
+
+    def __setstate__(self, kept: Dict[str, Any]) -> None:
+        self.__dict__.update(kept)
+        self._prepare()
 
     def step(self, actions: npt.ArrayLike) -> Tuple[_Floats, _Bools]:
         """Simulates an env step; see `Scenes.step`. Actions are clipped to 0.6 to 1.6. Returns rewards, and whether
         each world is done."""
         before = self.now
-        self.scenes.step(np.clip(np.asarray(array_of(actions), dtype=np.float64), 0.6, 1.6))
-        self.now = self._look()
+        self.scenes.step(np.clip(targets_of(actions), 0.6, 1.6))
+        self.look()
         broken = self.scenes.faults > 0
         reward, done = self.task.judge(before, self.now)
         return reward - 3.0 * broken, done | broken
 
-    def reset(self, worlds: Sequence[int], random: Any, goals: Optional[Sequence[int]] = None) -> None:
+    def reset(
+        self, worlds: Sequence[int], randoms: Sequence[Any], goals: Sequence[Optional[Sequence[int]]] = ()
+    ) -> None:
         """Puts some worlds back to their start, with goals drawn anew if the task has some. The goal of a task whose
-        package falls is how far to the right, and how far up, that begins."""
-        if self.task.falls:
-            self._drop(worlds, random, goals)
+        package falls is how far to the right, and how far up, that begins.
+
+        Args:
+            worlds: their numbers.
+            randoms: the generator of each of them.
+            goals: the goals of each of them, or None for those that are drawn.
+        """
+        if self.task.falls or self.task.has_goals:
+            draw = _draw_place if self.task.falls else _draw_goals
+            # All of them first: what cannot be leaves the worlds as they were.
+            found = [
+                draw(random) if own is None else _read_goals(own, self.task)
+                for random, own in zip(randoms, goals or [None] * len(worlds))
+            ]
+            if self.task.falls:
+                self._drop(worlds, found)
+            for n, own in zip(worlds, found):
+                self.goals[n], self.goal[n] = own, 0
         for n in worlds:
             self.scenes.reset(n)
-            if self.task.has_goals:
-                self.goals[n] = list(goals) if goals is not None else _draw_goals(random)
-                self.goal[n] = 0
-        self.now = self._look()
+        self.look()
 
-    def _drop(self, worlds: Sequence[int], random: Any, goals: Optional[Sequence[int]]) -> None:
+    def _drop(self, worlds: Sequence[int], places: Sequence[List[int]]) -> None:
         """Makes some worlds anew, with the package somewhere else."""
-        kept = {n: self.scenes._native.state(n) for n in self._all if n not in worlds}
-        for n in worlds:
-            drawn = goals if goals is not None else (random.integers(-6, 5), random.integers(0, 6))
-            self.goals[n] = [int(each) for each in drawn]
-            robot = self.worlds[n].objects["robot"].structure
-            self.worlds[n] = self.task.make_world(robot, drop=(self.goals[n][0], self.goals[n][1]))
+        made = list(self.worlds)
+        for n, (right, up) in zip(worlds, places):
+            made[n] = self.task.make_world(made[n].objects["robot"].structure, drop=(right, up))
+        scenes = Scenes(made)
+        for n in self._all:
+            if n not in worlds:
+                scenes._native.restore(n, *self.scenes._native.state(n))
         self.scenes.close()
-        self.scenes = Scenes(self.worlds)
-        for n, (points, clock, fault) in kept.items():
-            self.scenes._native.restore(n, points, clock, fault)
+        self.worlds, self.scenes = made, scenes
 
     def observe(self) -> _Floats:
         """What each robot observes, shape (N, most values)."""
@@ -531,12 +569,29 @@ class TaskWorlds:
             self._terrain[world, name] = self.scenes.points([world], name)[0]
         return self._terrain[world, name]
 
-    def _look(self) -> Moment:
+    def look(self) -> None:
+        """Takes the state of the worlds as that of now."""
         things = {}
         for name, layout in self._layouts.items():
             turns = self.scenes.turns(self._all, name) if name == self.task.turns else None
             things[name] = Thing(*self.scenes.points(self._all, name), turns, layout)
-        return Moment(things.pop("robot"), things, self)
+        self.now = Moment(things.pop("robot"), things, self)
+
+
+def _read_goals(goals: Any, task: Task) -> List[int]:
+    """Goals that are given."""
+    array = array_of(goals)
+    least, expected = (2, "two numbers") if task.falls else (1, "a list of numbers")
+    if array.ndim != 1 or array.dtype.kind not in "iuf" or not np.isfinite(array).all():
+        raise ValueError(f"the goals are {goals!r}, expected {expected}")
+    if len(array) < least or (task.falls and len(array) > least):
+        raise ValueError(f"there are {len(array)} goals, expected {expected}")
+    return [int(each) for each in array]
+
+
+def _draw_place(random: Any) -> List[int]:
+    """How far to the right, and how far up, a package begins to fall."""
+    return [int(random.integers(-6, 5)), int(random.integers(0, 6))]
 
 
 def _draw_goals(random: Any) -> List[int]:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import operator
 import random
-from typing import Any, Dict, List, Optional, Tuple
+import time
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -13,6 +15,8 @@ from .exchange import connections
 __all__ = [
     "BASELINE_ENV_NAMES",
     "VOXEL_TYPES",
+    "Pair",
+    "Timer",
     "draw",
     "get_full_connectivity",
     "get_uniform",
@@ -112,3 +116,93 @@ def get_full_connectivity(robot: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
 def hashable(robot: npt.NDArray[Any]) -> str:
     """The codes of a body as a text."""
     return "".join(str(int(code)) for code in np.asarray(robot).flat)
+
+
+class Pair(NamedTuple):
+    """Two whole numbers, such as a column and a row. Sums, differences, products, quotients and remainders are those of
+    each number, with another pair or with one number. Unlike Evolution Gym's it is a tuple, so it cannot be changed.
+
+    >>> Pair(3, 1) + Pair(1, 1), Pair(5, 4) // 2, Pair(2, 2) == 2
+    (Pair(4, 2), Pair(2, 2), True)
+    """
+
+    x: int
+    """The first."""
+    y: int
+    """The second."""
+
+    def __add__(self, other: Union[Pair, int]) -> Pair:  # type: ignore[override]
+        return self._with(other, operator.add)
+
+    def __sub__(self, other: Union[Pair, int]) -> Pair:
+        return self._with(other, operator.sub)
+
+    def __mul__(self, other: Union[Pair, int]) -> Pair:  # type: ignore[override]
+        return self._with(other, operator.mul)
+
+    def __floordiv__(self, other: Union[Pair, int]) -> Pair:
+        return self._with(other, operator.floordiv)
+
+    def __truediv__(self, other: Union[Pair, int]) -> Pair:
+        return self // other
+
+    def __mod__(self, other: Union[Pair, int]) -> Pair:
+        return self._with(other, operator.mod)
+
+    def __eq__(self, other: object) -> bool:
+        return tuple(self) == ((other, other) if isinstance(other, int) else other)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __repr__(self) -> str:
+        return f"Pair({self.x}, {self.y})"
+
+    def abs(self) -> Pair:
+        """Both without their signs."""
+        return Pair(abs(self.x), abs(self.y))
+
+    def each_max(self, other: Pair) -> Pair:
+        """The larger of each."""
+        return self._with(other, max)
+
+    def each_min(self, other: Pair) -> Pair:
+        """The smaller of each."""
+        return self._with(other, min)
+
+    def copy(self) -> Pair:
+        """The pair itself."""
+        return self
+
+    def _with(self, other: Union[Pair, int], of: Callable[[int, int], int]) -> Pair:
+        x, y = (other, other) if isinstance(other, int) else other
+        return Pair(of(self.x, x), of(self.y, y))
+
+
+class Timer:
+    """A clock that keeps a loop at a number of rounds per second."""
+
+    def __init__(self, target_step_frequency: Optional[int] = None) -> None:
+        """Args:
+            target_step_frequency: rounds per second; None for as many as there can be.
+        """
+        self._period = 0.0 if target_step_frequency is None else 1 / target_step_frequency
+        self._last = self._second = time.monotonic()
+        self._rounds = 0
+
+    def should_step(self) -> bool:
+        """Whether the time for the next round has come."""
+        return time.monotonic() - self._last >= self._period
+
+    def step(self, verbose: bool = False) -> None:
+        """Begins a round, and prints how many there were in each second if that is wanted."""
+        self._last = time.monotonic()
+        self._rounds += 1
+        passed = self._last - self._second
+        if passed >= 1:
+            if verbose:
+                print(f"{self._rounds / passed:.1f} rounds per second")
+            self._second, self._rounds = self._last, 0

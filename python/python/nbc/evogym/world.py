@@ -11,8 +11,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..numbers import array_of, count
-from .exchange import _check, _whole
-from .utils import get_full_connectivity, is_connected
+from .exchange import _whole, apart
+from .utils import Pair, get_full_connectivity, is_connected
 
 __all__ = ["EvoWorld", "WorldObject"]
 
@@ -26,12 +26,14 @@ class WorldObject:
         name: how `EvoSim` calls it.
         structure: the codes of its voxels, row 0 on top, shape (H, W).
         pos: column and row of its lower left corner in the world.
+        apart: the neighbors that are not joined, by their numbers in the flattened structure. `EvoSim` refuses them.
     """
 
     def __init__(self) -> None:
         self.name = ""
         self.structure: npt.NDArray[np.int64] = np.zeros((0, 0), dtype=np.int64)
-        self.pos = (0, 0)
+        self.pos = Pair(0, 0)
+        self.apart: List[Tuple[int, int]] = []
 
     @classmethod
     def from_array(
@@ -40,8 +42,17 @@ class WorldObject:
         """An object of an array of codes, at the origin.
 
         Raises:
-            ValueError: for other shapes and codes, voxels that are not in one piece, and neighbors that are not joined.
+            ValueError: for other shapes and codes, voxels that are not in one piece, and connections between voxels
+                that are no neighbors.
         """
+        made = cls()
+        made.load_from_array(name, structure, connections)
+        return made
+
+    def load_from_array(
+        self, name: str, structure: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None
+    ) -> None:
+        """Becomes an object of an array of codes, at the origin; see `from_array`."""
         codes = array_of(structure)
         if codes.ndim != 2:
             raise ValueError(f"the structure has the shape {codes.shape}, expected (H, W)")
@@ -51,11 +62,8 @@ class WorldObject:
             raise ValueError(f"{place}: {codes[row, column]} is not a voxel, expected 0 to 5")
         if not is_connected(codes):
             raise ValueError(f"the object `{name}` is not in one piece")
-        if connections is not None:
-            _check(codes, array_of(connections))
-        made = cls()
-        made.name, made.structure = name, codes
-        return made
+        self.apart = [] if connections is None else apart(codes, array_of(connections))
+        self.name, self.structure, self.pos = name, codes, Pair(0, 0)
 
     @classmethod
     def from_json(cls, file_path: str) -> WorldObject:
@@ -64,6 +72,36 @@ class WorldObject:
         if len(objects) != 1:
             raise ValueError(f"{file_path} has {len(objects)} objects, expected one")
         return next(iter(objects.values()))
+
+    def load_from_json(self, file_path: str) -> None:
+        """Becomes the only object of a world in a file of Evolution Gym's design tool."""
+        self.__dict__.update(WorldObject.from_json(file_path).__dict__)
+
+    def load_from_parsed_json(self, name: str, json_data: Any, grid_size: Tuple[int, int]) -> None:
+        """Becomes an object of such a file, with the columns and rows of its world."""
+        self.__dict__.update(_read_object(name, json_data, grid_size[0]).__dict__)
+
+    @property
+    def grid_size(self) -> Pair:
+        """Columns and rows."""
+        height, width = self.structure.shape
+        return Pair(width, height)
+
+    @property
+    def voxels(self) -> List[Pair]:
+        """The column and row of each voxel, the lowest row first."""
+        return [Pair(column, row) for row, column in np.argwhere(self.grid != 0).tolist()]
+
+    @property
+    def neighbors(self) -> Dict[Pair, List[Pair]]:
+        """The voxels to which each voxel is joined, by column and row."""
+        width, height = self.grid_size
+        found: Dict[Pair, List[Pair]] = {}
+        for ends in self.get_connections().T.tolist():
+            a, b = (Pair(number % width, height - 1 - number // width) for number in ends)
+            found.setdefault(a, []).append(b)
+            found.setdefault(b, []).append(a)
+        return found
 
     @property
     def grid(self) -> npt.NDArray[np.int64]:
@@ -75,16 +113,18 @@ class WorldObject:
         return self.structure.copy()
 
     def get_connections(self) -> npt.NDArray[np.int64]:
-        """The connections of all its voxels, shape (2, edges)."""
-        return get_full_connectivity(self.structure)
+        """The connections of its voxels, shape (2, edges), each once."""
+        edges = get_full_connectivity(self.structure)
+        is_joined = [(a, b) not in self.apart for a, b in edges.T.tolist()]
+        return edges[:, is_joined] if self.apart else edges
 
     def get_pos(self) -> Tuple[int, int]:
         """Column and row of its lower left corner."""
-        return self.pos
+        return (self.pos[0], self.pos[1])
 
     def set_pos(self, x: int, y: int) -> None:
         """Moves it."""
-        self.pos = (count(x, "x"), count(y, "y"))
+        self.pos = Pair(count(x, "x"), count(y, "y"))
 
     def translate(self, dx: int, dy: int) -> None:
         """Moves it by some voxels."""
@@ -122,7 +162,7 @@ class EvoWorld:
     >>> world.add_from_array("ground", np.full((1, 20), 5), 0, 0)
     >>> world.add_from_array("robot", np.array([[3, 3], [4, 4]]), 2, 1)
     >>> world.grid_size
-    (20, 3)
+    Pair(20, 3)
     """
 
     def __init__(self) -> None:
@@ -131,8 +171,25 @@ class EvoWorld:
     @classmethod
     def from_json(cls, file_path: str) -> EvoWorld:
         """The world of a file of Evolution Gym's design tool."""
+        world = cls()
+        world.add_from_json(file_path)
+        return world
+
+    def add_from_json(self, file_path: str) -> None:
+        """Adds the objects of such a file, or none of them if one cannot be added."""
         with open(file_path, encoding="utf-8") as file:
-            return cls._from_cells(json.load(file), str(file_path))
+            data = json.load(file)
+        before = dict(self.objects)
+        try:
+            width = int(data["grid_width"])
+            for name, found in data["objects"].items():
+                self.add_object(_read_object(name, found, width))
+        except (KeyError, TypeError, AttributeError) as error:
+            self.objects = before
+            raise ValueError(f"{file_path} is not a world of Evolution Gym: {error!r} was expected in it") from None
+        except ValueError:
+            self.objects = before
+            raise
 
     @classmethod
     def of_task(cls, name: str) -> EvoWorld:
@@ -147,22 +204,21 @@ class EvoWorld:
             world.add_from_array(each["name"], np.array(rows), *each["at"])
         return world
 
-    @classmethod
-    def _from_cells(cls, data: Any, path: str) -> EvoWorld:
-        try:
-            width = int(data["grid_width"])
-            world = cls()
-            for name, found in data["objects"].items():
-                world.add_object(_read_object(name, found, width))
-        except (KeyError, TypeError, AttributeError) as error:
-            raise ValueError(f"{path} is not a world of Evolution Gym: {error!r} was expected in it") from None
-        return world
+    @property
+    def grid_size(self) -> Pair:
+        """Columns and rows up to the last voxel, at least one."""
+        cells = [cell for each in self.objects.values() for cell in each._cells()]
+        return Pair(max((x for x, _ in cells), default=0) + 1, max((y for _, y in cells), default=0) + 1)
 
     @property
-    def grid_size(self) -> Tuple[int, int]:
-        """Columns and rows up to the last voxel."""
-        cells = [cell for each in self.objects.values() for cell in each._cells()]
-        return (max((x for x, _ in cells), default=-1) + 1, max((y for _, y in cells), default=-1) + 1)
+    def grid(self) -> npt.NDArray[np.int64]:
+        """The codes of all cells, the lowest row first."""
+        width, height = self.grid_size
+        grid = np.zeros((height, width), dtype=np.int64)
+        for each in self.objects.values():
+            for (x, y), code in each._cells().items():
+                grid[y, x] = code
+        return grid
 
     def add_object(self, obj: WorldObject) -> None:
         """Adds a copy of an object.
@@ -212,12 +268,11 @@ class EvoWorld:
 
     def pretty_print(self, voxels_per_line: int = 50) -> None:
         """Prints the world: R rigid, S soft, H and V actuators, F fixed."""
-        width, height = self.grid_size
-        cells = {cell: code for each in self.objects.values() for cell, code in each._cells().items()}
+        grid = self.grid
+        height, width = grid.shape
         for start in range(0, width, voxels_per_line):
             for row in reversed(range(height)):
-                columns = range(start, min(width, start + voxels_per_line))
-                print(f"{row:3} |", *(_LETTERS[cells.get((column, row), 0)] for column in columns))
+                print(f"{row:3} |", *(_LETTERS[code] for code in grid[row, start : start + voxels_per_line]))
 
     def copy(self) -> EvoWorld:
         """A copy."""
