@@ -26,8 +26,12 @@ test("a phone shows everything in its width", async () => {
   await walking(page);
   for (const tab of TABS) {
     await page.locator(`#tab-${tab}`).click();
-    const width = await page.evaluate(() => document.documentElement.scrollWidth);
+    const width = await page.evaluate(() => {
+      const cards = [...document.querySelectorAll(".card, .welcome")].map(card => card.getBoundingClientRect().right);
+      return Math.max(document.documentElement.scrollWidth, ...cards);
+    });
     assert.ok(width <= 360, `${tab} is ${width} wide`);
+    assert.equal(await page.locator(".welcome").isVisible(), tab === "swarm", "what it says is about the swarm");
   }
   await page.leave();
 });
