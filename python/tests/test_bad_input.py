@@ -7,11 +7,13 @@ import pickle
 import subprocess
 import sys
 import textwrap
+from typing import get_args
 
 import numpy as np
 import pytest
 
 import nbc
+from nbc import names
 
 BODY = np.full((1, 2, 3), 3, dtype=np.uint8)
 
@@ -212,6 +214,33 @@ def test_shapes_are_rows_and_columns():
     expected = r"box=\(5, 2\), columns first, is now shape=\(2, 5\), rows first"
     with pytest.raises(TypeError, match=expected):
         nbc.Evolution(box=(5, 2))
+
+
+def test_words_that_are_types_are_those_that_are_known():
+    program = nbc.loads('circuit inverter(a) -> (q) { q = not a }\ntest inverter "turns" { a | q\n 0 | 1 }')
+    uses = {
+        names.Objective: lambda word: program.compile(objective=word),
+        names.Effort: lambda word: program.compile(effort=word),
+        names.Level: lambda word: program.test(level=word),
+        names.Genome: lambda word: nbc.Evolution(genome=word),
+        names.Sought: lambda word: nbc.Evolution(objective=word),
+        names.Symmetry: lambda word: nbc.Evolution(symmetry=word),
+    }
+    for words, use in uses.items():
+        for word in get_args(words):
+            use(word)
+        with pytest.raises((ValueError, nbc.NbcError)) as caught:
+            use("wrong")
+        told = f"{caught.value} {getattr(caught.value, 'diagnostics', None)}"
+        assert all(word in told for word in get_args(words)), told
+
+
+def test_a_wrong_word_is_seen_by_a_type_checker(tmp_path):
+    mypy = pytest.importorskip("mypy.api")
+    page = tmp_path / "script.py"
+    page.write_text('import nbc\nprogram = nbc.loads("")\nprogram.compile(effort="hard")\nprogram.test(level="logic")\n')
+    out, _, status = mypy.run(["--strict", str(page)])
+    assert status == 1 and out.count("error:") == 1 and '"Literal[\'hard\']"' in out, out
 
 
 def test_names_that_are_looked_up_are_offered(tmp_path):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import json
+import pickle
 import threading
 
 import numpy as np
@@ -129,6 +131,38 @@ def test_a_flock_goes_back_to_a_snapshot(walkers):
     np.testing.assert_array_equal(flock.com, there)
     with pytest.raises(ValueError, match="other bodies"):
         nbc.Flock([["33"]]).restore(state)
+
+
+def test_a_flock_and_its_states_can_be_pickled_and_copied(walkers):
+    flock = nbc.Flock(walkers, world_width=60, start_x=20)
+    flock.advance("01", 30)
+    flock.advance("01", 12)
+    state = flock.snapshot()
+    flock.advance(["00", "01", "10", "11"] * 3, 7)
+    flock.advance(["10"] * 12, 5)
+    others = [pickle.loads(pickle.dumps(flock)), copy.copy(flock), copy.deepcopy(flock)]
+    later, kept = flock.com, [pickle.loads(pickle.dumps(state)), copy.deepcopy(state), state]
+    for other in others:
+        assert other.clock.tolist() == [54] * 12
+        np.testing.assert_array_equal(other.com, later)
+        other.advance("11", 9)
+    np.testing.assert_array_equal(flock.com, later)
+    flock.advance("11", 9)
+    for each, own in zip(others, kept):
+        np.testing.assert_array_equal(each.com, flock.com)
+        np.testing.assert_array_equal(each.faults, flock.faults)
+        each.restore(own)
+        assert each.clock.tolist() == [42] * 12
+        each.advance(["00", "01", "10", "11"] * 3, 7)
+        again = pickle.loads(pickle.dumps(each))
+        for one in (each, again):
+            one.advance("10", 5)
+            np.testing.assert_array_equal(one.com, later)
+    with pytest.raises(ValueError, match="other bodies, or of another world"):
+        nbc.Flock(walkers, world_width=70).restore(state)
+    flock.close()
+    with pytest.raises(ValueError, match="closed"):
+        pickle.dumps(flock)
 
 
 def test_a_flock_can_be_used_from_several_threads(walkers):

@@ -198,15 +198,15 @@ def test_wrong_actions_are_refused():
         scenes.step([1, 1, 1, 1, 1, 1, np.nan])
 
 
-def test_gymnasium_accepts_the_environments():
+def test_gymnasium_accepts_the_environments(monkeypatch):
+    monkeypatch.setenv("SDL_VIDEODRIVER", "dummy")
     gymnasium = pytest.importorskip("gymnasium")
     checker = pytest.importorskip("gymnasium.utils.env_checker")
     import nbc.evogym.envs  # noqa: F401
 
     for name in ("nbc/Walker-v0", "nbc/UpStepper-v0", "nbc/BidirectionalWalker-v0"):
         env = gymnasium.make(name, body=BODY, render_mode="rgb_array")
-        # A window is tried in test_viewer.py.
-        checker.check_env(env.unwrapped, skip_render_check=True)
+        checker.check_env(env.unwrapped)
         assert env.spec.max_episode_steps == evogym.TASKS[name[4:]].steps
         env.reset(seed=1)
         picture = env.render()

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _nbc
 from .errors import Diagnostic, Interrupted, diagnostics_of
 from .evolution import Evolution
-from .names import unknown
+from .names import Effort, Level, Objective, unknown
 from .numbers import array_of, count, is_array
 from .progress import Progress, reporting
 
@@ -43,13 +43,13 @@ Row = Union[Mapping[str, int], Sequence[int], npt.NDArray[Any]]
 class _Compiling(TypedDict, total=False):
     library: Optional[Path]
     swarm: Optional[str]
-    objective: str
-    effort: str
+    objective: Objective
+    effort: Effort
     runs: Path
 
 
 class _Testing(_Compiling, total=False):
-    level: Optional[str]
+    level: Optional[Level]
     progress: Progress
 
 
@@ -205,8 +205,8 @@ class Program:
         *,
         library: Optional[Path] = None,
         swarm: Optional[str] = None,
-        objective: str = "area",
-        effort: str = "normal",
+        objective: Objective = "area",
+        effort: Effort = "normal",
         runs: Path = "out",
     ) -> Compiled:
         """Compiles a circuit to a swarm of robots, and proves that the swarm's logic is equal to the source.
@@ -230,11 +230,11 @@ class Program:
         self,
         name: Optional[str] = None,
         *,
-        level: Optional[str] = None,
+        level: Optional[Level] = None,
         library: Optional[Path] = None,
         swarm: Optional[str] = None,
-        objective: str = "area",
-        effort: str = "normal",
+        objective: Objective = "area",
+        effort: Effort = "normal",
         runs: Path = "out",
         progress: Progress = False,
     ) -> List[TestResult]:
@@ -271,8 +271,8 @@ class Program:
         seed: int = 1,
         library: Optional[Path] = None,
         swarm: Optional[str] = None,
-        objective: str = "area",
-        effort: str = "normal",
+        objective: Objective = "area",
+        effort: Effort = "normal",
         runs: Path = "out",
         progress: Progress = False,
     ) -> List[Yield]:
@@ -311,8 +311,8 @@ class Program:
         least_yield: float = 0.95,
         library: Optional[Path] = None,
         swarm: Optional[str] = None,
-        objective: str = "area",
-        effort: str = "normal",
+        objective: Objective = "area",
+        effort: Effort = "normal",
         runs: Path = "out",
         progress: Progress = False,
     ) -> Hardened:
@@ -347,8 +347,8 @@ class Program:
         *,
         library: Optional[Path] = None,
         swarm: Optional[str] = None,
-        objective: str = "area",
-        effort: str = "normal",
+        objective: Objective = "area",
+        effort: Effort = "normal",
         runs: Path = "out",
         safe_colors: bool = False,
         progress: Progress = False,
@@ -730,7 +730,7 @@ def _yield(data: Dict[str, Any], text: str) -> Yield:
 
 
 def _options(
-    library: Optional[Path], swarm: Optional[str], objective: str, effort: str, runs: Path
+    library: Optional[Path], swarm: Optional[str], objective: Objective, effort: Effort, runs: Path
 ) -> Dict[str, Any]:
     return {
         "library": None if library is None else os.fspath(library),

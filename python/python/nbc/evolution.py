@@ -12,6 +12,7 @@ import numpy.typing as npt
 from . import _nbc
 from .bodies import Bodies, pack
 from .errors import Interrupted, report_invalid
+from .names import Genome, Sought, Symmetry
 from .numbers import array_of, count
 from .physics import fault_array
 from .progress import Progress, reporting
@@ -42,11 +43,11 @@ class Evolution:
         generations: Optional[int] = None,
         batch: Optional[int] = None,
         newcomers: Optional[int] = None,
-        genome: Optional[str] = None,
+        genome: Optional[Genome] = None,
         crossover: Optional[float] = None,
-        objective: Optional[str] = None,
+        objective: Optional[Sought] = None,
         behaviors: Optional[Sequence[str]] = None,
-        symmetry: Optional[str] = None,
+        symmetry: Optional[Symmetry] = None,
         niche: Optional[str] = None,
         fixed: Optional[str] = None,
         descriptors: Optional[Sequence[str]] = None,

@@ -1,12 +1,33 @@
-"""Names and words that are looked up, and the one that was meant."""
+"""Names and words that are looked up, and the one that was meant. The words that arguments may be are types."""
 
 from __future__ import annotations
 
-from typing import Iterable
+from typing import Iterable, Literal
 
 from . import _nbc
 
-__all__ = ["meant", "unknown"]
+__all__ = ["Effort", "Genome", "Level", "Objective", "Registers", "Sought", "Symmetry", "meant", "unknown"]
+
+Objective = Literal["area", "delay", "margin", "sturdy"]
+"""What mapping minimizes."""
+
+Effort = Literal["fast", "normal", "high"]
+"""How hard mapping tries."""
+
+Level = Literal["logic", "physics"]
+"""What a test simulates."""
+
+Registers = Literal["keep", "expand"]
+"""What synthesis does with registers."""
+
+Genome = Literal["cppn", "voxels"]
+"""What an evolution changes."""
+
+Sought = Literal["distance", "gate", "wave"]
+"""What an evolution searches for."""
+
+Symmetry = Literal["none", "npn"]
+"""Which behaviors an evolution takes for one."""
 
 
 def meant(name: object, known: Iterable[str]) -> str:

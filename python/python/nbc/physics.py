@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import threading
 from dataclasses import dataclass, field
 from types import TracebackType
-from typing import Any, List, Mapping, Optional, Sequence, Tuple, Type, Union
+from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Tuple, Type, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -69,7 +70,7 @@ def simulate(
     materials: Optional[Sequence[Material]] = None,
     world_width: int = 500,
     start_x: Optional[int] = None,
-    record: Optional[str] = "com",
+    record: Optional[Literal["com", "poses"]] = "com",
     stride: int = 12,
     progress: Progress = False,
 ) -> Trajectories:
@@ -126,11 +127,66 @@ def simulate(
             raise
 
 
+class _Source(NamedTuple):
+    """What a flock is made of."""
+
+    codes: npt.NDArray[np.uint8]
+    shapes: npt.NDArray[np.uint64]
+    materials: Optional[str]
+    world_width: int
+    start_x: Optional[int]
+
+
+class _Spell(NamedTuple):
+    """Env steps under the same patterns, after earlier spells: the pattern of all robots, or one for each with spaces
+    between them."""
+
+    earlier: Optional[_Spell]
+    patterns: str
+    steps: int
+
+
+class FlockState:
+    """The state of a flock, for `Flock.restore`. It can be pickled and copied: the pickle has the bodies and the stimuli
+    so far, and the first use of what is read from it simulates them again."""
+
+    def __init__(self, native: _nbc.FlockState, source: _Source, last: Optional[_Spell]) -> None:
+        self._native: Optional[_nbc.FlockState] = native
+        self._source, self._last = source, last
+
+    def native(self) -> _nbc.FlockState:
+        """The state as the native half has it."""
+        if self._native is None:
+            self._native = _replayed(self._source, self._last).snapshot()
+        return self._native
+
+    def is_of(self, source: _Source) -> bool:
+        """Whether a flock of this kind can be in this state."""
+        pairs: List[Tuple[Any, Any]] = list(zip(self._source, source))
+        return all(np.array_equal(own, other) for own, other in pairs)
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return {"source": self._source, "spells": _spells(self._last)}
+
+    def __setstate__(self, kept: Dict[str, Any]) -> None:
+        self._native, self._source, self._last = None, kept["source"], _last_of(kept["spells"])
+
+    def __copy__(self) -> FlockState:
+        return self
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> FlockState:
+        # Nothing changes a state.
+        return self
+
+
 class Flock:
     """Robots that are advanced step by step, each alone in its own simulation with its own stimuli.
 
     For closed-loop control and other experiments step by step. A flock can be used from several threads: calls wait for
     each other. It is closed with `close` or at the end of a ``with`` block.
+
+    It can be copied and pickled, and goes on with equal steps. A pickle has the bodies and the stimuli so far, and what
+    is read from it has simulated them again.
 
     >>> import nbc
     >>> with nbc.Flock([["343", "563"]]) as flock:
@@ -153,7 +209,10 @@ class Flock:
         packed.check()
         start = None if start_x is None else count(start_x, "start_x")
         width = count(world_width, "world_width")
-        self._native = _nbc.Flock(packed.codes, packed.shapes, pack_materials(materials), width, start)
+        self._source = _Source(packed.codes, packed.shapes, pack_materials(materials), width, start)
+        self._native = _nbc.Flock(*self._source)
+        self._last: Optional[_Spell] = None
+        self._lock = threading.RLock()
 
     def __len__(self) -> int:
         return len(self._native)
@@ -169,7 +228,10 @@ class Flock:
                 shape (N, stimuli) of zeros and ones.
             steps: env steps, by default one cycle.
         """
-        self._native.advance(self._patterns(patterns), count(steps, "steps", most=MOST_STEPS))
+        each, number = self._patterns(patterns), count(steps, "steps", most=MOST_STEPS)
+        with self._lock:
+            self._native.advance(each, number)
+            self._last = _after(self._last, each[0] if len(set(each)) == 1 else " ".join(each), number)
 
     @property
     def com(self) -> npt.NDArray[np.float64]:
@@ -197,15 +259,21 @@ class Flock:
             raise IndexError(f"there is no robot {number}; the flock has {len(self)}, counted from 0")
         return np.array(self._native.voxels(number), dtype=np.intp).reshape(-1, 4)
 
-    def snapshot(self) -> _nbc.FlockState:
+    def snapshot(self) -> FlockState:
         """The state of all robots, for `restore`."""
-        return self._native.snapshot()
+        with self._lock:
+            return FlockState(self._native.snapshot(), self._source, self._last)
 
-    def restore(self, state: _nbc.FlockState) -> None:
-        """Sets all robots to an earlier state of this flock, or of one with the same bodies."""
-        if not isinstance(state, _nbc.FlockState):
+    def restore(self, state: FlockState) -> None:
+        """Sets all robots to an earlier state of this flock, or of one with the same bodies in the same world."""
+        if not isinstance(state, FlockState):
             raise TypeError(f"state is of type {type(state).__name__}, expected what `snapshot` returned")
-        self._native.restore(state)
+        if not state.is_of(self._source):
+            raise ValueError("the state is of other bodies, or of another world")
+        native = state.native()
+        with self._lock:
+            self._native.restore(native)
+            self._last = state._last
 
     def close(self) -> None:
         """Frees the robots. Later calls raise ValueError."""
@@ -218,6 +286,23 @@ class Flock:
         self, kind: Optional[Type[BaseException]], error: Optional[BaseException], trace: Optional[TracebackType]
     ) -> None:
         self.close()
+
+    def __getstate__(self) -> Dict[str, Any]:
+        return self.snapshot().__getstate__()
+
+    def __setstate__(self, kept: Dict[str, Any]) -> None:
+        self._source, self._last = kept["source"], _last_of(kept["spells"])
+        self._native, self._lock = _replayed(self._source, self._last), threading.RLock()
+
+    def __copy__(self) -> Flock:
+        state = self.snapshot()
+        other = Flock.__new__(Flock)
+        other.__setstate__({"source": self._source, "spells": []})
+        other.restore(state)
+        return other
+
+    def __deepcopy__(self, memo: Dict[int, Any]) -> Flock:
+        return self.__copy__()
 
     def _patterns(self, patterns: Union[str, Sequence[str], npt.NDArray[Any]]) -> List[str]:
         if isinstance(patterns, str):
@@ -235,6 +320,41 @@ class Flock:
         if isinstance(patterns, np.ndarray) and patterns.dtype.kind != "U":
             raise TypeError(f"patterns has the dtype {patterns.dtype}, expected integers, booleans or text")
         return [_pattern(pattern) for pattern in patterns]
+
+
+def _after(last: Optional[_Spell], patterns: str, steps: int) -> Optional[_Spell]:
+    """The last spell after more env steps."""
+    if steps == 0:
+        return last
+    if last is not None and last.patterns == patterns:
+        return _Spell(last.earlier, patterns, last.steps + steps)
+    return _Spell(last, patterns, steps)
+
+
+def _spells(last: Optional[_Spell]) -> List[Tuple[str, int]]:
+    """All spells, the first one first."""
+    found = []
+    while last is not None:
+        found.append((last.patterns, last.steps))
+        last = last.earlier
+    return found[::-1]
+
+
+def _last_of(spells: Sequence[Tuple[str, int]]) -> Optional[_Spell]:
+    last: Optional[_Spell] = None
+    for patterns, steps in spells:
+        last = _Spell(last, patterns, steps)
+    return last
+
+
+def _replayed(source: _Source, last: Optional[_Spell]) -> _nbc.Flock:
+    """A flock after all spells."""
+    flock = _nbc.Flock(*source)
+    for patterns, steps in _spells(last):
+        each = patterns.split(" ")
+        for start in range(0, steps, MOST_STEPS):
+            flock.advance(each * len(flock) if len(each) == 1 else each, min(MOST_STEPS, steps - start))
+    return flock
 
 
 def pack_schedule(schedule: Schedule) -> Union[str, List[Tuple[str, int]]]:

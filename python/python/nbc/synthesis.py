@@ -9,6 +9,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _nbc
 from .errors import Diagnostic, diagnostics_of
+from .names import Effort, Objective, Registers
 
 __all__ = ["Synthesis", "synthesize"]
 
@@ -42,12 +43,12 @@ def synthesize(
     output: Optional[Path] = None,
     cells: Sequence[str] = (),
     library: Optional[Path] = None,
-    objective: str = "area",
-    effort: str = "normal",
+    objective: Objective = "area",
+    effort: Effort = "normal",
     top: Optional[str] = None,
     parameters: Optional[Mapping[str, Union[int, str]]] = None,
     clock: Optional[str] = None,
-    registers: Optional[str] = None,
+    registers: Optional[Registers] = None,
     reachable_only: bool = False,
     what_if: Sequence[str] = (),
 ) -> Synthesis:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Sequence, Tuple
+from importlib.util import find_spec
+from typing import Any, Dict, List, Optional, Sequence
 
 import gymnasium as gym
 import numpy as np
@@ -35,7 +36,8 @@ def check_options(options: Optional[Dict[str, Any]], known: Sequence[str]) -> Di
 class EvoGymBase(gym.Env):
     """The base of environments of one's own, with the methods of ``evogym.envs.EvoGymBase``. Lengths are in voxels."""
 
-    metadata = {"render_modes": [*WINDOWS, *PICTURES], "render_fps": 50}
+    # Those that can be used here: `check_env` of gymnasium tries them all.
+    metadata = {"render_modes": [*(WINDOWS if find_spec("pygame") else ()), *PICTURES], "render_fps": 50}
 
     def __init__(
         self,

@@ -31,7 +31,13 @@ class Thing:
 
     def __init__(self, positions: _Floats, velocities: _Floats, turn: Optional[_Floats], layout: _Layout) -> None:
         self.positions, self.velocities, self._layout = positions * VOXEL_SIZE, velocities * VOXEL_SIZE, layout
-        self.com, self.middle, self._turn = layout.mean(self.positions), layout.mean(positions), turn
+        self.com, self._voxels, self._turn = layout.mean(self.positions), positions, turn
+
+    @property
+    def middle(self) -> _Floats:
+        """Their centers of mass in voxels. Points are added one after another, as Evolution Gym does it: a column of a
+        terrain may end exactly at the middle of a symmetric robot, so the last bit matters."""
+        return np.stack([own.T.mean(axis=1) for own in self._layout.split(self._voxels)])
 
     @property
     def velocity(self) -> _Floats:
@@ -52,7 +58,7 @@ class Thing:
 
     def each(self) -> List[_Floats]:
         """The positions in each world."""
-        return np.split(self.positions, self._layout.first[1:])
+        return self._layout.split(self.positions)
 
 
 class _Layout:
@@ -63,6 +69,9 @@ class _Layout:
         self.first = np.concatenate(([0], np.cumsum(self.counts)[:-1])).astype(np.intp)
         self.owner = np.repeat(np.arange(len(self.counts)), self.counts)
         self._slot = np.arange(len(self.owner)) - self.first[self.owner]
+
+    def split(self, values: _Floats) -> List[_Floats]:
+        return np.split(values, self.first[1:])
 
     def mean(self, values: _Floats) -> _Floats:
         mean: _Floats = np.add.reduceat(values, self.first, axis=0) / self.counts[:, None]
@@ -124,7 +133,7 @@ def depths(points: _Floats, middle: Tuple[float, float], sight: int, reach: floa
 
 def surface(now: Moment, names: Sequence[str], sight: int, above: bool = False, reach: float = 5.0) -> _Floats:
     """How far below (or above) the robot's center of mass the terrain is in each column, up to ``reach`` voxels."""
-    # In voxels: a column may end exactly at a point, so the last bit matters.
+    # In voxels; see `Thing.middle`.
     found = [
         depths(now.worlds.terrain(world, names), (x, y), sight, reach, above)
         for world, (x, y) in enumerate(now.robot.middle)
