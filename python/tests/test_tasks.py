@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import pickle
 import random
 from pathlib import Path
@@ -131,10 +132,10 @@ def test_a_simulation_has_a_past_and_can_be_pickled():
     for width in (1.6, 0.6, 1.2):
         sim.set_action("robot", np.full(7, width))
         assert not sim.step()
-    other = pickle.loads(pickle.dumps(sim))
+    other, copied = pickle.loads(pickle.dumps(sim)), copy.copy(sim)
     for each in (sim, other):
         each.step()
-    assert sim.get_time() == 4
+    assert sim.get_time() == 4 and copied.get_time() == 3
     for time in range(5):
         np.testing.assert_array_equal(sim.pos_at_time(time), other.pos_at_time(time))
         np.testing.assert_array_equal(sim.vel_at_time(time), other.vel_at_time(time))

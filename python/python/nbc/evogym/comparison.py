@@ -6,6 +6,7 @@ import contextlib
 import io
 import random
 import time
+import warnings
 from dataclasses import dataclass
 from typing import Any, List, Optional, Sequence
 
@@ -72,7 +73,10 @@ def record(
     Raises:
         ImportError: where Evolution Gym is not installed.
     """
-    import evogym.envs
+    with warnings.catch_warnings():
+        # It takes its names back, which are those of `nbc.evogym.envs`, where that was imported before.
+        warnings.simplefilter("ignore")
+        import evogym.envs
     import gymnasium
 
     with contextlib.redirect_stdout(io.StringIO()):

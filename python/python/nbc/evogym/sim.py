@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import operator
 from typing import Any, Dict, List, Optional, Sequence, Tuple
 
@@ -267,6 +268,9 @@ class EvoSim:
 
     def __getstate__(self) -> Dict[str, Any]:
         return {**self.__dict__, "_past": None}
+
+    def __copy__(self) -> EvoSim:
+        return copy.deepcopy(self)
 
     def _at(self, time: int, name: str) -> Scenes:
         """The world at a time."""
