@@ -61,7 +61,9 @@ pub struct PlayArguments {
     token: Option<String>,
     /// Write the circuit to this HTML file, which plays without a server, and start none
     #[arg(long, value_name = "OUT", requires = "file", value_parser = new_path())]
-    #[arg(conflicts_with_all = ["port", "host", "no_open", "page", "token", "lessons", "class", "pages", "public_page"])]
+    #[arg(conflicts_with_all = [
+        "port", "host", "no_open", "page", "token", "lessons", "class", "public_page", "pages",
+    ])]
     export: Option<PathBuf>,
     /// Write a page that simulates and can be edited, instead of a recording
     #[arg(long, requires = "export", conflicts_with_all = ["library", "effort", "objective", "runs"])]
