@@ -238,7 +238,8 @@ def test_words_that_are_types_are_those_that_are_known():
 def test_a_wrong_word_is_seen_by_a_type_checker(tmp_path):
     mypy = pytest.importorskip("mypy.api")
     page = tmp_path / "script.py"
-    page.write_text('import nbc\nprogram = nbc.loads("")\nprogram.compile(effort="hard")\nprogram.test(level="logic")\n')
+    lines = ["import nbc", 'program = nbc.loads("")', 'program.compile(effort="hard")', 'program.test(level="logic")']
+    page.write_text("\n".join(lines) + "\n")
     out, _, status = mypy.run(["--strict", str(page)])
     assert status == 1 and out.count("error:") == 1 and '"Literal[\'hard\']"' in out, out
 

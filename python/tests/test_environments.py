@@ -367,7 +367,8 @@ def test_the_names_of_evolution_gym_are_here():
         own = [name for name, each in vars(there).items() if getattr(each, "__module__", "").startswith("evogym")]
         return {name for name in own if not hasattr(here, name)}
 
-    assert missing(theirs, evogym) == missing(theirs.utils, evogym.utils) - {"_is_in_bounds", "_recursive_search"} == set()
+    assert missing(theirs, evogym) == set()
+    assert missing(theirs.utils, evogym.utils) <= {"_is_in_bounds", "_recursive_search"}
     between = {"ClimbBase", "Goal", "GoalBase", "PackageBase", "ShapeBase", "StairsBase", "WalkToX"}
     assert missing(their_envs, envs) - set(dir(evogym)) == between
     for one, other in ((theirs.EvoWorld, EvoWorld), (theirs.WorldObject, WorldObject), (theirs.EvoViewer, EvoViewer),

@@ -147,8 +147,8 @@ class _Spell(NamedTuple):
 
 
 class FlockState:
-    """The state of a flock, for `Flock.restore`. It can be pickled and copied: the pickle has the bodies and the stimuli
-    so far, and the first use of what is read from it simulates them again."""
+    """The state of a flock, for `Flock.restore`. It can be pickled and copied: the pickle has the bodies and the
+    stimuli so far, and the first use of what is read from it simulates them again."""
 
     def __init__(self, native: _nbc.FlockState, source: _Source, last: Optional[_Spell]) -> None:
         self._native: Optional[_nbc.FlockState] = native
