@@ -19,7 +19,10 @@ interface Marked {
   number: Element | null;
   thread: number | null;
 }
-/** The scale at which a drawing that is too large begins, a good one for reading, a step of the zoom, and the share of the pane at which a part is opened. */
+/**
+ * The scale at which a drawing that is too large begins, a good one for reading, a step of the zoom, and the share of the
+ * pane at which a part is opened.
+ */
 const FIRST = 0.36;
 const READABLE = 0.8;
 const STEP = 1.25;

@@ -8,7 +8,8 @@ const MOST = 7;
 
 export class Crew {
   readonly #workers: Worker[] = [];
-  #size = 0;
+  /** Those that can be given parts. */
+  #ready: Worker[] = [];
 
   /**
    * Starts workers by the script of this one, as far as there are processors. `changed` learns how many can be given
@@ -23,9 +24,12 @@ export class Crew {
     for (let i = 0; i < wanted; i += 1) {
       const worker = new Worker(location.href);
       worker.onmessage = ({ data }: MessageEvent<FromWorker>) => {
+        if (!this.#workers.includes(worker)) {
+          return;
+        }
         if (data.say === "assisting") {
-          this.#size += 1;
-          changed(this.#size);
+          this.#ready.push(worker);
+          changed(this.#ready.length);
         } else if (data.say === "part") {
           done(data.number, data.bytes);
         } else {
@@ -43,7 +47,7 @@ export class Crew {
 
   /** Gives a part to one of them. */
   give(number: number, bytes: ArrayBuffer): void {
-    const worker = this.#workers[number % this.#workers.length];
+    const worker = this.#ready[number % this.#ready.length];
     if (worker !== undefined) {
       post(worker, { say: "part", number, bytes }, [bytes]);
     }
@@ -52,7 +56,7 @@ export class Crew {
   /** Without one of them no cycle ends, so the program goes on alone. */
   #end(): void {
     this.#workers.splice(0).forEach(worker => worker.terminate());
-    this.#size = 0;
+    this.#ready = [];
     this.changed(0);
   }
 }
