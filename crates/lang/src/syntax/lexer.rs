@@ -32,7 +32,7 @@ pub struct Token {
 }
 
 /// Operators of two characters.
-const PAIRS: [&str; 10] = ["->", "==", "!=", "<=", ">=", "<<", ">>", "..", "**", ":="];
+const PAIRS: [[u8; 2]; 10] = [*b"->", *b"==", *b"!=", *b"<=", *b">=", *b"<<", *b">>", *b"..", *b"**", *b":="];
 
 /// The tokens of a text, in order.
 pub fn tokens(text: &str) -> impl Iterator<Item = Token> {
@@ -59,7 +59,7 @@ fn token(rest: &str) -> (TokenKind, usize) {
         '"' => (TokenKind::Quoted, quoted(rest)),
         c if c.is_ascii_digit() => (TokenKind::Number, number(rest)),
         c if is_word(c) => (TokenKind::Word, rest.find(|c| !is_word(c)).unwrap_or(rest.len())),
-        _ if PAIRS.iter().any(|pair| rest.starts_with(pair)) => (TokenKind::Sign, 2),
+        _ if rest.as_bytes().first_chunk().is_some_and(|pair| PAIRS.contains(pair)) => (TokenKind::Sign, 2),
         c => (TokenKind::Sign, c.len_utf8()),
     }
 }

@@ -114,11 +114,14 @@ impl Splitter<'_> {
 
     /// Whether a token is the first of a declaration.
     fn begins(&self, token: &Token, word: &str) -> bool {
+        if !token.is_first || !matches!(token.kind, TokenKind::Word | TokenKind::Number) {
+            return false;
+        }
         let keyword = KEYWORDS.contains(&word);
         let rest = &self.text[token.range.end..];
         if self.open.is_empty() {
             let foreign = FOREIGN_KEYWORDS.contains(&word) && starts_declaration(word, rest);
-            return token.is_first && word.starts_with(is_word) && (keyword || foreign || self.closed);
+            return keyword || foreign || self.closed;
         }
         let is_first_column = token.range.start == 0 || self.text[..token.range.start].ends_with(['\n', '\r']);
         keyword && is_first_column && starts_declaration(word, rest)
