@@ -46,7 +46,7 @@ fn main() -> Fallible<()> {
         let (name, steps) = (&checkpoint.declared.name, *env_steps as f64 / 1e6);
         println!("| `{name}` | {evaluations} | {steps:.0} | {filled} | {} |", found.join(" | "));
         let points = lines.iter().map(|line| (line.evaluations as f64, line.qd_score)).collect();
-        courses.push(Course { title: name.clone(), unit: "QD-score".to_owned(), runs: vec![points] });
+        courses.push(Course::of(name, "QD-score", vec![points]));
     }
     std::fs::write(picture, report::draw_progress("Searches for gates", "bodies", &courses).finish())?;
     Ok(())

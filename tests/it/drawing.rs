@@ -65,7 +65,9 @@ fn every_picture_of_a_run_is_drawn() {
     assert_eq!(ids(&crossed, "map-"), 1);
     assert!(texts(&crossed).contains(&"sensory voxels (bin)".to_owned()));
     let progress = svg(&bench, "out/tiny --as progress");
-    assert!(texts(&progress).iter().any(|text| text == "coverage") && ids(&progress, "course-") == 2);
+    assert!(texts(&progress).iter().any(|text| text == "coverage") && ids(&progress, "course-") == 3);
+    let difficulties = ["none", "one", "both", "XOR and XNOR"];
+    assert!(difficulties.iter().all(|word| texts(&progress).iter().any(|text| text == word)));
     let comparison = svg(&bench, "out/tiny --as comparison");
     assert_eq!(ids(&comparison, "group-"), 8);
     let discovery = svg(&bench, "out/tiny --as discovery");

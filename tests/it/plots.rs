@@ -76,8 +76,7 @@ fn evolution() -> nbc_base::model::Evolution {
 #[test]
 fn progress_shows_every_seed_the_median_and_the_band() {
     let run = |high: f64| (0..10).map(|i| (f64::from(i), high * f64::from(i))).collect();
-    let course =
-        Course { title: "coverage".to_owned(), unit: "niches".to_owned(), runs: vec![run(1.0), run(3.0), run(2.0)] };
+    let course = Course::of("coverage", "niches", vec![run(1.0), run(3.0), run(2.0)]);
     let svg = report::draw_progress("gates", "generation", &[course]).finish();
     let document = Document::parse(&svg).unwrap();
     let plot = group(&document, "course-0");
@@ -86,20 +85,19 @@ fn progress_shows_every_seed_the_median_and_the_band() {
     assert_eq!(lines.len(), 3 + 1);
     assert_eq!(lines[3], lines[2], "the median of three is the middle one");
     assert_eq!(plot.descendants().filter(|n| n.has_tag_name("polygon")).count(), 1);
-    report::png(&report::draw_progress(
-        "none",
-        "generation",
-        &[Course { title: String::new(), unit: String::new(), runs: vec![vec![]] }],
-    ));
+    // The median ends with the shortest run.
+    let short = (0..4).map(|i| (f64::from(i), f64::from(i))).collect();
+    let course = Course::of("coverage", "niches", vec![run(1.0), run(3.0), short]);
+    let svg = report::draw_progress("gates", "generation", &[course]).finish();
+    let document = Document::parse(&svg).unwrap();
+    let lines = group(&document, "course-0").descendants().filter(|n| n.has_tag_name("polyline"));
+    assert_eq!(lines.last().unwrap().attribute("points").unwrap().split(' ').count(), 4);
+    report::png(&report::draw_progress("none", "generation", &[Course::of("", "", vec![vec![]])]));
 }
 
 #[test]
 fn courses_of_one_unit_have_one_scale() {
-    let course = |unit: &str, high| Course {
-        title: String::new(),
-        unit: unit.to_owned(),
-        runs: vec![vec![(0.0, 0.0), (1.0, high)]],
-    };
+    let course = |unit, high| Course::of("", unit, vec![vec![(0.0, 0.0), (1.0, high)]]);
     let courses = [course("QD-score", 10.0), course("QD-score", 40.0), course("niches", 10.0)];
     let svg = report::draw_progress("searches", "bodies", &courses).finish();
     let document = Document::parse(&svg).unwrap();

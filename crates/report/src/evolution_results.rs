@@ -4,9 +4,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::discovery::Discovery;
-use crate::groups::group_of;
+use crate::groups::{DIFFICULTIES, difficulty_of, group_of};
 use crate::history::ProgressLine;
-use crate::progress::Course;
+use crate::progress::{Course, Series};
 use nbc_base::model::{Axis, Behavior, Count, Function, SearchObjective};
 use nbc_swarm::evolve::{Champion, Elite, NicheKey};
 
@@ -96,33 +96,40 @@ impl EvolutionResults {
         self.runs.values().flat_map(SeedRun::behaviors).collect()
     }
 
-    /// Coverage and QD-score over the generations.
-    pub fn courses(&self) -> [Course; 2] {
-        let runs = |value: fn(&ProgressLine) -> f64| {
+    /// Coverage and QD-score over the generations; of two stimuli also the champions by the paper's difficulty, where a
+    /// behavior that is not found counts as 0.
+    pub fn courses(&self) -> Vec<Course> {
+        let runs = |value: &dyn Fn(&ProgressLine) -> f64| {
             let points = |run: &SeedRun| {
                 run.progress.iter().map(|line| (f64::from(line.generation), value(line))).collect::<Vec<_>>()
             };
-            self.runs.values().map(points).collect()
+            self.runs.values().map(points).collect::<Vec<_>>()
         };
-        [
-            Course {
-                title: "coverage".to_owned(),
-                unit: "filled niches (%)".to_owned(),
-                runs: runs(|line| 100.0 * line.coverage),
-            },
-            Course {
-                title: "QD-score".to_owned(),
-                unit: format!("sum of {}", self.unit()),
-                runs: runs(|line| line.qd_score),
-            },
-        ]
+        let mut courses = vec![
+            Course::of("coverage", "filled niches (%)", runs(&|line| 100.0 * line.coverage)),
+            Course::of("QD-score", format!("sum of {}", self.unit()), runs(&|line| line.qd_score)),
+        ];
+        if self.stimuli == 2 {
+            let series = |(difficulty, name): (usize, &&str)| {
+                let own: Vec<Behavior> = Behavior::all(2).filter(|one| difficulty_of(*one) == difficulty).collect();
+                let best = |line: &ProgressLine, one| line.best.get(one).map_or(0.0, |fitness| fitness[0]);
+                let mean = |line: &ProgressLine| own.iter().map(|one| best(line, one)).sum::<f64>() / own.len() as f64;
+                Series { name: (*name).to_owned(), runs: runs(&mean) }
+            };
+            courses.push(Course {
+                title: "champions by the stimuli that they follow".to_owned(),
+                unit: format!("mean {}", self.unit()),
+                series: DIFFICULTIES.iter().enumerate().map(series).collect(),
+            });
+        }
+        courses
     }
 
     /// When each seed first found each behavior, in order of the paper's groups; of three stimuli, each that one found,
     /// in order of the inputs that matter and of classes.
     pub fn discoveries(&self) -> Vec<Discovery> {
         let first = |run: &SeedRun, behavior| {
-            run.progress.iter().find(|line| line.behaviors.contains(&behavior)).map(|line| line.generation)
+            run.progress.iter().find(|line| line.best.contains_key(&behavior)).map(|line| line.generation)
         };
         let discovery = |behavior| {
             let generations = self.runs.values().filter_map(|run| first(run, behavior)).collect();

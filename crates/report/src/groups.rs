@@ -56,6 +56,9 @@ const GROUPS: [(&str, usize, usize); 8] = [
     ("XYYX", 2, 3),
 ];
 
+/// The paper's difficulties, by the stimuli that behaviors follow.
+pub(super) const DIFFICULTIES: [&str; 4] = ["none", "one", "both", "XOR and XNOR"];
+
 /// The place of the group of a behavior of two stimuli.
 pub(super) fn group_of(behavior: Behavior) -> usize {
     let first = behavior.direction(Pattern::PAIRS[0]);

@@ -2,7 +2,6 @@
 
 use std::collections::BTreeMap;
 
-use serde::de::IgnoredAny;
 use serde::{Deserialize, Deserializer};
 
 use nbc_base::model::Behavior;
@@ -16,15 +15,15 @@ pub struct ProgressLine {
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
-    /// The behaviors found so far.
-    #[serde(default, rename = "best", deserialize_with = "behaviors")]
-    pub behaviors: Vec<Behavior>,
+    /// The behaviors found so far, each with the fitnesses of its champion.
+    #[serde(default, deserialize_with = "best")]
+    pub best: BTreeMap<Behavior, [f64; 2]>,
 }
 
-/// The names of an object that are behaviors.
-fn behaviors<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Behavior>, D::Error> {
-    let best: BTreeMap<String, IgnoredAny> = Deserialize::deserialize(deserializer)?;
-    Ok(best.keys().filter_map(|word| word.parse().ok()).collect())
+/// The entries of an object whose names are behaviors.
+fn best<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<Behavior, [f64; 2]>, D::Error> {
+    let best: BTreeMap<String, [f64; 2]> = Deserialize::deserialize(deserializer)?;
+    Ok(best.into_iter().filter_map(|(word, fitness)| Some((word.parse().ok()?, fitness))).collect())
 }
 
 /// The lines of a run up to a generation, each generation once and in order.
@@ -89,10 +88,10 @@ mod tests {
 
     #[test]
     fn the_behaviors_found_so_far_are_read() {
-        let best = r#"{"LLRR":[5.9,1.4],"LRLL":[1.7,0.1],"?":0}"#;
+        let best = r#"{"LLRR":[5.9,1.4],"LRLL":[1.7,0.1],"?":[0,0]}"#;
         let text = line(1).replace("true}", &format!("true,\"best\":{best}}}"));
         let found: Vec<String> =
-            History::read(&text, 1).lines().flat_map(|line| line.behaviors).map(|b| b.to_string()).collect();
+            History::read(&text, 1).lines().flat_map(|line| line.best).map(|(b, _)| b.to_string()).collect();
         assert_eq!(found, ["LLRR", "LRLL"]);
     }
 

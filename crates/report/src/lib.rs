@@ -87,7 +87,7 @@ pub use page_bodies::{about_robot, voxel_data};
 pub use phases::PhaseTiming;
 pub use portraits::{Portrait, draw_portraits};
 pub use pose::draw_pose;
-pub use progress::{Course, draw_progress};
+pub use progress::{Course, Series, draw_progress};
 #[cfg(feature = "pictures")]
 pub use raster::png;
 pub use result::{RobotResult, RunResult, SwarmResult};

@@ -9,7 +9,11 @@ pub(super) struct ProgressPicture;
 
 impl PictureKind for ProgressPicture {
     fn description(&self) -> KindDescription {
-        KindDescription::new("progress", "The coverage and QD-score of a run over its generations", SubjectKind::Run)
+        KindDescription::new(
+            "progress",
+            "The coverage, QD-score and champions of a run over its generations",
+            SubjectKind::Run,
+        )
     }
 
     fn of_run(&self, results: &EvolutionResults, _request: &DrawRequest) -> Result<Drawn, Failure> {
@@ -17,7 +21,7 @@ impl PictureKind for ProgressPicture {
     }
 }
 
-/// Coverage and QD-score over the generations.
+/// Coverage, QD-score and champions over the generations.
 pub(super) fn progress(results: &EvolutionResults) -> Svg {
     report::draw_progress(&format!("{} over time", results.name), "generation", &results.courses())
 }
