@@ -1,5 +1,7 @@
 //! The name, parameters and ports of a circuit as they are written in its declaration.
 
+use std::ops::Range;
+
 use crate::files::Files;
 use nbc_base::model::{Circuit, Net};
 use nbc_base::source::Span;
@@ -42,12 +44,12 @@ impl Interface {
     }
 
     /// The places of the parameters in the label.
-    pub(super) fn parameter_places(&self) -> Vec<(usize, usize)> {
+    pub(super) fn parameter_places(&self) -> Vec<Range<usize>> {
         places(self.name.len() + 1, self.parameters.iter().map(String::as_str))
     }
 
     /// The places of the inputs in the label.
-    pub(super) fn input_places(&self) -> Vec<(usize, usize)> {
+    pub(super) fn input_places(&self) -> Vec<Range<usize>> {
         places(self.head().len() + 1, self.inputs.iter().map(|port| port.text.as_str()))
     }
 
@@ -60,11 +62,11 @@ impl Interface {
 }
 
 /// The places of words that are listed from `start` on.
-fn places<'t>(start: usize, words: impl Iterator<Item = &'t str>) -> Vec<(usize, usize)> {
+fn places<'t>(start: usize, words: impl Iterator<Item = &'t str>) -> Vec<Range<usize>> {
     let place = |at: &mut usize, word: &str| {
         let start = *at;
         *at += word.len() + ", ".len();
-        Some((start, start + word.len()))
+        Some(start..start + word.len())
     };
     words.scan(start, place).collect()
 }

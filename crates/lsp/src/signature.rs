@@ -1,5 +1,7 @@
 //! The circuit that is being called at a place, and the operand that is being written.
 
+use std::ops::Range;
+
 use gen_lsp_types::{MarkupContent, MarkupKind, ParameterInformation, SignatureHelp, SignatureInformation};
 
 use crate::interface::Interface;
@@ -25,8 +27,8 @@ pub(super) fn help(spot: &Spot<'_>) -> Option<SignatureHelp> {
     let interface = Interface::of(&spot.files, circuit);
     let places = if call.in_brackets { interface.parameter_places() } else { interface.input_places() };
     // Names are of one byte each character, so that bytes are code units of either encoding.
-    let parameter = |(start, end): &(usize, usize)| ParameterInformation {
-        label: (*start as u32, *end as u32).into(),
+    let parameter = |place: &Range<usize>| ParameterInformation {
+        label: (place.start as u32, place.end as u32).into(),
         documentation: None,
     };
     let active = (call.at < places.len()).then_some(call.at as u32);

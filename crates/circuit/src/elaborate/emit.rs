@@ -1,5 +1,7 @@
 //! From expressions to gates, bit by bit; the lowest bit of a value comes first.
 
+use std::ops::Range;
+
 use crate::elaborate::build::{ModuleBuilder, ModuleKey};
 use crate::elaborate::frame::Item;
 use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
@@ -82,16 +84,15 @@ impl ModuleBuilder<'_, '_> {
     /// The number of bits of a target; one of a value that is discarded as a part of another.
     fn target_bits(&mut self, target: &Target, frame: u32) -> Option<u32> {
         let Some(slot) = target.net else { return Some(1) };
-        let (_, _, count) = self.target_range(slot, target, frame)?;
-        Some(count)
+        let (_, bits) = self.target_range(slot, target, frame)?;
+        Some(bits.len() as u32)
     }
 
-    /// The net of a target, the lowest of its bits that are driven, and their number.
-    fn target_range(&mut self, slot: NetSlot, target: &Target, frame: u32) -> Option<(usize, u32, u32)> {
+    /// The net of a target, and the bits of it that are driven.
+    fn target_range(&mut self, slot: NetSlot, target: &Target, frame: u32) -> Option<(usize, Range<u32>)> {
         let net = self.net(slot, frame);
         self.module.nets[net].width?;
-        let (low, count) = self.range(net, target.word, target.bits, frame)?;
-        Some((net, low, count))
+        Some((net, self.range(net, target.word, target.bits, frame)?))
     }
 
     /// Lets the parts of a value drive targets, the highest first.
@@ -131,12 +132,12 @@ impl ModuleBuilder<'_, '_> {
     /// Lets a value drive a target.
     fn drive(&mut self, target: &Target, value: &[Bit], frame: u32, by: u32, span: Span) {
         let Some(slot) = target.net else { return };
-        let Some((net, low, count)) = self.target_range(slot, target, frame) else { return };
+        let Some((net, bits)) = self.target_range(slot, target, frame) else { return };
         let name = self.module.nets[net].name.clone();
-        if value.len() as u32 != count {
+        if value.len() != bits.len() {
             let found = OperandText { span, ..self.operand(self.items[by as usize].value, value) };
             let what = Wide::Value { net: name, target: target.span };
-            self.fault(WidthError::Wrong { what, expected: count, found }.into());
+            self.fault(WidthError::Wrong { what, expected: bits.len() as u32, found }.into());
             return;
         }
         if let Some(array) = self.circuit.nets[slot.0 as usize].selects
@@ -146,12 +147,12 @@ impl ModuleBuilder<'_, '_> {
             let index = self.items[by as usize].value;
             self.look_outside(IndexedNet { name, count: words, is_word: true }, index, value);
         }
-        let first = self.module.nets[net].first + low;
-        for (at, &driver) in value.iter().enumerate() {
-            self.drive_bit(first + at as u32, driver, by, target.span);
+        let first = self.module.nets[net].first;
+        for (bit, &driver) in bits.clone().zip(value) {
+            self.drive_bit(first + bit, driver, by, target.span);
         }
         if let Some(start) = target.start {
-            self.start(start, first, count, frame);
+            self.start(start, first + bits.start, bits.len() as u32, frame);
         }
     }
 
@@ -306,8 +307,8 @@ impl ModuleBuilder<'_, '_> {
         let net = self.net(slot, frame);
         self.module.nets[net].width?;
         let first = self.module.nets[net].first;
-        let (low, count) = self.range(net, part.0, part.1, frame)?;
-        Some((first + low..first + low + count).map(|bit| self.known(bit)).collect())
+        let bits = self.range(net, part.0, part.1, frame)?;
+        Some(bits.map(|bit| self.known(first + bit)).collect())
     }
 
     /// The constant that a bit is, or the bit itself.
@@ -318,14 +319,14 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// The lowest bit, and the number of bits, of a word of a net or of some of its bits.
+    /// The bits of a net, of a word of it, or of a slice of either.
     fn range(
         &mut self,
         net: usize,
         word: Option<SizeId>,
         bits: Option<(SizeId, SizeId)>,
         frame: u32,
-    ) -> Option<(u32, u32)> {
+    ) -> Option<Range<u32>> {
         let (width, words) = (self.module.nets[net].width?, self.module.nets[net].words.unwrap_or(1));
         let name = self.module.nets[net].name.clone();
         let (base, width) = match word {
@@ -341,8 +342,8 @@ impl ModuleBuilder<'_, '_> {
             None => (0, width),
         };
         match bits {
-            Some(bits) => self.slice(bits, width, &name, frame).map(|(low, count)| (base + low, count)),
-            None => Some((base, width)),
+            Some(bits) => self.slice(bits, width, &name, frame).map(|bits| base + bits.start..base + bits.end),
+            None => Some(base..base + width),
         }
     }
 
@@ -369,15 +370,15 @@ impl ModuleBuilder<'_, '_> {
         let is_word = self.module.nets[net].words.is_some();
         self.look_outside(IndexedNet { name: name.clone(), count: words, is_word }, index, &value);
         let word = width / words;
-        let (low, count) = match bits {
+        let bits = match bits {
             Some(bits) => self.slice(bits, word, &name, frame)?,
-            None => (0, word),
+            None => 0..word,
         };
         let first = self.module.nets[net].first;
         let span = self.span(index);
-        self.take(Limit::Steps, u64::from(words) * u64::from(count))?;
+        self.take(Limit::Steps, u64::from(words) * bits.len() as u64)?;
         let column = |builder: &mut Self, bit: u32| {
-            let mut level: Vec<Bit> = (0..words).map(|place| builder.known(first + place * word + low + bit)).collect();
+            let mut level: Vec<Bit> = (0..words).map(|place| builder.known(first + place * word + bit)).collect();
             for &selected in &value {
                 level = level
                     .chunks(2)
@@ -389,7 +390,7 @@ impl ModuleBuilder<'_, '_> {
             }
             level[0]
         };
-        Some((0..count).map(|bit| column(self, bit)).collect())
+        Some(bits.map(|bit| column(self, bit)).collect())
     }
 
     fn repetition(&mut self, count: SizeId, value: &[Bit], frame: u32) -> Option<Vec<Bit>> {

@@ -1,5 +1,7 @@
 //! Unrolls loops: one frame for each iteration, with its nets and statements.
 
+use std::ops::Range;
+
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::frame::{Item, Scope};
 use crate::elaborate::module::ModuleNet;
@@ -167,8 +169,8 @@ impl<'a> ModuleBuilder<'a, '_> {
         None
     }
 
-    /// The lowest bit and the number of bits of a slice of a net that wide.
-    pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<(u32, u32)> {
+    /// The bits of a slice of a net that wide.
+    pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<Range<u32>> {
         let (high, low) = (self.size(bits.0, frame)?, self.size(bits.1, frame)?);
         let ends = [bits.0, bits.1].map(|end| self.circuit.sizes[end.0 as usize]);
         let (span, net) = (ends[0].span.to(ends[1].span), name.to_owned());
@@ -182,7 +184,7 @@ impl<'a> ModuleBuilder<'a, '_> {
             self.fault(RangeError::NoSuchBit { net, bit, width }.at(span));
             return None;
         }
-        Some((low as u32, (high - low + 1) as u32))
+        Some(low as u32..high as u32 + 1)
     }
 }
 

@@ -18,8 +18,16 @@ pub struct Coverer<'a> {
     library: &'a CellLibrary,
     recipes: Recipes,
     objective: MappingObjective,
-    /// The cost and the delay of each function of two inputs and of each of three, if it can be made.
-    prices: [Vec<Option<(u32, u32)>>; 2],
+    /// Of each function of two inputs and of each of three, if it can be made.
+    prices: [Vec<Option<Price>>; 2],
+}
+
+/// What the cells of a function take.
+#[derive(Clone, Copy)]
+struct Price {
+    cost: u32,
+    /// In cycles.
+    delay: u32,
 }
 
 impl<'a> Coverer<'a> {
@@ -27,15 +35,15 @@ impl<'a> Coverer<'a> {
     pub fn new(library: &'a CellLibrary, objective: MappingObjective) -> Self {
         let recipes = Recipes::of(library);
         let narrow = |function| {
-            let clock = |recipe: &Recipe| recipe.steps.iter().map(|step| clock(library, step.function)).sum();
-            recipes.get(function).map(|recipe| (recipe.cost, clock(recipe)))
+            let delay = |recipe: &Recipe| recipe.steps.iter().map(|step| clock(library, step.function)).sum();
+            recipes.get(function).map(|recipe| Price { cost: recipe.cost, delay: delay(recipe) })
         };
-        let wide = |function| library.get(function).map(|kind| (kind.cost, kind.clock));
+        let wide = |function| library.get(function).map(|kind| Price { cost: kind.cost, delay: kind.clock });
         let prices = [Function::all().map(narrow).collect(), Function::all_of(3).map(wide).collect()];
         Self { library, recipes, objective, prices }
     }
 
-    fn price(&self, function: Function) -> Option<(u32, u32)> {
+    fn price(&self, function: Function) -> Option<Price> {
         self.prices[function.inputs() - 2][usize::from(function.bits())]
     }
 
@@ -71,8 +79,8 @@ fn clock(library: &CellLibrary, function: Function) -> u32 {
 struct Choice<'a> {
     coverer: &'a Coverer<'a>,
     network: &'a Network,
-    /// The cuts of each gate that the library has a cell for, with cost and delay.
-    cuts: Vec<Vec<(Cut, u32, u32)>>,
+    /// The cuts of each gate that the library has a cell for.
+    cuts: Vec<Vec<(Cut, Price)>>,
     chosen: Vec<usize>,
     /// The cells and outputs that read each signal.
     readers: Vec<u32>,
@@ -81,11 +89,8 @@ struct Choice<'a> {
 
 impl<'a> Choice<'a> {
     fn new(coverer: &'a Coverer<'a>, network: &'a Network) -> Self {
-        let priced = |cut: Cut| {
-            let (cost, delay) = coverer.price(cut.function())?;
-            Some((cut, cost, delay))
-        };
-        let cuts: Vec<Vec<(Cut, u32, u32)>> =
+        let priced = |cut: Cut| Some((cut, coverer.price(cut.function())?));
+        let cuts: Vec<Vec<_>> =
             cuts(network).into_iter().map(|all| all.into_iter().filter_map(priced).collect()).collect();
         let signals = network.signals();
         let chosen = vec![0; cuts.len()];
@@ -96,8 +101,8 @@ impl<'a> Choice<'a> {
         (signal as usize).checked_sub(2 + self.network.inputs)
     }
 
-    fn arrival(&self, (cut, _, delay): &(Cut, u32, u32)) -> u32 {
-        cut.leaves().iter().map(|&leaf| self.arrivals[leaf as usize]).max().unwrap_or(0) + delay
+    fn arrival(&self, (cut, price): &(Cut, Price)) -> u32 {
+        cut.leaves().iter().map(|&leaf| self.arrivals[leaf as usize]).max().unwrap_or(0) + price.delay
     }
 
     /// A first choice by the flow of cost: what a signal costs is shared by all gates that read it.
@@ -108,9 +113,9 @@ impl<'a> Choice<'a> {
         pins.chain(self.network.outputs.iter().copied()).for_each(|signal| fanout[signal as usize] += 1);
         let mut flows = vec![0.0f64; self.network.signals()];
         for at in 0..self.cuts.len() {
-            let flow = |(cut, cost, _): &(Cut, u32, u32)| {
+            let flow = |(cut, price): &(Cut, Price)| {
                 let share = |&leaf: &Signal| flows[leaf as usize] / f64::from(fanout[leaf as usize].max(1));
-                f64::from(*cost) + cut.leaves().iter().map(share).sum::<f64>()
+                f64::from(price.cost) + cut.leaves().iter().map(share).sum::<f64>()
             };
             let ranks: Vec<(f64, u32)> = self.cuts[at].iter().map(|one| (flow(one), self.arrival(one))).collect();
             let better = |one: &usize, two: &usize| {
@@ -138,8 +143,8 @@ impl<'a> Choice<'a> {
             let readers = &mut self.readers[signal as usize];
             let changes = if more { *readers == 0 } else { *readers == 1 };
             *readers = if more { *readers + 1 } else { *readers - 1 };
-            if let (true, Some((cut, own, _))) = (changes, self.cuts[gate].get(self.chosen[gate])) {
-                cost += own;
+            if let (true, Some((cut, price))) = (changes, self.cuts[gate].get(self.chosen[gate])) {
+                cost += price.cost;
                 pending.extend_from_slice(cut.leaves());
             }
         }
@@ -148,10 +153,10 @@ impl<'a> Choice<'a> {
 
     /// The cost of the cells that a cut of an unused gate would take.
     fn exact(&mut self, gate: usize, at: usize) -> u32 {
-        let (cut, own, _) = self.cuts[gate][at];
+        let (cut, price) = self.cuts[gate][at];
         let taken = self.take_leaves(cut);
         self.leave_leaves(cut);
-        own + taken
+        price.cost + taken
     }
 
     fn take_leaves(&mut self, cut: Cut) -> u32 {
@@ -206,9 +211,9 @@ impl<'a> Choice<'a> {
         outputs().for_each(|output| required[output] = slowest);
         for gate in (0..self.cuts.len()).rev() {
             let signal = 2 + self.network.inputs + gate;
-            let Some((cut, _, delay)) = self.cuts[gate].get(self.chosen[gate]) else { continue };
+            let Some((cut, price)) = self.cuts[gate].get(self.chosen[gate]) else { continue };
             if self.readers[signal] > 0 {
-                let latest = required[signal].saturating_sub(*delay);
+                let latest = required[signal].saturating_sub(price.delay);
                 cut.leaves().iter().for_each(|&leaf| required[leaf as usize] = required[leaf as usize].min(latest));
             }
         }
@@ -225,7 +230,7 @@ impl<'a> Choice<'a> {
             let signal = 2 + network.inputs + at;
             let own = match self.cuts[at].get(self.chosen[at]) {
                 _ if self.readers[signal] == 0 => 0,
-                Some((cut, ..)) => {
+                Some((cut, _)) => {
                     let pins: Vec<Signal> = cut.leaves().iter().map(|&leaf| made[leaf as usize]).collect();
                     self.cell(&mut built, &mut steps, cut.function(), &pins)
                 }
