@@ -24,15 +24,15 @@ Examples:
 
 /// Map another tool's circuit to few robots, and prove the result
 ///
-/// Reads BLIF, AIGER, .bench and, if Yosys is installed, Verilog. Writes BLIF, AIGER, Verilog, DOT and .nb. The file's
-/// extension selects the format.
+/// Reads BLIF, PLA, AIGER, .bench and, if Yosys is installed, Verilog. Writes BLIF, PLA, AIGER, Verilog, DOT and .nb.
+/// The file's extension selects the format.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SynthArguments {
-    /// The circuit: .blif, .aig, .aag, .bench, or one or more files of Verilog, .v or .sv
+    /// The circuit: .blif, .pla, .aig, .aag, .bench, or one or more files of Verilog, .v or .sv
     #[arg(required = true)]
     input: Vec<PathBuf>,
-    /// The file to write: .blif, .aig, .aag, .v, .dot or .nb
+    /// The file to write: .blif, .pla, .aig, .aag, .v, .dot or .nb
     #[arg(short, long, value_name = "OUT", value_parser = new_path())]
     output: Option<PathBuf>,
     #[command(flatten)]

@@ -2,7 +2,7 @@
 
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Sources;
-use nbc_circuit::formats::{bench, blif};
+use nbc_circuit::formats::{bench, blif, pla};
 
 /// The first error as `line:column text: message; label`.
 fn first(text: &str, read: impl FnOnce(&str, nbc_base::source::FileId) -> Result<(), Vec<Diagnostic>>) -> String {
@@ -69,6 +69,32 @@ fn errors_in_blif_have_their_place() {
     check(&long, "2:9 `nnnnnnnnnnnnnnnnnnnn`: name of 1001 bytes is too long; expected at most 1000");
     let bare = first(".inputs a\n", |text, file| blif::read(text, file, None).map(drop));
     assert_eq!(bare, "1:1 `.inputs`: `.inputs` before `.model`; expected `.model` first");
+}
+
+#[test]
+fn errors_in_pla_have_their_place() {
+    let check = |text: &str, expected: &str| {
+        assert_eq!(first(text, |text, file| pla::read(text, file).map(drop)), expected, "{text}");
+    };
+    let widths = "the numbers of inputs and outputs are missing in this PLA file; expected lines such as `.i 4` and \
+                  `.o 1` before this";
+    check("", &format!("1:1 ``: {widths}"));
+    check(".i 1\n0 1\n", &format!("2:1 `0 1`: {widths}"));
+    check(".i none\n", "1:1 `.i`: `.i` has no number of ports; expected a number of at least 1");
+    check(".i 0\n", "1:1 `.i`: `.i` has no number of ports; expected a number of at least 1");
+    let directives = "unknown PLA directive `.phase`; expected .i, .o, .ilb, .ob, .p, .type, .e or a row";
+    check(".phase 1\n", &format!("1:1 `.phase`: {directives}"));
+    check(".type dr\n", "1:7 `dr`: unknown type `dr` of a PLA; expected f, fd, fr or fdr");
+    let two = |line: &str, expected: &str| check(&format!(".i 2\n.o 1\n{line}"), expected);
+    two(".ilb a\n", "3:6 `a`: 1 name for 2 ports; expected a name for each port");
+    let width = "row has the wrong width; expected 2 digits of inputs and 1 of outputs, found 2 digits";
+    two("0 1\n", &format!("3:1 `0 1`: {width}"));
+    two("0x 1\n", "3:1 `0x 1`: `x` is not a digit of an input; expected `0`, `1` or `-`");
+    two("00 x\n", "3:1 `00 x`: `x` is not a digit of an output; expected `0`, `1`, `-` or `~`");
+    two(".ilb a a\n", "3:8 `a`: `a` is driven twice; an input or a register cannot have another driver");
+    two(".ilb a b\n.ob a\n", "3:6 `a`: `a` is driven twice; an input or a register cannot have another driver");
+    let long = format!(".ilb {}\n", "n".repeat(1_001));
+    two(&long, "3:6 `nnnnnnnnnnnnnnnnnnnn`: name of 1001 bytes is too long; expected at most 1000");
 }
 
 #[test]

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::FileId;
-use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses, dot};
+use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses, dot, pla};
 use nbc_circuit::passes::{self, DissolveWires};
 use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, elaborate, prove};
 use nbc_session::store::{self, CircuitFile, DiskWorld, TopModule};
@@ -40,6 +40,21 @@ fn by_memory() -> (Vec<Netlist>, Vec<Netlist>) {
     with.iter_mut().for_each(|netlist| passes::run(netlist).unwrap());
     assert!(without.len() > 5 && with.len() > 5, "the gallery has circuits with and without memory");
     (without, with)
+}
+
+#[test]
+fn a_pla_that_was_written_is_the_same_circuit() {
+    let small = |netlist: &Netlist| netlist.inputs().len() <= 12;
+    let found: Vec<Netlist> = by_memory().0.into_iter().filter(small).collect();
+    assert!(found.len() > 3, "the gallery has small circuits");
+    for netlist in found {
+        let text = String::from_utf8(CircuitFormat::Pla.encode(&alone(netlist.clone())).unwrap()).unwrap();
+        let read = pla::read(&text, FileId(0)).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
+        proved(&netlist, &read.logic, &text);
+    }
+    let (_, with) = by_memory();
+    let message = CircuitFormat::Pla.encode(&alone(with[0].clone())).unwrap_err().message;
+    assert_eq!(message, "PLA is logic without state, but the circuit has registers or loops");
 }
 
 fn alone(logic: Netlist) -> Design {

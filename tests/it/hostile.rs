@@ -292,6 +292,16 @@ fn hostile_circuit_files_are_rejected_within_a_second_and_a_gigabyte() {
     rejected("long.aag", b"aag 4000000 0 0 4000000 0\n");
     rejected("zero.blif", &[0; 1_000_000]);
     rejected("zero.bench", &[b'('; 1_000_000]);
+    rejected("zero.pla", &[0; 1_000_000]);
+    rejected("none.pla", b".i 99999999999999999999\n.o 1\n");
+    let large = |text: String| {
+        bench.file("large.pla", text);
+        refused_by(&bench, &["synth", "large.pla", "--cells", "nand"], Code::TooLarge);
+    };
+    large(".i 99999999\n.o 1\n".to_owned());
+    // Each output would copy every row: two megabytes of text, a billion pins.
+    let row = format!("{} {}\n", "-".repeat(1_000), "1".repeat(1_000));
+    large(format!(".i 1000\n.o 1000\n{}", row.repeat(1_000)));
 }
 
 #[test]

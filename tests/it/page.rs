@@ -60,6 +60,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         inputs: trace.inputs.clone(),
         outputs: trace.outputs.clone(),
         stimulation: Stimulation::Rows(Vec::new()),
+        rows_from: None,
         worlds: Vec::new(),
     };
     let row = |(at, q): (usize, bool)| TestRow {
@@ -86,6 +87,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         is_world_named: false,
         level: Level::Physics,
         printed: None,
+        rows_from: None,
         passed: rows.iter().all(|row| row.passed),
         inputs: test.inputs,
         outputs: test.outputs,

@@ -261,7 +261,7 @@ fn damaged_files_are_rejected_with_a_reason() {
     refused("a.aag", "aag 1 1 0 1", "unexpected end of file");
     refused("a.aag", "aag 3 1 0 1 2\n2\n6\n4 6 2\n6 4 2\n", "depends on itself");
     refused("a.aig", "aig 9 1 0 1 8\n2\n", "unexpected end of file");
-    refused("a.xyz", "", "unrecognized circuit format of `a.xyz`; expected .blif, .aig, .aag, .bench, .v or .sv");
+    refused("a.xyz", "", "unrecognized circuit format of `a.xyz`; expected .blif, .pla, .aig, .aag, .bench, .v or .sv");
 }
 
 #[test]

@@ -52,6 +52,41 @@ fn all_inputs_are_compared_with_an_expression_or_a_circuit() {
 }
 
 #[test]
+fn rows_are_read_from_a_file_and_some_may_fail() {
+    let bench = Bench::new();
+    bench.file("rows.csv", "a,b,q\n0,1,1\n1,1,0\n1,0,1\n0,0,1\n");
+    let run = |share: &str| {
+        bench.file("a.nb", format!("{CIRCUITS}\ntest exclusive \"x\" from \"rows.csv\"{share}\n"));
+        bench.run(&["test", "a.nb", "--logic"])
+    };
+    let all = run("");
+    assert!(all.status == 1 && all.out.contains("rows.csv:5: row 4: a=0 b=0 | q=0, expected 1"), "{}", all.out);
+    let some = run(" at least 75%");
+    assert_eq!((some.status, some.err.as_str()), (0, ""));
+    assert!(
+        some.out.starts_with("pass  exclusive \"x\" (3 of 4 rows, at least 75 %, logic)\n1 passed"),
+        "{}",
+        some.out
+    );
+    let more = run(" at least 75.1 %");
+    assert!(
+        more.status == 1 && more.out.contains("FAIL  exclusive \"x\" (3 of 4 rows, at least 75.1 %"),
+        "{}",
+        more.out
+    );
+    let formatted = bench.run(&["fmt", "a.nb"]);
+    assert_eq!(formatted.status, 0, "{}", formatted.err);
+    let text = std::fs::read_to_string(bench.path().join("a.nb")).unwrap();
+    assert!(text.contains("test exclusive \"x\" from \"rows.csv\" at least 75.1%\n"), "{text}");
+    let json = bench.run(&["test", "a.nb", "--logic", "--format", "json"]);
+    let found: serde_json::Value = serde_json::from_str(&json.out).unwrap();
+    assert_eq!(found["tests"][0]["rows_from"], serde_json::json!({ "file": "rows.csv", "at_least": 75.1 }));
+    // In physics, too: the robots of an exclusive or, held for each row.
+    let physics = bench.run(&["test", "a.nb", "--physics"]);
+    assert!(physics.out.contains("(3 of 4 rows, at least 75.1 %, physics)"), "{}{}", physics.out, physics.err);
+}
+
+#[test]
 fn small_swarms_are_tested_in_physics_and_large_ones_in_logic() {
     let bench = Bench::new();
     bench.file("small.nb", "circuit inverter(a) -> (q) { q = not a }\n\ntest inverter {\n a | q\n 1 | 0\n}\n");

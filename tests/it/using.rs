@@ -5,7 +5,7 @@ use std::process::Output;
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, MemoryWorld, Sources};
 use nbc_circuit::elaborate;
-use nbc_circuit::formats::{CircuitFormat, aiger, blif};
+use nbc_circuit::formats::{CircuitFormat, Design, aiger, blif};
 use nbc_lang::check;
 
 use crate::support::bench::Bench;
@@ -22,6 +22,18 @@ fn checked(files: &[(&str, &str)], program: &str) -> (Program, Vec<String>) {
     let file = check::open(&world, "p.nb", &mut sources).unwrap();
     let checked = check::check(&world, &mut sources, file);
     (checked.program, checked.diagnostics.into_iter().map(|fault| fault.message).collect())
+}
+
+#[test]
+fn a_pla_is_a_circuit_and_open_outputs_are_0() {
+    let pla = ".i 3\n.o 2\n11- 10\n--1 1-\n.e\n";
+    let program = "use \"vote.pla\"\ntest vote {\n    x   | y\n    110 | 10\n    001 | 10\n    000 | 00\n}\n";
+    let (program, messages) = checked(&[("vote.pla", pla)], program);
+    assert_eq!(messages, ["outputs that this PLA leaves open are 0 in the circuit"]);
+    let netlist = elaborate(&program, &Instance::from("vote")).unwrap();
+    let design = Design::new(netlist, Vec::new());
+    let written = String::from_utf8(CircuitFormat::Pla.encode(&design).unwrap()).unwrap();
+    assert_eq!(written, ".i 3\n.o 2\n.ilb x[2] x[1] x[0]\n.ob y[1] y[0]\n.p 2\n11- 10\n--1 10\n.e\n");
 }
 
 /// Two bits that are added, an output that is an input, and a counter of two bits.

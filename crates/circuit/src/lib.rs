@@ -29,11 +29,13 @@ pub mod reachable;
 mod recipes;
 pub mod registers;
 mod rings;
+pub mod rows;
 mod settled;
 mod signal_blocks;
 mod storage;
 pub mod synth;
 pub mod timing;
+pub mod two_level;
 pub mod waves;
 mod wording;
 

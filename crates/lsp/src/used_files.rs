@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::buffers::Buffers;
 use nbc_base::source::SourceWorld;
+use nbc_circuit::rows::RowFormat;
 use nbc_lang::check::{beside, is_usable};
 
 /// Sources and the files that they use, by identities.
@@ -26,7 +27,8 @@ impl UsedFiles {
             }
             let text = open.or_else(|| world.read(&path).ok()).unwrap_or_default();
             // Any text in quotes may be a path, and any quote may be the first one: a file too many does no harm.
-            for used in text.split('"').filter(|used| is_usable(used)).map(|used| beside(&path, used)) {
+            let is_path = |used: &&str| is_usable(used) || RowFormat::of_path(used).is_some();
+            for used in text.split('"').filter(is_path).map(|used| beside(&path, used)) {
                 found.users.entry(world.identity(&used)).or_default().insert(identity.clone());
                 waiting.push(used);
             }

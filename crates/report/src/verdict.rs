@@ -62,9 +62,16 @@ pub(super) fn in_world(world: &str) -> String {
 
 /// The line of a test, with the failures below it: `pass  inverter "inverts" in worn (2 rows, physics)`.
 pub fn describe_verdict(verdict: &TestVerdict) -> String {
-    let (name, rows, level) = (name_test(verdict), counted(verdict.row_count(), "row"), verdict.level.word());
+    let (name, rows, level) = (name_test(verdict), counted_rows(verdict), verdict.level.word());
     let (printed, failures) = (describe_printed(verdict), describe_failures(verdict));
     format!("{}  {name} ({rows}, {level})\n{printed}{failures}", pass_word(verdict.passed))
+}
+
+/// `360 rows`, or of a test that permits failures `342 of 360 rows, at least 93 %`.
+fn counted_rows(verdict: &TestVerdict) -> String {
+    let rows = counted(verdict.row_count(), "row");
+    let passed = || verdict.rows.iter().filter(|row| row.passed).count();
+    verdict.at_least().map_or_else(|| rows.clone(), |percent| format!("{} of {rows}, at least {percent} %", passed()))
 }
 
 /// What the environment of a test wrote, line by line.
@@ -77,7 +84,9 @@ fn describe_printed(verdict: &TestVerdict) -> String {
 /// The failures of a test; empty if it passed. First the unreliable robots, then each failing row with its place, the
 /// names of its columns, and the wrong robots.
 fn describe_failures(verdict: &TestVerdict) -> String {
-    describe_weak_robots(verdict) + &describe_rows(verdict)
+    // A test that permits failures passes with some.
+    let rows = if verdict.passed { String::new() } else { describe_rows(verdict) };
+    describe_weak_robots(verdict) + &rows
 }
 
 /// The outputs of a simulated swarm.
@@ -124,7 +133,8 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
         verdict.inputs.iter().zip(&row.inputs).map(|(port, value)| format!("{}={value}", port.name)).collect();
     let bar = if inputs.is_empty() { "" } else { " | " };
     let thread = row.thread.map_or(String::new(), |thread| format!(" in thread {}", thread + 1));
-    let place = format!("{}:{}: row {}{thread}", verdict.file, row.line, row.row);
+    let file = verdict.rows_from.as_ref().map_or(&verdict.file, |from| &from.file);
+    let place = format!("{file}:{}: row {}{thread}", row.line, row.row);
     if let Some(fault) = &row.fault {
         return format!("    {place}: {}{bar}{fault}\n", inputs.join(" "));
     }
@@ -232,7 +242,7 @@ fn nearest_fix(row: &RowVerdict) -> Option<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::model::Base;
+    use nbc_base::model::{Base, RowSource};
     use nbc_swarm::{Level, WeakRobot};
 
     fn port(name: &str, width: usize) -> Column {
@@ -264,6 +274,7 @@ mod tests {
             outputs: vec![port("q", 1), port("nq", 1)],
             weak_robots: Vec::new(),
             printed: None,
+            rows_from: None,
             rows: vec![RowVerdict {
                 row: 2,
                 thread: None,
@@ -298,6 +309,19 @@ mod tests {
     fn a_test_without_a_title_has_none() {
         let untitled = TestVerdict { title: String::new(), swarm: Some("cells".to_owned()), ..verdict(true) };
         assert!(describe_test(&untitled).starts_with("test latch as cells: pass\n"));
+    }
+
+    #[test]
+    fn a_test_that_permits_failures_counts_the_rows_that_passed() {
+        let from = |at_least| Some(RowSource { file: "rows.csv".to_owned(), at_least });
+        let mut verdict = TestVerdict { rows_from: from(Some(99.5)), ..verdict(false) };
+        verdict.rows[0].wrong_outputs.clear();
+        let text = describe_verdict(&verdict);
+        assert!(text.starts_with("FAIL  latch \"holds\" (0 of 1 row, at least 99.5 %, physics)\n"), "{text}");
+        assert!(text.contains("    rows.csv:7: row 2: d=1 en=0 | q=0, expected 1\n"), "{text}");
+        verdict.passed = true;
+        verdict.rows_from = from(Some(0.0));
+        assert_eq!(describe_verdict(&verdict), "pass  latch \"holds\" (0 of 1 row, at least 0 %, physics)\n");
     }
 
     #[test]

@@ -18,7 +18,7 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, NamedWorld, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Netlist, Settled, elaborate, elaborate_reference};
-use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
+use nbc_swarm::{Level, RowHold, RowVerdict, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
 
 /// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
@@ -302,7 +302,9 @@ impl TestCase {
             other => other.clone(),
         };
         let (test, rows, printed) = (self.test.clone(), self.rows.clone(), self.printed.clone());
-        Self { test, rows, subject, ends_at_failure: true, printed }
+        // A test that permits failures goes on after one.
+        let ends_at_failure = test.rows_from.as_ref().is_none_or(|from| from.at_least.is_none());
+        Self { test, rows, subject, ends_at_failure, printed }
     }
 
     /// The number of robots; 0 at the level of logic.
@@ -355,7 +357,7 @@ pub(super) fn verdict(
     test: &CircuitTest,
     level: Level,
     compiled: Option<&Compiled>,
-    rows: Vec<nbc_swarm::RowVerdict>,
+    rows: Vec<RowVerdict>,
 ) -> TestVerdict {
     TestVerdict {
         file: test.file.clone(),
@@ -366,12 +368,22 @@ pub(super) fn verdict(
         world: compiled.map(|compiled| compiled.plan.world.name.clone()),
         is_world_named: !test.worlds.is_empty(),
         level,
-        passed: rows.iter().all(|row| row.passed),
+        passed: enough(test, &rows),
+        rows_from: test.rows_from.clone(),
         inputs: test.inputs.clone(),
         outputs: test.outputs.clone(),
         weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
         rows,
         printed: None,
+    }
+}
+
+/// Whether all rows passed, or the share that the test asks for.
+fn enough(test: &CircuitTest, rows: &[RowVerdict]) -> bool {
+    let passed = rows.iter().filter(|row| row.passed).count();
+    match test.rows_from.as_ref().and_then(|from| from.at_least) {
+        Some(percent) => passed as f64 * 100.0 >= percent * rows.len() as f64,
+        None => passed == rows.len(),
     }
 }
 

@@ -9,7 +9,7 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFile, VerilogPlace};
 use nbc_circuit::CancelFlag;
-use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, verilog_module};
+use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module};
 use nbc_lang::syntax;
 
 /// A circuit file to be read.
@@ -88,6 +88,13 @@ fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
         }
         Some(CircuitSource::Bench) => parse(name.clone(), text(path)?, |text, file| bench::read(text, file, clock))?.0,
         Some(CircuitSource::Blif) => return blif(name, text(path)?, from),
+        Some(CircuitSource::Pla) => {
+            without_effect(&name, clock)?;
+            let (design, sources) = parse(name, text(path)?, pla::read)?;
+            let file = sources.iter().next().expect("the text was added");
+            let list = pla::opened(&file.text, file.id);
+            return Ok(CircuitRead::plain(design, Diagnostics { list, sources }));
+        }
         Some(CircuitSource::Verilog) => {
             without_effect(&name, clock)?;
             return verilog(from);
@@ -151,6 +158,30 @@ pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>,
         return Ok(bytes);
     }
     Ok(canonical(String::from_utf8(bytes).expect("a program is text"))?.into_bytes())
+}
+
+/// A file of ours that begins with comments, or ends with them where the format wants it so.
+pub fn with_comment(bytes: Vec<u8>, format: CircuitFormat, lines: &[String]) -> Vec<u8> {
+    let before = |sign: &str| lines.iter().map(|line| format!("{sign} {line}\n")).collect::<String>().into_bytes();
+    let comment = match format {
+        CircuitFormat::Nb => [before("//!"), b"\n".to_vec()].concat(),
+        CircuitFormat::Blif | CircuitFormat::Pla => before("#"),
+        CircuitFormat::Verilog | CircuitFormat::Dot => before("//"),
+        CircuitFormat::AigerBinary | CircuitFormat::AigerText => {
+            return [bytes, b"c\n".to_vec(), lines.join("\n").into_bytes(), b"\n".to_vec()].concat();
+        }
+    };
+    [comment, bytes].concat()
+}
+
+/// The text of a file of rows, with its place.
+///
+/// # Errors
+/// When the file cannot be read.
+pub fn read_rows(path: &Path) -> Result<(Sources, FileId), Diagnostics> {
+    let mut sources = Sources::default();
+    let file = sources.add(path.display().to_string(), text(path)?);
+    Ok((sources, file))
 }
 
 /// A program of ours as the formatter writes it, unless it is too large to be read again.

@@ -222,6 +222,7 @@ mod tests {
             inputs: vec![port("a")],
             outputs: vec![port("y")],
             stimulation: Stimulation::Rows(Vec::new()),
+            rows_from: None,
             worlds: Vec::new(),
         }
     }

@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use crate::{RobotFault, WeakRobot};
-use nbc_base::model::{Column, Value};
+use nbc_base::model::{Column, RowSource, Value};
 
 /// The level of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -45,8 +45,11 @@ pub struct TestVerdict {
     pub is_world_named: bool,
     /// Whether robots were simulated or only logic.
     pub level: Level,
-    /// Whether all rows passed.
+    /// Whether all rows passed, or as many as the test asks for.
     pub passed: bool,
+    /// The file of its rows, if the source does not have them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub rows_from: Option<RowSource>,
     /// The input ports.
     pub inputs: Vec<Column>,
     /// The output ports.
@@ -64,6 +67,11 @@ impl TestVerdict {
     /// The number of rows: a pulse is one, and so is a step of all threads of a wave machine.
     pub fn row_count(&self) -> usize {
         self.rows.iter().filter(|row| !row.is_half && row.thread.unwrap_or(0) == 0).count()
+    }
+
+    /// The share of rows in percent that suffices, if not all must pass.
+    pub fn at_least(&self) -> Option<f64> {
+        self.rows_from.as_ref().and_then(|from| from.at_least)
     }
 
     /// The fault that ended the swarm, if one did.

@@ -55,8 +55,9 @@ def synthesize(
     """Maps a circuit file onto robots, proves the result, and writes it, as ``nbc synth`` does.
 
     Args:
-        files: the circuit: ``.blif``, ``.aig``, ``.aag``, ``.bench``, or several files of Verilog, which need Yosys.
-        output: the file to write: ``.blif``, ``.aig``, ``.aag``, ``.v``, ``.dot`` or ``.nb``.
+        files: the circuit: ``.blif``, ``.pla``, ``.aig``, ``.aag``, ``.bench``, or several files of Verilog, which need
+            Yosys.
+        output: the file to write: ``.blif``, ``.pla``, ``.aig``, ``.aag``, ``.v``, ``.dot`` or ``.nb``.
         cells: functions of the cells, such as ``["nand", "not"]``; by default those of the robots.
         library: a folder of robot files, ``shipped`` or ``three``.
         objective: what mapping minimizes, as in `Program.compile`.

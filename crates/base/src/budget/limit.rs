@@ -73,7 +73,7 @@ limits! {
     RobotNesting = 64, "levels", "of brackets in a robot file";
     CircuitFileBytes = 256 << 20, "bytes", "of a circuit file for `nbc synth`; for `use`, as of a source file";
     FileNameBytes = 1000, "bytes", "of a name in a circuit file";
-    FilePins = 16_000_000, "nets and pins of gates", "of a BLIF or .bench file, those of models counted each time";
+    FilePins = 16_000_000, "nets and pins of gates", "of a BLIF, .bench or PLA file, those of models counted each time";
     ModelBytes = 512 << 20, "bytes", "of the models of a BLIF file, roughly, those inside others counted each time";
     AigerVariables = 4_000_000, "variables", "of an AIGER file";
     AigerPorts = 1_000_000, "inputs, and as many latches,", "of an AIGER file";

@@ -49,7 +49,7 @@ codes! {
     BadSchedule = "bad-schedule", Error: "A schedule on the command line that cannot be read.";
     BadValue = "bad-value", Error: "An option with an invalid value.";
     Checkpoint = "checkpoint", Error: "A checkpoint that is damaged, or belongs to another run.";
-    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, AIGER, .bench, Verilog) with an error.";
+    CircuitFile = "circuit-file", Error: "A circuit file (BLIF, PLA, AIGER, .bench, Verilog) with an error.";
     CircularUse = "circular-use", Error: "Files that use each other in a circle.";
     Duplicate = "duplicate", Error: "A name that is declared twice.";
     Empty = "empty", Error: "A file, test or schedule without content.";

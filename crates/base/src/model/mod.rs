@@ -52,7 +52,7 @@ pub use rules::{Matter, Rules};
 pub use schedule::{Schedule, Spell};
 pub use stimulus::Pattern;
 pub use table::{OutputValue, Table, TableOutput, TablePattern, TableRow};
-pub use test::{CircuitTest, Script, ScriptStep, Stimulation, TestRow, Until};
+pub use test::{CircuitTest, RowSource, Script, ScriptStep, Stimulation, TestRow, Until};
 pub use trial::{Fault, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;

@@ -1,5 +1,7 @@
 //! Tests of circuits: sequences of input rows with the outputs expected after each.
 
+use serde::Serialize;
+
 use super::{Base, Circuit, CircuitId, Column, Instance, NamedWorld, Value};
 use crate::source::Span;
 
@@ -22,8 +24,20 @@ pub struct CircuitTest {
     pub outputs: Vec<Column>,
     /// The method of the test.
     pub stimulation: Stimulation,
+    /// The file of its rows, if the source does not have them.
+    pub rows_from: Option<RowSource>,
     /// The worlds that the test names: its swarms run in each of them. If there are none, each runs in its own.
     pub worlds: Vec<NamedWorld>,
+}
+
+/// A file that the rows of a test are from.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RowSource {
+    /// The file.
+    pub file: String,
+    /// The share of the rows in percent that must pass, if not all must.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
 }
 
 /// The methods of a test.

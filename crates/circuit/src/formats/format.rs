@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use crate::Loops;
 use crate::formats::wording::EncodeError;
-use crate::formats::{Design, Forcing, RegisterKind, aiger, blif, dot, nb, verilog};
+use crate::formats::{Design, Forcing, RegisterKind, aiger, blif, dot, nb, pla, verilog};
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 
 /// A format that a design can be read from.
@@ -16,6 +17,8 @@ pub enum CircuitSource {
     Bench,
     /// Berkeley Logic Interchange Format.
     Blif,
+    /// The PLA files of espresso.
+    Pla,
     /// Verilog, which Yosys translates to BLIF.
     Verilog,
 }
@@ -28,6 +31,7 @@ impl CircuitSource {
             "aag" | "aig" => Self::Aiger,
             "bench" => Self::Bench,
             "blif" => Self::Blif,
+            "pla" => Self::Pla,
             "sv" | "v" => Self::Verilog,
             _ => return None,
         })
@@ -39,6 +43,8 @@ impl CircuitSource {
 pub enum CircuitFormat {
     /// Berkeley Logic Interchange Format.
     Blif,
+    /// The PLA files of espresso, for few inputs and no state.
+    Pla,
     /// AIGER in binary (.aig).
     AigerBinary,
     /// AIGER as text (.aag).
@@ -60,6 +66,7 @@ impl CircuitFormat {
         let (_, ending) = path.rsplit_once('.').unwrap_or_default();
         Ok(match ending.to_ascii_lowercase().as_str() {
             "blif" => Self::Blif,
+            "pla" => Self::Pla,
             "aig" => Self::AigerBinary,
             "aag" => Self::AigerText,
             "v" | "sv" => Self::Verilog,
@@ -77,6 +84,7 @@ impl CircuitFormat {
         self.check(design).map_err(Diagnostic::from)?;
         Ok(match self {
             Self::Blif => blif::write(design).into_bytes(),
+            Self::Pla => pla::write(design).into_bytes(),
             Self::AigerBinary => aiger::write(design, true),
             Self::AigerText => aiger::write(design, false),
             Self::Verilog => verilog::write(design).into_bytes(),
@@ -89,6 +97,7 @@ impl CircuitFormat {
         match self {
             Self::AigerBinary | Self::AigerText => fits_aiger(design),
             Self::Nb => fits_nb(design),
+            Self::Pla => fits_pla(design),
             Self::Blif | Self::Verilog | Self::Dot => Ok(()),
         }
     }
@@ -110,6 +119,15 @@ fn fits_aiger(design: &Design) -> Result<(), EncodeError> {
         return Err(EncodeError::AigerClocks { clocks: clocks.into_iter().collect() });
     }
     Ok(())
+}
+
+/// A PLA is two-level logic, written from a truth table.
+fn fits_pla(design: &Design) -> Result<(), EncodeError> {
+    let (inputs, most) = (design.inputs(), Limit::TriedBits.most());
+    if !design.registers.is_empty() || !Loops::of(&design.logic).cores().is_empty() {
+        return Err(EncodeError::PlaState);
+    }
+    Limit::TriedBits.permit(inputs as u64).map_err(|_| EncodeError::PlaInputs { inputs, most })
 }
 
 /// A circuit of the language has an output.

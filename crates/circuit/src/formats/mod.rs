@@ -1,4 +1,4 @@
-//! Exchange formats: BLIF, AIGER and ISCAS .bench in; BLIF, AIGER, Verilog, DOT and .nb out.
+//! Exchange formats: BLIF, PLA, AIGER and ISCAS .bench in; BLIF, PLA, AIGER, Verilog, DOT and .nb out.
 
 pub mod aiger;
 pub mod bench;
@@ -14,6 +14,8 @@ mod model_gate;
 mod names;
 pub mod nb;
 mod nb_names;
+pub mod pla;
+mod pla_text;
 mod starts;
 pub mod verilog;
 mod verilog_module;

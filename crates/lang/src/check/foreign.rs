@@ -4,7 +4,7 @@ use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogFile, VerilogModules};
 use nbc_circuit::correspondence;
-use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, verilog_module};
+use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, pla, verilog_module};
 
 /// A file of another tool that a program uses.
 pub(super) struct Foreign<'a> {
@@ -35,6 +35,12 @@ impl Foreign<'_> {
     pub(super) fn blif(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
         let text = self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)?;
         Ok((text, blif::ignored(&source.text, source.id)))
+    }
+
+    /// The circuit of a PLA file as source text of the language, and warnings.
+    pub(super) fn pla(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
+        let text = self.circuit(&self.titled(pla::read(&source.text, source.id)?))?;
+        Ok((text, pla::opened(&source.text, source.id)))
     }
 
     /// The circuits of Verilog files.
@@ -99,7 +105,9 @@ impl Foreign<'_> {
             return Ok(());
         }
         let rename = match self.format {
-            CircuitSource::Aiger | CircuitSource::Bench => "rename the file: the circuit has its name",
+            CircuitSource::Aiger | CircuitSource::Bench | CircuitSource::Pla => {
+                "rename the file: the circuit has its name"
+            }
             CircuitSource::Blif => "write another name after `.model`",
             CircuitSource::Verilog => "rename the module",
         };

@@ -1,16 +1,17 @@
 //! The files of a program: the checked file, the files it uses, and the prelude.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::foreign::{Foreign, ForeignDesign};
 use crate::check::names::Home;
 use crate::check::wording::LoadError;
 use crate::syntax::parse;
-use crate::syntax::tree::{DeclarationKind, Text, Tree};
+use crate::syntax::tree::{DeclarationKind, TestKind, Text, Tree};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Suggestion, similar_file};
 use nbc_base::source::{FileError, FileId, ForeignCircuit, ProofOrigin, SourceWorld, Sources, Span};
 use nbc_circuit::formats::CircuitSource;
+use nbc_circuit::rows::RowFormat;
 
 /// The declarations available to every program: the paper's setting and the standard circuits.
 pub const PRELUDE: [(&str, &str); 2] = [
@@ -45,6 +46,8 @@ pub(crate) struct Loaded {
     pub(crate) incomplete: BTreeSet<FileId>,
     /// The circuits of other tools' files.
     pub(crate) foreign: Vec<ForeignCircuit>,
+    /// The files of rows of the checked file's tests, by the places of their paths.
+    pub(crate) rows: BTreeMap<Span, FileId>,
 }
 
 /// Reads a file named on the command line into `sources`.
@@ -99,9 +102,30 @@ impl Loader<'_> {
             if let DeclarationKind::Use(paths) = &declaration.kind {
                 self.list(sources, id, paths);
             }
+            if home == Home::Own
+                && let DeclarationKind::Test(test) = &declaration.kind
+                && let TestKind::FromFile { path, .. } = &test.kind
+            {
+                self.rows(sources, id, path);
+            }
         }
         self.done.extend(self.open.pop().map(|(identity, _)| identity));
         self.loaded.trees.push((home, parsed.tree));
+    }
+
+    /// Reads the rows of a test, once for all tests that name the file.
+    fn rows(&mut self, sources: &mut Sources, from: FileId, path: &Text) {
+        let name = beside(&sources.file(from).name, &path.text);
+        let known = self.loaded.rows.values().copied().find(|&file| sources.file(file).name == name);
+        let read = match known {
+            Some(file) => Ok(file),
+            None if RowFormat::of_path(&name).is_none() => Err(vec![LoadError::NotRows { file: name }.at(path.span)]),
+            None => self.text(sources, &name, path),
+        };
+        match read {
+            Ok(file) => _ = self.loaded.rows.insert(path.span, file),
+            Err(faults) => self.loaded.faults.extend(faults),
+        }
     }
 
     /// Reads the files of a list. Those of Verilog, and folders of them, are one design.
@@ -225,6 +249,12 @@ impl Loader<'_> {
             CircuitSource::Blif => {
                 let file = self.text(sources, name, path)?;
                 let (text, warnings) = foreign.blif(sources.file(file))?;
+                self.loaded.faults.extend(warnings);
+                Ok(text)
+            }
+            CircuitSource::Pla => {
+                let file = self.text(sources, name, path)?;
+                let (text, warnings) = foreign.pla(sources.file(file))?;
                 self.loaded.faults.extend(warnings);
                 Ok(text)
             }

@@ -48,7 +48,7 @@ use nbc_base::source::{FileId, SourceWorld, Sources};
 /// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
     let loaded = load::load(world, sources, file);
-    let mut analysis = program::program(world, &loaded.trees, sources);
+    let mut analysis = program::program(world, &loaded, sources);
     let diagnostics = &mut analysis.diagnostics;
     consequences::forget(diagnostics, sources, &loaded);
     diagnostics.extend(library::folders(world, sources, &loaded.trees));

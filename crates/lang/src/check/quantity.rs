@@ -109,6 +109,14 @@ pub(crate) fn ratio(quantity: &Quantity) -> Result<f64, Diagnostic> {
     }
 }
 
+/// A share in percent.
+pub(crate) fn percent(quantity: &Quantity) -> Result<f64, Diagnostic> {
+    match &quantity.unit {
+        Some(unit) if unit.text == "%" => within(number(&quantity.number)?, 0.0..=100.0, quantity.number.span),
+        _ => Err(wrong_kind(Expected::Percent, quantity.number.span)),
+    }
+}
+
 /// A number as written.
 pub(crate) fn number(number: &Number) -> Result<f64, Diagnostic> {
     let value: f64 = number.text.parse().expect("the grammar lets numbers through only");

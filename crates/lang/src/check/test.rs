@@ -8,7 +8,8 @@ use crate::syntax::tree::{self, NameSyntax, TestItem, TestTable, UntilSyntax};
 use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Base, Column, ScriptStep, TestRow, Until};
-use nbc_base::source::{Sources, Span};
+use nbc_base::source::{SourceFile, Sources, Span};
+use nbc_circuit::rows::{PortRow, RowFormat};
 
 /// The ports of the circuit under test.
 pub(crate) struct Ports<'a> {
@@ -65,6 +66,47 @@ fn count(items: &[TestItem]) -> u64 {
     });
     rows.fold(0, u64::saturating_add)
 }
+
+/// The rows of a file as those of a test in so many worlds.
+pub(crate) fn file_rows(
+    source: &SourceFile,
+    circuit: &str,
+    inputs: &[Column],
+    outputs: &[Column],
+    (budget, worlds): (&mut WorkBudget, usize),
+    path: Span,
+) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
+    let format = RowFormat::of_path(&source.name).expect("other files are not read");
+    let rows = format.read(source)?.bind(circuit, inputs, outputs)?;
+    let bits = inputs.iter().chain(outputs).map(|column| column.width as u64 + 1).sum();
+    take_rows(budget, (rows.len() as u64).saturating_mul(worlds as u64), bits).map_err(|over| vec![over.at(path)])?;
+    let base = |port: &Column| match (format, port.width) {
+        (RowFormat::Pla, _) | (_, 1) => Base::Bits,
+        (RowFormat::Csv, width) => {
+            if width > FEW_BITS {
+                Base::Hexadecimal
+            } else {
+                Base::Plain
+            }
+        }
+    };
+    let bases: Vec<Base> = inputs.iter().chain(outputs).map(base).collect();
+    let row = |(at, PortRow { inputs, outputs, span }): (usize, PortRow)| TestRow {
+        inputs,
+        expected: outputs,
+        bases: bases.clone(),
+        hold: None,
+        span,
+        line: source.line_column(span.start as usize).line,
+        row: at + 1,
+        is_half: false,
+        given_up: None,
+    };
+    Ok(rows.into_iter().enumerate().map(row).collect())
+}
+
+/// The most bits of a value that is shown as a decimal number.
+const FEW_BITS: usize = 16;
 
 impl Ports<'_> {
     /// The port of each named column.

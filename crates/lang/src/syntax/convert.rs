@@ -214,6 +214,8 @@ fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
                 | Rule::at_word
                 | Rule::most_word
                 | Rule::rows_word
+                | Rule::from_word
+                | Rule::least_word
                 | Rule::match_word
                 | Rule::or_word
         )

@@ -61,12 +61,20 @@ impl Converter<'_> {
         let environment =
             environment.and_then(|named| super::convert::parts(named).next()).map(|name| self.name(&name));
         let worlds = parts.next_if(|part| part.as_rule() == Rule::in_worlds).map_or(Vec::new(), |all| self.names(all));
-        let what = parts.next().expect("a table or `for all inputs`");
+        let what = parts.next().expect("a table, a file or `for all inputs`");
         let kind = match what.as_rule() {
             Rule::test_table => TestKind::Table(self.test_table(what)),
+            Rule::from_file => self.from_file(what),
             _ => self.for_all(what),
         };
         Test { circuit, title, environment, worlds, kind }
+    }
+
+    fn from_file(&self, pair: Pair<Rule>) -> TestKind {
+        let mut parts = parts(pair);
+        let path = self.quoted(parts.next().expect("a path"));
+        let share = parts.next().and_then(|at_least| super::convert::parts(at_least).next());
+        TestKind::FromFile { path, at_least: share.map(|share| self.quantity(share)) }
     }
 
     fn for_all(&mut self, pair: Pair<Rule>) -> TestKind {

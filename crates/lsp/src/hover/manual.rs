@@ -5,7 +5,7 @@ use nbc_lang::syntax::tree::RecordKeyword;
 const MANUAL: &str = include_str!("../../language.md");
 
 /// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 44] = [
+const KEYWORDS: [(&str, &str); 45] = [
     ("against", "Tests"),
     ("all", "Tests"),
     ("and", "Expressions"),
@@ -19,6 +19,7 @@ const KEYWORDS: [(&str, &str); 44] = [
     ("evolution", "Evolutions"),
     ("file", "Environments"),
     ("for", "Parameters and `for`"),
+    ("from", "Tests"),
     ("if", "Expressions"),
     ("in", "Parameters and `for`"),
     ("init", "Memory"),

@@ -26,8 +26,9 @@ impl From<StoreError> for Diagnostic {
     fn from(error: StoreError) -> Self {
         match error {
             StoreError::CircuitFormat { file } => {
-                let message =
-                    format!("unrecognized circuit format of `{file}`; expected .blif, .aig, .aag, .bench, .v or .sv");
+                let message = format!(
+                    "unrecognized circuit format of `{file}`; expected .blif, .pla, .aig, .aag, .bench, .v or .sv"
+                );
                 Self::without_place(Code::BadValue, message)
             }
             StoreError::NoModules { file } => {

@@ -18,7 +18,7 @@ import type { Program } from "./program";
 type Progress = vscode.Progress<{ message?: string; increment?: number }>;
 
 /** The files that a program can `use`. */
-const WATCHED = "**/*.{nb,blif,aig,aag,bench,v,sv}";
+const WATCHED = "**/*.{nb,blif,csv,pla,aig,aag,bench,v,sv}";
 
 /** The reason that the server gives for a run that the user stopped. */
 const CANCELLED = "cancelled";

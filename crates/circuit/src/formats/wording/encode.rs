@@ -16,6 +16,10 @@ pub enum EncodeError {
     AigerClocks { clocks: Vec<String> },
     /// A circuit without outputs, in the project's own language.
     NbNoOutputs { circuit: String },
+    /// A circuit with registers or loops, as PLA.
+    PlaState,
+    /// A circuit with too many inputs for a truth table, as PLA.
+    PlaInputs { inputs: usize, most: u64 },
     /// A file name without the extension of a format.
     UnknownFormat { path: String },
 }
@@ -47,8 +51,16 @@ impl From<EncodeError> for Diagnostic {
                 format!("`{circuit}` has no outputs, but a circuit of a .nb file needs one"),
                 "give the model an output",
             ),
+            EncodeError::PlaState => {
+                let message = "PLA is logic without state, but the circuit has registers or loops";
+                (message.to_owned(), "write BLIF, which keeps registers")
+            }
+            EncodeError::PlaInputs { inputs, most } => {
+                let message = format!("PLA is written of at most {most} input bits, but the circuit has {inputs}");
+                (message, "write BLIF, which keeps the gates")
+            }
             EncodeError::UnknownFormat { path } => {
-                let expected = "expected .blif, .aig, .aag, .v, .dot or .nb";
+                let expected = "expected .blif, .pla, .aig, .aag, .v, .dot or .nb";
                 let message = format!("unrecognized circuit format of `{path}`; {expected}");
                 return Self::without_place(Code::BadValue, message);
             }

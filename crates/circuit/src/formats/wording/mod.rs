@@ -4,10 +4,12 @@ mod aiger;
 mod bench;
 mod blif;
 mod encode;
+mod pla;
 mod text;
 
 pub use aiger::{AigerError, AigerPlace};
 pub use bench::BenchError;
 pub use blif::{BlifError, ModelError};
 pub use encode::EncodeError;
+pub use pla::PlaError;
 pub use text::TextError;

@@ -1,6 +1,6 @@
-//! BLIF and .bench files, read as named nets in any order.
+//! BLIF, .bench and PLA files, read as named nets in any order.
 
-use crate::formats::wording::{BenchError, BlifError, ModelError};
+use crate::formats::wording::{BenchError, BlifError, ModelError, PlaError};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::source::Span;
 
@@ -13,6 +13,8 @@ pub enum TextError {
     Model(ModelError),
     /// A line of .bench that cannot be read.
     Bench(BenchError),
+    /// A line of a PLA that cannot be read.
+    Pla(PlaError),
     /// A name that is too long.
     LongName { bytes: usize, most: u64 },
     /// A circuit with too many gates.
@@ -49,6 +51,12 @@ impl From<BenchError> for TextError {
     }
 }
 
+impl From<PlaError> for TextError {
+    fn from(error: PlaError) -> Self {
+        Self::Pla(error)
+    }
+}
+
 impl TextError {
     /// The error at its place.
     pub fn at(self, span: Span) -> Diagnostic {
@@ -56,6 +64,7 @@ impl TextError {
             Self::Blif(error) => worded(error.words(), span),
             Self::Model(error) => error.at(span),
             Self::Bench(error) => worded(error.words(), span),
+            Self::Pla(error) => worded(error.words(), span),
             Self::TooLarge { most } => {
                 let message = format!("the circuit has more than {most} pins of gates");
                 Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")

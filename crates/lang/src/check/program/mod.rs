@@ -11,7 +11,7 @@ use crate::check::derived::{CheckState, order};
 use crate::check::enumeration;
 use crate::check::evolution::{self, evolution};
 use crate::check::library::library;
-use crate::check::load::beside;
+use crate::check::load::{Loaded, beside};
 use crate::check::material::material;
 use crate::check::names::{Home, Names};
 use crate::check::recursion;
@@ -21,16 +21,16 @@ use crate::check::uses::{NameUse, NameUses};
 use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::{CircuitError, EvolutionError};
 use crate::check::world::{ProgramFiles, Worlds, world};
-use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword, Tree};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword};
 use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation};
-use nbc_base::source::{CancelFlag, SourceWorld, Sources, Span};
+use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
 /// The program of the trees, and what is known of it.
-pub(crate) fn program(files: &dyn SourceWorld, trees: &[(Home, Tree)], sources: &Sources) -> Analysis {
-    let mut assembly = Assembly::new(trees, sources);
+pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Sources) -> Analysis {
+    let mut assembly = Assembly::new(loaded, sources);
     assembly.stimuli();
     assembly.materials();
     assembly.schedules();
@@ -60,6 +60,8 @@ struct Assembly<'a> {
     /// The worlds by the position of their names.
     worlds: Vec<CheckState<NamedWorld>>,
     circuits: CircuitTable,
+    /// The files of rows, by the places of their paths.
+    rows: &'a BTreeMap<Span, FileId>,
     /// The names inside circuits and tests.
     inner: Vec<NameUse>,
 }
@@ -87,9 +89,10 @@ impl CircuitTable {
 }
 
 impl<'a> Assembly<'a> {
-    fn new(trees: &'a [(Home, Tree)], sources: &'a Sources) -> Self {
+    fn new(loaded: &'a Loaded, sources: &'a Sources) -> Self {
         Self {
-            declarations: Declarations::new(trees, sources),
+            declarations: Declarations::new(&loaded.trees, sources),
+            rows: &loaded.rows,
             names: Names::new(),
             program: Program::default(),
             faults: Vec::new(),

@@ -9,6 +9,7 @@ use crate::check::circuit::circuit;
 use crate::check::instance::instance;
 use crate::check::names::Home;
 use crate::check::program::Assembly;
+use crate::check::quantity;
 use crate::check::simulate::{Schedules, spells};
 use crate::check::test;
 use crate::check::uses::{NameKind, NameUse};
@@ -17,7 +18,9 @@ use crate::check::wording::{CircuitError, EnvironmentError};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, TestItem, TestTable};
 use nbc_base::budget::{CYCLE_BITS, Limit};
 use nbc_base::diag::{Code, Diagnostic};
-use nbc_base::model::{CircuitId, CircuitTest, Column, Instance, Program, Script, Simulation, Stimulation};
+use nbc_base::model::{
+    CircuitId, CircuitTest, Column, Instance, Program, RowSource, Script, Simulation, Stimulation, TestRow,
+};
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
 
@@ -97,6 +100,16 @@ impl<'a> Assembly<'a> {
                     Stimulation::Rows(steps.into_iter().flat_map(|step| step.rows).collect())
                 }
             }
+            tree::TestKind::FromFile { path, .. } => {
+                if environment.is_some() {
+                    let error = EnvironmentError::RowsFromFile { circuit: tested.circuit.clone() };
+                    self.faults.push(error.at(path.span));
+                    return None;
+                }
+                let rows = self.rows_from_file(path, &tested.circuit, ports, source.worlds.len().max(1), inspector)?;
+                self.permit_cycles(rows.len() as u64, &inputs, path.span);
+                Stimulation::Rows(rows)
+            }
             tree::TestKind::Against(other) => self.against(&source.circuit, other, program, inspector, ports)?,
             tree::TestKind::Reference(body) => {
                 let reference = Box::new(self.reference(&tested, &source.circuit.name, body, ports, program)?);
@@ -111,9 +124,35 @@ impl<'a> Assembly<'a> {
                 self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
             }
         }
+        let rows_from = match &source.kind {
+            tree::TestKind::FromFile { path, at_least } => Some(self.row_source(path, at_least.as_ref())?),
+            _ => None,
+        };
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
-        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, worlds })
+        Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, rows_from, worlds })
+    }
+
+    /// The rows of a test's file.
+    fn rows_from_file(
+        &mut self,
+        path: &tree::Text,
+        circuit: &str,
+        (inputs, outputs): (&[Column], &[Column]),
+        worlds: usize,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<Vec<TestRow>> {
+        let source = self.declarations.sources.file(*self.rows.get(&path.span)?);
+        let read = test::file_rows(source, circuit, inputs, outputs, (inspector.budget(), worlds), path.span);
+        read.map_err(|faults| self.faults.extend(faults)).ok()
+    }
+
+    /// Where a test has its rows from, and how many must pass.
+    fn row_source(&mut self, path: &tree::Text, at_least: Option<&tree::Quantity>) -> Option<RowSource> {
+        let file = self.declarations.sources.file(*self.rows.get(&path.span)?).name.clone();
+        let percent = at_least.map(quantity::percent).transpose();
+        let at_least = percent.map_err(|fault| self.faults.push(fault)).ok()?;
+        Some(RowSource { file, at_least })
     }
 
     /// Notes the members of enumerations in the rows of a test, and the outputs that end their repetition.

@@ -13,6 +13,8 @@ pub(crate) enum LoadError {
     Unreadable { file: String, error: FileError, meant: Suggestion },
     /// A file name without the extension of a program or of a circuit file.
     NotUsable { file: String },
+    /// A file name without the extension of rows.
+    NotRows { file: String },
     /// A circuit with a name that is not legal in the language.
     CircuitName { circuit: String, rename: &'static str },
     /// A circuit of a file without outputs.
@@ -53,10 +55,14 @@ impl LoadError {
                 .with_suggestion(None, &meant),
             Self::NotUsable { file } => {
                 let message = format!("cannot use `{file}`: it is neither a program nor a circuit file");
-                let label =
-                    "expected a file name ending in .nb, .blif, .aig, .aag, .bench, .v or .sv, or a folder of Verilog";
+                let endings = ".nb, .blif, .pla, .aig, .aag, .bench, .v or .sv";
+                let label = format!("expected a file name ending in {endings}, or a folder of Verilog");
                 Diagnostic::new(Code::Unreadable, message, span, label)
                     .with_help("a link must lead to a file name with the same ending")
+            }
+            Self::NotRows { file } => {
+                let message = format!("cannot read rows from `{file}`");
+                Diagnostic::new(Code::Unreadable, message, span, "expected a file name ending in .csv or .pla")
             }
             Self::CircuitName { circuit, rename } => {
                 let message = format!("`{circuit}` cannot be the name of a circuit");

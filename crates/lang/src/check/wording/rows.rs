@@ -201,6 +201,8 @@ pub(crate) enum EnvironmentError {
     Width { port: String, widths: [usize; 2] },
     /// An input that is neither an output of the circuit nor an input with a column.
     NoPort { port: String, circuit: String },
+    /// A test whose rows are from a file.
+    RowsFromFile { circuit: String },
 }
 
 impl EnvironmentError {
@@ -221,6 +223,10 @@ impl EnvironmentError {
             Self::NoPort { port, circuit } => {
                 let message = format!("the environment needs `{port}`, which `{circuit}` does not give");
                 Diagnostic::new(Code::Unknown, message, span, "expected an output or another input of the circuit")
+            }
+            Self::RowsFromFile { circuit } => {
+                let message = format!("the rows of a test of `{circuit}` with an environment cannot be from a file");
+                Diagnostic::new(Code::NoEffect, message, span, "expected a table of rows")
             }
         }
     }

@@ -96,6 +96,8 @@ pub(crate) enum Expected {
     Number,
     /// A number without a unit, or in percent.
     Ratio,
+    /// A number in percent.
+    Percent,
     /// The weight of a mutation.
     Weight,
     /// The weights of mutations.
@@ -123,6 +125,7 @@ impl fmt::Display for Expected {
             Self::Quantity => "a number with its unit",
             Self::Number => "a number",
             Self::Ratio => "a number such as `0.9` or `90%`",
+            Self::Percent => "a number in percent such as `93%`",
             Self::Weight => "a weight",
             Self::Changes => "changes such as `{ friction: 10%, gravity: 5% }`",
             Self::Ground => "heights such as `[0, 1, 2]`, or a file in quotes",

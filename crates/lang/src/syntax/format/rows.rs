@@ -50,6 +50,10 @@ impl Printer<'_> {
         });
         match &test.kind {
             TestKind::Table(table) => self.test_table(table, span),
+            TestKind::FromFile { path, at_least } => {
+                let share = at_least.as_ref().map_or(String::new(), |share| format!(" at least {}", quantity(share)));
+                self.write(&format!("from \"{}\"{share}", path.text));
+            }
             TestKind::Against(other) => self.write(&format!("for all inputs against {}", instance(other))),
             TestKind::Reference(body) => {
                 self.write("for all inputs ");

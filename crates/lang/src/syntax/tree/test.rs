@@ -49,6 +49,13 @@ pub struct Test {
 pub enum TestKind {
     /// The rows of a table: inputs and expected outputs.
     Table(TestTable),
+    /// `from "rows.csv" at least 93%`
+    FromFile {
+        /// The file of rows, relative to the folder of the source.
+        path: Text,
+        /// The share of the rows that must pass, if not all must.
+        at_least: Option<Quantity>,
+    },
     /// `for all inputs against other`
     Against(InstanceSyntax),
     /// `for all inputs { … }`

@@ -1,0 +1,314 @@
+//! The reader of PLA files, as espresso writes them: cubes of input digits with the outputs that they set.
+
+use crate::formats::design::Design;
+use crate::formats::draft::{Definition, Draft, MOST_ERRORS};
+use crate::formats::wording::{PlaError, TextError};
+use nbc_base::budget::Limit;
+use nbc_base::diag::{Diagnostic, Severity};
+use nbc_base::source::{FileId, Span};
+
+pub use crate::formats::pla_text::write;
+
+/// What the digits of an output mean, and what an output is where no cube sets it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PlaType {
+    /// `f`: cubes set outputs to 1, and they are 0 elsewhere.
+    Ones,
+    /// `fd`: cubes set outputs to 1 or leave them open, and they are 0 elsewhere.
+    #[default]
+    OnesOrOpen,
+    /// `fr`: cubes set outputs to 1 or 0, and they are open elsewhere.
+    OnesOrZeros,
+    /// `fdr`: cubes set outputs to 1 or 0 or leave them open.
+    All,
+}
+
+impl PlaType {
+    /// Whether outputs are open where no cube is.
+    pub fn is_listed(self) -> bool {
+        matches!(self, Self::OnesOrZeros | Self::All)
+    }
+
+    /// What a digit of an output says; `None` if it says nothing.
+    fn meaning(self, digit: u8) -> Option<Option<bool>> {
+        match digit {
+            b'1' | b'4' => Some(Some(true)),
+            b'0' if self.is_listed() => Some(Some(false)),
+            b'-' | b'2' if matches!(self, Self::OnesOrOpen | Self::All) => Some(None),
+            _ => None,
+        }
+    }
+}
+
+/// A line of a PLA: digits of the inputs, and those of the outputs.
+#[derive(Clone, Debug)]
+pub struct PlaCube {
+    /// `0`, `1` or `-` for each input.
+    pub inputs: Vec<u8>,
+    /// For each output, what the cube says of it: a value, open, or nothing.
+    pub outputs: Vec<Option<Option<bool>>>,
+    /// The place of the line.
+    pub span: Span,
+}
+
+/// A PLA as written.
+#[derive(Clone, Debug)]
+pub struct Pla {
+    /// The names of the inputs, from left to right.
+    pub inputs: Vec<(String, Span)>,
+    /// The names of the outputs, from left to right.
+    pub outputs: Vec<(String, Span)>,
+    /// What outputs mean.
+    pub kind: PlaType,
+    /// The place of the type, or of the file's first line.
+    pub kind_span: Span,
+    /// The cubes in order.
+    pub cubes: Vec<PlaCube>,
+}
+
+/// Reads a PLA as a circuit. An output is 1 where a cube sets it to 1, and 0 elsewhere, also where it is open.
+///
+/// # Errors
+/// The errors of the text, with their places.
+pub fn read(text: &str, file: FileId) -> Result<Design, Vec<Diagnostic>> {
+    let pla = parse(text, file)?;
+    let mut draft = Draft::default();
+    let mut port = |(name, span): &(String, Span)| (draft.name(name), *span);
+    let inputs: Vec<_> = pla.inputs.iter().map(&mut port).collect();
+    let outputs: Vec<_> = pla.outputs.iter().map(&mut port).collect();
+    let sets = |cube: &&PlaCube, output: usize| cube.outputs[output] == Some(Some(true));
+    let ones = |output: usize| pla.cubes.iter().filter(move |cube| sets(cube, output));
+    // All covers are counted before one is copied.
+    let pins: u64 = (0..outputs.len()).map(|output| (inputs.len() * ones(output).count().max(1)) as u64).sum();
+    if Limit::FilePins.permit(pins).is_err() {
+        return Err(vec![TextError::TooLarge { most: Limit::FilePins.most() }.at(pla.kind_span)]);
+    }
+    for (at, &(name, span)) in outputs.iter().enumerate() {
+        let cubes = ones(at).map(|cube| cube.inputs.clone()).collect();
+        let pins = inputs.iter().map(|&(name, _)| name).collect();
+        draft.define(name, Definition::Cover { pins, cubes, value: true }, span);
+    }
+    (draft.inputs, draft.outputs) = (inputs, outputs);
+    draft.finish()
+}
+
+/// A warning if outputs are open somewhere: the circuit has 0 there.
+pub fn opened(text: &str, file: FileId) -> Vec<Diagnostic> {
+    let Ok(pla) = parse(text, file) else { return Vec::new() };
+    let open = pla.cubes.iter().find(|cube| cube.outputs.contains(&Some(None))).map(|cube| cube.span);
+    let place = if pla.kind.is_listed() { Some(pla.kind_span) } else { open };
+    let warning = |span| Diagnostic { severity: Severity::Warning, ..TextError::from(PlaError::Open).at(span) };
+    place.map(warning).into_iter().collect()
+}
+
+/// Reads a PLA as it is written.
+///
+/// # Errors
+/// The errors of the text, with their places.
+pub fn parse(text: &str, file: FileId) -> Result<Pla, Vec<Diagnostic>> {
+    let mut reader = Reader::new(file);
+    let mut start = 0;
+    for line in text.split_inclusive('\n') {
+        let code = line.split('#').next().unwrap_or("");
+        let words: Vec<(&str, Span)> = code
+            .split_whitespace()
+            .map(|word| {
+                let at = start + (word.as_ptr() as usize - line.as_ptr() as usize);
+                (word, Span::new(file, at, at + word.len()))
+            })
+            .collect();
+        if !words.is_empty() && !reader.line(&words) {
+            break;
+        }
+        start += line.len();
+    }
+    reader.finish()
+}
+
+struct Reader {
+    file: FileId,
+    widths: [Option<usize>; 2],
+    labels: [Option<Vec<(String, Span)>>; 2],
+    kind: PlaType,
+    kind_span: Span,
+    cubes: Vec<PlaCube>,
+    /// Digits so far.
+    digits: u64,
+    errors: Vec<Diagnostic>,
+}
+
+impl Reader {
+    fn new(file: FileId) -> Self {
+        Self {
+            file,
+            widths: [None; 2],
+            labels: [None, None],
+            kind: PlaType::default(),
+            kind_span: Span::new(file, 0, 0),
+            cubes: Vec::new(),
+            digits: 0,
+            errors: Vec::new(),
+        }
+    }
+
+    fn fault(&mut self, error: impl Into<TextError>, span: Span) {
+        if self.errors.len() < MOST_ERRORS {
+            self.errors.push(error.into().at(span));
+        }
+    }
+
+    /// Reads a line; false after the last one.
+    fn line(&mut self, words: &[(&str, Span)]) -> bool {
+        let (first, span) = words[0];
+        match first {
+            ".i" | ".o" => self.width(usize::from(first == ".o"), words),
+            ".ilb" | ".ob" => self.names(usize::from(first == ".ob"), words),
+            ".type" => self.kind(words),
+            // The number of cubes is counted, and not believed.
+            ".p" => {}
+            ".e" | ".end" => return false,
+            _ if first.starts_with('.') => self.fault(PlaError::UnknownDirective { directive: first.to_owned() }, span),
+            _ => self.cube(words),
+        }
+        self.errors.len() < MOST_ERRORS
+    }
+
+    fn width(&mut self, side: usize, words: &[(&str, Span)]) {
+        let span = words[0].1;
+        let read = words.get(1).and_then(|(number, _)| number.parse::<u64>().ok()).filter(|number| *number > 0);
+        match read {
+            Some(width) if Limit::Width.permit(width).is_ok() => self.widths[side] = Some(width as usize),
+            Some(_) => self.fault(TextError::TooLarge { most: Limit::Width.most() }, span),
+            None => self.fault(PlaError::Count { directive: words[0].0.to_owned() }, span),
+        }
+    }
+
+    fn names(&mut self, side: usize, words: &[(&str, Span)]) {
+        if let Some(&(name, span)) =
+            words.iter().find(|(name, _)| Limit::FileNameBytes.permit(name.len() as u64).is_err())
+        {
+            let most = Limit::FileNameBytes.most();
+            return self.fault(TextError::LongName { bytes: name.len(), most }, Span { end: span.start + 20, ..span });
+        }
+        self.labels[side] = Some(words[1..].iter().map(|&(name, span)| (name.to_owned(), span)).collect());
+    }
+
+    fn kind(&mut self, words: &[(&str, Span)]) {
+        let &(word, span) = words.get(1).unwrap_or(&words[0]);
+        self.kind = match word {
+            "f" => PlaType::Ones,
+            "fd" => PlaType::OnesOrOpen,
+            "fr" => PlaType::OnesOrZeros,
+            "fdr" => PlaType::All,
+            _ => return self.fault(PlaError::UnknownType { found: word.to_owned() }, span),
+        };
+        self.kind_span = span;
+    }
+
+    fn cube(&mut self, words: &[(&str, Span)]) {
+        let span = words[0].1.to(words[words.len() - 1].1);
+        let [Some(inputs), Some(outputs)] = self.widths else { return self.fault(PlaError::NoWidths, span) };
+        let digits: Vec<u8> = words.iter().flat_map(|(word, _)| word.bytes()).filter(|&digit| digit != b'|').collect();
+        if digits.len() != inputs + outputs {
+            return self.fault(PlaError::CubeWidth { inputs, outputs, found: digits.len() }, span);
+        }
+        self.digits += digits.len() as u64;
+        if Limit::RowBits.permit(self.digits).is_err() {
+            self.errors.push(TextError::TooLarge { most: Limit::RowBits.most() }.at(span));
+            return;
+        }
+        let (left, right) = digits.split_at(inputs);
+        let digit = |digits: &[u8], known: &[u8]| digits.iter().copied().find(|digit| !known.contains(digit));
+        if let Some(found) = digit(left, b"01-2") {
+            return self.fault(PlaError::InputDigit { found: char::from(found) }, span);
+        }
+        if let Some(found) = digit(right, b"01-2~34") {
+            return self.fault(PlaError::OutputDigit { found: char::from(found) }, span);
+        }
+        let inputs = left.iter().map(|&digit| if digit == b'2' { b'-' } else { digit }).collect();
+        let outputs = right.iter().map(|&digit| self.kind.meaning(digit)).collect();
+        self.cubes.push(PlaCube { inputs, outputs, span });
+    }
+
+    fn finish(mut self) -> Result<Pla, Vec<Diagnostic>> {
+        let start = Span::new(self.file, 0, 0);
+        let [Some(inputs), Some(outputs)] = self.widths else {
+            if self.errors.is_empty() {
+                self.fault(PlaError::NoWidths, start);
+            }
+            return Err(self.errors);
+        };
+        let mut named = |side: usize, width: usize, letter: &str| {
+            let Some(names) = self.labels[side].take() else { return numbered(letter, width, start) };
+            if names.len() != width {
+                let span = names.last().map_or(start, |(_, span)| *span);
+                self.errors.push(TextError::from(PlaError::Names { expected: width, found: names.len() }).at(span));
+            }
+            names
+        };
+        let (inputs, outputs) = (named(0, inputs, "x"), named(1, outputs, "y"));
+        if !self.errors.is_empty() {
+            return Err(self.errors);
+        }
+        let (kind, kind_span, cubes) = (self.kind, self.kind_span, self.cubes);
+        Ok(Pla { inputs, outputs, kind, kind_span, cubes })
+    }
+}
+
+/// The names of ports that the file does not name: the bits of one port, the highest on the left.
+fn numbered(letter: &str, width: usize, span: Span) -> Vec<(String, Span)> {
+    match width {
+        1 => vec![(letter.to_owned(), span)],
+        _ => (0..width).rev().map(|bit| (format!("{letter}[{bit}]"), span)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Logic;
+
+    /// The outputs of a PLA for all inputs in counting order, as digits.
+    fn check(text: &str, expected: &[&str]) {
+        let design = read(text, FileId(0)).unwrap_or_else(|faults| panic!("{faults:?}"));
+        let inputs = design.inputs();
+        let mut logic = Logic::new(&design.logic);
+        let found: Vec<String> = (0..1usize << inputs)
+            .map(|row| {
+                let bits: Vec<bool> = (0..inputs).rev().map(|bit| row >> bit & 1 == 1).collect();
+                logic.settle(&bits).expect("no loops").iter().map(|&bit| if bit { '1' } else { '0' }).collect()
+            })
+            .collect();
+        assert_eq!(found, expected, "{text}");
+    }
+
+    #[test]
+    fn an_output_is_1_where_a_cube_says_so() {
+        check(".i 2\n.o 2\n1- 10\n-1 11 # both\n.e\nnothing is read here", &["00", "11", "10", "11"]);
+        check(".i 2\n.o 1\n.type fr\n.p 9\n11|1\n0- 0\n", &["0", "0", "0", "1"]);
+        check(".i 1\n.o 3\n.ilb a\n.ob p q r\n.type fdr\n1 1-0\n0 ~01\n", &["001", "100"]);
+    }
+
+    #[test]
+    fn ports_are_named_from_the_highest_bit() {
+        let names = |text: &str| {
+            let pla = parse(text, FileId(0)).unwrap();
+            let name = |(name, _): (String, Span)| name;
+            (
+                pla.inputs.into_iter().map(name).collect::<Vec<_>>(),
+                pla.outputs.into_iter().map(name).collect::<Vec<_>>(),
+            )
+        };
+        assert_eq!(names(".i 2\n.o 1\n"), (vec!["x[1]".to_owned(), "x[0]".to_owned()], vec!["y".to_owned()]));
+        assert_eq!(names(".i 1\n.o 1\n.ilb a\n.ob b\n"), (vec!["a".to_owned()], vec!["b".to_owned()]));
+    }
+
+    #[test]
+    fn open_outputs_are_warned_of() {
+        let count = |text: &str| opened(text, FileId(0)).len();
+        assert_eq!(count(".i 1\n.o 1\n1 1\n"), 0);
+        assert_eq!(count(".i 1\n.o 1\n1 -\n"), 1);
+        assert_eq!(count(".i 1\n.o 1\n.type f\n1 -\n"), 0, "it says nothing there");
+        assert_eq!(count(".i 1\n.o 1\n.type fr\n1 1\n"), 1);
+    }
+}

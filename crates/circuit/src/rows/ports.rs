@@ -1,0 +1,87 @@
+//! The ports that the columns of a file are.
+
+use super::file::RowFile;
+use super::wording::RowFileError;
+use nbc_base::diag::{Diagnostic, Suggestion};
+use nbc_base::model::{Column, bit_parts};
+
+/// The inputs and the outputs of the circuit that the rows of a file describe.
+pub type RowPorts = (Vec<Column>, Vec<Column>);
+
+impl RowFile {
+    /// The ports of the columns: the inputs, then the outputs. Columns `x[0]`, `x[1]`, … without a gap are one port.
+    /// `outputs` names the outputs; by default they are those that the format says, or the last port.
+    ///
+    /// # Errors
+    /// When there is no such port, or no input is left.
+    pub fn ports(&self, outputs: &[String]) -> Result<RowPorts, Diagnostic> {
+        let mut ports: Vec<(Column, Option<bool>)> = Vec::new();
+        for column in &self.columns {
+            let bus = bit_parts(&column.name).and_then(|(base, _)| Some((base, self.bus_width(base)?)));
+            let (name, width) = bus.unwrap_or((&column.name, column.width));
+            if ports.iter().all(|(port, _)| port.name != name) {
+                ports.push((Column::new(name, width), column.is_output));
+            }
+        }
+        let names: Vec<&str> = ports.iter().map(|(port, _)| port.name.as_str()).collect();
+        if let Some(output) = outputs.iter().find(|output| !names.contains(&output.as_str())) {
+            let meant = Suggestion::of(output, names.iter().copied());
+            return Err(RowFileError::NoOutput { output: output.clone(), meant }.without_place());
+        }
+        let last = ports.len() - 1;
+        let is_output = |at: usize, (port, said): &(Column, Option<bool>)| match said {
+            _ if !outputs.is_empty() => outputs.contains(&port.name),
+            Some(said) => *said,
+            None => at == last,
+        };
+        let (found, inputs): (Vec<_>, Vec<_>) =
+            ports.into_iter().enumerate().partition(|(at, port)| is_output(*at, port));
+        let columns =
+            |ports: Vec<(usize, (Column, Option<bool>))>| ports.into_iter().map(|(_, (port, _))| port).collect();
+        if inputs.is_empty() {
+            return Err(RowFileError::NoInputs.at(self.columns[0].span));
+        }
+        Ok((columns(inputs), columns(found)))
+    }
+
+    /// The width of the bus of that name, if the file has all its bits.
+    fn bus_width(&self, base: &str) -> Option<usize> {
+        let bits: Vec<usize> = self
+            .columns
+            .iter()
+            .filter_map(|column| bit_parts(&column.name))
+            .filter(|(name, _)| *name == base)
+            .map(|(_, bit)| bit)
+            .collect();
+        // A bit is not there twice, because columns have different names.
+        (bits.iter().max() == Some(&(bits.len() - 1))).then_some(bits.len())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::rows::RowFormat;
+    use nbc_base::source::FileId;
+
+    fn check(format: RowFormat, text: &str, outputs: &[&str], expected: Result<&str, &str>) {
+        let file = format.parse(text, FileId(0)).unwrap();
+        let outputs: Vec<String> = outputs.iter().map(|&output| output.to_owned()).collect();
+        let shown = |columns: Vec<Column>| {
+            let port = |column: Column| format!("{}[{}]", column.name, column.width);
+            columns.into_iter().map(port).collect::<Vec<_>>().join(" ")
+        };
+        let ports = file.ports(&outputs).map(|(inputs, outputs)| format!("{} | {}", shown(inputs), shown(outputs)));
+        assert_eq!(ports.map_err(|fault| fault.message), expected.map(str::to_owned).map_err(str::to_owned));
+    }
+
+    #[test]
+    fn columns_are_grouped_to_ports() {
+        use RowFormat::{Csv, Pla};
+        check(Csv, "a[1],b,a[0],q\n0,5,1,9\n", &[], Ok("a[2] b[3] | q[4]"));
+        check(Csv, "a[1],b,q,r\n0,1,1,1\n", &["q", "b"], Ok("a[1][1] r[1] | b[1] q[1]"));
+        check(Csv, "a,q\n0,1\n", &["p"], Err("the file has no columns for the output `p`"));
+        check(Csv, "q\n1\n", &[], Err("no column is an input"));
+        check(Pla, ".i 2\n.o 2\n.type fr\n01 11\n", &[], Ok("x[2] | y[2]"));
+    }
+}
