@@ -24,6 +24,7 @@ mod gpu;
 mod harden;
 mod in_order;
 mod interrupt;
+mod learn;
 mod library;
 mod lsp;
 mod manual;
@@ -97,6 +98,7 @@ commands! {
     Explain(explain::ExplainArguments),
     Export(export::ExportArguments),
     Fmt(fmt::FmtArguments),
+    Learn(learn::LearnArguments),
     Library(library::LibraryArguments),
     Lsp(lsp::LspArguments),
     Manual(manual::ManualArguments),

@@ -33,6 +33,7 @@ mod gpu;
 mod hostile;
 mod keeping;
 mod language;
+mod learning;
 mod library;
 mod links;
 mod live;

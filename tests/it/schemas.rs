@@ -118,6 +118,11 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
         let report = check(&bench, "synth", 0, &["synth", path.to_str().unwrap(), "--reachable-only"]);
         assert!(report["unreachable"].is_object());
     }
+    let votes: String = (0..8).map(|row: u32| format!("{row},{}\n", row.count_ones())).collect();
+    bench.file("votes.csv", format!("votes,count\n{votes}"));
+    let learned = check(&bench, "learn", 0, &["learn", "votes.csv", "--hold-out", "0"]);
+    assert_eq!((&learned["training"]["rows"], &learned["confusion"]["output"]), (&8.into(), &"count".into()));
+    check(&bench, "learn", 0, &["learn", "votes.csv", "-o", "count.blif"]);
     check(&bench, "test", 0, &["test", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "flip.nb", "--logic"]);
     check(&bench, "test", 1, &["test", "failing.nb", "--physics"]);

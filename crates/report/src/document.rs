@@ -43,6 +43,7 @@ schemas! {
     Evolve = "evolve", 1: "Evolution runs, and their comparison.";
     Explain = "explain", 1: "Codes of diagnostics with their pages, or the sources of the prelude.";
     Formatted = "formatted", 1: "Which files are in their canonical form.";
+    Learn = "learn", 1: "A circuit that was learned from rows.";
     Library = "library", 1: "A summary of the robots of a library.";
     Play = "play", 1: "The address of a live page.";
     Player = "player", 1: "A circuit that was written as a page of its own.";

@@ -8,6 +8,30 @@ use nbc_circuit::waves::WaveError;
 use nbc_circuit::{EnvironmentFault, MapError};
 use nbc_swarm::WeakRobot;
 
+/// Rows that no circuit can be learned from. These errors have no place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum LearningError {
+    /// A file name without the extension of rows.
+    Format { file: String },
+    /// So few rows that none are left to learn from.
+    NoTraining { rows: usize, percent: f64 },
+}
+
+impl From<LearningError> for Diagnostic {
+    fn from(error: LearningError) -> Self {
+        match error {
+            LearningError::Format { file } => {
+                let message = format!("unrecognized format of the rows in `{file}`; expected .csv or .pla");
+                Self::without_place(Code::BadValue, message)
+            }
+            LearningError::NoTraining { rows, percent } => {
+                let message = format!("{percent} % of {} leave none to learn from", counted(rows, "row"));
+                Self::without_place(Code::BadValue, message).with_help("hold out fewer rows: `--hold-out 0`")
+            }
+        }
+    }
+}
+
 /// An invalid choice of a circuit, swarm or library. These errors have no place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ChoiceError {

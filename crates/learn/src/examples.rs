@@ -1,0 +1,68 @@
+//! Examples: rows of input bits and the output bits that are wanted of them, column by column.
+
+use crate::bits::Bits;
+use nbc_circuit::rows::PortRow;
+
+/// An output bit in all rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Wanted {
+    /// The rows that say what it is.
+    pub known: Bits,
+    /// Its value there; 0 elsewhere.
+    pub value: Bits,
+}
+
+/// Rows of values, column by column.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Examples {
+    /// The input bits.
+    pub inputs: Vec<Bits>,
+    /// The output bits.
+    pub outputs: Vec<Wanted>,
+    /// The number of rows.
+    pub rows: usize,
+}
+
+impl Examples {
+    /// The columns of rows, which all have as many bits.
+    pub fn of(rows: &[PortRow]) -> Self {
+        let (inputs, outputs) = rows.first().map_or((0, 0), |row| (row.inputs.len(), row.outputs.len()));
+        let input = |at: usize| Bits::of(rows.iter().map(|row| row.inputs[at]));
+        let output = |at: usize| Wanted {
+            known: Bits::of(rows.iter().map(|row| row.outputs[at].is_some())),
+            value: Bits::of(rows.iter().map(|row| row.outputs[at] == Some(true))),
+        };
+        let (inputs, outputs) = ((0..inputs).map(input).collect(), (0..outputs).map(output).collect());
+        Self { inputs, outputs, rows: rows.len() }
+    }
+
+    /// Some of the rows, in this order.
+    pub fn pick(&self, rows: &[usize]) -> Self {
+        let pick = |bits: &Bits| bits.pick(rows);
+        let wanted = |wanted: &Wanted| Wanted { known: pick(&wanted.known), value: pick(&wanted.value) };
+        let (inputs, outputs) = (self.inputs.iter().map(pick).collect(), self.outputs.iter().map(wanted).collect());
+        Self { inputs, outputs, rows: rows.len() }
+    }
+
+    /// Some of the rows that say what an output is, as input bits and the output's bit.
+    pub fn of_output(&self, output: usize, rows: &[usize]) -> OutputRows {
+        let inputs = self.inputs.iter().map(|input| input.pick(rows)).collect();
+        OutputRows { inputs, target: self.outputs[output].value.pick(rows) }
+    }
+
+    /// The rows in which every output bit is as wanted, or not said, if the outputs are `found`.
+    pub fn right(&self, found: &[Bits]) -> Bits {
+        let all = Bits::all(self.rows, true);
+        let wrong = |(wanted, found): (&Wanted, &Bits)| found.xor(&wanted.value).and(&wanted.known);
+        self.outputs.iter().zip(found).map(wrong).fold(all, |right, wrong| right.and_not(&wrong))
+    }
+}
+
+/// An output bit that is to be learned: input bits and what it is, in the rows that say so.
+#[derive(Clone, Debug)]
+pub struct OutputRows {
+    /// The input bits.
+    pub inputs: Vec<Bits>,
+    /// The output bit.
+    pub target: Bits,
+}

@@ -1,0 +1,386 @@
+//! The circuit while it is learned: gates that are shared if they are equal, with inverted connections.
+
+use std::collections::BTreeMap;
+use std::ops::Not;
+
+use crate::bits::Bits;
+use nbc_base::model::Function;
+use nbc_circuit::{NetId, Netlist};
+
+/// A net of a graph, perhaps inverted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Literal(u32);
+
+impl Literal {
+    /// Always 0.
+    pub const FALSE: Self = Self(0);
+    /// Always 1.
+    pub const TRUE: Self = Self(1);
+
+    fn of(node: usize) -> Self {
+        Self((node as u32) << 1)
+    }
+
+    fn node(self) -> usize {
+        (self.0 >> 1) as usize
+    }
+
+    fn is_inverted(self) -> bool {
+        self.0 & 1 == 1
+    }
+
+    /// The literal or its inverse.
+    #[must_use]
+    pub fn inverted_if(self, invert: bool) -> Self {
+        Self(self.0 ^ u32::from(invert))
+    }
+
+    /// The constant of a value.
+    pub fn constant(value: bool) -> Self {
+        Self::FALSE.inverted_if(value)
+    }
+}
+
+impl Not for Literal {
+    type Output = Self;
+
+    fn not(self) -> Self {
+        Self(self.0 ^ 1)
+    }
+}
+
+/// What drives a net.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Gate {
+    Zero,
+    Input,
+    And(Literal, Literal),
+    Xor(Literal, Literal),
+    /// The second if the first, else the third.
+    Mux(Literal, Literal, Literal),
+    Majority(Literal, Literal, Literal),
+}
+
+impl Gate {
+    fn pins(self) -> Vec<Literal> {
+        match self {
+            Self::Zero | Self::Input => Vec::new(),
+            Self::And(a, b) | Self::Xor(a, b) => vec![a, b],
+            Self::Mux(a, b, c) | Self::Majority(a, b, c) => vec![a, b, c],
+        }
+    }
+
+    /// The AND gates that it is made of.
+    fn ands(self) -> usize {
+        match self {
+            Self::Zero | Self::Input => 0,
+            Self::And(..) => 1,
+            Self::Xor(..) | Self::Mux(..) => 3,
+            Self::Majority(..) => 4,
+        }
+    }
+}
+
+/// Gates over input bits, drivers first.
+#[derive(Clone, Debug)]
+pub struct GateGraph {
+    gates: Vec<Gate>,
+    known: BTreeMap<Gate, Literal>,
+    inputs: usize,
+}
+
+impl GateGraph {
+    /// A graph of inputs alone.
+    pub fn new(inputs: usize) -> Self {
+        let mut gates = vec![Gate::Zero];
+        gates.resize(inputs + 1, Gate::Input);
+        Self { gates, known: BTreeMap::new(), inputs }
+    }
+
+    /// The net of an input.
+    pub fn input(&self, at: usize) -> Literal {
+        Literal::of(at + 1)
+    }
+
+    /// The nets of all inputs.
+    pub fn inputs(&self) -> Vec<Literal> {
+        (0..self.inputs).map(|at| self.input(at)).collect()
+    }
+
+    fn gate(&mut self, gate: Gate) -> Literal {
+        if let Some(&known) = self.known.get(&gate) {
+            return known;
+        }
+        let literal = Literal::of(self.gates.len());
+        self.gates.push(gate);
+        self.known.insert(gate, literal);
+        literal
+    }
+
+    /// Both.
+    pub fn and(&mut self, a: Literal, b: Literal) -> Literal {
+        let (a, b) = (a.min(b), a.max(b));
+        match (a, b) {
+            (Literal::FALSE, _) => Literal::FALSE,
+            (Literal::TRUE, other) => other,
+            _ if a == b => a,
+            _ if a == b.not() => Literal::FALSE,
+            _ => self.gate(Gate::And(a, b)),
+        }
+    }
+
+    /// One of them.
+    pub fn or(&mut self, a: Literal, b: Literal) -> Literal {
+        self.and(a.not(), b.not()).not()
+    }
+
+    /// Whether they differ.
+    pub fn xor(&mut self, a: Literal, b: Literal) -> Literal {
+        let invert = a.is_inverted() != b.is_inverted();
+        let (a, b) = (a.inverted_if(a.is_inverted()), b.inverted_if(b.is_inverted()));
+        let (a, b) = (a.min(b), a.max(b));
+        let xor = match a {
+            Literal::FALSE => b,
+            _ if a == b => Literal::FALSE,
+            _ => self.gate(Gate::Xor(a, b)),
+        };
+        xor.inverted_if(invert)
+    }
+
+    /// `yes` if `select`, else `no`.
+    pub fn mux(&mut self, select: Literal, yes: Literal, no: Literal) -> Literal {
+        let (select, yes, no) = if select.is_inverted() { (select.not(), no, yes) } else { (select, yes, no) };
+        if yes == no || select == Literal::FALSE {
+            return no;
+        }
+        if yes == no.not() {
+            return self.xor(select, no);
+        }
+        if yes == Literal::TRUE || yes == select {
+            return self.or(select, no);
+        }
+        if yes == Literal::FALSE || yes == select.not() {
+            return self.and(select.not(), no);
+        }
+        if no == Literal::TRUE || no == select.not() {
+            return self.or(select.not(), yes);
+        }
+        if no == Literal::FALSE || no == select {
+            return self.and(select, yes);
+        }
+        if yes.is_inverted() {
+            return self.gate(Gate::Mux(select, yes.not(), no.not())).not();
+        }
+        self.gate(Gate::Mux(select, yes, no))
+    }
+
+    /// At least two of the three.
+    pub fn majority(&mut self, a: Literal, b: Literal, c: Literal) -> Literal {
+        let mut pins = [a, b, c];
+        pins.sort_unstable();
+        let [a, b, c] = pins;
+        if a == b || b == c {
+            return b;
+        }
+        if a == b.not() {
+            return c;
+        }
+        if b == c.not() {
+            return a;
+        }
+        match a {
+            Literal::FALSE => self.and(b, c),
+            Literal::TRUE => self.or(b, c),
+            _ => {
+                let invert = pins.iter().filter(|pin| pin.is_inverted()).count() >= 2;
+                let [a, b, c] = pins.map(|pin| pin.inverted_if(invert));
+                self.gate(Gate::Majority(a, b, c)).inverted_if(invert)
+            }
+        }
+    }
+
+    /// Any of them, as a balanced tree.
+    pub fn any(&mut self, mut terms: Vec<Literal>) -> Literal {
+        while terms.len() > 1 {
+            terms = terms.chunks(2).map(|pair| if let [a, b] = *pair { self.or(a, b) } else { pair[0] }).collect();
+        }
+        terms.first().copied().unwrap_or(Literal::FALSE)
+    }
+
+    /// All of them, as a balanced tree.
+    pub fn every(&mut self, terms: Vec<Literal>) -> Literal {
+        self.any(terms.into_iter().map(Literal::not).collect()).not()
+    }
+
+    /// The gates that these nets depend on.
+    fn cone(&self, outputs: &[Literal]) -> Vec<bool> {
+        let mut needed = vec![false; self.gates.len()];
+        outputs.iter().for_each(|output| needed[output.node()] = true);
+        for node in (0..self.gates.len()).rev() {
+            if needed[node] {
+                self.gates[node].pins().iter().for_each(|pin| needed[pin.node()] = true);
+            }
+        }
+        needed
+    }
+
+    /// The AND gates of these nets, inverters not counted: 1 for an AND, 3 for an exclusive or and for a multiplexer, 4
+    /// for a majority of three.
+    pub fn ands(&self, outputs: &[Literal]) -> usize {
+        let needed = self.cone(outputs);
+        self.gates.iter().zip(needed).filter(|(_, needed)| *needed).map(|(gate, _)| gate.ands()).sum()
+    }
+
+    /// Adds what another graph of the same inputs computes for a net.
+    pub fn adopt(&mut self, other: &Self, literal: Literal) -> Literal {
+        let needed = other.cone(&[literal]);
+        let mut here = vec![Literal::FALSE];
+        here.extend(self.inputs());
+        for (node, &gate) in other.gates.iter().enumerate().skip(other.inputs + 1) {
+            let pin = |pin: Literal| here[pin.node()].inverted_if(pin.is_inverted());
+            here.push(match gate {
+                _ if !needed[node] => Literal::FALSE,
+                Gate::And(a, b) => self.and(pin(a), pin(b)),
+                Gate::Xor(a, b) => self.xor(pin(a), pin(b)),
+                Gate::Mux(a, b, c) => self.mux(pin(a), pin(b), pin(c)),
+                Gate::Majority(a, b, c) => self.majority(pin(a), pin(b), pin(c)),
+                Gate::Zero | Gate::Input => unreachable!("gates follow the inputs"),
+            });
+        }
+        here[literal.node()].inverted_if(literal.is_inverted())
+    }
+
+    /// The bits of nets in all rows, from those of the inputs.
+    ///
+    /// # Panics
+    /// When there are no inputs.
+    pub fn values(&self, inputs: &[Bits], outputs: &[Literal]) -> Vec<Bits> {
+        let rows = inputs[0].rows();
+        let needed = self.cone(outputs);
+        let mut values: Vec<Option<Bits>> = vec![None; self.gates.len()];
+        values[0] = Some(Bits::all(rows, false));
+        for (value, input) in values[1..].iter_mut().zip(inputs) {
+            *value = Some(input.clone());
+        }
+        let read = |values: &[Option<Bits>], literal: Literal| {
+            let value = values[literal.node()].as_ref().expect("drivers come first");
+            if literal.is_inverted() { value.not() } else { value.clone() }
+        };
+        for node in self.inputs + 1..self.gates.len() {
+            if !needed[node] {
+                continue;
+            }
+            let pins: Vec<Bits> = self.gates[node].pins().into_iter().map(|pin| read(&values, pin)).collect();
+            values[node] = Some(match self.gates[node] {
+                Gate::And(..) => pins[0].and(&pins[1]),
+                Gate::Xor(..) => pins[0].xor(&pins[1]),
+                Gate::Mux(..) => pins[0].and(&pins[1]).or(&pins[2].and_not(&pins[0])),
+                Gate::Majority(..) => pins[0].and(&pins[1]).or(&pins[2].and(&pins[0].or(&pins[1]))),
+                Gate::Zero | Gate::Input => unreachable!("gates follow the inputs"),
+            });
+        }
+        outputs.iter().map(|&output| read(&values, output)).collect()
+    }
+
+    /// The netlist of these nets, with a cell for each gate.
+    pub fn netlist(&self, name: &str, inputs: &[String], outputs: &[(String, Literal)]) -> Netlist {
+        let mut netlist = Netlist::new(name);
+        let literals: Vec<Literal> = outputs.iter().map(|(_, literal)| *literal).collect();
+        let needed = self.cone(&literals);
+        let mut nets: Vec<Option<NetId>> = vec![None];
+        nets.extend(inputs.iter().map(|input| Some(netlist.add_input(input))));
+        for (node, &gate) in self.gates.iter().enumerate().skip(self.inputs + 1) {
+            nets.push(needed[node].then(|| {
+                let pins = gate.pins();
+                let drivers: Vec<NetId> =
+                    pins.iter().map(|pin| nets[pin.node()].expect("drivers come first")).collect();
+                netlist.add_gate(function(gate, &pins), &drivers)
+            }));
+        }
+        for (name, literal) in outputs {
+            let net = match nets[literal.node()] {
+                None => netlist.add_constant(literal.is_inverted()),
+                Some(net) if literal.is_inverted() => netlist.add_gate(Function::NOT, &[net]),
+                Some(net) => net,
+            };
+            netlist.add_output(name, net);
+        }
+        netlist
+    }
+}
+
+/// The function of a gate of its pins as they are, before they are inverted.
+fn function(gate: Gate, pins: &[Literal]) -> Function {
+    let width = pins.len();
+    let bits = (0..1u8 << width).filter(|row| {
+        let pin = |at: usize| (row >> (width - 1 - at) & 1 == 1) != pins[at].is_inverted();
+        match gate {
+            Gate::And(..) => pin(0) && pin(1),
+            Gate::Xor(..) => pin(0) != pin(1),
+            Gate::Mux(..) => {
+                if pin(0) {
+                    pin(1)
+                } else {
+                    pin(2)
+                }
+            }
+            Gate::Majority(..) => u8::from(pin(0)) + u8::from(pin(1)) + u8::from(pin(2)) >= 2,
+            Gate::Zero | Gate::Input => unreachable!("they have no pins"),
+        }
+    });
+    Function::of(width, bits.fold(0, |bits, row| bits | 1 << row))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_circuit::Logic;
+
+    #[test]
+    fn gates_are_simplified_shared_and_computed_as_the_netlist_does() {
+        let mut graph = GateGraph::new(3);
+        let inputs = graph.inputs();
+        let signed = |pick: usize| match pick / 2 {
+            0 => Literal::FALSE.inverted_if(pick % 2 == 1),
+            at => inputs[at - 1].inverted_if(pick % 2 == 1),
+        };
+        let mut outputs = Vec::new();
+        let mut expected: Vec<Box<dyn Fn([bool; 3]) -> bool>> = Vec::new();
+        let value = |pick: usize, bits: [bool; 3]| match pick / 2 {
+            0 => pick % 2 == 1,
+            at => bits[at - 1] != (pick % 2 == 1),
+        };
+        for pick in 0..512 {
+            let [a, b, c] = [pick / 64, pick / 8 % 8, pick % 8];
+            outputs.push(graph.mux(signed(a), signed(b), signed(c)));
+            expected.push(Box::new(move |bits| if value(a, bits) { value(b, bits) } else { value(c, bits) }));
+            outputs.push(graph.majority(signed(a), signed(b), signed(c)));
+            expected.push(Box::new(move |bits| [a, b, c].iter().filter(|&&pick| value(pick, bits)).count() >= 2));
+            outputs.push(graph.xor(signed(a), signed(b)));
+            expected.push(Box::new(move |bits| value(a, bits) != value(b, bits)));
+        }
+        let rows: Vec<[bool; 3]> = (0..8).map(|row| [row & 4 != 0, row & 2 != 0, row & 1 != 0]).collect();
+        let columns: Vec<Bits> = (0..3).map(|at| Bits::of(rows.iter().map(|row| row[at]))).collect();
+        let values = graph.values(&columns, &outputs);
+        let named: Vec<_> = outputs.iter().enumerate().map(|(at, &output)| (format!("q{at}"), output)).collect();
+        let netlist = graph.netlist("f", &["a", "b", "c"].map(str::to_owned), &named);
+        let mut logic = Logic::new(&netlist);
+        for (row, &bits) in rows.iter().enumerate() {
+            let found = logic.settle(&bits).unwrap();
+            for (at, expected) in expected.iter().enumerate() {
+                assert_eq!((values[at].get(row), found[at]), (expected(bits), expected(bits)), "{at} {bits:?}");
+            }
+        }
+        assert!(graph.gates.len() < 100, "equal gates are one, not {}", graph.gates.len());
+    }
+
+    #[test]
+    fn and_gates_are_counted_once() {
+        let mut graph = GateGraph::new(3);
+        let [a, b, c] = [0, 1, 2].map(|at| graph.input(at));
+        let sum = graph.xor(a, b);
+        let both = graph.and(sum, c);
+        assert_eq!(graph.ands(&[sum, both]), 4);
+        assert_eq!(graph.ands(&[a, Literal::TRUE]), 0);
+    }
+}

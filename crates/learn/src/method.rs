@@ -1,0 +1,224 @@
+//! The ways to learn an output from rows, each advanced in portions.
+
+use std::fmt;
+
+use crate::bits::Bits;
+use crate::cubes::Cubes;
+use crate::examples::OutputRows;
+use crate::forest::Forest;
+use crate::graph::{GateGraph, Literal};
+use crate::recognize;
+use crate::tree::{DecisionTree, Feature, Growth, add_fringe};
+
+/// A way to learn an output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum LearningMethod {
+    /// The value of most rows.
+    Constant,
+    /// The exclusive or of some inputs.
+    Parity,
+    /// A function of the number of ones.
+    Count,
+    /// A bit of arithmetic of the inputs in their order.
+    Arithmetic,
+    /// A chain of majorities.
+    Chain,
+    /// Two-level logic of the rows with ones, or with zeros.
+    Cubes {
+        /// Whether the cubes are those of the ones.
+        ones: bool,
+        /// The fewest rows of a cube.
+        least: usize,
+    },
+    /// A decision tree, perhaps with features of pairs.
+    Tree {
+        /// The fewest rows on each side of a question.
+        leaf: usize,
+        /// The most rounds of new features.
+        fringes: usize,
+    },
+    /// The majority of small trees, perhaps with the features of a tree.
+    Forest {
+        /// The number of trees: one less than a power of two.
+        trees: usize,
+        /// The depth of each tree.
+        depth: usize,
+        /// The most rounds of new features.
+        fringes: usize,
+    },
+}
+
+impl LearningMethod {
+    /// All that are tried, the cheap ones first.
+    pub fn all() -> Vec<Self> {
+        let mut all = vec![Self::Constant, Self::Parity, Self::Count, Self::Arithmetic, Self::Chain];
+        for (ones, least) in [(true, 1), (false, 1), (true, 3), (false, 3)] {
+            all.push(Self::Cubes { ones, least });
+        }
+        for fringes in [0, FRINGES] {
+            all.extend([1, 4, 12].map(|leaf| Self::Tree { leaf, fringes }));
+        }
+        for (trees, depth) in [(7, 4), (15, 3), (7, 7), (15, 5), (31, 4), (15, 7), (31, 6), (63, 4)] {
+            all.push(Self::Forest { trees, depth, fringes: 0 });
+        }
+        all.push(Self::Forest { trees: 15, depth: 5, fringes: FRINGES });
+        all
+    }
+
+    /// Whether its result is a guess that is either exact or of no use.
+    pub fn is_recognition(self) -> bool {
+        matches!(self, Self::Parity | Self::Count | Self::Arithmetic | Self::Chain)
+    }
+}
+
+/// The most rounds in which features are added.
+const FRINGES: usize = 6;
+
+/// The most features, inputs included.
+const MOST_FEATURES: usize = 1_000;
+
+/// The fewest rows on each side of a question of a forest.
+const FOREST_LEAF: f64 = 3.0;
+
+impl fmt::Display for LearningMethod {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant => f.write_str("a constant"),
+            Self::Parity => f.write_str("a parity"),
+            Self::Count => f.write_str("a function of the number of ones"),
+            Self::Arithmetic => f.write_str("a bit of arithmetic"),
+            Self::Chain => f.write_str("a chain of majorities"),
+            Self::Cubes { ones, least } => {
+                write!(f, "two-level logic of the {}", if *ones { "ones" } else { "zeros" })?;
+                if *least > 1 { write!(f, ", {least} rows a cube or more") } else { Ok(()) }
+            }
+            Self::Tree { leaf, fringes } => {
+                let pairs = if *fringes > 0 { " with features of pairs" } else { "" };
+                write!(f, "a decision tree{pairs}, {leaf} rows a leaf or more")
+            }
+            Self::Forest { trees, depth, fringes } => {
+                let pairs = if *fringes > 0 { " with features of pairs" } else { "" };
+                write!(f, "{trees} trees of depth {depth}{pairs}")
+            }
+        }
+    }
+}
+
+/// An output that is learned by one method.
+#[derive(Clone, Debug)]
+pub struct Fitting {
+    method: LearningMethod,
+    graph: GateGraph,
+    features: Vec<Feature>,
+    /// The rounds of features so far.
+    fringes: usize,
+    forest: Option<Forest>,
+}
+
+/// What a method has learned.
+#[derive(Clone, Debug)]
+pub struct Fitted {
+    /// The graph of its gates.
+    pub graph: GateGraph,
+    /// The output.
+    pub literal: Literal,
+    /// What it is in words.
+    pub what: String,
+}
+
+/// How far a portion of work came.
+pub enum FittingStep {
+    /// There is more to do.
+    More(Fitting),
+    /// It is done; `None` if the method finds nothing in such rows.
+    Done(Option<Fitted>),
+}
+
+impl Fitting {
+    /// A fitting that has not begun.
+    pub fn new(method: LearningMethod, inputs: &[Bits]) -> Self {
+        let graph = GateGraph::new(inputs.len());
+        let feature = |(at, bits): (usize, &Bits)| Feature { literal: graph.input(at), bits: bits.clone() };
+        let features = inputs.iter().enumerate().map(feature).collect();
+        Self { method, graph, features, fringes: 0, forest: None }
+    }
+
+    /// The method.
+    pub fn method(&self) -> LearningMethod {
+        self.method
+    }
+
+    /// Does the next portion, such as a tree.
+    pub fn advance(mut self, subject: &OutputRows) -> FittingStep {
+        let OutputRows { inputs, target } = subject;
+        let found = match self.method {
+            LearningMethod::Constant => return FittingStep::Done(Some(Fitted::constant(subject))),
+            LearningMethod::Parity => recognize::parity(&mut self.graph, inputs, target),
+            LearningMethod::Count => Some(recognize::of_count(&mut self.graph, inputs, target)),
+            LearningMethod::Arithmetic => recognize::arithmetic(&mut self.graph, inputs, target),
+            LearningMethod::Chain => recognize::chain(&mut self.graph, inputs, target),
+            LearningMethod::Cubes { ones, least } => {
+                let wanted = if ones { target.clone() } else { target.not() };
+                let sum = Cubes::grow(&self.features, &wanted, least).build(&mut self.graph, &self.features);
+                Some((sum.inverted_if(!ones), self.method.to_string()))
+            }
+            LearningMethod::Tree { leaf, fringes } => {
+                let tree = self.tree(target, leaf as f64);
+                if self.widen(&tree, fringes) {
+                    return FittingStep::More(self);
+                }
+                Some((tree.build(&mut self.graph, &self.features), self.method.to_string()))
+            }
+            LearningMethod::Forest { trees, depth, fringes } => {
+                if self.forest.is_none() && fringes > 0 {
+                    let tree = self.tree(target, FOREST_LEAF);
+                    if self.widen(&tree, fringes) {
+                        return FittingStep::More(self);
+                    }
+                }
+                let growth = Growth { depth, leaf: FOREST_LEAF };
+                let forest = self.forest.get_or_insert_with(|| Forest::new(target.rows(), growth));
+                forest.grow(&self.features, target);
+                if forest.len() < trees {
+                    return FittingStep::More(self);
+                }
+                Some((forest.build(&mut self.graph, &self.features), self.method.to_string()))
+            }
+        };
+        FittingStep::Done(found.map(|(literal, what)| Fitted { graph: self.graph, literal, what }))
+    }
+
+    fn tree(&self, target: &Bits, leaf: f64) -> DecisionTree {
+        let growth = Growth { depth: usize::MAX, leaf };
+        DecisionTree::grow(&self.features, target, &vec![1.0; target.rows()], growth)
+    }
+
+    /// Adds features of a tree's fringe, so often at most; false if there is nothing to add.
+    fn widen(&mut self, tree: &DecisionTree, fringes: usize) -> bool {
+        if self.fringes == fringes || self.features.len() >= MOST_FEATURES {
+            return false;
+        }
+        self.fringes += 1;
+        add_fringe(&mut self.graph, &mut self.features, tree)
+    }
+}
+
+impl Fitted {
+    /// The value of most rows.
+    pub fn constant(OutputRows { inputs, target }: &OutputRows) -> Self {
+        let literal = Literal::constant(target.count() * 2 > target.rows());
+        Self { graph: GateGraph::new(inputs.len()), literal, what: LearningMethod::Constant.to_string() }
+    }
+
+    /// The share of rows that it gets right.
+    pub fn accuracy(&self, OutputRows { inputs, target }: &OutputRows) -> f64 {
+        let value = &self.graph.values(inputs, &[self.literal])[0];
+        let wrong = value.xor(target).count();
+        1.0 - wrong as f64 / target.rows().max(1) as f64
+    }
+
+    /// Its AND gates.
+    pub fn ands(&self) -> usize {
+        self.graph.ands(&[self.literal])
+    }
+}
