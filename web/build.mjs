@@ -7,7 +7,7 @@ import { createHash } from "node:crypto";
 import { mkdirSync, readdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import path from "node:path";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
+import { deflateRawSync, gzipSync } from "node:zlib";
 
 import { build } from "esbuild";
 
@@ -52,19 +52,35 @@ async function player() {
   return alone({ script: code, style: await bundle(sheet, "src/style/player.css"), data });
 }
 
-/** The same with the whole program: only the sources of a circuit are missing. */
+/** The same with the whole program: only the sources of a circuit are missing. Script and style are packed, too. */
 async function livePage(packed) {
-  const worker = await bundle(script, "src/tab/worker.ts");
-  const parts = {
-    script: await bundle(script, "src/tab/alone.ts"),
+  const { textOf } = await loaded("src/tab/seven.ts");
+  const inside = {
     style: await bundle(sheet, "src/style/app.css"),
+    script: await bundle(script, "src/tab/alone.ts"),
+    worker: await bundle(script, "src/tab/worker.ts"),
+  };
+  const page = deflateRawSync(JSON.stringify(inside), { level: 9 });
+  const parts = {
+    script: await bundle(script, "src/tab/unpack.ts"),
+    style: "",
     data: [
       inert("sources", "application/json"),
-      inert("program", "application/octet-stream", packed.toString("base64")),
-      inert("worker", "text/plain", worker),
+      inert("page", "application/octet-stream", textOf(page)),
+      inert("program", "application/octet-stream", textOf(packed)),
     ].join("\n"),
   };
-  return alone(parts, [" 'wasm-unsafe-eval'", " worker-src blob:;"]);
+  return alone(parts, {
+    scripts: ` ${sourceOf(inside.script)} 'wasm-unsafe-eval'`,
+    styles: ` ${sourceOf(inside.style)}`,
+    more: " worker-src blob:;",
+  });
+}
+
+/** The functions of a module. */
+async function loaded(entry) {
+  const built = await build({ ...common, entryPoints: [entry], write: false, format: "esm" });
+  return import(`data:text/javascript;base64,${Buffer.from(built.outputFiles[0].text).toString("base64")}`);
 }
 
 /** An element with data, which a browser does not run. */
@@ -79,11 +95,16 @@ async function bundle(options, entry) {
   return built.outputFiles[0].text.trim().replaceAll("</script", "<\\/script");
 }
 
+/** A script or a style in a policy. */
+function sourceOf(text) {
+  return `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+}
+
 /** A document with its parts in it, and a policy that permits these. */
-function alone(parts, [scripts, more] = ["", ""]) {
-  const hash = text => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+function alone(parts, { scripts = "", styles = "", more = "" } = {}) {
   const policy =
-    `default-src 'none'; script-src ${hash(parts.script)}${scripts};${more} style-src ${hash(parts.style)}; ` +
+    `default-src 'none'; script-src ${sourceOf(parts.script)}${scripts};${more} ` +
+    `style-src ${sourceOf(parts.style)}${styles}; ` +
     "img-src data: blob:; base-uri 'none'; form-action 'none'";
   const all = { ...parts, policy };
   return readFileSync("src/alone.html", "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => all[name]);

@@ -4,6 +4,7 @@ import { App } from "../app";
 import { rememberApart } from "../memory";
 import { restoreTheme } from "../theme";
 import { TabHost } from "./host";
+import { bytesOf } from "./seven";
 
 /** What an exporter puts into the page. */
 interface Sources {
@@ -25,7 +26,7 @@ restoreTheme();
 const worker = URL.createObjectURL(new Blob([part("worker")], { type: "text/javascript" }));
 const host = new TabHost({
   worker: () => new Worker(worker),
-  program: () => ({ packed: Uint8Array.from(atob(part("program").trim()), letter => letter.charCodeAt(0)).buffer }),
+  program: () => ({ packed: bytesOf(part("program")).buffer }),
   first,
   files,
   keeps: false,

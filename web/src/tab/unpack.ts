@@ -1,0 +1,29 @@
+// Unpacks the page of a file of its own, and starts it. The document's policy permits its script and style by their
+// hashes.
+
+import { unpack } from "../share/packed";
+import { bytesOf } from "./seven";
+
+interface PackedPage {
+  style: string;
+  script: string;
+  /** The script of its worker. */
+  worker: string;
+}
+
+function add(tag: "style" | "script", text: string, attributes: Record<string, string> = {}): void {
+  const made = document.createElement(tag);
+  Object.entries(attributes).forEach(([name, value]) => made.setAttribute(name, value));
+  made.textContent = text;
+  document.head.append(made);
+}
+
+async function start(): Promise<void> {
+  const bytes = await unpack(bytesOf(document.getElementById("page")?.textContent ?? ""), Infinity);
+  const { style, script, worker } = JSON.parse(new TextDecoder().decode(bytes ?? undefined)) as PackedPage;
+  add("style", style);
+  add("script", worker, { type: "text/plain", id: "worker" });
+  add("script", script);
+}
+
+void start();
