@@ -130,12 +130,15 @@ fn write_page(
     let template = if live { Some(live_template().ok_or(UsageError::NoLivePages)?) } else { None };
     let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
     let checked = session.open(source_path(file)?)?;
-    let circuit = checked.circuit(&making.choice())?;
-    let compiled = session.compile(&checked, &circuit, &making.options()?)?;
-    context.tell(&compiled.warnings, &checked.sources);
-    let page = match template {
-        Some(page) => live_page(page, Arc::new(DiskWorld), &checked, &making.choice(), &making.options()?)?,
-        None => nbc_play::export(&session, &checked, &compiled)?,
+    let (choice, options) = (making.choice(), making.options()?);
+    let page = if let Some(template) = template {
+        let (page, warnings) = live_page(template, Arc::new(DiskWorld), &checked, &choice, &options)?;
+        context.tell(&warnings.list, &warnings.sources);
+        page
+    } else {
+        let compiled = session.compile(&checked, &checked.circuit(&choice)?, &options)?;
+        context.tell(&compiled.warnings, &checked.sources);
+        nbc_play::export(&session, &checked, &compiled)?
     };
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
     let (bytes, name) = (page.html.len(), output.display());

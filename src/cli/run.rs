@@ -13,7 +13,7 @@ use crate::cli::options::new_path::new_path;
 use crate::cli::options::timings::{TimedStage, Timings};
 use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::runs::{CompleteRun, chosen_runs, run_list, unknown_run};
-use crate::cli::source_path::source_path;
+use crate::cli::source_path::{result_path, source_path};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_session::report::{
     self, Document, PageSwarm, RunResult, Schema, SchematicPages, Scheme, Svg, SwarmResult, SwarmTiming,
@@ -208,7 +208,7 @@ fn draw<'a>(ran: &'a CompleteRun, stem: &str, folder: &Path) -> Result<Drawn<'a>
     for (kind, bytes) in files {
         let path = folder.join(format!("{stem}-{kind}"));
         write(&path, &bytes)?;
-        drawn.files.push(path.display().to_string());
+        drawn.files.push(result_path(&path));
     }
     Ok(drawn)
 }

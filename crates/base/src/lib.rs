@@ -2,6 +2,7 @@
 
 pub mod budget;
 pub mod diag;
+pub mod fnv;
 pub mod model;
 pub mod source;
 

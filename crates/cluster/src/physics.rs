@@ -1,5 +1,6 @@
 //! An identifier of a program's physics. All machines that work for a search must have the same.
 
+use nbc_base::fnv::Fnv;
 use nbc_base::model::{Body, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Rivals;
@@ -23,7 +24,7 @@ impl PhysicsId {
         let schedule = Schedule { spells: Pattern::PAIRS.map(|pattern| Spell { pattern, steps: STEPS }).to_vec() };
         let trial = |body: &Body| Trial { body: body.clone(), schedule: schedule.clone() };
         let trials: Vec<Trial> = bodies.iter().map(trial).collect();
-        let mut hash = Hash::default();
+        let mut hash = Fnv::default();
         for trajectory in simulator.run_trials(&Setting::default(), &trials) {
             let numbers = trajectory.com_x.iter().chain(&trajectory.com_y);
             numbers.for_each(|number| hash.add(&number.to_bits().to_le_bytes()));
@@ -41,29 +42,12 @@ impl PhysicsId {
             others: Vec::new(),
         };
         hash.add(format!("{:?}", evaluate_tasks(simulator, &protocol, &tasks)).as_bytes());
-        Self(hash.0)
+        Self(hash.value())
     }
 
     /// The part of a subject that separates programs with different physics or versions.
     pub fn token(self) -> String {
         format!("{}-{:016x}", PROGRAM.replace('.', "_"), self.0)
-    }
-}
-
-/// FNV-1a, 64 bits.
-struct Hash(u64);
-
-impl Default for Hash {
-    fn default() -> Self {
-        Self(0xcbf2_9ce4_8422_2325)
-    }
-}
-
-impl Hash {
-    fn add(&mut self, bytes: &[u8]) {
-        for byte in bytes {
-            self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3);
-        }
     }
 }
 

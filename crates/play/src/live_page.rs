@@ -34,7 +34,8 @@ struct LiveSources<'a> {
     files: Vec<(&'a str, &'a str)>,
 }
 
-/// Makes a live page of a circuit of a program: `template` with all files that the circuit is made of.
+/// Makes a live page of a circuit of a program: `template` with all files that the circuit is made of. The warnings of
+/// its swarm come with it.
 ///
 /// # Errors
 /// When it cannot be compiled.
@@ -44,12 +45,12 @@ pub fn live_page(
     checked: &Checked,
     choice: &Choice,
     options: &CompileOptions,
-) -> Result<ExportedPage, Diagnostics> {
+) -> Result<(ExportedPage, Diagnostics), Diagnostics> {
     let mut over = OverlayWorld::new(world);
     for file in checked.sources.iter() {
         over.insert(&file.name, file.text.clone());
     }
-    // Whatever is read to compile it once more is needed.
+    // Whatever is read to compile it is needed.
     let noted = Arc::new(NotingWorld { over, read: Mutex::default() });
     let mut session = Session::new(noted.clone());
     let again = session.open(&checked.path)?;
@@ -67,7 +68,8 @@ pub fn live_page(
     let data = to_string(&sources).expect("texts can be written as JSON").replace('<', "\\u003c");
     let html = template.replacen(TITLE, &format!("<title>{circuit} – nbc"), 1);
     let html = html.replacen(SOURCES, &format!("{SOURCES}{data}"), 1);
-    Ok(ExportedPage { html, circuit: circuit.clone(), robots: compiled.assembly.members.len() })
+    let page = ExportedPage { html, circuit: circuit.clone(), robots: compiled.assembly.members.len() };
+    Ok((page, again.fail(compiled.warnings.clone())))
 }
 
 /// A path as it is from a folder; the path itself if it leads elsewhere.
@@ -141,7 +143,8 @@ mod tests {
         let checked = session.open("a/main.nb").unwrap();
         let template = format!("{TITLE}</title>{SOURCES}</script>");
         let choice = Choice { circuit: Some("main".to_owned()), swarm: None };
-        let page = live_page(&template, world, &checked, &choice, &CompileOptions::default()).unwrap();
+        let (page, warnings) = live_page(&template, world, &checked, &choice, &CompileOptions::default()).unwrap();
+        assert!(warnings.list.is_empty());
         assert_eq!(page.circuit, "main");
         let (_, data) = page.html.split_once(SOURCES).unwrap();
         let data: serde_json::Value = serde_json::from_str(data.strip_suffix("</script>").unwrap()).unwrap();

@@ -90,7 +90,7 @@ pub(super) fn live(
     job: &Job,
 ) -> Result<(String, Vec<u8>), Refused> {
     let template = site.shell.template().ok_or(Refused::NoLivePages)?;
-    let page = live_page(&template, site.folder.world(), checked, choice, &job.options())?;
+    let (page, _) = live_page(&template, site.folder.world(), checked, choice, &job.options())?;
     Ok((format!("{}.html", page.circuit), page.html.into_bytes()))
 }
 
