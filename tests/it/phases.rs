@@ -66,9 +66,10 @@ fn works_at_the_least_times(elements: &[Element], netlist: &Netlist, random: &mu
         times.inputs.iter().filter(|input| is_data(input.input)).map(of).max().unwrap_or(0) as usize
     };
     let (setup, hold) = (most(|input| input.setup), most(|input| input.hold));
-    let (high, low) = match random.random_range(0..2) {
+    let (high, low) = match random.random_range(0..3) {
         0 => (times.high, times.period - times.high),
-        _ => (times.period - times.low, times.low),
+        1 => (times.period - times.low, times.low),
+        _ => (times.half, times.half),
     };
     let mut delayed = delayed(netlist, &kinds, random);
     let mut inputs = [false; 4];

@@ -524,11 +524,42 @@ export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { id: number, error: Refusal, }
   | { id: number, progress: [number, number], } | PlayEvent;
 
+/** An input that opens and closes latches. */
+export type ShownClock = {
+  /** The bit of the inputs. */
+  bit: number,
+  /** Cycles that are enough between two changes of it, for the registers and for the outputs. */
+  half: number,
+};
+
+/** What is on the other side of a circuit's ports while a test runs. */
+export type ShownEnvironment = {
+  name: string,
+  /** The text that it writes, each piece with the cycles before it; none if it never writes any. */
+  screen: Array<[number, string]> | null,
+  memories: Array<ShownMemory>,
+};
+
 /** A table over an output, such as the instructions of a machine or the transitions of its states. */
 export type ShownListing = {
   /** The output that chooses the row. */
   port: string,
   rows: Array<ListingRow>,
+};
+
+/** A memory of an environment. Words are in hexadecimal. */
+export type ShownMemory = {
+  name: string,
+  /** Bits of a word. */
+  width: number,
+  /** The number of words. */
+  size: number,
+  /** The words that it begins with, without the zeros at the end. */
+  words: Array<string>,
+  /** For each of its reads the addresses, each with the cycles before it. */
+  reads: Array<Array<[number, number]>>,
+  /** The words that are written, each with the cycles before it and its address. */
+  writes: Array<[number, number, string]>,
 };
 
 /** A register of the circuit. */
@@ -547,6 +578,14 @@ export type ShownSchematic = {
   bodies: Array<string>,
   /** For each robot, the sheet that shows it. */
   homes: Array<number>,
+};
+
+/** A test that gives the inputs of a swarm. */
+export type ShownScript = {
+  title: string,
+  /** The cycles whose inputs it gives. */
+  cycles: number,
+  environment: ShownEnvironment | null,
 };
 
 /** A part of a circuit. */
@@ -578,6 +617,7 @@ export type ShownSwarm = {
   timing: string,
   /** Cycles after which every change has settled. */
   hold: number,
+  clocks: Array<ShownClock>,
   /** Cycles at the start in which the robots take their shape. */
   start: number,
   /** The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat. */
@@ -586,6 +626,8 @@ export type ShownSwarm = {
   frames: number,
   /** What it is as a wave machine. */
   waves: ShownWaves | null,
+  /** The test that gives its inputs. */
+  script: ShownScript | null,
 };
 
 /** A wave machine; docs/play-protocol.md says whose wave a robot carries in a cycle. */
@@ -602,6 +644,7 @@ export type ShownWaves = {
   begins: number,
   /** The bit of the inputs that is the clock, which no robot senses. */
   clock: number | null,
+  registers: Array<WaveRegister>,
 };
 
 /** The answer to `compile` and to `replay`. */
@@ -708,4 +751,20 @@ export type VoxelLook = {
   ink: string | null,
   /** Polygons within the unit square. */
   mark: Array<Array<[number, number]>> | null,
+};
+
+/** Where and when a bit of such a register is seen. */
+export type WaveBit = {
+  source: BitSource,
+  /** The cycles from the beginning of the step after to the one at whose end the source has the bit. */
+  after: number,
+  /** The values after no step, after one, and so on, before the source has any. */
+  starts: Array<boolean>,
+};
+
+/** A register of a wave machine. */
+export type WaveRegister = {
+  name: string,
+  /** The most significant first. */
+  bits: Array<WaveBit>,
 };

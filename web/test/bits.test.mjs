@@ -153,9 +153,10 @@ async function ofNode(requests) {
   const module = await WebAssembly.compile(gunzipSync(readFileSync(path.join(SITE, name))));
   const engine = await Engine.start(module, message => assert.fail(message));
   engine.begin("", performance.now());
-  // Another simulates parts of the cycles of swarms that are large enough.
-  const assistant = await Engine.start(module, message => assert.fail(message));
-  engine.crew(1);
+  // Three others do parts of simulations that are large enough.
+  const start = () => Engine.start(module, message => assert.fail(message));
+  const assistants = await Promise.all([start(), start(), start()]);
+  engine.crew(assistants.length);
   const frames = waiter();
   const files = new Map();
   let [hear, ended, parts] = [() => {}, false, 0];
@@ -166,6 +167,7 @@ async function ofNode(requests) {
         files.set(message.address, Buffer.from(message.bytes).toString());
       } else if (message.kind === "part") {
         parts += 1;
+        const assistant = assistants[message.number % assistants.length];
         engine.receivePart(message.number, assistant.simulate(message.bytes));
       } else if (typeof message.data === "string") {
         hear(message.data);
@@ -185,7 +187,8 @@ async function ofNode(requests) {
     fetched: async url => files.get(url),
   });
   ended = true;
-  assert.ok(parts > 0 || !requests.some(({ circuit }) => circuit === "counter"), "others simulate parts");
+  const isLarge = ({ do: verb, circuit }) => circuit === "counter" || verb === "evolve";
+  assert.ok(parts > 0 || !requests.some(isLarge), "others do parts");
   return said;
 }
 
@@ -210,7 +213,7 @@ async function ofChromium(requests, page) {
           worker.postMessage({ say: "drawn" });
         }
       };
-      worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false });
+      worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false, alone: 0 });
       const said = [];
       let id = 0;
       for (const { wait, ...request } of requests) {

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { cycle } from "./browser.mjs";
+import { cycle, setInput } from "./browser.mjs";
 import { opened } from "./opened.mjs";
 
 // Its loop has two robots, so that two machines are at work at once.
@@ -62,6 +62,34 @@ test("a step runs all its cycles, after which each robot carries the same thread
     const shown = cells.map(cell => [cell.querySelector(".thread").textContent, cell.getAttribute("data-thread")]);
     return shown.every(([text, color], at) => text === wanted[at] && color === wanted[at]);
   }, second);
+});
+
+test("its registers are those of each thread after its last step", async () => {
+  const { page } = here;
+  const register = thread => page.locator(`.state [data-register="q"][data-of="${thread}"]`);
+  await page.locator("[data-do=reset]").click();
+  await page.locator("[data-do=state]").click();
+  await page.waitForFunction(() => document.querySelector(".cycle").textContent === "cycle 0");
+  const threads = await page.locator('.state [data-register="q"]').allTextContents();
+  assert.ok(threads.length > 1 && threads.every(value => value === "0"), threads.join());
+  await setInput(page, "set", 1);
+  await setInput(page, "clear", 1);
+  // The flip-flop flips in each step, and the second thread follows the first.
+  for (const [thread, value] of [
+    [1, "1"],
+    [2, "1"],
+    [1, "0"],
+    [2, "0"],
+  ]) {
+    while ((await register(thread).textContent()) !== value) {
+      const now = await cycle(page);
+      await page.locator("[data-do=step]").click();
+      await page.waitForFunction(done => document.querySelector(".cycle").textContent === `cycle ${done}`, now + 1);
+      // The view is drawn after the count.
+      await page.evaluate(() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done))));
+    }
+  }
+  await page.locator("[data-do=state]").click();
 });
 
 test("its clock is no switch", async () => {

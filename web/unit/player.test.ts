@@ -84,6 +84,7 @@ function recording(given: {
       ground: [],
       frames: 4,
       waves: null,
+      script: null,
     } as unknown as ExportedSwarm["swarm"],
   });
 }

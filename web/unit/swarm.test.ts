@@ -3,6 +3,7 @@ import { test } from "node:test";
 
 import type { Connection } from "../src/connection";
 import { situationOf } from "../src/learn/situation";
+import { halfOf } from "../src/live/clock";
 import { LiveSwarm } from "../src/live/swarm";
 import { Observable } from "../src/observable";
 import type { ShownSwarm } from "../src/protocol";
@@ -25,10 +26,12 @@ const SWARM = {
   schematic: { sheets: [], bodies: [], homes: [] },
   timing: "",
   hold: 2,
+  clocks: [],
   start: 1,
   ground: [],
   frames: 12,
   waves: null,
+  script: null,
 } satisfies ShownSwarm;
 
 /** A server that notes what it is asked, and answers when the test says so. */
@@ -141,4 +144,29 @@ test("a lesson learns nothing from the swarm of another program", () => {
   assert.equal(situationOf(parts("lesson.nb")).circuit, "c");
   assert.equal(situationOf(parts("lesson.nb", "compiling")).circuit, null);
   assert.equal(situationOf(parts("other.nb")).circuit, null);
+});
+
+test("the inputs of a test are shown while it runs, until a switch is flipped", () => {
+  const server = new Server();
+  const swarm = new LiveSwarm(server as unknown as Connection);
+  swarm.begin({ ...SWARM, script: { title: "", cycles: 4, environment: null } }, true);
+  const show = (now: number, bits: string): void => {
+    const log = [{ inputs: [...bits].map(Number), robots: [], outputs: [], places: [] }];
+    server.onframe(encodeFrame({ now, from: now, log, running: true }));
+  };
+  show(1, "10");
+  assert.equal(swarm.inputs.value, "10");
+  show(2, "01");
+  assert.equal(swarm.inputs.value, "01");
+  swarm.setBit(0, 1);
+  show(3, "01");
+  assert.deepEqual([swarm.inputs.value, swarm.scripted.value, server.told()], ["11", 0, ["11"]]);
+});
+
+test("a clock changes as soon as its registers permit, and another input when all has settled", () => {
+  const swarm = { clocks: [{ bit: 1, half: 12 }], hold: 22 };
+  assert.deepEqual(
+    [0, 1].map(bit => halfOf(swarm, bit)),
+    [22, 12],
+  );
 });

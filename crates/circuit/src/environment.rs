@@ -17,6 +17,15 @@ pub struct Environment {
     declared: [usize; 2],
 }
 
+/// What a memory of an environment is asked for before an edge of the clock.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct MemoryAccess {
+    /// The address of each of its reads.
+    pub reads: Vec<usize>,
+    /// The words that it takes at the edge, each with its address, in order.
+    pub writes: Vec<(usize, u128)>,
+}
+
 /// Why an environment cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EnvironmentFault {
@@ -111,20 +120,39 @@ impl Environment {
     /// The edge of the clock: memories and registers take what they see.
     pub fn advance(&mut self) {
         for (memory, words) in self.ports.iter().zip(&mut self.memories) {
-            for [address, data, enable, _] in &memory.writes {
-                let place = number(&self.run, address) as usize;
-                if let (1, Some(word)) = (number(&self.run, enable), words.get_mut(place)) {
-                    *word = number(&self.run, data);
-                }
+            for (address, word) in written(&self.run, memory) {
+                words[address] = word;
             }
         }
         self.run.advance();
+    }
+
+    /// What each memory is asked for, in order of their declarations.
+    pub fn accesses(&self) -> Vec<MemoryAccess> {
+        let access = |memory: &MemoryPorts| MemoryAccess {
+            reads: memory.reads.iter().map(|[address, _]| number(&self.run, address) as usize).collect(),
+            writes: written(&self.run, memory).collect(),
+        };
+        self.ports.iter().map(access).collect()
+    }
+
+    /// The words of each memory, in order of their declarations.
+    pub fn words(&self) -> &[Vec<u128>] {
+        &self.memories
     }
 
     /// The declared outputs as they are, in order of the ports, the most significant bit of a port first.
     pub fn outputs(&self) -> impl Iterator<Item = bool> + '_ {
         (0..self.declared[1]).map(|at| self.run.output(at) & 1 == 1)
     }
+}
+
+/// The words that a memory takes at the edge of the clock, each with its address.
+fn written(run: &ClockRun, memory: &MemoryPorts) -> impl Iterator<Item = (usize, u128)> {
+    memory.writes.iter().filter_map(|[address, data, enable, _]| {
+        let place = number(run, address) as usize;
+        (number(run, enable) == 1 && place < memory.words).then(|| (place, number(run, data)))
+    })
 }
 
 /// The value of some output bits, the most significant first.

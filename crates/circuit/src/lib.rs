@@ -45,7 +45,7 @@ pub use delayed::Delayed;
 pub use elaborate::{
     Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, is_same_instance,
 };
-pub use environment::{Environment, EnvironmentFault};
+pub use environment::{Environment, EnvironmentFault, MemoryAccess};
 pub use guarded::{Guarded, Role};
 pub use logic::Logic;
 pub use loops::Loops;

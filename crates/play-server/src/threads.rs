@@ -7,7 +7,7 @@ use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use crate::lesson_source::LessonSource;
 use crate::takes::Takes;
-use nbc_play::{LessonTexts, Portions, Shell, WorkKind};
+use nbc_play::{LessonTexts, Portion, Portions, Shell, WorkKind};
 
 /// The shell of all pages of a server.
 pub(super) struct Threads {
@@ -35,8 +35,8 @@ impl Threads {
 }
 
 impl Pools {
-    /// Does a portion of work in its place; whether there is more.
-    fn portion(&self, kind: WorkKind, portions: &mut Portions) -> bool {
+    /// Does a portion of work in its place.
+    fn portion(&self, kind: WorkKind, portions: &mut Portions) -> Portion {
         match kind {
             WorkKind::Check | WorkKind::Program => portions(),
             WorkKind::Probe => self.probing.install(portions),
@@ -48,7 +48,7 @@ impl Pools {
 impl Shell for Threads {
     fn start(&self, kind: WorkKind, mut portions: Portions) {
         let pools = self.pools.clone();
-        thread::spawn(move || while pools.portion(kind, &mut portions) {});
+        thread::spawn(move || while pools.portion(kind, &mut portions) != Portion::Done {});
     }
 
     fn keep(&self, name: &str, media_type: &'static str, bytes: Vec<u8>) -> String {

@@ -1,52 +1,105 @@
 //! A search for gates around a body, shown while it runs.
 
+use std::sync::Arc;
+
 use crate::bodies;
+use crate::crew_part::{CrewPart, CrewResult, GivenParts};
 use crate::jobs::{Job, PortionEnd};
 use crate::message::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry, PlayEvent, RequestResult};
 use crate::refusal::Refused;
 use crate::request::EvolveRequest;
+use crate::shell::{Crew, Shell};
 use nbc_base::model::{Axis, Body};
 use nbc_session::report::axis_word;
 use nbc_session::{BodySearch, Observer};
-use nbc_swarm::evolve::{Elite, NicheKey};
+use nbc_swarm::evolve::{Elite, NicheKey, Scores};
 
 /// The largest and the smallest side of a box, and the most generations.
 const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
 const MOST_GENERATIONS: u32 = 1000;
 
-/// A search that begins.
-///
-/// # Errors
-/// When the body is not one, or the box is too small or too large.
-pub(super) fn begin(request: &EvolveRequest) -> Result<BodySearch, Refused> {
-    let start = request.body.as_deref().map(bodies::body).transpose()?;
-    let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
-    if !SIDES.contains(&width) || !SIDES.contains(&height) {
-        let sides = format!("expected a box of {} to {} voxels a side", SIDES.start(), SIDES.end());
-        return Err(Refused::Body(sides));
-    }
-    let generations = request.generations.clamp(1, MOST_GENERATIONS);
-    Ok(BodySearch::new(start, [width, height], generations, request.seed))
+/// The fewest bodies that are worth the way to others and back.
+const LEAST_BODIES: usize = 2;
+
+/// A search whose bodies others may try, too.
+pub(super) struct SharedSearch {
+    search: BodySearch,
+    shell: Arc<dyn Shell>,
+    /// A generation of which others still try bodies.
+    begun: Option<BegunGeneration>,
 }
 
-/// Does a generation, and reports the niches that have changed.
-///
-/// # Errors
-/// When it is stopped.
-pub(super) fn advance(search: &mut BodySearch, job: &mut Job) -> Result<PortionEnd, Refused> {
-    job.check()?;
-    // A body without a third stimulus would have another behavior in the designer.
-    let fits = |body: &Body| bodies::body(&body.rows()).is_ok_and(|own| own.palette() == body.palette());
-    let changed = search.advance(&job.simulator(), fits);
-    job.outbox.event(PlayEvent::Archive(change(search, job.id, &changed)));
-    let (done, generations) = (search.search().generation(), search.search().evolution().generations);
-    job.progress(done.into(), generations.into());
-    if done < generations {
-        return Ok(PortionEnd::More);
+struct BegunGeneration {
+    bodies: Vec<Body>,
+    /// The first bodies, which were tried here.
+    own: Vec<Option<Scores>>,
+    others: Arc<GivenParts>,
+}
+
+impl SharedSearch {
+    /// A search that begins.
+    ///
+    /// # Errors
+    /// When the body is not one, or the box is too small or too large.
+    pub(super) fn begin(request: &EvolveRequest, shell: Arc<dyn Shell>) -> Result<Self, Refused> {
+        let start = request.body.as_deref().map(bodies::body).transpose()?;
+        let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
+        if !SIDES.contains(&width) || !SIDES.contains(&height) {
+            let sides = format!("expected a box of {} to {} voxels a side", SIDES.start(), SIDES.end());
+            return Err(Refused::Body(sides));
+        }
+        let generations = request.generations.clamp(1, MOST_GENERATIONS);
+        let search = BodySearch::new(start, [width, height], generations, request.seed);
+        Ok(Self { search, shell, begun: None })
     }
-    job.check()?;
-    let end = EvolutionEnd { generations, evaluations: search.search().evaluations() };
-    Ok(PortionEnd::Done(Some(RequestResult::Evolve(end))))
+
+    /// Does a generation, or a part of it, and reports the niches that have changed.
+    ///
+    /// # Errors
+    /// When it is stopped.
+    pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
+        job.check()?;
+        let Some((bodies, found)) = self.generation(job) else { return Ok(PortionEnd::Waits) };
+        let changed = self.search.tell(bodies, found);
+        let search = self.search.search();
+        job.outbox.event(PlayEvent::Archive(change(&self.search, job.id, &changed)));
+        let (done, generations) = (search.generation(), search.evolution().generations);
+        job.progress(done.into(), generations.into());
+        if done < generations {
+            return Ok(PortionEnd::More);
+        }
+        job.check()?;
+        let end = EvolutionEnd { generations, evaluations: search.evaluations() };
+        Ok(PortionEnd::Done(Some(RequestResult::Evolve(end))))
+    }
+
+    /// The bodies of a generation, and what was found of them; `None` while others still try some.
+    fn generation(&mut self, job: &Job) -> Option<(Vec<Body>, Vec<Option<Scores>>)> {
+        let size = self.shell.crew().map_or(0, Crew::size);
+        // What was given to others who have gone will not come.
+        if let Some(begun) = self.begun.take_if(|_| size > 0) {
+            let Some(others) = begun.others.take() else {
+                self.begun = Some(begun);
+                return None;
+            };
+            let others = others.into_iter().flat_map(CrewResult::scores);
+            return Some((begun.bodies, begun.own.into_iter().chain(others).collect()));
+        }
+        self.begun = None;
+        // A body without a third stimulus would have another behavior in the designer.
+        let fits = |body: &Body| bodies::body(&body.rows()).is_ok_and(|own| own.palette() == body.palette());
+        let trials = self.search.ask(fits);
+        let parts = (trials.bodies.len() / LEAST_BODIES).clamp(1, size + 1);
+        let Some(crew) = self.shell.crew().filter(|_| parts > 1) else {
+            let found = trials.measure(&job.simulator());
+            return Some((trials.bodies, found));
+        };
+        let mut split = trials.split(parts).into_iter();
+        let own = split.next().expect("there is a part");
+        let others = crew.give(split.map(CrewPart::Bodies).collect());
+        self.begun = Some(BegunGeneration { bodies: trials.bodies, own: own.measure(&job.simulator()), others });
+        None
+    }
 }
 
 fn change(search: &BodySearch, id: u64, changed: &[NicheKey]) -> ArchiveChange {

@@ -11,7 +11,7 @@ use crate::lock::lock;
 use crate::message::RequestResult;
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
-use crate::shell::{Shell, WorkKind};
+use crate::shell::{Portion, Shell, WorkKind};
 use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
 use nbc_session::{CompileOptions, Observer};
@@ -65,6 +65,8 @@ pub(super) struct Job {
 pub(super) enum PortionEnd {
     /// There is more to do.
     More,
+    /// There will be when others have done their parts.
+    Waits,
     /// It is done. There is no answer if somebody else will give it.
     Done(Option<RequestResult>),
 }
@@ -123,16 +125,18 @@ impl Jobs {
         let portion = move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
             let ended = ended.unwrap_or(Err(Refused::Internal));
-            if let Ok(PortionEnd::More) = ended {
-                return true;
+            match ended {
+                Ok(PortionEnd::More) => return Portion::More,
+                Ok(PortionEnd::Waits) => return Portion::Waits,
+                _ => {}
             }
             lock(&running).remove(&id);
             match ended {
                 Ok(PortionEnd::Done(answer)) => answer.into_iter().for_each(|answer| job.outbox.answer(id, Ok(answer))),
-                Ok(PortionEnd::More) => {}
+                Ok(PortionEnd::More | PortionEnd::Waits) => {}
                 Err(refused) => job.outbox.answer(id, Err(job.reason(refused))),
             }
-            false
+            Portion::Done
         };
         shell.start(kind, Box::new(portion));
         Some(stop)

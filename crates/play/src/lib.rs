@@ -4,6 +4,7 @@
 
 mod bodies;
 mod class;
+mod crew_part;
 mod evolving;
 mod export;
 mod frame;
@@ -22,6 +23,7 @@ mod programs;
 mod refusal;
 mod request;
 mod runner;
+mod script;
 mod shared_cycle;
 mod shell;
 mod site;
@@ -34,6 +36,7 @@ mod visit;
 mod wording;
 
 pub use class::Class;
+pub use crew_part::{CrewPart, CrewResult, GivenParts};
 pub use export::{ExportedPage, export};
 pub use lesson_texts::{LessonFiles, LessonTexts};
 pub use lessons::{course, faults_of_lesson, faults_of_lessons};
@@ -42,7 +45,7 @@ pub use local::{KeptFile, LocalLine, LocalShell, MemoryFolder, PageMessage};
 pub use local_crew::LocalCrew;
 pub use message::{ClassCourse, ClassRoll};
 pub use outbox::Line;
-pub use shell::{CancelSource, Crew, PageFolder, Portions, Shell, WorkKind};
+pub use shell::{CancelSource, Crew, PageFolder, Portion, Portions, Shell, WorkKind};
 pub use site::{PUBLIC_PAGE, PlaySite};
 pub use visit::Visit;
 pub use wording::ExportError;

@@ -7,7 +7,9 @@ use crate::lesson_texts::LessonTexts;
 use crate::local_crew::LocalCrew;
 use crate::lock::lock;
 use crate::outbox::Line;
-use crate::shell::{CancelSource, Crew, PageFolder, Portions, Shell, WorkKind};
+use crate::page_files::beside_example;
+use crate::shell::{CancelSource, Crew, PageFolder, Portion, Portions, Shell, WorkKind};
+use nbc_base::fnv::Fnv;
 use nbc_base::source::{EntryKind, FileError, MemoryWorld, SharedWorld, SourceWorld};
 use nbc_circuit::CancelFlag;
 
@@ -31,7 +33,7 @@ impl MemoryFolder {
     /// Adds a file, or replaces it.
     pub fn insert(&self, path: &str, text: &str) {
         let mut files = lock(&self.files);
-        files.known.insert(path.to_owned(), (text.len(), hash(text)));
+        files.known.insert(path.to_owned(), (text.len(), Fnv::of(text)));
         files.world.insert(identity(path), text);
     }
 
@@ -97,8 +99,12 @@ struct MemoryFiles {
 }
 
 impl SourceWorld for MemoryFiles {
+    // Examples come with the program, and so do the files beside them.
     fn read(&self, path: &str) -> Result<String, FileError> {
-        lock(&self.folder.files).world.read(&identity(path))
+        let place = identity(path);
+        let read = lock(&self.folder.files).world.read(&place);
+        let shipped = || beside_example(&place[1..]).map(str::to_owned);
+        read.or_else(|error| shipped().filter(|_| error == FileError::NotFound).ok_or(error))
     }
 
     fn cancel(&self) -> CancelFlag {
@@ -116,12 +122,6 @@ impl SourceWorld for MemoryFiles {
     fn identity(&self, path: &str) -> String {
         identity(path)
     }
-}
-
-/// FNV-1a of 64 bits.
-fn hash(text: &str) -> u64 {
-    let mix = |hash: u64, byte: u8| (hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
-    text.bytes().fold(0xcbf2_9ce4_8422_2325, mix)
 }
 
 /// The path of a file from the root, which is the folder: what leads outside ends there.
@@ -192,28 +192,44 @@ pub struct KeptFile {
     pub bytes: Vec<u8>,
 }
 
+/// Work that takes turns.
+#[derive(Default)]
+struct LocalWork {
+    queue: VecDeque<Portions>,
+    /// How many at the end of the queue wait for others, one after the other.
+    waiting: usize,
+}
+
 /// Work and files that wait for each other in one thread.
 #[derive(Default)]
 pub struct LocalShell {
-    work: Mutex<VecDeque<Portions>>,
+    work: Mutex<LocalWork>,
     kept: Mutex<(u64, VecDeque<KeptFile>)>,
     template: Mutex<Option<Arc<str>>>,
     crew: LocalCrew,
 }
 
 impl LocalShell {
-    /// Whether there is work to do.
+    /// Whether there is work to do. Work that waits for the crew is not counted until something new has come.
     pub fn has_work(&self) -> bool {
-        !lock(&self.work).is_empty()
+        let work = lock(&self.work);
+        work.queue.len() > work.waiting
+    }
+
+    /// Notes that there is something new for work that waits.
+    pub fn wake(&self) {
+        lock(&self.work).waiting = 0;
     }
 
     /// Does a portion of one work. Several take turns.
     pub fn advance(&self) {
-        let next = lock(&self.work).pop_front();
-        if let Some(mut portions) = next
-            && portions()
-        {
-            lock(&self.work).push_back(portions);
+        let next = lock(&self.work).queue.pop_front();
+        let Some(mut portions) = next else { return };
+        let portion = portions();
+        let work = &mut *lock(&self.work);
+        work.waiting = if portion == Portion::Waits { (work.waiting + 1).min(work.queue.len() + 1) } else { 0 };
+        if portion != Portion::Done {
+            work.queue.push_back(portions);
         }
     }
 
@@ -235,7 +251,9 @@ impl LocalShell {
 
 impl Shell for LocalShell {
     fn start(&self, _kind: WorkKind, portions: Portions) {
-        lock(&self.work).push_back(portions);
+        let work = &mut *lock(&self.work);
+        work.queue.push_back(portions);
+        work.waiting = 0;
     }
 
     fn keep(&self, name: &str, media_type: &'static str, bytes: Vec<u8>) -> String {
@@ -256,5 +274,20 @@ impl Shell for LocalShell {
 
     fn crew(&self) -> Option<&dyn Crew> {
         Some(&self.crew)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_an_example_needs_is_there_until_there_is_a_file_of_that_name() {
+        let folder = MemoryFolder::default();
+        let words = folder.world().read("riscv/sum.hex").unwrap();
+        assert!(words.lines().count() > 3);
+        assert_eq!(folder.world().read("latch.nb"), Err(FileError::NotFound), "a program is opened by its user");
+        folder.insert("riscv/sum.hex", "0");
+        assert_eq!(folder.world().read("riscv/sum.hex").unwrap(), "0");
     }
 }

@@ -1,12 +1,12 @@
-//! Others that simulate parts of a cycle, as whoever has a [`LocalShell`](crate::LocalShell) sees them: parts to be
-//! taken to them, and what they bring back.
+//! Others that do parts of simulations, as whoever has a [`LocalShell`](crate::LocalShell) sees them: parts to be taken
+//! to them, and what they bring back.
 
 use std::collections::VecDeque;
-use std::sync::Mutex;
+use std::sync::{Arc, Mutex, Weak};
 
+use crate::crew_part::{CrewPart, CrewResult, GivenParts};
 use crate::lock::lock;
 use crate::shell::Crew;
-use nbc_swarm::{CyclePart, PartStates};
 
 /// None at first.
 #[derive(Default)]
@@ -17,12 +17,21 @@ pub struct LocalCrew {
 #[derive(Default)]
 struct State {
     size: usize,
-    /// The number of the first part of the present cycle. Numbers go on from cycle to cycle.
-    first: usize,
-    /// Parts that nobody has yet.
-    waiting: VecDeque<(usize, CyclePart)>,
-    /// The states of the parts of the present cycle.
-    done: Vec<Option<PartStates>>,
+    /// The number of the next part.
+    next: usize,
+    /// Parts that nobody has yet, with their numbers.
+    waiting: VecDeque<(usize, CrewPart)>,
+    /// Parts whose results are awaited, with the number of the first and how many there are.
+    given: Vec<(usize, usize, Weak<GivenParts>)>,
+}
+
+impl State {
+    /// Those whose results are awaited, among which a part is, and its place there.
+    fn home(&self, number: usize) -> Option<(Arc<GivenParts>, usize)> {
+        let around = |(first, count, _): &&(usize, usize, _)| (*first..first + count).contains(&number);
+        let (first, _, given) = self.given.iter().find(around)?;
+        Some((given.upgrade()?, number - first))
+    }
 }
 
 impl LocalCrew {
@@ -32,16 +41,23 @@ impl LocalCrew {
     }
 
     /// The next part that nobody has yet, with its number.
-    pub fn next_part(&self) -> Option<(usize, CyclePart)> {
-        lock(&self.state).waiting.pop_front()
+    pub fn next_part(&self) -> Option<(usize, CrewPart)> {
+        let state = &mut *lock(&self.state);
+        loop {
+            let (number, part) = state.waiting.pop_front()?;
+            if state.home(number).is_some() {
+                return Some((number, part));
+            }
+        }
     }
 
-    /// Takes the states of a part. Those of an earlier cycle are of no use.
-    pub fn receive(&self, number: usize, states: PartStates) {
+    /// Takes what became of a part, if anybody still waits for it.
+    pub fn receive(&self, number: usize, result: CrewResult) {
         let state = &mut *lock(&self.state);
-        if let Some(place) = number.checked_sub(state.first).and_then(|at| state.done.get_mut(at)) {
-            *place = Some(states);
+        if let Some((given, place)) = state.home(number) {
+            given.put(place, result);
         }
+        state.given.retain(|(.., given)| given.strong_count() > 0);
     }
 }
 
@@ -50,16 +66,37 @@ impl Crew for LocalCrew {
         lock(&self.state).size
     }
 
-    fn give(&self, parts: Vec<CyclePart>) {
+    fn give(&self, parts: Vec<CrewPart>) -> Arc<GivenParts> {
         let state = &mut *lock(&self.state);
-        state.first += state.done.len();
-        state.done = vec![None; parts.len()];
-        state.waiting = (state.first..).zip(parts).collect();
+        let (first, given) = (state.next, Arc::new(GivenParts::new(parts.len())));
+        state.next += parts.len();
+        state.given.push((first, parts.len(), Arc::downgrade(&given)));
+        state.waiting.extend((first..).zip(parts));
+        given
     }
+}
 
-    fn take(&self) -> Option<Vec<PartStates>> {
-        let done = &mut lock(&self.state).done;
-        let are_all_there = !done.is_empty() && done.iter().all(Option::is_some);
-        are_all_there.then(|| done.iter_mut().filter_map(Option::take).collect())
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_session::BodyTrials;
+
+    #[test]
+    fn results_go_to_those_who_wait_for_them_and_others_are_dropped() {
+        let trials = nbc_session::BodySearch::new(None, [2, 2], 1, 1).ask(|_| false);
+        let parts = |count| vec![CrewPart::Bodies(BodyTrials::clone(&trials)); count];
+        let crew = LocalCrew::default();
+        let (first, second) = (crew.give(parts(2)), crew.give(parts(1)));
+        drop(crew.give(parts(3)));
+        let numbers: Vec<usize> = std::iter::from_fn(|| crew.next_part()).map(|(number, _)| number).collect();
+        assert_eq!(numbers, [0, 1, 2], "nobody waits for the last three");
+        let result = CrewResult::Bodies(vec![None]);
+        crew.receive(1, result.clone());
+        crew.receive(2, result.clone());
+        crew.receive(4, result.clone());
+        assert_eq!((first.take(), second.take()), (None, Some(vec![result.clone()])));
+        crew.receive(0, result.clone());
+        assert_eq!(first.take(), Some(vec![result; 2]));
+        assert_eq!(first.take(), None, "results are taken once");
     }
 }

@@ -15,6 +15,12 @@ use nbc_session::Session;
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
+/// A file that an example needs beside it, such as the words of a memory.
+pub(super) fn beside_example(path: &str) -> Option<&'static str> {
+    let file = EXAMPLES.get_file(path).filter(|_| !path.ends_with(".nb"))?;
+    file.contents_utf8()
+}
+
 /// The files that a page has read, with their stamps at that time. A stamp changes with its file.
 pub(super) struct PageFiles {
     folder: Arc<dyn PageFolder>,

@@ -12,6 +12,9 @@ use crate::message::{
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
+use crate::script::Script;
+use crate::shared_cycle::SharedCycles;
+use crate::shell::Shell;
 use crate::site::SCHEME;
 use crate::state;
 use nbc_base::budget::Limit;
@@ -19,7 +22,7 @@ use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{NetId, Netlist};
 use nbc_session::report::{self, Looks};
-use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestCase, TestOptions};
+use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace};
 
 /// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
@@ -86,16 +89,16 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     Ok((circuit, options))
 }
 
-/// A compiled circuit as a swarm to run through inputs.
+/// A compiled circuit as a swarm that is run through the cycles before it is shown.
 ///
 /// # Errors
 /// When it has too many robots, or the request is stopped.
 pub(super) fn loading(
     (session, checked): (&Session, &Checked),
     compiled: Compiled,
-    inputs: Vec<Vec<bool>>,
+    script: Script,
     answer: impl FnOnce(SwarmAnswer) -> RequestResult,
-    (number, job): (u32, &Job),
+    (number, job, shell): (u32, &Job, Arc<dyn Shell>),
 ) -> Result<LoadingSwarm, Refused> {
     job.check()?;
     let robots = compiled.assembly.members.len();
@@ -103,8 +106,10 @@ pub(super) fn loading(
         return Err(Refused::TooManyRobots { robots, most: Limit::PageRobots.most() as usize });
     }
     let swarm = session.swarm(&compiled);
-    let answer = answer(SwarmAnswer { swarm: Box::new(describe(number, checked, &compiled, &swarm)) });
-    Ok(LoadingSwarm::new(RunningSwarm::new(number, compiled, swarm), inputs, (job.id, answer)))
+    let described = ShownSwarm { script: script.shown, ..describe(number, checked, &compiled, &swarm) };
+    let answer = answer(SwarmAnswer { swarm: Box::new(described) });
+    let running = RunningSwarm::new(number, compiled, swarm, (script.inputs, shell));
+    Ok(LoadingSwarm::new(running, script.before, (job.id, answer)))
 }
 
 /// What a page is told about a swarm.
@@ -113,6 +118,7 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
     // A swarm has its robots in the order of the cells.
     let nets: Vec<NetId> = netlist.cells().map(|(cell, _)| cell).collect();
     let source = checked.program.circuit(&compiled.plan.circuit.circuit);
+    let timing = compiled.swarm_timing();
     let all = Looks::of(assembly.members.iter().map(|member| &member.robot.body), SCHEME);
     ShownSwarm {
         number,
@@ -131,12 +137,17 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
         listing: source.and_then(|source| state::listing(checked, source, &assembly.outputs)),
         looks: looks(&all),
         schematic: compiled.schematic(SCHEME).pages().into(),
-        timing: compiled.swarm_timing().describe(),
+        timing: timing.describe(),
         hold: compiled.timing.hold,
+        clocks: state::clocks(&timing, &assembly.inputs),
         start: assembly.start_cycles(),
         ground: columns(&assembly.setting(Session::LIVE_CYCLES).ground),
         frames: FRAMES,
-        waves: compiled.mapping.waves.as_ref().map(|machine| waves(machine, &trace.recording.robots)),
+        waves: compiled.mapping.waves.as_ref().map(|machine| {
+            let registers = state::wave_registers(&compiled.mapping, machine);
+            ShownWaves { registers, ..waves(machine, &trace.recording.robots) }
+        }),
+        script: None,
     }
 }
 
@@ -156,6 +167,7 @@ fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
         phases: robots.iter().map(|recorded| phases[recorded.robot]).collect(),
         begins: machine.beginning() * i64::from(machine.beat),
         clock: machine.clock.map(|(bit, _)| bit),
+        registers: Vec::new(),
     }
 }
 
@@ -196,8 +208,9 @@ pub(super) fn testing(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
     (test, level): (usize, Level),
+    shell: Arc<dyn Shell>,
 ) -> JobWork {
-    let (mut open, mut running) = (Some(open), None);
+    let (mut open, mut running, mut cycles) = (Some(open), None, SharedCycles::new(shell));
     Box::new(move |job| {
         let Some(run) = &mut running else {
             let checked = open.take().expect("it is opened once")(job)?;
@@ -206,32 +219,12 @@ pub(super) fn testing(
             running = Some(session.begin_test(&checked, test, &options)?);
             return Ok(PortionEnd::More);
         };
-        if run.advance(job) {
-            return Ok(PortionEnd::More);
+        if run.advance_with(job, &mut cycles) {
+            return Ok(if cycles.waits() { PortionEnd::Waits } else { PortionEnd::More });
         }
         job.check()?;
         let runs = running.take().expect("it runs").into_runs();
         let results = runs.iter().map(|run| TestResult::from(&run.verdict)).collect();
         Ok(PortionEnd::Done(Some(RequestResult::Test(TestAnswer { results }))))
     })
-}
-
-/// The circuit of a test in the swarm and the world, and the inputs of each cycle up to the end of a row.
-///
-/// # Errors
-/// When there is no such test or row, or its circuit cannot be compiled.
-pub(super) fn until_row(
-    session: &Session,
-    checked: &Checked,
-    (test, swarm, world, row): (usize, Option<&str>, Option<&str>, usize),
-    job: &Job,
-) -> Result<(Compiled, Vec<Vec<bool>>), Refused> {
-    let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
-    let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
-    let cases = session.cases(checked, test, &options)?;
-    let is_meant =
-        |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);
-    let meant = cases.into_iter().find(is_meant).ok_or(Refused::NoTest)?;
-    let rows = meant.rows().iter().take_while(|one| one.row <= row).count();
-    meant.into_physics(rows).filter(|_| rows > 0).ok_or(Refused::NoTest)
 }

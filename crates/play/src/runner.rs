@@ -2,7 +2,6 @@
 
 use std::collections::VecDeque;
 use std::sync::Arc;
-use std::vec::IntoIter;
 
 use core::task::Poll;
 use core::time::Duration;
@@ -13,9 +12,9 @@ use crate::jobs::{Job, PortionEnd};
 use crate::message::{PlayEvent, RequestResult};
 use crate::outbox::Outbox;
 use crate::refusal::Refused;
-use crate::shared_cycle::SharedCycle;
-use crate::shell::{Crew, Shell};
-use nbc_session::{Compiled, Excerpt, Observer, Session};
+use crate::shared_cycle::SharedCycles;
+use crate::shell::Shell;
+use nbc_session::{Compiled, CycleRunner, Excerpt, Observer, Session};
 use nbc_swarm::{LiveSwarm, RobotFault, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
@@ -29,11 +28,10 @@ const PACE_CYCLES: usize = 64;
 /// Cycles of a portion of work.
 const PORTION: usize = 8;
 
-/// A swarm that is run through inputs before it is shown.
+/// A swarm that is run through the first cycles of its script before it is shown.
 pub(super) struct LoadingSwarm {
     running: RunningSwarm,
-    inputs: IntoIter<Vec<bool>>,
-    all: usize,
+    cycles: u32,
     /// Why it cannot go on.
     fault: Option<String>,
     request: u64,
@@ -41,9 +39,9 @@ pub(super) struct LoadingSwarm {
 }
 
 impl LoadingSwarm {
-    /// A swarm at its start, the inputs to run it through, and the request to answer then.
-    pub(super) fn new(running: RunningSwarm, inputs: Vec<Vec<bool>>, (request, answer): (u64, RequestResult)) -> Self {
-        Self { running, all: inputs.len(), inputs: inputs.into_iter(), fault: None, request, answer }
+    /// A swarm at its start, the cycles to simulate, and the request to answer then.
+    pub(super) fn new(running: RunningSwarm, cycles: usize, (request, answer): (u64, RequestResult)) -> Self {
+        Self { running, cycles: cycles as u32, fault: None, request, answer }
     }
 
     /// Simulates some cycles. The page learns of the end when the swarm is shown.
@@ -53,13 +51,15 @@ impl LoadingSwarm {
     pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
         for _ in 0..PORTION {
             job.check()?;
-            let Some(bits) = self.inputs.next().filter(|_| self.fault.is_none()) else {
+            if self.running.now() == self.cycles || self.fault.is_some() {
                 return Ok(PortionEnd::Done(None));
-            };
-            self.running.inputs = bits;
-            self.fault = self.running.cycle();
+            }
+            match self.running.cycle() {
+                Poll::Ready(fault) => self.fault = fault,
+                Poll::Pending => return Ok(PortionEnd::Waits),
+            }
         }
-        job.progress((self.all - self.inputs.len()) as u64, self.all as u64);
+        job.progress(self.running.now().into(), self.cycles.into());
         Ok(PortionEnd::More)
     }
 }
@@ -80,7 +80,6 @@ pub(super) enum Change {
 /// What a page sees of a swarm, if it has one.
 pub(super) struct Runner {
     outbox: Outbox,
-    shell: Arc<dyn Shell>,
     shown: Option<RunningSwarm>,
 }
 
@@ -103,11 +102,14 @@ pub(super) struct RunningSwarm {
     start: SwarmSnapshot,
     /// The input bits of the next cycle.
     inputs: Vec<bool>,
+    /// The input bits of the first cycles, in their place, until somebody sets inputs.
+    script: Vec<Vec<bool>>,
     /// An input bit that changes by itself, the cycles from change to change, and the cycle of the last one.
     clock: Option<(usize, u32, u32)>,
     pace: Option<Pace>,
-    /// The next cycle while others simulate parts of it.
-    shared: Option<SharedCycle>,
+    /// Who simulates the next cycle.
+    cycles: SharedCycles,
+    shell: Arc<dyn Shell>,
     /// When the last cycles were done.
     times: VecDeque<Duration>,
     starts: Vec<[f64; 2]>,
@@ -126,8 +128,8 @@ pub(super) struct RunningSwarm {
 
 impl Runner {
     /// No swarm.
-    pub(super) fn new(outbox: Outbox, shell: Arc<dyn Shell>) -> Self {
-        Self { outbox, shell, shown: None }
+    pub(super) fn new(outbox: Outbox) -> Self {
+        Self { outbox, shown: None }
     }
 
     /// The time until there is something to do; `None` if there is nothing until a request, or a part of a cycle.
@@ -139,7 +141,7 @@ impl Runner {
     pub(super) fn advance(&mut self, now: Duration) {
         let Some(shown) = &mut self.shown else { return };
         if shown.is_due(now)
-            && let Some(reason) = shown.go_on(now, self.shell.crew())
+            && let Some(reason) = shown.go_on(now)
         {
             self.outbox.event(PlayEvent::Stopped { reason });
         }
@@ -177,8 +179,13 @@ impl Runner {
 }
 
 impl RunningSwarm {
-    /// A swarm at its start.
-    pub(super) fn new(number: u32, compiled: Compiled, swarm: LiveSwarm) -> Self {
+    /// A swarm at its start, with the input bits of its first cycles.
+    pub(super) fn new(
+        number: u32,
+        compiled: Compiled,
+        swarm: LiveSwarm,
+        (script, shell): (Vec<Vec<bool>>, Arc<dyn Shell>),
+    ) -> Self {
         let trace = swarm.trace();
         let lefts = trace.recording.robots.iter().map(|robot| robot.origin());
         let starts = trace.robots.iter().zip(lefts).map(|(robot, left)| [robot.com_x[0], left]).collect();
@@ -188,9 +195,11 @@ impl RunningSwarm {
             history: SwarmHistory::new(&swarm, MEMORY),
             start: swarm.snapshot(),
             inputs: vec![false; trace.inputs.iter().map(|port| port.width).sum()],
+            script,
             clock: None,
             pace: None,
-            shared: None,
+            cycles: SharedCycles::new(shell.clone()),
+            shell,
             times: VecDeque::new(),
             starts,
             poses: Poses::of(&swarm),
@@ -210,7 +219,7 @@ impl RunningSwarm {
     }
 
     fn due(&self, now: Duration) -> Option<Duration> {
-        let pace = self.pace.as_ref().filter(|_| self.shared.is_none());
+        let pace = self.pace.as_ref().filter(|_| !self.cycles.waits());
         let until_cycle = pace.map(|pace| pace.next.saturating_sub(now));
         let until_frame = self.is_new.then_some(FRAME_TIME);
         until_cycle.into_iter().chain(until_frame).min()
@@ -222,13 +231,8 @@ impl RunningSwarm {
 
     /// Simulates the next cycle, and sets the time of the one after it, unless others still simulate. Returns the
     /// reason if the swarm cannot continue.
-    fn go_on(&mut self, now: Duration, crew: Option<&dyn Crew>) -> Option<String> {
-        let crew = crew.filter(|crew| SharedCycle::is_worth_it(*crew, self.starts.len()));
-        let cycle = match crew {
-            Some(crew) => self.cycle_with(crew),
-            None => Poll::Ready(self.cycle()),
-        };
-        let Poll::Ready(fault) = cycle else { return None };
+    fn go_on(&mut self, now: Duration) -> Option<String> {
+        let Poll::Ready(fault) = self.cycle() else { return None };
         let fault = fault.or_else(|| self.ground_ends());
         if fault.is_some() {
             self.pace = None;
@@ -249,37 +253,22 @@ impl RunningSwarm {
         None
     }
 
-    /// Simulates a cycle with the inputs. Returns the reason if a robot failed, so that there is no such cycle.
-    fn cycle(&mut self) -> Option<String> {
-        self.shared = None;
-        self.flip_clock();
-        let fault = self.swarm.step(&self.inputs).err();
-        self.note(fault)
+    /// Simulates a cycle with the inputs, or a part of it. Returns the reason if a robot failed, so that there is no such
+    /// cycle.
+    fn cycle(&mut self) -> Poll<Option<String>> {
+        if !self.cycles.waits() {
+            self.set_next_inputs();
+        }
+        let step = self.cycles.step(&mut self.swarm, &self.compiled.assembly, Session::LIVE_CYCLES, &self.inputs);
+        step.map(|step| self.note(step.err()))
     }
 
-    /// The same, together with others.
-    fn cycle_with(&mut self, crew: &dyn Crew) -> Poll<Option<String>> {
-        let Some(shared) = self.shared.take() else {
-            self.flip_clock();
-            return match SharedCycle::begin(crew, &self.swarm, &self.compiled.assembly, &self.inputs) {
-                Ok(shared) => {
-                    self.shared = Some(shared);
-                    Poll::Pending
-                }
-                Err(fault) => Poll::Ready(self.note(Some(fault))),
-            };
-        };
-        let Some(others) = crew.take() else {
-            self.shared = Some(shared);
-            return Poll::Pending;
-        };
-        let fault = shared.end(others, &mut self.swarm).err();
-        Poll::Ready(self.note(fault))
-    }
-
-    /// Changes the input that changes by itself, if it is time for it.
-    fn flip_clock(&mut self) {
+    /// Sets the inputs of the next cycle that nobody sets: those of the script, and the one that changes by itself.
+    fn set_next_inputs(&mut self) {
         let now = self.now();
+        if let Some(bits) = self.script.get(now as usize) {
+            self.inputs.clone_from(bits);
+        }
         if let Some((bit, half, last)) = &mut self.clock
             && now >= last.saturating_add(*half)
         {
@@ -313,16 +302,24 @@ impl RunningSwarm {
 
     fn change(&mut self, change: Change, now: Duration) -> Result<(), Refused> {
         // A cycle that others still simulate has not been seen: it is simulated again, with what is changed.
-        self.shared = None;
+        self.cycles = SharedCycles::new(self.shell.clone());
         match change {
             Change::Inputs(bits) if bits.len() != self.inputs.len() => {
                 return Err(Refused::Bits { expected: self.inputs.len() });
             }
-            Change::Inputs(bits) => self.set_inputs(bits),
+            Change::Inputs(bits) => {
+                self.script.clear();
+                self.set_inputs(bits);
+            }
             Change::Clock { bit, .. } if bit >= self.inputs.len() => {
                 return Err(Refused::Bits { expected: self.inputs.len() });
             }
-            Change::Clock { bit, half } => self.clock = half.map(|half| (bit, half.max(1), self.now())),
+            Change::Clock { bit, half } => {
+                if half.is_some() {
+                    self.script.clear();
+                }
+                self.clock = half.map(|half| (bit, half.max(1), self.now()));
+            }
             Change::Run { speed } => self.set_pace(speed, None, now),
             Change::Pause => self.set_paused(),
             Change::Step { cycles } => self.set_pace(None, Some(cycles.clamp(1, 1000)), now),

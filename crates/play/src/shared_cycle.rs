@@ -1,11 +1,14 @@
 //! A cycle of a swarm of which others simulate parts.
 
+use core::task::Poll;
 use std::ops::Range;
+use std::sync::Arc;
 
-use crate::shell::Crew;
-use nbc_session::Session;
+use crate::crew_part::{CrewPart, CrewResult, GivenParts};
+use crate::shell::{Crew, Shell};
+use nbc_session::CycleRunner;
 use nbc_sim::Simulator;
-use nbc_swarm::{Assembly, BegunCycle, CycleTrace, LiveSwarm, PartStates, RobotFault};
+use nbc_swarm::{Assembly, BegunCycle, LiveSwarm, PartStates, RobotFault};
 
 /// The fewest robots that are worth the way to others and back.
 const LEAST_ROBOTS: usize = 4;
@@ -14,6 +17,7 @@ const LEAST_ROBOTS: usize = 4;
 pub(super) struct SharedCycle {
     begun: BegunCycle,
     own: PartStates,
+    others: Arc<GivenParts>,
 }
 
 impl SharedCycle {
@@ -22,31 +26,79 @@ impl SharedCycle {
         parts(crew.size(), robots) > 1
     }
 
-    /// Begins a cycle, gives its parts to a crew, and simulates one of them.
+    /// Begins a cycle of a swarm that was made of an assembly for `cycles`, gives its parts to a crew, and simulates one
+    /// of them.
     ///
     /// # Errors
     /// When a robot has failed before.
     pub(super) fn begin(
         crew: &dyn Crew,
         swarm: &LiveSwarm,
-        assembly: &Assembly,
+        (assembly, cycles): (&Assembly, usize),
         inputs: &[bool],
     ) -> Result<Self, RobotFault> {
         let begun = swarm.begin(inputs)?;
-        let part = |robots: Range<usize>| swarm.part(&begun, assembly, Session::LIVE_CYCLES, robots);
+        let part = |robots: Range<usize>| swarm.part(&begun, assembly, cycles, robots);
         let mut ranges = ranges(parts(crew.size(), assembly.members.len()), assembly.members.len());
         let own = part(ranges.next().expect("there is a part"));
-        crew.give(ranges.map(part).collect());
-        Ok(Self { own: own.simulate(&Simulator::default()), begun })
+        let others = crew.give(ranges.map(|robots| CrewPart::Cycle(part(robots))).collect());
+        Ok(Self { own: own.simulate(&Simulator::default()), begun, others })
     }
 
-    /// Ends the cycle with what the others have simulated.
-    ///
-    /// # Errors
-    /// When a robot has failed in it.
-    pub(super) fn end(self, mut others: Vec<PartStates>, swarm: &mut LiveSwarm) -> Result<&CycleTrace, RobotFault> {
-        others.insert(0, self.own);
-        swarm.end(self.begun, &others)
+    /// Ends the cycle with what the others have simulated; gives it back if they have not yet. The error is that of a
+    /// robot that has failed in it.
+    pub(super) fn end(self, swarm: &mut LiveSwarm) -> Result<Result<(), RobotFault>, Self> {
+        let Some(others) = self.others.take() else { return Err(self) };
+        let mut parts = vec![self.own];
+        parts.extend(others.into_iter().map(CrewResult::states));
+        Ok(swarm.end(self.begun, &parts).map(drop))
+    }
+}
+
+/// Simulates the cycles of a swarm, together with a crew if there is one and it is worth it.
+pub(super) struct SharedCycles {
+    shell: Arc<dyn Shell>,
+    /// The present cycle, if others still simulate parts of it.
+    present: Option<SharedCycle>,
+}
+
+impl SharedCycles {
+    /// No cycle yet.
+    pub(super) fn new(shell: Arc<dyn Shell>) -> Self {
+        Self { shell, present: None }
+    }
+
+    /// Whether others still simulate parts of a cycle.
+    pub(super) fn waits(&self) -> bool {
+        self.present.is_some()
+    }
+}
+
+impl CycleRunner for SharedCycles {
+    fn step(
+        &mut self,
+        swarm: &mut LiveSwarm,
+        assembly: &Assembly,
+        cycles: usize,
+        inputs: &[bool],
+    ) -> Poll<Result<(), RobotFault>> {
+        let present = self.present.take();
+        let is_worth_it = |crew: &&dyn Crew| SharedCycle::is_worth_it(*crew, assembly.members.len());
+        let Some(crew) = self.shell.crew().filter(is_worth_it) else {
+            return Poll::Ready(swarm.step(inputs).map(drop));
+        };
+        let next = match present {
+            Some(present) => match present.end(swarm) {
+                Ok(ended) => return Poll::Ready(ended),
+                Err(present) => present,
+            },
+            None => match SharedCycle::begin(crew, swarm, (assembly, cycles), inputs) {
+                Ok(begun) => begun,
+                Err(fault) => return Poll::Ready(Err(fault)),
+            },
+        };
+        self.present = Some(next);
+        Poll::Pending
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
+use crate::crew_part::{CrewPart, GivenParts};
 use crate::lesson_texts::LessonTexts;
 use nbc_base::source::{FileError, SharedWorld};
 use nbc_circuit::CancelFlag;
-use nbc_swarm::{CyclePart, PartStates};
 
 /// The kinds of long work. A shell can give each its own place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,12 +20,23 @@ pub enum WorkKind {
     Search,
 }
 
-/// Does a portion of the work; whether there is more to do.
-pub type Portions = Box<dyn FnMut() -> bool + Send>;
+/// What there is after a portion of work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Portion {
+    /// It is done.
+    Done,
+    /// There is more to do.
+    More,
+    /// There will be when the [`Crew`] brings something. It does no harm to call it before.
+    Waits,
+}
+
+/// Does a portion of the work.
+pub type Portions = Box<dyn FnMut() -> Portion + Send>;
 
 /// What is around the pages of a site.
 pub trait Shell: Send + Sync {
-    /// Does work that may take long, by calling the portions until one returns false. Whoever calls this does not wait
+    /// Does work that may take long, by calling the portions until one is the last. Whoever calls this does not wait
     /// for it.
     fn start(&self, kind: WorkKind, portions: Portions);
 
@@ -38,22 +49,19 @@ pub trait Shell: Send + Sync {
     /// The lessons of the page, as their files are now.
     fn lessons(&self) -> Vec<LessonTexts>;
 
-    /// Who simulates parts of a swarm's cycle while the page simulates another, if there is anybody.
+    /// Who does parts of simulations while the page does another, if there is anybody.
     fn crew(&self) -> Option<&dyn Crew> {
         None
     }
 }
 
-/// Others that simulate parts of a cycle. They have one cycle at a time.
+/// Others that do parts of simulations.
 pub trait Crew: Send + Sync {
-    /// How many parts they simulate at the same time.
+    /// How many parts they do at the same time. When there are none, what was given to them will not come.
     fn size(&self) -> usize;
 
-    /// Gives them the parts of a cycle, whatever they had before.
-    fn give(&self, parts: Vec<CyclePart>);
-
-    /// The states of all parts, once, when all are there.
-    fn take(&self) -> Option<Vec<PartStates>>;
+    /// Gives them parts. They are dropped with the handle.
+    fn give(&self, parts: Vec<CrewPart>) -> Arc<GivenParts>;
 }
 
 /// Gives the flag that ends what begins now.

@@ -2,39 +2,82 @@
 
 use std::collections::BTreeMap;
 
-use crate::message::{ListingRow, ShownListing, ShownRegister};
+use crate::message::{BitSource, ListingRow, ShownClock, ShownListing, ShownRegister, WaveBit, WaveRegister};
 use nbc_base::model::{Circuit, Column, ExpressionKind, TablePattern};
+use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{BlockId, NetId, Netlist};
-use nbc_session::Checked;
+use nbc_session::report::SwarmTiming;
+use nbc_session::{Checked, Mapping};
+
+/// The clocks of a swarm. What is reached by the slowest path has settled before the clock has changed twice.
+pub(super) fn clocks(timing: &SwarmTiming, inputs: &[Column]) -> Vec<ShownClock> {
+    let bits: Vec<String> = inputs.iter().flat_map(Column::bits).collect();
+    let clocks = timing.phases.clocks.iter().filter_map(|clock| {
+        let slowest = clock.paths.iter().map(|path| path.cycles).max().unwrap_or(0);
+        let half = clock.half.max(slowest.div_ceil(2)).min(timing.hold);
+        Some(ShownClock { bit: bits.iter().position(|bit| *bit == clock.clock)?, half })
+    });
+    clocks.collect()
+}
 
 /// The registers of a swarm's netlist, whose cells are its robots in order, with the names of their nets in the source.
 /// Those whose bits were merged or left out are not among them.
 pub(super) fn registers(netlist: &Netlist) -> Vec<ShownRegister> {
+    let bits = netlist.cells().enumerate().map(|(robot, (id, _))| (id, robot));
+    named(netlist, bits).into_iter().map(|(name, robots)| ShownRegister { name, robots }).collect()
+}
+
+/// The registers of a wave machine with the names of their nets in the source. Its cells are the swarm's robots in
+/// order. Those of which a bit is on an input that no robot reads are not among them.
+pub(super) fn wave_registers(mapping: &Mapping, machine: &WaveMachine) -> Vec<WaveRegister> {
+    let source = &mapping.source;
+    let shows: BTreeMap<String, NetId> = source.cells().map(|(id, _)| (source.net_name(id), id)).collect();
+    let robots: BTreeMap<NetId, usize> = machine.netlist.cells().enumerate().map(|(at, (id, _))| (id, at)).collect();
+    let bits = mapping.proof.cuts.iter().zip(&machine.state).filter_map(|(name, bit)| {
+        let (source, phase) = match bit.net {
+            Err(value) => (BitSource::Constant(value), 0),
+            Ok(net) => match robots.get(&net) {
+                Some(&robot) => (BitSource::Robot(robot), machine.phase[&net]),
+                None => {
+                    let port = machine.netlist.inputs().iter().position(|input| *input == net)?;
+                    (BitSource::Input(port), machine.inputs[port]?)
+                }
+            },
+        };
+        let beats = phase + 1 - bit.later * i64::from(machine.period);
+        let seen = WaveBit { source, after: beats * i64::from(machine.beat) - 1, starts: bit.starts.clone() };
+        Some((*shows.get(name)?, seen))
+    });
+    named(source, bits).into_iter().map(|(name, bits)| WaveRegister { name, bits }).collect()
+}
+
+/// Bits of registers, by their cells, as registers with names; the most significant bit comes first.
+fn named<T>(netlist: &Netlist, bits: impl Iterator<Item = (NetId, T)>) -> Vec<(String, Vec<T>)> {
     let blocks = netlist.blocks();
-    let mut found: BTreeMap<(BlockId, &str), BTreeMap<usize, usize>> = BTreeMap::new();
-    for (robot, (id, _)) in netlist.cells().enumerate() {
+    let mut found: BTreeMap<(BlockId, &str), BTreeMap<usize, T>> = BTreeMap::new();
+    for (id, bit) in bits {
         let around = blocks.around(netlist.block(id));
         let Some(at) = around.iter().position(|&block| nbc_circuit::keeps_state(blocks.circuit(block))) else {
             continue;
         };
         // A register that is the output of a circuit has the name of its call.
         let calls = around[..=at].iter().map(|&block| blocks.name(block));
-        if let Some((bus, place)) = bit(netlist, id).filter(|(bus, _)| calls.into_iter().any(|call| call == *bus)) {
-            found.entry((around[at], bus)).or_default().insert(place, robot);
+        if let Some((bus, place)) = place(netlist, id).filter(|(bus, _)| calls.into_iter().any(|call| call == *bus)) {
+            found.entry((around[at], bus)).or_default().insert(place, bit);
         }
     }
     found.retain(|_, bits| bits.keys().copied().eq(0..bits.len()));
-    let named = |bus: &str| found.keys().filter(|(_, other)| *other == bus).count();
+    let mut same: BTreeMap<&str, usize> = BTreeMap::new();
+    found.keys().for_each(|(_, bus)| *same.entry(bus).or_default() += 1);
     let path = |block| blocks.around(block).into_iter().map(|block| blocks.name(block)).collect::<Vec<_>>().join("/");
-    let shown = |(&(block, bus), bits): (&(BlockId, &str), &BTreeMap<usize, usize>)| ShownRegister {
-        name: if named(bus) == 1 { bus.to_owned() } else { path(block) },
-        robots: bits.values().rev().copied().collect(),
+    let register = |((block, bus), bits): ((BlockId, &str), BTreeMap<usize, T>)| {
+        (if same[bus] == 1 { bus.to_owned() } else { path(block) }, bits.into_values().rev().collect())
     };
-    found.iter().map(shown).collect()
+    found.into_iter().map(register).collect()
 }
 
 /// The bus of a cell's net, which may be inside calls, and its place in it.
-fn bit(netlist: &Netlist, id: NetId) -> Option<(&str, usize)> {
+fn place(netlist: &Netlist, id: NetId) -> Option<(&str, usize)> {
     let name = netlist.cell(id)?.name.as_deref()?;
     let own = name.rsplit('/').next().unwrap_or(name);
     match own.strip_suffix(']').and_then(|bit| bit.split_once('[')) {
@@ -89,7 +132,9 @@ mod tests {
         let checked = session.open("a.nb").unwrap();
         let choice = Choice { circuit: Some(circuit.to_owned()), ..Choice::default() };
         let circuit = checked.circuit(&choice).unwrap();
-        let compiled = session.compile(&checked, &circuit, &CompileOptions::default()).unwrap();
+        let swarm = checked.program.swarms.last().map(|swarm| swarm.name.clone());
+        let compiled =
+            session.compile(&checked, &circuit, &CompileOptions { swarm, ..CompileOptions::default() }).unwrap();
         (checked, compiled)
     }
 
@@ -115,6 +160,16 @@ mod tests {
     }
 
     #[test]
+    fn the_clock_of_a_machine_may_change_before_all_has_settled() {
+        let text = format!("{COMPUTER}\nswarm few {{ circuit: product, library: three, registers: mux }}");
+        let compiled = compiled(&text, "product").1;
+        let timing = compiled.swarm_timing();
+        let clocks = clocks(&timing, &compiled.assembly.inputs);
+        assert!(clocks.len() == 1 && clocks[0].bit == 0, "{clocks:?}");
+        assert!(clocks[0].half < timing.hold && 2 * clocks[0].half >= timing.phases.clocks[0].period, "{clocks:?}");
+    }
+
+    #[test]
     fn registers_inside_calls_have_the_names_of_the_calls_that_they_are_the_outputs_of() {
         let text = "circuit part[n](d, clk) -> (q[n]) { q = register({d, q[n - 1..1]}, clk) }
             circuit two(d, clk) -> (a[2], b[3]) {
@@ -122,5 +177,33 @@ mod tests {
                 b = part[3](a[0], clk)
             }";
         assert_eq!(widths(&registers(&compiled(text, "two").1.mapping.netlist)), [("a", 2), ("b", 3)]);
+    }
+
+    const WAVES: &str = "circuit count(clk) -> (n[3]) { n = register(n + 1, clk) }
+        swarm wave { circuit: count, registers: waves }";
+
+    #[test]
+    fn the_registers_of_a_wave_machine_have_their_values_after_each_step_in_every_thread() {
+        let compiled = compiled(WAVES, "count").1;
+        let machine = compiled.mapping.waves.as_ref().unwrap();
+        let registers = wave_registers(&compiled.mapping, machine);
+        assert_eq!(registers.iter().map(|one| (one.name.as_str(), one.bits.len())).collect::<Vec<_>>(), [("n", 3)]);
+        let (steps, beat, threads) = (12, i64::from(machine.beat), i64::from(machine.period));
+        let mut swarm = Session::new(MemoryWorld::default()).swarm(&compiled);
+        let cycles = machine.cycles(steps + 2);
+        let seen: Vec<Vec<bool>> = (0..cycles).map(|_| swarm.step(&[false]).unwrap().bits.clone()).collect();
+        let bit = |bit: &WaveBit, thread: i64, step: usize| {
+            let begins = (machine.beginning() + step as i64 * threads + thread) * beat;
+            bit.starts.get(step).copied().unwrap_or_else(|| match bit.source {
+                BitSource::Robot(robot) => seen[(begins + bit.after) as usize][robot],
+                BitSource::Constant(value) => value,
+                BitSource::Input(_) => panic!("{bit:?}"),
+            })
+        };
+        for thread in 0..threads {
+            let value = |step| registers[0].bits.iter().fold(0, |n, one| n << 1 | u8::from(bit(one, thread, step)));
+            let values: Vec<u8> = (0..steps).map(value).collect();
+            assert_eq!(values, [0, 1, 2, 3, 4, 5, 6, 7, 0, 1, 2, 3], "thread {thread}");
+        }
     }
 }

@@ -8,6 +8,7 @@ use core::time::Duration;
 use serde_json::Value;
 
 use crate::class::Membership;
+use crate::evolving::SharedSearch;
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, JobWork, Jobs, PortionEnd, once};
 use crate::message::finding::findings;
@@ -17,10 +18,11 @@ use crate::page_files::{PageFiles, example, examples, is_circuit, program_around
 use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
 use crate::runner::{LoadingSwarm, Runner};
+use crate::script::{Moment, Script};
 use crate::shell::WorkKind;
 use crate::site::PlaySite;
 use crate::text_checker::TextChecker;
-use crate::{bodies, evolving, lessons, programs, taking};
+use crate::{bodies, lessons, programs, script, taking};
 use nbc_base::budget::Limit;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, Choice, Compiled, Excerpt, Session};
@@ -58,7 +60,7 @@ impl Visit {
             checking: None,
             files: PageFiles::new(folder),
             jobs: Jobs::new(outbox.clone(), site.making.clone()),
-            runner: Runner::new(outbox.clone(), site.shell.clone()),
+            runner: Runner::new(outbox.clone()),
             outbox,
             site,
             swarms: 0,
@@ -192,12 +194,13 @@ impl Visit {
                 let choice = Choice { circuit: Some(circuit), swarm };
                 self.swarm(path, RequestResult::Compile, move |session, checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
-                    Ok((session.compile(checked, &circuit, &options)?, Vec::new()))
+                    Ok((session.compile(checked, &circuit, &options)?, Script::default()))
                 })
             }
             Verb::Replay { path, test, swarm, world, row } => {
                 self.swarm(path, RequestResult::Replay, move |session, checked, job| {
-                    programs::until_row(session, checked, (test, swarm.as_deref(), world.as_deref(), row), job)
+                    let moment = Moment { test, swarm: swarm.as_deref(), world: world.as_deref(), row };
+                    script::begin(session, checked, moment, job)
                 })
             }
             Verb::Read { path: Some(path), .. } => {
@@ -212,7 +215,8 @@ impl Visit {
             }
             Verb::Test { path, test, level } => {
                 let checker = self.checker.clone();
-                programs::testing(self.fresh(), move |job| checker.open(&path, job), (test, level.into()))
+                let open = move |job: &Job| checker.open(&path, job);
+                programs::testing(self.fresh(), open, (test, level.into()), site.shell.clone())
             }
             Verb::Robots { path } => {
                 let (checker, session) = (self.checker.clone(), self.fresh());
@@ -235,10 +239,10 @@ impl Visit {
                 let mut search = None;
                 Box::new(move |job: &mut Job| match &mut search {
                     None => {
-                        search = Some(evolving::begin(&request)?);
+                        search = Some(SharedSearch::begin(&request, site.shell.clone())?);
                         Ok(PortionEnd::More)
                     }
-                    Some(search) => evolving::advance(search, job),
+                    Some(search) => search.advance(job),
                 })
             }
             Verb::Keep(request) => {
@@ -286,23 +290,29 @@ impl Visit {
         }
     }
 
-    /// Compiles a circuit, runs its swarm through inputs, and hands it over to be shown, which is the answer.
+    /// Compiles a circuit, runs its swarm through cycles of its script, and hands it over to be shown, which is the answer.
     fn swarm(
         &mut self,
         path: String,
         answer: fn(SwarmAnswer) -> RequestResult,
-        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Vec<Vec<bool>>), Refused> + Send + 'static,
+        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Script), Refused> + Send + 'static,
     ) -> JobWork {
         self.swarms += 1;
         let (number, loaded) = (self.swarms, self.loaded.0.clone());
-        let (checker, session) = (self.checker.clone(), self.fresh());
+        let (checker, session, shell) = (self.checker.clone(), self.fresh(), self.site.shell.clone());
         let (mut compile, mut loading) = (Some(compile), None);
         Box::new(move |job| {
             let Some(swarm) = &mut loading else {
                 let compile = compile.take().expect("it is compiled once");
                 let checked = checker.open(&path, job)?;
-                let (compiled, inputs) = compile(&session, &checked, job)?;
-                loading = Some(programs::loading((&session, &checked), compiled, inputs, answer, (number, job))?);
+                let (compiled, script) = compile(&session, &checked, job)?;
+                loading = Some(programs::loading(
+                    (&session, &checked),
+                    compiled,
+                    script,
+                    answer,
+                    (number, job, shell.clone()),
+                )?);
                 return Ok(PortionEnd::More);
             };
             let step = swarm.advance(job)?;
@@ -433,6 +443,57 @@ mod tests {
         assert_eq!(refused[0]["error"]["message"], "the log goes from cycle 0 to 9");
         assert_eq!(tab.ask(&json!({ "id": 6, "do": "seek", "cycle": 3 })), [json!({ "id": 6, "ok": {} })]);
         assert_eq!(tab.pass(Duration::from_secs(1)), 1, "a swarm that is shown at a cycle has paused");
+    }
+
+    const TWO: &str = "file program = \"two.csv\"
+        circuit two(char[2], clk) -> (at, q) {
+            at = register(not at, clk)
+            q  = char[0] and char[1]
+        }
+        environment desk(at) -> (char[2], screen: text) {
+            net words[2][8] init program
+            word   = words[at]
+            char   = word[1..0]
+            screen = {1, word}
+        }
+        test two \"reads\" with desk {
+            clk | q
+            ^   | -
+            ^   | -
+            ^   | -
+        }";
+
+    #[test]
+    fn a_test_gives_the_inputs_of_its_swarm_until_somebody_sets_them() {
+        let mut tab = Tab::new();
+        tab.folder.insert("two.csv", "72, 107\n");
+        tab.ask(&json!({ "id": 1, "do": "program", "path": "two.nb", "text": TWO }));
+        let replay = json!({ "id": 2, "do": "replay", "path": "two.nb", "test": 0, "swarm": null, "row": 0 });
+        let answer = tab.ask(&replay).pop().unwrap();
+        let script = &answer["ok"]["swarm"]["script"];
+        let (desk, all) = (&script["environment"], script["cycles"].as_u64().unwrap());
+        let written: Vec<&str> =
+            desk["screen"].as_array().unwrap().iter().map(|piece| piece[1].as_str().unwrap()).collect();
+        assert_eq!((desk["name"].as_str(), written.concat()), (Some("desk"), "HkH".to_owned()), "{answer}");
+        let memory = &desk["memories"][0];
+        assert_eq!(memory["words"], json!(["48", "6b"]));
+        let reads = memory["reads"][0].as_array().unwrap();
+        assert_eq!(reads.iter().map(|read| read[1].as_u64().unwrap()).collect::<Vec<_>>(), [0, 1, 0, 1]);
+        // The second word is read, and given, from the edge on.
+        let edge = reads[1][0].as_u64().unwrap();
+        assert!(0 < edge && edge + 1 < all, "{reads:?}");
+        tab.ask(&json!({ "id": 3, "do": "step", "cycles": all - 1 }));
+        tab.pass(Duration::from_secs(1));
+        let given = tab.visit.runner.excerpt(all as u32).unwrap().inputs;
+        let at = |cycle: u64| given[cycle as usize].clone();
+        assert_eq!((at(0), at(edge - 1)), (vec![false; 3], vec![false; 3]));
+        assert_eq!(at(edge), [false, false, true], "its inputs stay the same until the next row");
+        let second = reads[2][0].as_u64().unwrap();
+        assert_eq!((at(second - 1), at(second)), (vec![true, true, false], vec![true; 3]));
+        tab.ask(&json!({ "id": 4, "do": "inputs", "bits": "010" }));
+        tab.ask(&json!({ "id": 5, "do": "step", "cycles": 1 }));
+        tab.pass(Duration::from_millis(100));
+        assert_eq!(tab.visit.runner.excerpt(1).unwrap().inputs, [[false, true, false]]);
     }
 
     #[test]

@@ -87,6 +87,9 @@ pub struct ClockReport {
     pub low: u32,
     /// The least time from one rise to the next.
     pub period: u32,
+    /// The least time high and low, if both are the same.
+    #[serde(skip)]
+    pub half: u32,
     /// The longest time for which data arrive at a latch after it has opened.
     pub borrowed: u32,
     /// The times of the other inputs.
@@ -183,7 +186,7 @@ impl PulseReport {
 
 impl ClockReport {
     fn describe(&self) -> String {
-        let Self { clock, high, low, period, borrowed, inputs, paths, races } = self;
+        let Self { clock, high, low, period, borrowed, inputs, paths, races, .. } = self;
         let period = counted(*period as usize, "cycle");
         let mut text = format!("clock    {clock}: high {high}, low {low}, period {period} at least");
         if *borrowed > 0 {
@@ -227,7 +230,7 @@ impl Named<'_> {
     }
 
     fn clock(&self, times: &ClockTimes) -> ClockReport {
-        let &ClockTimes { clock, high, low, period, borrowed, .. } = times;
+        let &ClockTimes { clock, high, low, period, half, borrowed, .. } = times;
         let input = |&InputTimes { input, rises, setup, hold }: &InputTimes| InputReport {
             input: self.name(input),
             rises,
@@ -248,6 +251,7 @@ impl Named<'_> {
             high,
             low,
             period,
+            half,
             borrowed,
             inputs: times.inputs.iter().map(input).collect(),
             paths: times.paths.iter().map(path).collect(),

@@ -1,6 +1,6 @@
 //! A search for gates around a body that somebody has painted.
 
-use nbc_base::model::{Body, Displacements, Evolution, Fault};
+use nbc_base::model::{Body, Evolution};
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::{CandidateOutcome, NeighborSearch, NicheKey, Scores};
@@ -15,6 +15,15 @@ const BATCH: u32 = 16;
 #[derive(Clone, Debug)]
 pub struct BodySearch {
     search: NeighborSearch,
+}
+
+/// Bodies of a search, to be tried anywhere: what a body is found to do depends on it and on the search alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BodyTrials {
+    /// The search, as declared.
+    pub evolution: Evolution,
+    /// The bodies.
+    pub bodies: Vec<Body>,
 }
 
 impl BodySearch {
@@ -32,18 +41,42 @@ impl BodySearch {
         &self.search
     }
 
-    /// Does a generation, of those bodies that are `wanted`. Returns the niches whose best body has changed.
-    pub fn advance(&mut self, simulator: &Simulator, wanted: impl Fn(&Body) -> bool) -> Vec<NicheKey> {
+    /// The bodies of the next generation that are `wanted`.
+    pub fn ask(&self, wanted: impl Fn(&Body) -> bool) -> BodyTrials {
         let mut bodies = self.search.ask();
         bodies.retain(wanted);
-        let outcomes = evaluate_bodies(simulator, self.search.evolution(), bodies.clone());
+        BodyTrials { evolution: self.search.evolution().clone(), bodies }
+    }
+
+    /// Ends a generation with what was found of each of its bodies, in order. Returns the niches whose best body has
+    /// changed.
+    pub fn tell(&mut self, bodies: Vec<Body>, found: Vec<Option<Scores>>) -> Vec<NicheKey> {
         let evaluated = bodies.len() as u64;
-        let measured = bodies.into_iter().zip(outcomes).filter_map(|(body, outcome)| match outcome {
-            CandidateOutcome::Measured(scores) => Some((body, scores)),
-            _ => None,
-        });
-        let steady = steady(simulator, measured.collect());
-        self.search.tell(evaluated, steady)
+        let both = bodies.into_iter().zip(found);
+        self.search.tell(evaluated, both.filter_map(|(body, scores)| Some((body, scores?))).collect())
+    }
+}
+
+impl BodyTrials {
+    /// The scores of each body; none of those that cannot be measured, and of those whose behavior in long simulations
+    /// is not that in the short holds of the search: they would walk in another way than the archive says.
+    pub fn measure(&self, simulator: &Simulator) -> Vec<Option<Scores>> {
+        let outcomes = evaluate_bodies(simulator, &self.evolution, self.bodies.clone());
+        let measured = |outcome| if let CandidateOutcome::Measured(scores) = outcome { Some(scores) } else { None };
+        let mut found: Vec<Option<Scores>> = outcomes.into_iter().map(measured).collect();
+        let tried = self.bodies.iter().zip(&found).filter(|(_, scores)| scores.is_some());
+        let walked = walk(simulator, &tried.map(|(body, _)| body.clone()).collect::<Vec<_>>());
+        for (scores, walked) in found.iter_mut().filter(|scores| scores.is_some()).zip(walked) {
+            scores.take_if(|scores| walked.ok().map(|displacement| displacement.behavior()) != Some(scores.behavior));
+        }
+        found
+    }
+
+    /// The same bodies in so many parts of almost the same number, in order.
+    pub fn split(&self, parts: usize) -> Vec<Self> {
+        let all = self.bodies.len();
+        let part = |part: usize| self.bodies[part * all / parts..(part + 1) * all / parts].to_vec();
+        (0..parts).map(|at| Self { evolution: self.evolution.clone(), bodies: part(at) }).collect()
     }
 }
 
@@ -57,16 +90,4 @@ fn declared(width: usize, height: usize, generations: u32) -> Evolution {
     session.update("play.nb", 1, text);
     let checked = session.open("play.nb").unwrap_or_else(|found| panic!("the declaration is correct: {found:?}"));
     checked.program.evolution("play").expect("it is declared above").clone()
-}
-
-/// The bodies whose behavior in long simulations is that in the short holds of the search. The others would walk in
-/// another way than the archive says.
-fn steady(simulator: &Simulator, measured: Vec<(Body, Scores)>) -> Vec<(Body, Scores)> {
-    let bodies: Vec<Body> = measured.iter().map(|(body, _)| body.clone()).collect();
-    let walked = walk(simulator, &bodies);
-    let is_steady = |scores: &Scores, walked: Result<Displacements, Fault>| {
-        walked.is_ok_and(|displacement| displacement.behavior() == scores.behavior)
-    };
-    let both = measured.into_iter().zip(walked);
-    both.filter(|((_, scores), walked)| is_steady(scores, *walked)).map(|(measured, _)| measured).collect()
 }

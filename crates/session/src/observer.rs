@@ -1,7 +1,9 @@
 //! Progress and cancellation of long work.
 
+use core::task::Poll;
+
 use nbc_circuit::CancelFlag;
-use nbc_swarm::{KeptSwarm, SwarmTask};
+use nbc_swarm::{Assembly, KeptSwarm, LiveSwarm, RobotFault, SwarmTask};
 
 /// Receives the progress of long work, and can stop it. Each door implements it. `()` ignores progress; a closure of
 /// `(done, all)` receives it.
@@ -24,6 +26,25 @@ pub trait Observer {
     /// The keeper of the swarms of tests, if there is one.
     fn keeper(&mut self) -> Option<&mut dyn SwarmKeeper> {
         None
+    }
+}
+
+/// Simulates the cycles of a test's swarm. `()` does it at once.
+pub trait CycleRunner {
+    /// Begins the next cycle of a swarm that was made of an assembly for `cycles`, or goes on with the one that was
+    /// begun; pending while others still simulate parts of it.
+    fn step(
+        &mut self,
+        swarm: &mut LiveSwarm,
+        assembly: &Assembly,
+        cycles: usize,
+        inputs: &[bool],
+    ) -> Poll<Result<(), RobotFault>>;
+}
+
+impl CycleRunner for () {
+    fn step(&mut self, swarm: &mut LiveSwarm, _: &Assembly, _: usize, inputs: &[bool]) -> Poll<Result<(), RobotFault>> {
+        Poll::Ready(swarm.step(inputs).map(drop))
     }
 }
 

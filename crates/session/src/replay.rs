@@ -27,7 +27,7 @@ pub(super) fn replay(physics: &Physics, excerpt: &Excerpt, observer: &mut dyn Ob
     swarm.restore(start);
     swarm.record(Room::SWARM, inputs.len());
     let before = swarm.trace().cycles.len();
-    let (mut trace, end) = DrivenSwarm::new(swarm, inputs.clone()).run(observer);
+    let (mut trace, end) = DrivenSwarm::new(swarm, inputs.clone()).run(&compiled.assembly, observer);
     trace.forget_first(before);
     simulation::finish(&simulation(excerpt), compiled.clone(), trace, end)
 }

@@ -81,7 +81,7 @@ impl Session {
     pub fn run_case(&self, case: TestCase, observer: &mut dyn Observer) -> TestRun {
         let mut running = RunningCase::new(case, &self.physics, observer);
         loop {
-            if let Some(end) = running.advance(observer) {
+            if let Some(end) = running.advance(observer, &mut ()) {
                 return running.finish(end);
             }
         }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::vec::IntoIter;
 
 use crate::hold;
-use crate::observer::{CaseObserver, Observer};
+use crate::observer::{CaseObserver, CycleRunner, Observer};
 use crate::script::PerformedRow;
 use crate::swarm_run::{DrivenSwarm, Physics, RunEnd, SwarmRun};
 use crate::test::{TestCase, TestRun, TestSubject, judged, verdict};
@@ -34,6 +34,11 @@ impl RunningTest {
     /// Does a portion of the work: a cycle of a swarm, or some rows at the level of logic. Whether it did anything:
     /// there is nothing to do after the last case, and after a request to stop.
     pub fn advance(&mut self, observer: &mut dyn Observer) -> bool {
+        self.advance_with(observer, &mut ())
+    }
+
+    /// The same, with the cycles of swarms simulated by a runner.
+    pub fn advance_with(&mut self, observer: &mut dyn Observer, runner: &mut dyn CycleRunner) -> bool {
         let Some(case) = &mut self.running else {
             // A circuit that was compiled after a request to stop may have more robots than needed.
             let next = if observer.is_cancelled() { None } else { self.cases.next() };
@@ -41,7 +46,8 @@ impl RunningTest {
             return self.running.is_some();
         };
         let work = case.case.work();
-        if let Some(end) = case.advance(&mut CaseObserver { whole: observer, before: self.before, all: self.all }) {
+        let mut observer = CaseObserver { whole: observer, before: self.before, all: self.all };
+        if let Some(end) = case.advance(&mut observer, runner) {
             self.before += work;
             self.runs.extend(self.running.take().map(|case| case.finish(end)));
         }
@@ -95,14 +101,14 @@ impl RunningCase {
     }
 
     /// Does a portion of the work. How the run ended, if it did.
-    pub(super) fn advance(&mut self, observer: &mut dyn Observer) -> Option<RunEnd> {
+    pub(super) fn advance(&mut self, observer: &mut dyn Observer, runner: &mut dyn CycleRunner) -> Option<RunEnd> {
         let (done, all) = match &mut self.subject {
             Running::Robots(swarm, ends) => {
                 let timed = self.case.timed().expect("a test in physics");
                 let fails = |trace: &SwarmTrace| {
                     ends.get(&trace.cycles.len()).is_some_and(|rows| rows.iter().any(|&row| !timed.passes(trace, row)))
                 };
-                return swarm.advance(fails, observer);
+                return swarm.advance(&timed.compiled.assembly, fails, observer, runner);
             }
             Running::Gates(circuit) => {
                 let rows = self.case.rows.chunks(Settled::ROWS).nth(self.rows.len() / Settled::ROWS).unwrap_or(&[]);

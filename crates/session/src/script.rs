@@ -4,11 +4,11 @@
 use crate::contents::first_words;
 use crate::wording::ScriptError;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{CircuitTest, Program, Script, ScriptStep, TestRow};
+use nbc_base::model::{CircuitTest, MemoryArray, Program, Script, ScriptStep, TestRow};
 use nbc_base::source::SourceWorld;
 use nbc_circuit::elaborate::elaborate_environment;
 use nbc_circuit::waves::{ClockRun, ClockStep};
-use nbc_circuit::{Environment, Logic, Netlist};
+use nbc_circuit::{Environment, Logic, MemoryAccess, Netlist};
 
 /// How often a circuit and its environment may answer each other within a row.
 const MOST_ANSWERS: usize = 100;
@@ -23,6 +23,8 @@ pub(super) struct Performance {
     next: (usize, usize),
     /// What the environment wrote as text.
     pub(super) printed: String,
+    /// What the environment did, if it is watched.
+    watched: Option<EnvironmentRun>,
 }
 
 /// The circuit of a test at the level of logic.
@@ -38,6 +40,9 @@ enum Performer {
 #[derive(Clone, Debug)]
 struct Beside {
     environment: Environment,
+    /// Its name, and those of its memories, each with the width of its words.
+    name: String,
+    memories: Vec<(String, usize)>,
     /// For each of its input bits, the bit of the circuit's outputs, or of the row's inputs.
     sees: Vec<Seen>,
     /// For each of its output bits that is one, the input bit of the circuit.
@@ -58,6 +63,39 @@ pub(super) struct PerformedRow {
     pub(super) outputs: Vec<bool>,
     /// Whether it is the last of its step, of which the source says what is expected.
     pub(super) is_last: bool,
+}
+
+/// The environment of a test while its rows pass, at the level of logic.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EnvironmentRun {
+    /// Its name.
+    pub name: String,
+    /// Whether it writes text.
+    pub has_text: bool,
+    /// Its memories before the first row.
+    pub memories: Vec<MemoryContents>,
+    /// What it does in each row.
+    pub rows: Vec<EnvironmentRow>,
+}
+
+/// A memory of an environment.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct MemoryContents {
+    /// Its name.
+    pub name: String,
+    /// The width of a word in bits.
+    pub width: usize,
+    /// Its words.
+    pub words: Vec<u128>,
+}
+
+/// What an environment does in a row of a test.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EnvironmentRow {
+    /// The character that it writes as the row begins.
+    pub printed: Option<char>,
+    /// For each memory, the addresses that are read in the row, and the words that it takes as the row begins.
+    pub accesses: Vec<MemoryAccess>,
 }
 
 /// Builds the environment of a test, with the files of its memories, to find its errors.
@@ -100,7 +138,18 @@ impl Performance {
             Some(_) => Some(Beside::new(world, program, test, script, files)?),
             None => None,
         };
-        Ok(Self { script: script.clone(), circuit, beside, next: (0, 0), printed: String::new() })
+        Ok(Self { script: script.clone(), circuit, beside, next: (0, 0), printed: String::new(), watched: None })
+    }
+
+    /// What the environment does in the first rows; `None` without an environment.
+    ///
+    /// # Errors
+    /// When the circuit and its environment never agree.
+    pub(super) fn watch(mut self, rows: usize) -> Result<Option<EnvironmentRun>, Diagnostic> {
+        self.watched = self.beside.as_ref().map(Beside::at_start);
+        let is_long = |run: &Option<EnvironmentRun>| run.as_ref().is_none_or(|run| run.rows.len() >= rows);
+        while !is_long(&self.watched) && self.step()?.is_some() {}
+        Ok(self.watched)
     }
 
     /// The steps that are done, and all steps; a step that is repeated is one.
@@ -151,6 +200,8 @@ impl Performance {
             let Some(beside) = &mut self.beside else { return Ok(PerformedRow { row, outputs, is_last: true }) };
             beside.see(&row.inputs, &outputs).map_err(|fault| ScriptError::Environment(fault).at(row.span))?;
             if beside.agrees(&row.inputs) {
+                let rows = self.watched.iter_mut().map(|run| &mut run.rows);
+                rows.for_each(|rows| rows.push(EnvironmentRow { printed: None, accesses: beside.reads() }));
                 return Ok(PerformedRow { row, outputs, is_last: true });
             }
         }
@@ -159,17 +210,24 @@ impl Performance {
 
     /// The second half of a pulse: what the environment gives stays as it was before the edge.
     fn edge(&mut self, mut row: TestRow, before: &PerformedRow) -> PerformedRow {
+        let (mut printed, mut taken) = (None, Vec::new());
         if let Some(beside) = &mut self.beside {
             for &(_, input) in &beside.gives {
                 row.inputs[input] = before.row.inputs[input];
             }
-            self.printed.extend(beside.printed());
+            (printed, taken) = (beside.printed(), beside.environment.accesses());
+            self.printed.extend(printed);
             beside.environment.advance();
         }
         let outputs = self.circuit.edge(&row.inputs);
         if let Some(beside) = &mut self.beside {
             // A circle is reported before the next edge, where the same words are read again.
             _ = beside.see(&row.inputs, &outputs);
+            if let Some(run) = &mut self.watched {
+                let mut accesses = beside.reads();
+                accesses.iter_mut().zip(taken.drain(..)).for_each(|(now, taken)| now.writes = taken.writes);
+                run.rows.push(EnvironmentRow { printed, accesses });
+            }
         }
         PerformedRow { row, outputs, is_last: true }
     }
@@ -224,6 +282,8 @@ impl Beside {
             .collect();
         let contents = contents.map_err(|fault| vec![fault])?;
         let fault = |fault| vec![ScriptError::Environment(fault).at(circuit.span)];
+        let name = |memory: &MemoryArray| circuit.nets[memory.net.0 as usize].name.clone();
+        let memories = circuit.memories.iter().map(name).zip(ports.iter().map(|ports| ports.width)).collect();
         let environment = Environment::new(&netlist, ports, contents).map_err(fault)?;
         let [own_inputs, own_outputs] = [netlist.inputs(), netlist.outputs()]
             .map(|ids| ids.iter().map(|&id| netlist.net_name(id)).collect::<Vec<String>>());
@@ -236,7 +296,26 @@ impl Beside {
         let ports = circuit.inputs..circuit.inputs + circuit.outputs;
         let text = ports.map(|slot| &circuit.nets[slot]).find(|net| net.is_text);
         let text = text.and_then(|net| find(&own_outputs, &format!("{}[8]", net.name)));
-        Ok(Self { sees: sees.collect(), gives: gives.collect(), text, environment })
+        let (sees, gives, name) = (sees.collect(), gives.collect(), circuit.name.clone());
+        Ok(Self { environment, name, memories, sees, gives, text })
+    }
+
+    /// The environment before the first row.
+    fn at_start(&self) -> EnvironmentRun {
+        let contents = self.memories.iter().zip(self.environment.words());
+        let contents = contents.map(|((name, width), words)| MemoryContents {
+            name: name.clone(),
+            width: *width,
+            words: words.clone(),
+        });
+        let (name, has_text) = (self.name.clone(), self.text.is_some());
+        EnvironmentRun { name, has_text, memories: contents.collect(), rows: Vec::new() }
+    }
+
+    /// What the memories are asked for, without the words that they will take at the edge of the clock.
+    fn reads(&self) -> Vec<MemoryAccess> {
+        let accesses = self.environment.accesses().into_iter();
+        accesses.map(|access| MemoryAccess { writes: Vec::new(), ..access }).collect()
     }
 
     /// Writes what the environment gives into the inputs of a row.

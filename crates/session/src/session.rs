@@ -7,6 +7,7 @@ use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
 use crate::robots::RobotSources;
+use crate::script::EnvironmentRun;
 use crate::simulation::{self, SimulationRun};
 use crate::swarm_run::Physics;
 use crate::test::{self, TestCase, TestOptions};
@@ -227,6 +228,21 @@ impl Session {
         options: &TestOptions,
     ) -> Result<Vec<TestCase>, Diagnostics> {
         test::cases(self.sources(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
+    }
+
+    /// What the environment of a test does in its first `rows` rows in physics; `None` without an environment.
+    ///
+    /// # Errors
+    /// When it cannot be built, or the circuit and its environment never agree.
+    pub fn environment(
+        &self,
+        checked: &Checked,
+        test: &CircuitTest,
+        rows: usize,
+        options: &CompileOptions,
+    ) -> Result<Option<EnvironmentRun>, Diagnostics> {
+        let run = test::environment(self.sources(checked), &checked.program, test, rows, options);
+        run.map_err(|faults| checked.fail(faults))
     }
 
     /// Runs a declared simulation in physics.

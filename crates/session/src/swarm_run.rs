@@ -1,9 +1,11 @@
 //! A compiled circuit's swarm, run through inputs in full physics.
 
+use core::task::Poll;
+
 use crate::compile::Compiled;
-use crate::observer::Observer;
+use crate::observer::{CycleRunner, Observer};
 use nbc_sim::Simulator;
-use nbc_swarm::{LiveSwarm, Room, SwarmTask, SwarmTrace};
+use nbc_swarm::{Assembly, LiveSwarm, Room, SwarmTask, SwarmTrace};
 
 /// The length of the ground of a live swarm: enough for a robot that moves by its own width in each of this many
 /// cycles.
@@ -49,7 +51,7 @@ impl Physics {
         inputs: Vec<Vec<bool>>,
         observer: &mut dyn Observer,
     ) -> (SwarmTrace, RunEnd) {
-        DrivenSwarm::new(self.swarm(compiled, inputs.len()), inputs).run(observer)
+        DrivenSwarm::new(self.swarm(compiled, inputs.len()), inputs).run(&compiled.assembly, observer)
     }
 }
 
@@ -77,15 +79,21 @@ impl DrivenSwarm {
         }
     }
 
-    /// Simulates the next cycle. How the run ended, if it did: also after a cycle for whose trace `is_enough` is true.
+    /// Simulates the next cycle, or a part of it. How the run ended, if it did: also after a cycle for whose trace
+    /// `is_enough` is true.
     pub(super) fn advance(
         &mut self,
+        assembly: &Assembly,
         is_enough: impl FnOnce(&SwarmTrace) -> bool,
         observer: &mut dyn Observer,
+        runner: &mut dyn CycleRunner,
     ) -> Option<RunEnd> {
         let all = self.inputs.len();
         if let Some(inputs) = self.inputs.get(self.done) {
-            let is_last = self.swarm.step(inputs).is_err() || is_enough(self.swarm.trace());
+            let Poll::Ready(step) = runner.step(&mut self.swarm, assembly, all, inputs) else {
+                return observer.is_cancelled().then_some(RunEnd::Cancelled);
+            };
+            let is_last = step.is_err() || is_enough(self.swarm.trace());
             self.done = if is_last { all } else { self.done + 1 };
             observer.progress(self.done as u64, all as u64);
         }
@@ -104,9 +112,9 @@ impl DrivenSwarm {
     }
 
     /// Simulates all cycles that are left.
-    pub(super) fn run(mut self, observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
+    pub(super) fn run(mut self, assembly: &Assembly, observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
         loop {
-            if let Some(end) = self.advance(|_| false, observer) {
+            if let Some(end) = self.advance(assembly, |_| false, observer, &mut ()) {
                 return (self.into_trace(), end);
             }
         }

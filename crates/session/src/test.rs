@@ -8,7 +8,7 @@ use crate::hold;
 use crate::options::CompileOptions;
 use crate::plan::plans;
 use crate::robots::RobotSources;
-use crate::script::{Performance, PerformedRow};
+use crate::script::{EnvironmentRun, Performance, PerformedRow};
 use crate::swarm_run::{RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
@@ -52,6 +52,17 @@ pub struct TestRun {
     pub hold: Option<usize>,
     /// Warnings.
     pub warnings: Vec<Diagnostic>,
+}
+
+/// The first rows of a test as inputs of its swarm.
+#[derive(Clone, Debug)]
+pub struct PhysicalTest {
+    /// The swarm.
+    pub compiled: Compiled,
+    /// The input bits of each cycle.
+    pub inputs: Vec<Vec<bool>>,
+    /// For each row, the cycles after which it has passed.
+    pub ends: Vec<usize>,
 }
 
 /// A test that is ready to run.
@@ -163,6 +174,22 @@ fn performance(
 ) -> Result<Option<Performance>, Vec<Diagnostic>> {
     let Stimulation::Script(script) = &test.stimulation else { return Ok(None) };
     Performance::new(sources.world, program, test, script, netlist, &options.files).map(Some)
+}
+
+/// What the environment of a test does in its first rows, at the level of logic; `None` without an environment.
+///
+/// # Errors
+/// As [`cases`].
+pub(super) fn environment(
+    sources: RobotSources<'_>,
+    program: &Program,
+    test: &CircuitTest,
+    rows: usize,
+    options: &CompileOptions,
+) -> Result<Option<EnvironmentRun>, Vec<Diagnostic>> {
+    let netlist = elaborate(program, &test.circuit)?;
+    let performance = performance(sources, program, test, &netlist, options)?;
+    performance.map_or(Ok(None), |performance| performance.watch(rows)).map_err(|fault| vec![fault])
 }
 
 /// The rows of a test in physics, and what its environment wrote meanwhile. All outputs are checked in the rows of a
@@ -278,12 +305,13 @@ impl TestCase {
         Some(&self.compiled()?.plan.world.name)
     }
 
-    /// The swarm, and the input bits of each of its cycles through the first `rows` rows; `None` at the level of logic.
-    pub fn into_physics(self, rows: usize) -> Option<(Compiled, Vec<Vec<bool>>)> {
-        let inputs = self.timed()?.inputs(rows);
+    /// The swarm with the inputs of the first `rows` rows; `None` at the level of logic.
+    pub fn into_physics(self, rows: usize) -> Option<PhysicalTest> {
+        let timed = self.timed()?;
+        let (inputs, ends) = (timed.inputs(rows), timed.ends(rows));
         match self.subject {
             TestSubject::Gates(_) | TestSubject::Script(_) => None,
-            TestSubject::Robots(compiled, _) => Some((*compiled, inputs)),
+            TestSubject::Robots(compiled, _) => Some(PhysicalTest { compiled: *compiled, inputs, ends }),
         }
     }
 

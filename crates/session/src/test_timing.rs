@@ -38,6 +38,21 @@ impl<'a> TimedTest<'a> {
         }
     }
 
+    /// For each of the first `rows` rows, the cycles after which it has passed.
+    pub fn ends(self, rows: usize) -> Vec<usize> {
+        match self.timing {
+            TestTiming::Holds(row_holds) => {
+                let mut end = 0;
+                let pass = |row_hold: &RowHold| {
+                    end += row_hold.hold;
+                    end
+                };
+                row_holds.iter().take(rows).map(pass).collect()
+            }
+            TestTiming::Waves => (1..=rows.min(self.rows.len())).map(|rows| self.cycles(rows)).collect(),
+        }
+    }
+
     /// The input bits of each cycle through the first `rows` rows.
     pub fn inputs(self, rows: usize) -> Vec<Vec<bool>> {
         match self.timing {

@@ -92,15 +92,15 @@ extern "C" fn crew(size: usize) {
 /// [`Tab::receive_part`].
 #[unsafe(no_mangle)]
 extern "C" fn receive_part(number: usize, place: *mut u8, length: usize) {
-    let states = bytes(place, length);
-    with_tab(|tab| tab.receive_part(number, &states));
+    let result = bytes(place, length);
+    with_tab(|tab| tab.receive_part(number, &result));
 }
 
-/// Simulates a part of a cycle for another tab. Its states are then the first part of the present message.
+/// Does a part of a simulation for another tab. What became of it is then the first part of the present message.
 #[unsafe(no_mangle)]
 extern "C" fn simulate(place: *mut u8, length: usize) {
-    let states = parts::simulated(&bytes(place, length)).expect("a part comes from the same program");
-    STATE.with_borrow_mut(|state| state.parts[0] = states);
+    let result = parts::performed(&bytes(place, length)).expect("a part comes from the same program");
+    STATE.with_borrow_mut(|state| state.parts[0] = result);
 }
 
 /// [`Tab::receive`].
@@ -131,7 +131,7 @@ extern "C" fn advance(now: f64) -> f64 {
 
 /// [`Tab::next`]: makes the next message the present one. Returns its kind: 0 for none, 1 for a text and 2 for a frame
 /// for the page, 3 for a text of the language service, 4 for a file that was written (path, text), 5 for one to fetch
-/// (address, media type, bytes), 6 for a part of a cycle (number, bytes).
+/// (address, media type, bytes), 6 for a part of a simulation (number, bytes).
 #[unsafe(no_mangle)]
 extern "C" fn next(has_room: bool) -> u32 {
     let message = with_tab(|tab| tab.next(has_room));

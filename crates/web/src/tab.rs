@@ -39,7 +39,7 @@ pub enum TabMessage {
     },
     /// A file that the page will fetch.
     Kept(KeptFile),
-    /// A part of a cycle for somebody else to simulate: its number and bytes.
+    /// A part of a simulation for somebody else to do: its number and bytes.
     Part(usize, Vec<u8>),
 }
 
@@ -76,17 +76,21 @@ impl Tab {
     /// Sets how many others simulate. What is not there when there are none will not come.
     pub fn set_crew(&self, size: usize) {
         self.shell.local_crew().set_size(size);
+        self.shell.wake();
     }
 
-    /// Takes what became of a part of a cycle.
-    pub fn receive_part(&self, number: usize, states: &[u8]) {
-        let states = parts::read_states(states).expect("the states of a part come from the same program");
-        self.shell.local_crew().receive(number, states);
+    /// Takes what became of a part of a simulation.
+    pub fn receive_part(&self, number: usize, result: &[u8]) {
+        let result = parts::read_result(result).expect("what became of a part comes from the same program");
+        self.shell.local_crew().receive(number, result);
+        self.shell.wake();
     }
 
     /// Takes a request of the page.
     pub fn receive(&mut self, text: &str, now: Duration) {
         self.visit.receive(text, now);
+        // It may stop work that waits for others.
+        self.shell.wake();
     }
 
     /// Begins a language service for a new client.
@@ -214,7 +218,7 @@ mod tests {
                     match message {
                         TabMessage::Part(number, part) => {
                             given += 1;
-                            tab.receive_part(number, &parts::simulated(&part).unwrap());
+                            tab.receive_part(number, &parts::performed(&part).unwrap());
                         }
                         TabMessage::Page(PageMessage::Frame(frame)) => frames.push(frame),
                         _ => {}
@@ -231,6 +235,77 @@ mod tests {
         let (alone, together) = (frames(0), frames(2));
         assert!(alone.len() >= 4);
         assert_eq!(alone.last(), together.last());
+    }
+
+    /// The texts for the page, and the number of parts that others did, when these bring what they have done last first.
+    fn answers(crew: usize, requests: &[Value]) -> (Vec<Value>, usize) {
+        let mut tab = Tab::new(None, Duration::ZERO);
+        tab.set_crew(crew);
+        let (mut done, mut texts) = (0, Vec::new());
+        for request in requests {
+            tab.receive(&request.to_string(), Duration::ZERO);
+            loop {
+                while tab.advance(Duration::ZERO).is_zero() {}
+                let mut parts = Vec::new();
+                while let Some(message) = tab.next(true) {
+                    match message {
+                        TabMessage::Part(number, part) => parts.push((number, part)),
+                        TabMessage::Page(PageMessage::Text(text)) => texts.push(serde_json::from_str(&text).unwrap()),
+                        _ => {}
+                    }
+                }
+                if parts.is_empty() {
+                    break;
+                }
+                done += parts.len();
+                for (number, part) in parts.into_iter().rev() {
+                    tab.receive_part(number, &parts::performed(&part).unwrap());
+                }
+            }
+        }
+        (texts, done)
+    }
+
+    #[test]
+    fn a_test_in_physics_has_the_same_verdict_with_others() {
+        // Only a swarm that is simulated whole shows what the row with a hold of one cycle asks for.
+        let rows = "    0 | 255\n    255 | 0\n    15 | 0 for 1 cycle\n";
+        let text = format!("circuit each(a[8]) -> (q[8]) {{ q = not a }}\ntest each {{\n    a | q\n{rows}}}\n");
+        let requests = [
+            json!({ "id": 1, "do": "program", "path": "each.nb", "text": text }),
+            json!({ "id": 2, "do": "test", "path": "each.nb", "test": 0, "level": "physics" }),
+        ];
+        let (alone, none) = answers(0, &requests);
+        let (together, parts) = answers(3, &requests);
+        assert_eq!(none, 0);
+        let cycles = alone.iter().filter_map(|text| text["progress"][1].as_u64()).max().unwrap();
+        assert_eq!(parts as u64, cycles, "eight robots are two parts in each cycle, of which one is done here");
+        assert_eq!(alone, together);
+        assert_eq!(alone.last().unwrap()["ok"]["results"][0]["rows"].as_array().unwrap().len(), 3, "{alone:?}");
+    }
+
+    #[test]
+    fn an_evolution_finds_the_same_with_others() {
+        let evolve = json!({ "id": 1, "do": "evolve", "body": null, "box": [2, 2], "generations": 2, "seed": 1 });
+        let (alone, none) = answers(0, std::slice::from_ref(&evolve));
+        let (together, parts) = answers(3, &[evolve]);
+        assert_eq!(none, 0);
+        assert!((2..=6).contains(&parts), "{parts} parts of two generations");
+        assert_eq!(alone, together);
+    }
+
+    #[test]
+    fn work_goes_on_alone_when_the_others_are_gone() {
+        let mut tab = Tab::new(None, Duration::ZERO);
+        tab.set_crew(2);
+        let evolve = json!({ "id": 1, "do": "evolve", "body": null, "box": [2, 2], "generations": 1, "seed": 1 });
+        tab.receive(&evolve.to_string(), Duration::ZERO);
+        while tab.advance(Duration::ZERO).is_zero() {}
+        let is_done = |message: &TabMessage| matches!(message, TabMessage::Page(PageMessage::Text(text)) if text.contains("\"ok\""));
+        assert!(!std::iter::from_fn(|| tab.next(true)).any(|message| is_done(&message)), "it waits for the others");
+        tab.set_crew(0);
+        while tab.advance(Duration::ZERO).is_zero() {}
+        assert!(std::iter::from_fn(|| tab.next(true)).any(|message| is_done(&message)));
     }
 
     #[test]

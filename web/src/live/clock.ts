@@ -3,6 +3,7 @@
 import { button, element, fill } from "../element";
 import { bitsOf, type PortBit } from "../ports";
 import { closeOutside } from "../menu";
+import type { ShownSwarm } from "../protocol";
 import type { LiveSwarm } from "./swarm";
 
 /** The clock: one pulse by hand, or changes by themselves. */
@@ -33,7 +34,10 @@ export class ClockPanel {
       "select",
       {
         "aria-label": "The input that is the clock",
-        onchange: () => this.#apply(which, half, this.swarm.clock.value !== null),
+        onchange: () => {
+          half.value = String(halfOf(definition, Number(which.value)));
+          this.#apply(which, half, this.swarm.clock.value !== null);
+        },
       },
       ...bits.map(bit => element("option", { value: bit.index, selected: bit === likely }, bit.name)),
     );
@@ -41,7 +45,7 @@ export class ClockPanel {
       type: "number",
       min: 1,
       max: 999,
-      value: Math.max(2, definition.hold),
+      value: halfOf(definition, likely.index),
       "aria-label": "Cycles between two changes of the clock",
       onchange: () => this.#apply(which, half, this.swarm.clock.value !== null),
     });
@@ -112,4 +116,9 @@ export class ClockPanel {
       this.#pulse = null;
     };
   }
+}
+
+/** The fewest cycles for which an input may have a value: as a clock, or else until every change has settled. */
+export function halfOf({ clocks, hold }: Pick<ShownSwarm, "clocks" | "hold">, bit: number): number {
+  return Math.max(2, clocks.find(clock => clock.bit === bit)?.half ?? hold);
 }

@@ -34,9 +34,11 @@ export class InputPanel implements View {
     const bits = bitsOf(inputs);
     this.#updates.length = 0;
     this.#marks.length = 0;
+    const caption = element("span", { class: "caption" });
+    this.#updates.push(() => this.#name(caption, inputs.length));
     fill(
       this.host,
-      element("span", { class: "caption" }, inputs.length === 0 ? "No inputs" : "Inputs"),
+      caption,
       ...inputs.map(port =>
         this.#port(
           port,
@@ -45,6 +47,15 @@ export class InputPanel implements View {
       ),
     );
     this.draw();
+  }
+
+  #name(caption: HTMLElement, inputs: number): void {
+    const isGiven = this.swarm.playback.cycle < this.swarm.scripted.value;
+    const text = inputs === 0 ? "No inputs" : isGiven ? "Inputs, from the test" : "Inputs";
+    if (caption.textContent !== text) {
+      caption.textContent = text;
+      caption.title = isGiven ? "Who sets an input takes over" : "";
+    }
   }
 
   #port(port: PortEntry, bits: PortBit[]): HTMLElement {

@@ -43,9 +43,10 @@ export class OutputPanel implements View {
 
   /** Whether any number is shown, for which one can choose how it is written. */
   #hasNumbers(): boolean {
-    const { inputs = [], outputs = [], registers = [] } = this.swarm.definition.value ?? {};
+    const { inputs = [], outputs = [], registers = [], waves = null } = this.swarm.definition.value ?? {};
     const wide = [...inputs, ...outputs].some(({ width, members }) => width > 1 || members !== undefined);
-    return wide || registers.some(({ robots }) => robots.length > 1);
+    const kept = [...registers.map(({ robots }) => robots), ...(waves?.registers ?? []).map(({ bits }) => bits)];
+    return wide || kept.some(bits => bits.length > 1);
   }
 
   #port(port: PortEntry, sources: BitSource[]): HTMLElement {

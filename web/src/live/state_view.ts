@@ -1,13 +1,15 @@
 // What a circuit keeps, beside the robots: its registers by name, and the table over an output of it, such as the
-// program of a machine, with the row that holds now.
+// program of a machine, with the row that holds now; and the environment of a test that gives its inputs.
 
 import { button, element, fill } from "../element";
 import { recall, remember } from "../memory";
 import { offsetOf, toNumber } from "../ports";
-import type { BitSource, ListingRow, ShownSwarm } from "../protocol";
+import type { BitSource, ListingRow, ShownEnvironment, ShownSwarm, ShownWaves } from "../protocol";
 import type { View } from "./animation";
+import { environmentView } from "./environment_view";
 import { numberFormat, numberText, type Valued } from "./numbers";
 import type { LiveSwarm } from "./swarm";
+import { registerAt, threadColor } from "./waves";
 
 /** The first row that is for these digits; null if there is none. */
 export function rowFor(rows: ListingRow[], digits: string): number | null {
@@ -26,6 +28,7 @@ export class StateView implements View {
 
   constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.follow(definition => this.#build(definition));
+    swarm.scripted.on(() => this.#build(swarm.definition.value));
     numberFormat.on(() => this.draw());
   }
 
@@ -50,14 +53,25 @@ export class StateView implements View {
 
   #build(definition: ShownSwarm | null): void {
     this.#updates = [];
-    const { registers = [], listing = null } = definition ?? {};
+    const { registers = [], listing = null, waves = null } = definition ?? {};
+    const script = this.swarm.scripted.value > 0 ? (definition?.script ?? null) : null;
+    // Who watches such a test wants to see its other side.
+    this.#open ||= (script?.environment ?? null) !== null;
     this.toggle.title = listing === null ? "The registers" : "The registers, and the rows of the program";
     fill(
       this.host,
       definition !== null && registers.length > 0 && this.#registers(definition),
+      definition !== null && waves !== null && waves.registers.length > 0 && this.#waveRegisters(definition, waves),
       definition !== null && listing !== null && this.#listing(definition, listing),
+      ...(script?.environment ? this.#environment(script.environment) : []),
     );
     this.#showOpen();
+  }
+
+  #environment(environment: ShownEnvironment): HTMLElement[] {
+    const { parts, show } = environmentView(environment);
+    this.#updates.push(() => show(this.swarm.playback.cycle));
+    return parts;
   }
 
   #registers({ registers, outputs }: ShownSwarm): HTMLElement {
@@ -74,6 +88,39 @@ export class StateView implements View {
       return element("tr", pointed, element("th", { scope: "row" }, name), value);
     });
     return element("table", { class: "rows registers", "aria-label": "Registers" }, element("tbody", {}, ...rows));
+  }
+
+  /** The registers of each thread after its last step. */
+  #waveRegisters({ outputs }: ShownSwarm, waves: ShownWaves): HTMLElement {
+    const threads = Array.from({ length: waves.threads }, (_, thread) => thread);
+    const rows = waves.registers.map(register => {
+      const { name, bits } = register;
+      const valued = outputs.find(port => port.name === name && port.width === bits.length) ?? { width: bits.length };
+      const values = threads.map(thread => {
+        const value = element("td", { "data-register": name, "data-of": thread + 1 });
+        this.#updates.push(() => {
+          const place = { thread, cycle: this.swarm.playback.cycle };
+          const seen = registerAt(waves, register, place, (source, cycle) => this.swarm.value(source, cycle));
+          setText(value, seen === null ? "–" : numberText(toNumber(seen), valued));
+        });
+        return value;
+      });
+      return element("tr", {}, element("th", { scope: "row" }, name), ...values);
+    });
+    const heads = threads.map(thread =>
+      element(
+        "th",
+        { scope: "col", title: `Thread ${thread + 1}` },
+        element("span", { class: "badge", "data-thread": threadColor(thread) }, String(thread + 1)),
+      ),
+    );
+    return element(
+      "table",
+      { class: "rows registers", "aria-label": "Registers" },
+      element("caption", {}, "after the last step"),
+      threads.length > 1 && element("thead", {}, element("tr", {}, element("td"), ...heads)),
+      element("tbody", {}, ...rows),
+    );
   }
 
   #text(sources: BitSource[], valued: Valued): string {

@@ -29,6 +29,8 @@ export class LiveSwarm {
   /** The input bits that are wanted from the next cycle on. */
   readonly inputs = new Observable("");
   readonly clock = new Observable<AutomaticClock | null>(null);
+  /** The cycles whose inputs a test gives, until somebody sets inputs; 0 where there is no test. */
+  readonly scripted = new Observable(0);
   /** Cycles a second; null is as fast as possible. */
   readonly speed = new Observable<number | null>(REAL_TIME);
   readonly running = new Observable(false);
@@ -59,12 +61,15 @@ export class LiveSwarm {
   /** Takes a swarm that was just compiled. Inputs of the same name keep their values, unless a replay set them. */
   begin(swarm: ShownSwarm, replayed = false): void {
     const before = this.definition.value;
-    const kept = this.#proposed?.(swarm) ?? keepBits(this.inputs.value, before?.inputs ?? [], swarm.inputs);
+    const kept = replayed
+      ? "0".repeat(totalWidth(swarm.inputs))
+      : (this.#proposed?.(swarm) ?? keepBits(this.inputs.value, before?.inputs ?? [], swarm.inputs));
     this.#proposed = null;
     const clock = this.#keptClock(before, swarm);
     this.#forget();
     this.nets = netsOf(swarm);
     this.inputs.set(kept);
+    this.scripted.set(swarm.script?.cycles ?? 0);
     this.definition.set(swarm);
     this.#adopted = replayed ? "any" : null;
     this.setClock(replayed ? null : clock);
@@ -90,6 +95,7 @@ export class LiveSwarm {
   setInputs(bits: string): void {
     this.#adopted = null;
     if (bits !== this.inputs.value) {
+      this.scripted.set(0);
       this.inputs.set(bits);
       this.server.tell("inputs", { bits });
     }
@@ -101,6 +107,7 @@ export class LiveSwarm {
       this.server.tell("clock", { bit: before.bit, half: null });
     }
     if (clock !== null) {
+      this.scripted.set(0);
       this.server.tell("clock", { ...clock });
     }
     this.clock.set(clock);
@@ -244,8 +251,9 @@ export class LiveSwarm {
   #adoptInputs(frame: Frame): void {
     const logged = this.log.at(frame.now);
     const awaited = this.#adopted === "any" || this.#adopted === frame.now;
-    if (awaited && !frame.running && logged !== undefined) {
-      this.#adopted = null;
+    const isGiven = this.scripted.value > 0 && frame.now <= this.scripted.value;
+    if ((isGiven || (awaited && !frame.running)) && logged !== undefined) {
+      this.#adopted = isGiven ? this.#adopted : null;
       this.inputs.set([...logged.inputs].join(""));
     }
   }

@@ -1,5 +1,5 @@
-// Workers that simulate parts of a swarm's cycle for the worker with the page's program. They need no files and no
-// memory of their own; what becomes of a part depends on it alone.
+// Workers that do parts of simulations for the worker with a program: of a swarm's cycle, or of the bodies of a search.
+// They need no files and no memory of their own; what becomes of a part depends on it alone.
 
 import type { FromWorker, ToWorker } from "./messages";
 
@@ -53,7 +53,7 @@ export class Crew {
     }
   }
 
-  /** Without one of them no cycle ends, so the program goes on alone. */
+  /** Without one of them nothing ends, so the program goes on alone. */
   #end(): void {
     this.#workers.splice(0).forEach(worker => worker.terminate());
     this.#ready = [];

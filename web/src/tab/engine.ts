@@ -53,7 +53,7 @@ export class Engine {
     this.#exports.begin(...this.#put(first), now);
   }
 
-  /** Sets how many others simulate parts of cycles. */
+  /** Sets how many others do parts of simulations. */
   crew(size: number): void {
     this.#exports.crew(size);
   }
@@ -63,7 +63,7 @@ export class Engine {
     this.#exports.receive_part(number, ...this.#putBytes(new Uint8Array(bytes)));
   }
 
-  /** Simulates a part for another engine. Needs no `begin`. */
+  /** Does a part of a simulation for another engine. Needs no `begin`. */
   simulate(bytes: ArrayBuffer): ArrayBuffer {
     this.#exports.simulate(...this.#putBytes(new Uint8Array(bytes)));
     return this.#bytes(0);

@@ -6,7 +6,7 @@ import type { Request } from "../protocol";
 import { Aside } from "./aside";
 import type { FromWorker, Source, Start, ToWorker } from "./messages";
 
-export interface TabOptions extends Omit<Start, "program"> {
+export interface TabOptions extends Omit<Start, "program" | "alone"> {
   /** Starts a worker. */
   worker: () => Worker;
   program: () => Source;
@@ -14,6 +14,8 @@ export interface TabOptions extends Omit<Start, "program"> {
   template?: string;
 }
 
+/** Milliseconds in which the program is alone, so that the page is there soon. */
+const ALONE = 1000;
 /** The most files that are kept for the page to fetch, which it does at once. */
 const MOST_MADE = 8;
 /** Requests that take long, each with the program that does them, and what stops one. */
@@ -35,7 +37,8 @@ export class TabHost implements Ways {
   readonly #made = new Map<string, string>();
   /** The texts of the files by their paths. */
   readonly #files = new Map<string, string>();
-  readonly #asides = { probe: this.#aside(), search: this.#aside() };
+  /** Searches are worth the help of others; a body of the designer is not. */
+  readonly #asides = { probe: this.#aside(null), search: this.#aside(0) };
   /** The paths of files that the browser could not keep. */
   readonly #unkept = new Set<string>();
   #module: WebAssembly.Module | null = null;
@@ -102,10 +105,10 @@ export class TabHost implements Ways {
     return true;
   }
 
-  #aside(): Aside {
+  #aside(alone: number | null): Aside {
     const start = (): { worker: Worker; begin: Start } => ({
       worker: this.options.worker(),
-      begin: { program: { module: this.#module! }, first: "", files: [...this.#files], keeps: false },
+      begin: { program: { module: this.#module! }, first: "", files: [...this.#files], keeps: false, alone },
     });
     return new Aside(start, {
       received: text => this.#lines.live?.received(text),
@@ -141,7 +144,7 @@ export class TabHost implements Ways {
       this.#fail(worker, event.message ?? "the worker cannot be started");
     };
     const { first, keeps, program } = this.options;
-    post(worker, { say: "begin", program: program(), first, files: [...this.#files], keeps });
+    post(worker, { say: "begin", program: program(), first, files: [...this.#files], keeps, alone: ALONE });
     return worker;
   }
 

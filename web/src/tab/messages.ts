@@ -14,6 +14,8 @@ export interface Start {
   files: KeptFiles;
   /** Whether the browser keeps files. */
   keeps: boolean;
+  /** Milliseconds until others help to simulate; null if none do. */
+  alone: number | null;
 }
 
 export type ToWorker =
@@ -26,7 +28,7 @@ export type ToWorker =
   | { say: "template"; address: string }
   /** The last frame was drawn. */
   | { say: "drawn" }
-  /** To a worker that only simulates parts of cycles for another. */
+  /** To a worker that only does parts of simulations for another. */
   | { say: "assist"; module: WebAssembly.Module }
   | { say: "part"; number: number; bytes: ArrayBuffer };
 
@@ -40,7 +42,7 @@ export type FromWorker =
   | { say: "wrote"; path: string; text: string }
   /** Whether the browser keeps a file that was saved. */
   | { say: "kept"; path: string; isKept: boolean }
-  /** An assistant is ready, or has simulated a part. */
+  /** An assistant is ready, or has done a part. */
   | { say: "assisting" }
   | { say: "part"; number: number; bytes: ArrayBuffer }
   | { say: "file"; address: string; type: string; bytes: ArrayBuffer }

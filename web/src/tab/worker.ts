@@ -1,13 +1,10 @@
 // The worker of a page without a server: it has the program, and does its work in portions, so that messages are never
-// kept waiting for long. As an assistant it simulates parts of cycles for another worker.
+// kept waiting for long. As an assistant it does parts of simulations for another worker.
 
 import { Crew } from "./crew";
 import { Engine } from "./engine";
 import { FileStore } from "./files";
 import type { FromWorker, Source, ToWorker } from "./messages";
-
-/** Milliseconds in which the program is alone, so that the page is there soon. */
-const ALONE = 1000;
 
 const pause = new MessageChannel();
 let engine: Engine | null = null;
@@ -51,7 +48,7 @@ function fail(message: string): void {
   say({ say: "failed", message });
 }
 
-async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
+async function begin({ program, first, files, keeps, alone }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
   const compiling = "module" in program ? program.module : WebAssembly.compileStreaming(await read(program));
   store = keeps ? await FileStore.open() : null;
   const all = [...files, ...((await store?.all()) ?? [])];
@@ -69,9 +66,8 @@ async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: 
   say({ say: "ready", keeps: store !== null, module, files: all });
   guard(() => waiting.splice(0).forEach(message => take(started, message)));
   work();
-  // A program that another worker has compiled is beside that of the page, and shows no swarm.
-  if (!("module" in program)) {
-    setTimeout(() => gather(module), ALONE);
+  if (alone !== null) {
+    setTimeout(() => gather(module), alone);
   }
 }
 

@@ -119,8 +119,18 @@ export class TestsPanel {
     }
   }
 
-  async #replay(test: TestEntry, verdict: TestResult, row: number): Promise<void> {
-    this.#status.textContent = "running the test up to this row …";
+  /** Shows the swarm while the test gives its inputs, from the start. */
+  async #watch(test: TestEntry): Promise<void> {
+    await this.#settle();
+    const index = this.#placeOf(test);
+    if (index !== undefined && (await this.#replay({ ...test, index }, { swarm: null, world: null }, 0))) {
+      this.swarm.play();
+    }
+  }
+
+  /** Shows the swarm at the end of a row, if that is possible. */
+  async #replay(test: TestEntry, verdict: Pick<TestResult, "swarm" | "world">, row: number): Promise<boolean> {
+    this.#status.textContent = row === 0 ? "compiling the circuit …" : "running the test up to this row …";
     const world = verdict.world === null ? {} : { world: verdict.world };
     try {
       const { swarm } = await this.connection.request(
@@ -128,12 +138,14 @@ export class TestsPanel {
         { path: this.program.path.value, test: test.index, swarm: verdict.swarm, ...world, row },
         { progress: (done, all) => (this.#status.textContent = `running the test up to this row: ${done} of ${all}`) },
       );
-      this.program.forgetCompiled({ circuit: test.circuit, swarm: verdict.swarm });
+      this.program.forgetCompiled({ circuit: test.circuit, swarm: swarm.swarm });
       this.swarm.begin(swarm, true);
       this.showSwarm();
       this.#status.textContent = "";
+      return true;
     } catch (error) {
       this.#status.textContent = error instanceof RequestError ? error.message : "";
+      return false;
     }
   }
 
@@ -174,6 +186,10 @@ export class TestsPanel {
         button("Run as logic", () => void this.#run(test, "logic"), {
           "data-do": "logic",
           disabled: state?.state === "running",
+        }),
+        button("Watch", () => void this.#watch(test), {
+          "data-do": "watch",
+          title: "Shows the robots while the test gives their inputs",
         }),
         this.#result(state),
       ),

@@ -26,6 +26,8 @@ pub struct ClockTimes {
     pub low: u32,
     /// The least time from one rise to the next, in cycles.
     pub period: u32,
+    /// The least time for which it must be 1 and 0 in turn, if both are the same, in cycles.
+    pub half: u32,
     /// The longest time between the opening of a latch and the arrival of its data, at this period.
     pub borrowed: u32,
     /// The times of the other inputs.
@@ -125,6 +127,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
             high,
             low,
             period,
+            half: least(high.max(low), hold, |half| works(half, half)),
             borrowed: self.borrowed(&halves, high, period - high)?,
             inputs: self.inputs(),
             paths: self.paths(&halves),

@@ -29,7 +29,10 @@ pub(super) use lesson::{
     LessonTab, PortValues,
 };
 pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
-pub(super) use swarm::{ListingRow, ShownListing, ShownRegister, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot};
+pub(super) use swarm::{
+    BitSource, ListingRow, ShownClock, ShownEnvironment, ShownListing, ShownMemory, ShownRegister, ShownScript,
+    ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, WaveBit, WaveRegister,
+};
 pub(super) use test_result::{TestAnswer, TestResult, listed};
 
 use crate::refusal::Refusal;

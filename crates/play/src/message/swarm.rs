@@ -37,6 +37,7 @@ pub(crate) struct ShownSwarm {
     pub(crate) timing: String,
     /// Cycles after which every change has settled.
     pub(crate) hold: u32,
+    pub(crate) clocks: Vec<ShownClock>,
     /// Cycles at the start in which the robots take their shape.
     pub(crate) start: usize,
     /// The ground's columns, which repeat: the rows from and up to which each is voxels; none if it is flat.
@@ -45,6 +46,55 @@ pub(crate) struct ShownSwarm {
     pub(crate) frames: u32,
     /// What it is as a wave machine.
     pub(crate) waves: Option<ShownWaves>,
+    /// The test that gives its inputs.
+    pub(crate) script: Option<ShownScript>,
+}
+
+/// An input that opens and closes latches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownClock {
+    /// The bit of the inputs.
+    pub(crate) bit: usize,
+    /// Cycles that are enough between two changes of it, for the registers and for the outputs.
+    pub(crate) half: u32,
+}
+
+/// A test that gives the inputs of a swarm.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownScript {
+    pub(crate) title: String,
+    /// The cycles whose inputs it gives.
+    pub(crate) cycles: usize,
+    pub(crate) environment: Option<ShownEnvironment>,
+}
+
+/// What is on the other side of a circuit's ports while a test runs.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownEnvironment {
+    pub(crate) name: String,
+    /// The text that it writes, each piece with the cycles before it; none if it never writes any.
+    pub(crate) screen: Option<Vec<(usize, String)>>,
+    pub(crate) memories: Vec<ShownMemory>,
+}
+
+/// A memory of an environment. Words are in hexadecimal.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ShownMemory {
+    pub(crate) name: String,
+    /// Bits of a word.
+    pub(crate) width: usize,
+    /// The number of words.
+    pub(crate) size: usize,
+    /// The words that it begins with, without the zeros at the end.
+    pub(crate) words: Vec<String>,
+    /// For each of its reads the addresses, each with the cycles before it.
+    pub(crate) reads: Vec<Vec<(usize, usize)>>,
+    /// The words that are written, each with the cycles before it and its address.
+    pub(crate) writes: Vec<(usize, usize, String)>,
 }
 
 /// A schematic, of which the page shows a sheet at a time.
@@ -126,6 +176,27 @@ pub(crate) struct ShownWaves {
     pub(crate) begins: i64,
     /// The bit of the inputs that is the clock, which no robot senses.
     pub(crate) clock: Option<usize>,
+    pub(crate) registers: Vec<WaveRegister>,
+}
+
+/// A register of a wave machine.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct WaveRegister {
+    pub(crate) name: String,
+    /// The most significant first.
+    pub(crate) bits: Vec<WaveBit>,
+}
+
+/// Where and when a bit of such a register is seen.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct WaveBit {
+    pub(crate) source: BitSource,
+    /// The cycles from the beginning of the step after to the one at whose end the source has the bit.
+    pub(crate) after: i64,
+    /// The values after no step, after one, and so on, before the source has any.
+    pub(crate) starts: Vec<bool>,
 }
 
 /// A robot of the swarm.

@@ -1,0 +1,90 @@
+//! A test that gives the inputs of a live swarm, and what its environment does meanwhile.
+
+use crate::jobs::Job;
+use crate::message::{ShownEnvironment, ShownMemory, ShownScript};
+use crate::refusal::Refused;
+use nbc_session::{Checked, Compiled, EnvironmentRow, EnvironmentRun, Session, TestCase, TestOptions};
+use nbc_swarm::Level;
+
+/// The most rows that a swarm is given beyond those before it is shown.
+const MOST_ROWS: usize = 4096;
+
+/// The inputs of a live swarm's first cycles.
+#[derive(Default)]
+pub(super) struct Script {
+    /// The input bits of each cycle.
+    pub(super) inputs: Vec<Vec<bool>>,
+    /// The cycles that are simulated before the swarm is shown.
+    pub(super) before: usize,
+    /// What the page is told of it.
+    pub(super) shown: Option<ShownScript>,
+}
+
+/// What a page asks for: a test by its index, in a swarm and a world, up to the end of a row. Rows count from 1.
+pub(super) struct Moment<'a> {
+    pub(super) test: usize,
+    pub(super) swarm: Option<&'a str>,
+    pub(super) world: Option<&'a str>,
+    pub(super) row: usize,
+}
+
+/// The circuit of a test, with the test as its script.
+///
+/// # Errors
+/// When there is no such test, or its circuit cannot be compiled.
+pub(super) fn begin(
+    session: &Session,
+    checked: &Checked,
+    Moment { test, swarm, world, row }: Moment<'_>,
+    job: &Job,
+) -> Result<(Compiled, Script), Refused> {
+    let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
+    let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
+    let cases = session.cases(checked, test, &options)?;
+    let is_meant =
+        |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);
+    let meant = cases.into_iter().find(is_meant).ok_or(Refused::NoTest)?;
+    let rows = meant.rows().iter().take_while(|one| one.row <= row).count();
+    let all = meant.rows().len().min(rows.saturating_add(MOST_ROWS));
+    let driven = meant.into_physics(all).ok_or(Refused::NoTest)?;
+    let before = rows.checked_sub(1).map_or(0, |last| driven.ends[last]);
+    let begins = std::iter::once(0).chain(driven.ends.iter().copied());
+    // The rows of a wave machine are steps of several threads at once.
+    let environment = match driven.compiled.mapping.waves {
+        Some(_) => None,
+        None => session.environment(checked, test, all, &options.compile)?,
+    };
+    let environment = environment.map(|run| shown(run, &begins.take(all).collect::<Vec<_>>()));
+    let shown = ShownScript { title: test.title.clone(), cycles: driven.inputs.len(), environment };
+    Ok((driven.compiled, Script { inputs: driven.inputs, before, shown: Some(shown) }))
+}
+
+/// An environment whose rows begin after so many cycles.
+fn shown(run: EnvironmentRun, begins: &[usize]) -> ShownEnvironment {
+    let rows = || run.rows.iter().zip(begins.iter().copied());
+    let printed = |(row, begin): (&EnvironmentRow, usize)| Some((begin, row.printed?.to_string()));
+    let screen = run.has_text.then(|| rows().filter_map(printed).collect());
+    let memories = run.memories.iter().enumerate().map(|(at, memory)| {
+        let accesses = || rows().map(|(row, begin)| (&row.accesses[at], begin));
+        let ports = run.rows.first().map_or(0, |row| row.accesses[at].reads.len());
+        let read = |port: usize| {
+            let mut places: Vec<(usize, usize)> =
+                accesses().map(|(access, begin)| (begin, access.reads[port])).collect();
+            places.dedup_by_key(|(_, address)| *address);
+            places
+        };
+        let written = accesses().flat_map(|(access, begin)| {
+            access.writes.iter().map(move |(address, word)| (begin, *address, format!("{word:x}")))
+        });
+        let used = memory.words.iter().rposition(|word| *word != 0).map_or(0, |last| last + 1);
+        ShownMemory {
+            name: memory.name.clone(),
+            width: memory.width,
+            size: memory.words.len(),
+            words: memory.words[..used].iter().map(|word| format!("{word:x}")).collect(),
+            reads: (0..ports).map(read).collect(),
+            writes: written.collect(),
+        }
+    });
+    ShownEnvironment { name: run.name.clone(), screen, memories: memories.collect() }
+}
