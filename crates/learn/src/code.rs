@@ -105,6 +105,8 @@ pub struct CodeFitting {
     /// The divisions that are bits of the code.
     code: Vec<u64>,
     votes: Vec<Votes>,
+    /// The votes that were chosen again.
+    again: usize,
 }
 
 impl CodeFitting {
@@ -124,7 +126,7 @@ impl CodeFitting {
                 divisions.push(division);
             }
         }
-        Self { shape, graph, features, divisions, sides: Vec::new(), code: Vec::new(), votes: Vec::new() }
+        Self { shape, graph, features, divisions, sides: Vec::new(), code: Vec::new(), votes: Vec::new(), again: 0 }
     }
 
     /// The size of the code.
@@ -146,12 +148,23 @@ impl CodeFitting {
         let rows = classes.of_row.len();
         if self.votes.last().is_none_or(|votes| votes.len() == self.shape.votes) {
             if self.votes.len() == self.code.len() {
-                return false;
+                return self.choose_again(classes);
             }
             self.votes.push(Votes::new(rows));
         }
         let bit = self.votes.len() - 1;
         self.votes[bit].add(&self.features, &classes.side(self.code[bit]), false);
+        true
+    }
+
+    /// Chooses a vote again, each once. Returns false when all are.
+    fn choose_again(&mut self, classes: &Classes) -> bool {
+        let (bit, vote) = (self.again / self.shape.votes, self.again % self.shape.votes);
+        if bit == self.code.len() {
+            return false;
+        }
+        self.votes[bit].choose_again(vote, &self.features, &classes.side(self.code[bit]));
+        self.again += 1;
         true
     }
 
@@ -208,21 +221,24 @@ impl CodeFitting {
     /// The output bits, the highest first, with their graph.
     pub fn finish(mut self, classes: &Classes) -> (GateGraph, Vec<Literal>) {
         let bits: Vec<Literal> = self.votes.iter().map(|votes| votes.build(&mut self.graph, &self.features)).collect();
-        // Every code word, and those that differ from one in a bit: what comes of the others is of no account.
-        let mut words: Vec<(Vec<bool>, u64, f64)> = Vec::new();
-        for (class, &value) in classes.values.iter().enumerate() {
-            let word: Vec<bool> = self.code.iter().map(|division| division >> class & 1 == 1).collect();
-            for flipped in 0..word.len() {
-                let mut near = word.clone();
-                near[flipped] = !near[flipped];
-                words.push((near, value, 1.0));
+        // Every word that is nearest to one code word; what comes of those farther away is of no account.
+        let mut words: Vec<(u64, u64, f64)> = Vec::new();
+        let word = |class: usize| (0..self.code.len()).fold(0, |word, at| word | (self.code[at] >> class & 1) << at);
+        for seen in 0..1u64 << self.code.len() {
+            let far = |class: usize| (seen ^ word(class)).count_ones() as usize;
+            let nearest = (0..classes.values.len()).min_by_key(|&class| far(class)).expect("there are classes");
+            let is_clear = (0..classes.values.len()).all(|class| class == nearest || far(class) > far(nearest));
+            if let Some(&weight) = WEIGHTS.get(far(nearest)).filter(|_| is_clear) {
+                words.push((seen, classes.values[nearest], weight));
             }
-            words.push((word, value, CERTAIN));
         }
         let features: Vec<Feature> = bits
             .iter()
             .enumerate()
-            .map(|(at, &literal)| Feature { literal, bits: Bits::of(words.iter().map(|(word, ..)| word[at])) })
+            .map(|(at, &literal)| Feature {
+                literal,
+                bits: Bits::of(words.iter().map(|(word, ..)| word >> at & 1 == 1)),
+            })
             .collect();
         let weights: Vec<f64> = words.iter().map(|(_, _, weight)| *weight).collect();
         let growth = Growth { depth: usize::MAX, leaf: 0.0 };
@@ -235,8 +251,8 @@ impl CodeFitting {
     }
 }
 
-/// How much more a code word weighs than one with a wrong bit.
-const CERTAIN: f64 = 100.0;
+/// The weights of words by the bits in which they differ from the nearest code word.
+const WEIGHTS: [f64; 3] = [100.0, 1.0, 0.01];
 
 /// The stream of random numbers for a part of the work.
 fn stream(seed: u64, port: usize, part: u64) -> ChaCha8Rng {

@@ -59,6 +59,8 @@ enum Gate {
     /// The second if the first, else the third.
     Mux(Literal, Literal, Literal),
     Majority(Literal, Literal, Literal),
+    /// A function of three nets, none of them inverted: bit `4a + 2b + c` is its value.
+    Table([Literal; 3], u8),
 }
 
 impl Gate {
@@ -66,7 +68,7 @@ impl Gate {
         match self {
             Self::Zero | Self::Input => Vec::new(),
             Self::And(a, b) | Self::Xor(a, b) => vec![a, b],
-            Self::Mux(a, b, c) | Self::Majority(a, b, c) => vec![a, b, c],
+            Self::Mux(a, b, c) | Self::Majority(a, b, c) | Self::Table([a, b, c], _) => vec![a, b, c],
         }
     }
 
@@ -77,6 +79,15 @@ impl Gate {
             Self::And(..) => 1,
             Self::Xor(..) | Self::Mux(..) => 3,
             Self::Majority(..) => 4,
+            Self::Table(_, bits) => {
+                // A multiplexer of two functions of two nets, which are an exclusive or, an AND or none.
+                let half = |bits: u8| match bits {
+                    0b0110 | 0b1001 => 3,
+                    _ if bits.count_ones() % 2 == 1 => 1,
+                    _ => 0,
+                };
+                3 + half(bits >> 4) + half(bits & 15)
+            }
         }
     }
 }
@@ -199,6 +210,26 @@ impl GateGraph {
         }
     }
 
+    /// A function of three nets: bit `4a + 2b + c` of its bits is its value.
+    pub fn table(&mut self, pins: [Literal; 3], bits: u8) -> Literal {
+        let entry = |row: usize| bits >> row & 1 == 1;
+        // The pins as they are before they are inverted.
+        let flip = pins.iter().fold(0, |flip, pin| flip << 1 | usize::from(pin.is_inverted()));
+        let plain = (0..8).fold(0, |plain, row| plain | u8::from(entry(row ^ flip)) << row);
+        let depends = |place: usize| (0..8).any(|row| entry(row) != entry(row ^ (4 >> place)));
+        let is_table = (0..3).all(depends) && pins.iter().all(|pin| pin.node() > 0);
+        let nodes = pins.map(Literal::node);
+        if is_table && nodes[0] != nodes[1] && nodes[1] != nodes[2] && nodes[0] != nodes[2] {
+            return self.gate(Gate::Table(pins.map(|pin| pin.inverted_if(pin.is_inverted())), plain));
+        }
+        let [a, b, c] = pins;
+        let pairs: [Literal; 4] = std::array::from_fn(|at| {
+            self.mux(c, Literal::constant(entry(2 * at + 1)), Literal::constant(entry(2 * at)))
+        });
+        let [no, yes] = [0, 2].map(|at| self.mux(b, pairs[at + 1], pairs[at]));
+        self.mux(a, yes, no)
+    }
+
     /// Any of them, as a balanced tree.
     pub fn any(&mut self, mut terms: Vec<Literal>) -> Literal {
         while terms.len() > 1 {
@@ -244,6 +275,7 @@ impl GateGraph {
                 Gate::Xor(a, b) => self.xor(pin(a), pin(b)),
                 Gate::Mux(a, b, c) => self.mux(pin(a), pin(b), pin(c)),
                 Gate::Majority(a, b, c) => self.majority(pin(a), pin(b), pin(c)),
+                Gate::Table(pins, bits) => self.table(pins.map(pin), bits),
                 Gate::Zero | Gate::Input => unreachable!("gates follow the inputs"),
             });
         }
@@ -276,6 +308,10 @@ impl GateGraph {
                 Gate::Xor(..) => pins[0].xor(&pins[1]),
                 Gate::Mux(..) => pins[0].and(&pins[1]).or(&pins[2].and_not(&pins[0])),
                 Gate::Majority(..) => pins[0].and(&pins[1]).or(&pins[2].and(&pins[0].or(&pins[1]))),
+                Gate::Table(_, bits) => {
+                    let at = |row: usize| pins.iter().fold(0, |at, pin| at << 1 | usize::from(pin.get(row)));
+                    Bits::of((0..rows).map(|row| bits >> at(row) & 1 == 1))
+                }
                 Gate::Zero | Gate::Input => unreachable!("gates follow the inputs"),
             });
         }
@@ -325,6 +361,7 @@ fn function(gate: Gate, pins: &[Literal]) -> Function {
                 }
             }
             Gate::Majority(..) => u8::from(pin(0)) + u8::from(pin(1)) + u8::from(pin(2)) >= 2,
+            Gate::Table(_, bits) => bits >> row & 1 == 1,
             Gate::Zero | Gate::Input => unreachable!("they have no pins"),
         }
     });
@@ -356,6 +393,12 @@ mod tests {
             expected.push(Box::new(move |bits| if value(a, bits) { value(b, bits) } else { value(c, bits) }));
             outputs.push(graph.majority(signed(a), signed(b), signed(c)));
             expected.push(Box::new(move |bits| [a, b, c].iter().filter(|&&pick| value(pick, bits)).count() >= 2));
+            let bits = (pick * 37 % 256) as u8;
+            outputs.push(graph.table([signed(a), signed(b), signed(c)], bits));
+            expected.push(Box::new(move |row| {
+                let at = [a, b, c].iter().fold(0, |at, &pick| at << 1 | usize::from(value(pick, row)));
+                bits >> at & 1 == 1
+            }));
             outputs.push(graph.xor(signed(a), signed(b)));
             expected.push(Box::new(move |bits| value(a, bits) != value(b, bits)));
         }
@@ -371,7 +414,7 @@ mod tests {
                 assert_eq!((values[at].get(row), found[at]), (expected(bits), expected(bits)), "{at} {bits:?}");
             }
         }
-        assert!(graph.gates.len() < 100, "equal gates are one, not {}", graph.gates.len());
+        assert!(graph.gates.len() < 200, "equal gates are one, not {}", graph.gates.len());
     }
 
     #[test]

@@ -30,7 +30,7 @@ pub struct Votes {
 }
 
 /// How much less a row weighs after each right vote.
-const STEP: f64 = 0.3;
+const STEP: f64 = 0.5;
 
 /// How often the tables of a vote are chosen again, each for the rows in which the other two leave the vote open.
 const ROUNDS: usize = 2;
@@ -49,16 +49,33 @@ impl Votes {
 
     /// Adds a vote; a simple one is a table alone.
     pub fn add(&mut self, features: &[Feature], target: &Bits, is_simple: bool) {
+        let weights = self.weights();
+        let vote = if is_simple { Vote::simple } else { Vote::new }(features, target, &weights);
+        self.count(&vote, features, target, 1.0);
+        self.votes.push(vote);
+    }
+
+    /// Chooses a vote again, for the rows that the others get wrong.
+    pub fn choose_again(&mut self, at: usize, features: &[Feature], target: &Bits) {
+        self.count(&self.votes[at].clone(), features, target, -1.0);
+        let vote = Vote::new(features, target, &self.weights());
+        self.count(&vote, features, target, 1.0);
+        self.votes[at] = vote;
+    }
+
+    /// The weights of the rows for the next vote.
+    fn weights(&self) -> Vec<f64> {
         let weights: Vec<f64> = self.margins.iter().map(|margin| libm::exp(-STEP * margin)).collect();
         let scale = weights.len() as f64 / weights.iter().sum::<f64>();
-        let weights: Vec<f64> = weights.into_iter().map(|weight| weight * scale).collect();
-        let vote =
-            if is_simple { Vote::simple(features, target, &weights) } else { Vote::new(features, target, &weights) };
+        weights.into_iter().map(|weight| weight * scale).collect()
+    }
+
+    /// Counts a vote so many times.
+    fn count(&mut self, vote: &Vote, features: &[Feature], target: &Bits, times: f64) {
         let wrong = vote.answers(features).xor(target);
         for (row, margin) in self.margins.iter_mut().enumerate() {
-            *margin += if wrong.get(row) { -1.0 } else { 1.0 };
+            *margin += if wrong.get(row) { -times } else { times };
         }
-        self.votes.push(vote);
     }
 
     /// The number of votes.
@@ -151,7 +168,7 @@ impl Vote {
 
     fn build(&self, graph: &mut GateGraph, features: &[Feature]) -> Literal {
         let pins = self.tables.each_ref().map(|table| table.build(graph, features));
-        build(graph, pins, &self.entries)
+        graph.table(pins, bits_of(&self.entries))
     }
 }
 
@@ -208,14 +225,11 @@ impl Table {
     }
 
     fn build(&self, graph: &mut GateGraph, features: &[Feature]) -> Literal {
-        build(graph, self.features.map(|feature| features[feature].literal), &self.entries)
+        graph.table(self.features.map(|feature| features[feature].literal), bits_of(&self.entries))
     }
 }
 
-/// A function of three nets.
-fn build(graph: &mut GateGraph, [a, b, c]: [Literal; 3], entries: &[bool; 8]) -> Literal {
-    let constant = |at: usize| Literal::constant(entries[at]);
-    let pairs: [Literal; 4] = std::array::from_fn(|at| graph.mux(c, constant(2 * at + 1), constant(2 * at)));
-    let [no, yes] = [0, 2].map(|at| graph.mux(b, pairs[at + 1], pairs[at]));
-    graph.mux(a, yes, no)
+/// The entries of a table as bits, the first the lowest.
+fn bits_of(entries: &[bool; 8]) -> u8 {
+    entries.iter().rev().fold(0, |bits, &entry| bits << 1 | u8::from(entry))
 }
