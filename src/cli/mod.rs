@@ -36,6 +36,7 @@ mod output;
 #[cfg(feature = "play")]
 mod play;
 mod progress;
+mod prove;
 mod robots;
 mod run;
 mod runs;
@@ -104,6 +105,7 @@ commands! {
     Manual(manual::ManualArguments),
     New(new::NewArguments),
     Play(play::PlayArguments),
+    Prove(prove::ProveArguments),
     Run(run::RunArguments),
     Simulate(simulate::SimulateArguments),
     Synth(synth::SynthArguments),

@@ -51,6 +51,8 @@ pub(in crate::cli) enum UsageError {
     Exists { file: String },
     /// A file for a new program whose name no circuit can have.
     NoWord { file: String },
+    /// Witnesses that are asked for where there is not one model.
+    WitnessOfSource,
     /// A ground that a body cannot stand on.
     Setting(SettingError),
 }
@@ -117,6 +119,8 @@ impl From<UsageError> for Diagnostic {
             UsageError::NoLivePages => bad("this program was built without the page of `--live`".to_owned()).with_help(
                 "leave `--live` out for a recording, or build the program with the page (docs/packaging.md)",
             ),
+            UsageError::WitnessOfSource => bad("`--witness` is for one model in AIGER's format".to_owned())
+                .with_help("leave it out: a property of a program is refuted by a test"),
             UsageError::Exists { file } => Self::without_place(Code::Unwritable, format!("`{file}` exists already"))
                 .with_help("choose another name, or remove the file"),
             UsageError::NoWord { file } => {

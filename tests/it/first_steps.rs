@@ -267,6 +267,12 @@ fn every_task_of_how_do_i_runs() {
     assert_eq!(page.lines().filter(|line| line.starts_with("## ")).count(), 10, "ten tasks");
 }
 
+#[test]
+fn a_property_is_written_proved_broken_and_repaired() {
+    let commands = execute_page(&Bench::new(), "docs/always.md");
+    assert_eq!(commands, 4);
+}
+
 /// A circuit of a program, with the places of its inputs in order of their names.
 fn circuit(bench: &Bench, file: &str, name: &str) -> (Netlist, Vec<(String, usize)>) {
     let path = bench.path().join(file);

@@ -52,6 +52,7 @@ mod pictures;
 #[cfg(feature = "play")]
 mod play;
 mod plots;
+mod proving;
 mod pulsed;
 mod python;
 mod reachable;

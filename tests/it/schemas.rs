@@ -95,6 +95,11 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "explain", 0, &["explain", "width"]);
     check(&bench, "explain", 0, &["explain", "prelude"]);
     check(&bench, "robots", 0, &["export", "shipped"]);
+    check(&bench, "prove", 0, &["prove", root().join("circuits/computer.nb").to_str().unwrap()]);
+    bench.file("claimed.nb", "circuit f(a) -> (q) {\n    q = a\n}\n\nprove f {\n    never q\n}\n");
+    check(&bench, "prove", 1, &["prove", "claimed.nb", "--physics"]);
+    bench.file("model.aag", "aag 1 1 0 0 0 1\n2\n2\n");
+    check(&bench, "prove", 1, &["prove", "model.aag"]);
     check(&bench, "formatted", 0, &["fmt", "flip.nb"]);
     check(&bench, "library", 0, &["library", "list"]);
     check(&bench, "robot", 0, &["library", "show", "nand"]);

@@ -328,8 +328,8 @@ fn extra_counts_of_aiger_that_are_zero_are_read() {
         assert!(written(&text, "a.aag", "out.blif").contains(".outputs o0\n"), "{extra}");
     }
     let head = |extra: &str| format!("aag 3 2 0 1 1{extra}\n2\n4\n6\n6 4 2\n");
-    refused("a.aag", &head(" 1"), "bad-state properties are not supported, and the header has 1, line 1");
-    refused("a.aag", &head(" 0 2"), "invariant constraints are not supported, and the header has 2");
+    refused("a.aag", &head(" 1"), "bad-state properties are not part of a circuit, and the header has 1");
+    refused("a.aag", &head(" 0 2"), "invariant constraints are not part of a circuit, and the header has 2");
     refused("a.aag", &head(" 0 0 3"), "justice properties are not supported, and the header has 3");
     refused("a.aag", &head(" 0 0 0 4"), "fairness constraints are not supported, and the header has 4");
     refused("a.aag", &head(" 0 0 0 0 0"), "expected five to nine numbers in the header, found 10");

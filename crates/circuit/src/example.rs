@@ -1,7 +1,11 @@
 //! Netlists, networks and libraries that the unit tests of this crate share.
 
+use rand::Rng;
+use rand_chacha::ChaCha8Rng;
+
 use crate::network::{Network, Signal};
-use crate::{CellLibrary, Netlist};
+use crate::registers::flip_flop;
+use crate::{CellLibrary, NetId, Netlist};
 use nbc_base::model::Function;
 
 /// The paper's D latch as elaboration writes it: two wires for the feedback.
@@ -53,4 +57,33 @@ pub fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
     let signals = network.signals() as Signal;
     network.outputs = (signals - 6..signals).collect();
     network
+}
+
+/// A random machine with some ports and registers.
+pub fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
+    let mut draw = |bound: usize| (random.next_u32() as usize) % bound;
+    let mut netlist = Netlist::new("machine");
+    let ports: Vec<NetId> = (0..draw(3)).map(|at| netlist.add_input(format!("i{at}"))).collect();
+    let clock = netlist.add_input("clk");
+    let bits = draw(5);
+    let wires: Vec<NetId> = (0..bits).map(|at| netlist.add_wire(format!("w{at}"), None, None)).collect();
+    let mut nets: Vec<NetId> = ports.iter().chain(&wires).copied().collect();
+    if nets.is_empty() {
+        nets.push(netlist.add_constant(true));
+    }
+    for _ in 0..draw(12) {
+        let function = Function::all().filter(|function| function.depends_on(0)).nth(draw(12)).unwrap();
+        let pins = [nets[draw(nets.len())], nets[draw(nets.len())]];
+        nets.push(netlist.add_gate(function, &pins[..function.arity()]));
+    }
+    for (at, &wire) in wires.iter().enumerate() {
+        let data = nets[draw(nets.len())];
+        let q = flip_flop(&mut netlist, &format!("q{at}"), data, clock, draw(2) == 1);
+        netlist.drive(wire, 0, q);
+    }
+    for at in 0..1 + draw(3) {
+        let net = nets[draw(nets.len())];
+        netlist.add_output(format!("o{at}"), net);
+    }
+    netlist
 }

@@ -1,5 +1,6 @@
 //! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
+mod and_graph;
 mod blocks;
 mod cells;
 mod components;
@@ -23,6 +24,7 @@ pub mod network;
 mod options;
 pub mod passes;
 mod proof;
+pub mod properties;
 mod races;
 mod random_run;
 pub mod reachable;

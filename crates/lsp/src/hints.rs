@@ -68,6 +68,7 @@ fn operands(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     let bodies = declarations.filter(|declaration| is_in(declaration.span, file, part)).filter_map(|declaration| {
         match &declaration.kind {
             DeclarationKind::Circuit(circuit) => Some(&circuit.body),
+            DeclarationKind::Prove(claim) => Some(&claim.body),
             DeclarationKind::Test(test) => match &test.kind {
                 TestKind::Reference(body) => Some(&**body),
                 _ => None,

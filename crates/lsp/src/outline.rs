@@ -44,6 +44,10 @@ fn symbols_of(declaration: &Declaration, lines: &Lines<'_>) -> Vec<DocumentSymbo
         }
         DeclarationKind::Let(integer) => one(&integer.name, SymbolKind::Constant, "integer"),
         DeclarationKind::File(file) => one(&file.name, SymbolKind::File, "file"),
+        DeclarationKind::Prove(claim) => {
+            let title = claim.title.as_ref().map_or("prove", |title| title.text.as_str());
+            one(&claim.circuit.name, SymbolKind::Method, title)
+        }
         DeclarationKind::Test(test) => {
             let title = test.title.as_ref().map_or("test", |title| title.text.as_str());
             one(&test.circuit.name, SymbolKind::Method, title)

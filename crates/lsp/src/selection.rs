@@ -50,6 +50,10 @@ fn parts(declaration: &Declaration) -> Vec<Span> {
             }
         }
         DeclarationKind::Circuit(circuit) => of_body(&circuit.body, &mut spans),
+        DeclarationKind::Prove(claim) => {
+            of_body(&claim.body, &mut spans);
+            spans.extend(claim.properties.iter().map(|property| property.span));
+        }
         DeclarationKind::Test(test) => of_test(test, &mut spans),
     }
     spans

@@ -47,6 +47,7 @@ schemas! {
     Library = "library", 1: "A summary of the robots of a library.";
     Play = "play", 1: "The address of a live page.";
     Player = "player", 1: "A circuit that was written as a page of its own.";
+    Prove = "prove", 1: "Properties that were proved, refuted, or neither.";
     Radii = "radii", 1: "How far worlds may differ before robots make errors.";
     Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";

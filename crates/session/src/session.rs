@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use crate::documents::Documents;
+use crate::claims::ClaimSearch;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
 use crate::robots::RobotSources;
@@ -17,9 +18,10 @@ use crate::{
 };
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostics;
-use nbc_base::model::{CircuitTest, Evolution, Instance, Library, Simulation};
+use nbc_base::model::{CircuitTest, Claim, Evolution, Instance, Library, Simulation};
 use nbc_base::source::{SourceWorld, Sources, Span};
-use nbc_circuit::{CellLibrary, elaborate};
+use nbc_circuit::properties::SearchBudget;
+use nbc_circuit::{CancelFlag, CellLibrary, elaborate};
 use nbc_sim::Simulator;
 use nbc_swarm::{Level, LiveSwarm, Room};
 
@@ -243,6 +245,20 @@ impl Session {
     ) -> Result<Option<EnvironmentRun>, Diagnostics> {
         let run = test::environment(self.sources(checked), &checked.program, test, rows, options);
         run.map_err(|faults| checked.fail(faults))
+    }
+
+    /// Begins to decide a claim; the search ends when its budget does, or when the flag is raised.
+    ///
+    /// # Errors
+    /// When the circuit cannot be built, or has no steps of which something can be claimed.
+    pub fn prove(
+        &self,
+        checked: &Checked,
+        claim: &Claim,
+        budget: SearchBudget,
+        cancel: CancelFlag,
+    ) -> Result<ClaimSearch, Diagnostics> {
+        ClaimSearch::new(&checked.program, claim, budget, cancel).map_err(|faults| checked.fail(faults))
     }
 
     /// Runs a declared simulation in physics.

@@ -4,6 +4,7 @@ use crate::report;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, suggest};
 use nbc_base::model::Behavior;
 use nbc_base::source::Span;
+use nbc_circuit::properties::NoSteps;
 use nbc_circuit::waves::WaveError;
 use nbc_circuit::{EnvironmentFault, MapError};
 use nbc_swarm::WeakRobot;
@@ -142,6 +143,28 @@ pub(super) fn of_library(error: Diagnostic, library: Span, command: Option<&str>
 /// Shows an error of a file at the declaration that names it.
 pub(super) fn of_declared_file(error: Diagnostic, declared: Span) -> Diagnostic {
     error.with_label(declared, "declared here")
+}
+
+/// A claim that cannot be decided.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum ClaimError {
+    /// A circuit without steps, or a property that reads their clock.
+    NoSteps { circuit: String, why: NoSteps },
+}
+
+impl ClaimError {
+    /// The error at the claim.
+    pub(super) fn at(self, span: Span) -> Diagnostic {
+        let Self::NoSteps { circuit, why } = self;
+        let (message, help) = match &why {
+            NoSteps::ClockHasNoValue { .. } => (why.to_string(), "leave it out: it is 1 after each rise"),
+            _ => (
+                format!("`{circuit}` has no steps: {why}"),
+                "a step is a rise of the one clock of all registers, or a row of inputs after which all settles",
+            ),
+        };
+        Diagnostic::new(Code::NoSteps, message, span, "claimed here").with_help(help)
+    }
 }
 
 /// A swarm that says what the registers of a circuit without memory are made of.

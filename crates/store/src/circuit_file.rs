@@ -9,7 +9,9 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFile, VerilogPlace};
 use nbc_circuit::CancelFlag;
-use nbc_circuit::formats::{CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module};
+use nbc_circuit::formats::{
+    AigerModel, CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module,
+};
 use nbc_lang::syntax;
 
 /// A circuit file to be read.
@@ -40,6 +42,19 @@ impl CircuitRead {
     fn plain(design: Design, warnings: Diagnostics) -> Self {
         Self { design, warnings, origin: ProofOrigin::File }
     }
+}
+
+/// Reads a model with properties.
+///
+/// # Errors
+/// A file that cannot be read, is no AIGER file, or is damaged.
+pub fn read_model(path: &Path) -> Result<AigerModel, Diagnostics> {
+    let file = path.display().to_string();
+    if CircuitSource::of_path(&file) != Some(CircuitSource::Aiger) {
+        return Err(Diagnostic::from(StoreError::NoModel { file }).into());
+    }
+    let bytes = disk::read(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))?;
+    Ok(AigerModel::read(&bytes)?)
 }
 
 /// Reads a circuit.

@@ -47,7 +47,7 @@ pub use atomic::{create_folder, write, write_file, write_with};
 #[cfg(feature = "disk")]
 pub use checkpoint::Checkpoint;
 #[cfg(feature = "disk")]
-pub use circuit_file::{CircuitFile, CircuitRead, encode_circuit, read_circuit, read_rows, with_comment};
+pub use circuit_file::{CircuitFile, CircuitRead, encode_circuit, read_circuit, read_model, read_rows, with_comment};
 #[cfg(feature = "disk")]
 pub use declared::Declared;
 #[cfg(feature = "disk")]

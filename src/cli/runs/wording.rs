@@ -11,6 +11,10 @@ pub(in crate::cli) enum RunChoiceError {
     NoTest { file: String },
     /// A file without tests and simulations.
     NothingToRun { file: String },
+    /// A file without claims.
+    NoClaim { file: String },
+    /// A claim that the file does not have.
+    UnknownClaim { file: String, name: String, known: Vec<String> },
     /// A test or simulation that the file does not have.
     UnknownRun { file: String, name: String, known: Vec<String> },
 }
@@ -26,6 +30,11 @@ impl From<RunChoiceError> for Diagnostic {
                 let help = "declare a test: `test my_circuit { a b | q` and a row for each input pattern; \
                             `nbc check` only checks";
                 fault(Code::Empty, message).with_help(help)
+            }
+            RunChoiceError::NoClaim { file } => fault(Code::Empty, format!("`{file}` claims nothing"))
+                .with_help("declare what is always or never so: `prove my_circuit { never a and b }`"),
+            RunChoiceError::UnknownClaim { file, name, known } => {
+                no_such(format!("no claim of `{file}` is called `{name}`"), &name, &known)
             }
             RunChoiceError::UnknownRun { file, name, known } => {
                 let message = format!("no test and no simulation of `{file}` is called `{name}`");

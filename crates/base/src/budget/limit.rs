@@ -65,6 +65,7 @@ limits! {
     Rows = 1_000_000, "rows of tests", "over all tests and worlds of a program, repeated ones counted each time";
     RowBits = 1 << 26, "bits in rows of tests", "over all tests and worlds of a program";
     Repetitions = 1_000_000, "repetitions", "of a row until an output has a value";
+    PropertySteps = 1_000, "steps", "within which a property says that something happens";
     SwarmGates = 400_000, "gates", "of a circuit that is to be a swarm, before it is mapped";
     Robots = 100_000, "robots", "of a swarm";
     CycleBits = 1 << 28, "bits over all cycles", "of a test or a simulation: its inputs, and 64 more a cycle";

@@ -64,9 +64,11 @@ codes! {
     MultipleDrivers = "multiple-drivers", Error: "A net driven more than once.";
     Nesting = "nesting", Error: "Text that is nested too deeply.";
     NoEffect = "no-effect", Error: "A field that nothing uses.";
+    NoSteps = "no-steps", Error: "A circuit without steps, of which nothing can be proved.";
     NoWaves = "no-waves", Error: "A circuit or a row of a test that no wave machine can run.";
     Operands = "operands", Error: "A circuit or an operator with too many or too few operands.";
     OutOfRange = "out-of-range", Error: "A number out of range.";
+    Property = "property", Error: "A property whose words do not go together.";
     Recursion = "recursion", Error: "A circuit that contains itself, or a declaration that uses its own fields.";
     RobotFile = "robot-file", Error: "A robot file with an error.";
     RowWidth = "row-width", Error: "A row with more or fewer values than its table has columns.";

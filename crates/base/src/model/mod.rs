@@ -4,6 +4,7 @@
 mod behavior;
 mod body;
 mod circuit;
+mod claim;
 mod column;
 mod enumeration;
 mod evolution;
@@ -34,6 +35,7 @@ pub use circuit::{
     MemoryRead, MemoryWrite, Net, NetSlot, Operator, Parameter, Relation, Size, SizeId, SizeKind, SizeOperator,
     Statement, Target,
 };
+pub use claim::{Claim, Property, PropertyKind};
 pub use column::{Column, bit_parts};
 pub use enumeration::{Enumeration, EnumerationMember, MemberEncoding};
 pub use evolution::{Axis, Count, Evolution, Genome, MutationWeights, Niche, SampledWorlds, StartBodies, Symmetry};

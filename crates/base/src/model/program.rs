@@ -1,7 +1,7 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
 use super::{
-    Base, Behavior, Circuit, CircuitId, CircuitTest, Column, Enumeration, Evolution, Instance, Material, NamedWorld,
+    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Instance, Material, NamedWorld,
     Schedule,
 };
 use crate::source::Span;
@@ -39,6 +39,8 @@ pub struct Program {
     pub simulations: Vec<Simulation>,
     /// The tests; of the file itself, not of those it uses.
     pub tests: Vec<CircuitTest>,
+    /// The claims of the file itself, not of those it uses.
+    pub claims: Vec<Claim>,
 }
 
 /// A schedule with its name.

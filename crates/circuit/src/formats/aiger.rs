@@ -3,10 +3,11 @@
 use std::collections::BTreeSet;
 use std::fmt::Write;
 
+use crate::and_graph::{AndGraph, AndLiteral};
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::{FileNames, free};
 use crate::formats::wording::{AigerError, AigerPlace};
-use crate::network::{Gate, View};
+use crate::network::View;
 use crate::{NetId, Netlist};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
@@ -21,10 +22,10 @@ const EXTRA: [&str; 4] =
 /// # Errors
 /// The first error of the file, with its line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
-    Reader { bytes, at: 0, lines: 0, place: AigerPlace::Line(1) }.read(clock)
+    Reader::new(bytes).read(clock)
 }
 
-struct Reader<'b> {
+pub(super) struct Reader<'b> {
     bytes: &'b [u8],
     at: usize,
     /// The lines read so far.
@@ -34,44 +35,53 @@ struct Reader<'b> {
 }
 
 /// The numbers of the header.
-struct Header {
+pub(super) struct Header {
     binary: bool,
-    variables: usize,
+    pub(super) variables: usize,
     inputs: usize,
     latches: usize,
     outputs: usize,
     ands: usize,
+    /// Properties and constraints, in files of version 1.9.
+    bad: usize,
+    constraints: usize,
 }
 
 /// A literal with its position.
-type Placed = (usize, AigerPlace);
+pub(super) type Placed = (usize, AigerPlace);
 
 /// A latch: its literal, its next literal, its start value.
-struct Latch {
-    literal: usize,
-    next: usize,
-    start: Option<bool>,
-    place: AigerPlace,
+pub(super) struct Latch {
+    pub(super) literal: usize,
+    pub(super) next: usize,
+    pub(super) start: Option<bool>,
+    pub(super) place: AigerPlace,
 }
 
 /// A gate: its literal and the literals of its pins.
 #[derive(Clone, Copy)]
-struct And {
-    out: usize,
-    pins: [usize; 2],
-    place: AigerPlace,
+pub(super) struct And {
+    pub(super) out: usize,
+    pub(super) pins: [usize; 2],
+    pub(super) place: AigerPlace,
 }
 
 /// The contents of a file before its symbols.
-struct Graph {
-    inputs: Vec<Placed>,
-    latches: Vec<Latch>,
-    outputs: Vec<Placed>,
-    ands: Vec<And>,
+pub(super) struct Graph {
+    pub(super) inputs: Vec<Placed>,
+    pub(super) latches: Vec<Latch>,
+    pub(super) outputs: Vec<Placed>,
+    pub(super) bad: Vec<Placed>,
+    pub(super) constraints: Vec<Placed>,
+    pub(super) ands: Vec<And>,
 }
 
 impl<'b> Reader<'b> {
-    fn fault<T>(&self, error: AigerError) -> Result<T, Diagnostic> {
+    pub(super) fn new(bytes: &'b [u8]) -> Self {
+        Self { bytes, at: 0, lines: 0, place: AigerPlace::Line(1) }
+    }
+
+    pub(super) fn fault<T>(&self, error: AigerError) -> Result<T, Diagnostic> {
         Err(error.at(self.place))
     }
 
@@ -104,7 +114,7 @@ impl<'b> Reader<'b> {
         }
     }
 
-    fn header(&mut self) -> Result<Header, Diagnostic> {
+    pub(super) fn header(&mut self) -> Result<Header, Diagnostic> {
         let line = self.line()?;
         let mut words = line.split(' ');
         let binary = match words.next() {
@@ -121,9 +131,10 @@ impl<'b> Reader<'b> {
         if extra.len() > EXTRA.len() {
             return self.fault(AigerError::HeaderNumbers { found: numbers.len() });
         }
-        if let Some((&number, what)) = extra.iter().zip(EXTRA).find(|(number, _)| **number > 0) {
-            return self.fault(AigerError::Property { what, number });
+        if let Some((&number, what)) = extra.iter().zip(EXTRA).skip(2).find(|(number, _)| **number > 0) {
+            return self.fault(AigerError::Liveness { what, number });
         }
+        let [bad, constraints] = [0, 1].map(|at| extra.get(at).copied().unwrap_or(0));
         if let Some(&number) = numbers.iter().find(|&&number| Limit::AigerVariables.permit(number as u64).is_err()) {
             return self.fault(AigerError::TooLarge { number, most: Limit::AigerVariables.most() });
         }
@@ -137,24 +148,37 @@ impl<'b> Reader<'b> {
         }
         // Every output takes at least two bytes and every gate two, so the header cannot announce more than the file
         // contains.
-        if outputs + ands > self.bytes.len() {
+        if [outputs, ands, bad, constraints].into_iter().fold(0, usize::saturating_add) > self.bytes.len() {
             return self.fault(AigerError::TooShort { outputs, ands });
         }
-        Ok(Header { binary, variables, inputs, latches, outputs, ands })
+        Ok(Header { binary, variables, inputs, latches, outputs, ands, bad, constraints })
     }
 
     fn read(mut self, clock: Option<&str>) -> Result<Design, Diagnostic> {
         let header = self.header()?;
+        let counts = [header.bad, header.constraints];
+        if let Some((number, what)) = counts.into_iter().zip(EXTRA).find(|(number, _)| *number > 0) {
+            return self.fault(AigerError::Property { what, number });
+        }
+        let graph = self.graph(&header)?;
+        let mut design = build(&header, &graph, clock)?;
+        self.symbols(&mut design)?;
+        Ok(design)
+    }
+
+    /// The file up to its symbols.
+    pub(super) fn graph(&mut self, header: &Header) -> Result<Graph, Diagnostic> {
         let mut inputs = Vec::with_capacity(header.inputs);
         for i in 0..header.inputs {
             inputs.push(if header.binary { (2 * (i + 1), self.place) } else { self.literal("an input")? });
         }
-        let latches = (0..header.latches).map(|i| self.latch(&header, i)).collect::<Result<_, _>>()?;
-        let outputs = (0..header.outputs).map(|_| self.literal("an output")).collect::<Result<_, _>>()?;
-        let ands = (0..header.ands).map(|i| self.and(&header, i)).collect::<Result<_, _>>()?;
-        let mut design = build(&header, &Graph { inputs, latches, outputs, ands }, clock)?;
-        self.symbols(&mut design)?;
-        Ok(design)
+        let latches = (0..header.latches).map(|i| self.latch(header, i)).collect::<Result<_, _>>()?;
+        let mut literals = |count: usize, what| (0..count).map(|_| self.literal(what)).collect::<Result<_, _>>();
+        let outputs = literals(header.outputs, "an output")?;
+        let bad = literals(header.bad, "a property")?;
+        let constraints = literals(header.constraints, "a constraint")?;
+        let ands = (0..header.ands).map(|i| self.and(header, i)).collect::<Result<_, _>>()?;
+        Ok(Graph { inputs, latches, outputs, bad, constraints, ands })
     }
 
     fn latch(&mut self, header: &Header, i: usize) -> Result<Latch, Diagnostic> {
@@ -206,21 +230,29 @@ impl<'b> Reader<'b> {
         self.fault(AigerError::LongNumber)
     }
 
+    /// The kind, the number and the name of the next symbol.
+    pub(super) fn symbol(&mut self) -> Result<Option<(&'b str, usize, &'b str)>, Diagnostic> {
+        if self.at >= self.bytes.len() {
+            return Ok(None);
+        }
+        let line = self.line()?;
+        if line == "c" {
+            return Ok(None);
+        }
+        let symbol = line.split_once(' ').and_then(|(place, name)| {
+            let (kind, number) = place.split_at_checked(1)?;
+            Some((kind, number.parse::<usize>().ok()?, name))
+        });
+        match symbol.filter(|(_, _, name)| !name.is_empty()) {
+            Some(symbol) => Ok(Some(symbol)),
+            None => self.fault(AigerError::Symbol { found: excerpt(line) }),
+        }
+    }
+
     /// Reads the names of ports and latches after the gates.
     fn symbols(&mut self, design: &mut Design) -> Result<(), Diagnostic> {
         let (inputs, outputs) = (design.inputs(), design.outputs());
-        while self.at < self.bytes.len() {
-            let line = self.line()?;
-            if line == "c" {
-                break;
-            }
-            let symbol = line.split_once(' ').and_then(|(place, name)| {
-                let (kind, number) = place.split_at_checked(1)?;
-                Some((kind, number.parse::<usize>().ok()?, name))
-            });
-            let Some((kind, number, name)) = symbol.filter(|(_, _, name)| !name.is_empty()) else {
-                return self.fault(AigerError::Symbol { found: excerpt(line) });
-            };
+        while let Some((kind, number, name)) = self.symbol()? {
             let known = match kind {
                 "i" if number < inputs => Some(design.logic.inputs()[number]),
                 "o" if number < outputs => Some(design.logic.outputs()[number]),
@@ -231,7 +263,7 @@ impl<'b> Reader<'b> {
                 _ => None,
             };
             let Some(id) = known else {
-                return self.fault(AigerError::UnknownSymbol { found: excerpt(line) });
+                return self.fault(AigerError::UnknownSymbol { found: excerpt(&format!("{kind}{number} {name}")) });
             };
             design.logic.rename(id, name);
         }
@@ -249,13 +281,13 @@ impl<'b> Reader<'b> {
 }
 
 /// The start of a line, for messages.
-fn excerpt(line: &str) -> String {
+pub(super) fn excerpt(line: &str) -> String {
     line.chars().take(40).collect()
 }
 
 /// The design of a graph.
 fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, Diagnostic> {
-    let Graph { inputs, latches, outputs, ands } = graph;
+    let Graph { inputs, latches, outputs, ands, .. } = graph;
     let mut logic = Netlist::new("circuit");
     let mut nets: Vec<Option<NetId>> = vec![None; header.variables + 1];
     let ports = inputs.iter().enumerate().map(|(i, &placed)| (format!("i{i}"), placed));
@@ -267,7 +299,8 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
         }
     }
     let mut literals = Literals { inverted: vec![None; header.variables + 1], constants: [None; 2], nets };
-    for And { out, pins, .. } in sorted(ands, &literals.nets)? {
+    let sources: Vec<bool> = literals.nets.iter().map(Option::is_some).collect();
+    for And { out, pins, .. } in sorted(ands, &sources)? {
         literals.and(&mut logic, out, pins);
     }
     let shown = outputs.iter().enumerate().map(|(i, &placed)| (format!("o{i}"), placed));
@@ -295,9 +328,9 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
     Ok(Design::new(logic, registers))
 }
 
-/// The gates with drivers first.
-fn sorted(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<And>, Diagnostic> {
-    let gates = gates_by_variable(ands, nets)?;
+/// The gates with drivers first; `sources` says which variables are inputs and latches.
+pub(super) fn sorted(ands: &[And], sources: &[bool]) -> Result<Vec<And>, Diagnostic> {
+    let gates = gates_by_variable(ands, sources)?;
     let mut state = vec![0u8; ands.len()];
     let mut order = Vec::with_capacity(ands.len());
     for root in 0..ands.len() {
@@ -319,7 +352,7 @@ fn sorted(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<And>, Diagnostic> 
                     Some(Some(pin)) if state[*pin] == 1 => {
                         return Err(AigerError::Loop { literal: out }.at(place));
                     }
-                    Some(None) if literal > 1 && nets[literal / 2].is_none() => {
+                    Some(None) if literal > 1 && !sources[literal / 2] => {
                         return Err(AigerError::Undriven { literal }.at(place));
                     }
                     None => return Err(AigerError::OverHeader { literal }.at(place)),
@@ -339,13 +372,13 @@ fn sorted(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<And>, Diagnostic> 
 }
 
 /// The gate that defines each variable.
-fn gates_by_variable(ands: &[And], nets: &[Option<NetId>]) -> Result<Vec<Option<usize>>, Diagnostic> {
-    let mut gates: Vec<Option<usize>> = vec![None; nets.len()];
+fn gates_by_variable(ands: &[And], sources: &[bool]) -> Result<Vec<Option<usize>>, Diagnostic> {
+    let mut gates: Vec<Option<usize>> = vec![None; sources.len()];
     for (i, &And { out, place, .. }) in ands.iter().enumerate() {
         let Some(gate) = gates.get_mut(out / 2).filter(|_| out > 1 && out & 1 == 0) else {
             return Err(AigerError::NotAGate { literal: out }.at(place));
         };
-        if nets[out / 2].is_some() || gate.replace(i).is_some() {
+        if sources[out / 2] || gate.replace(i).is_some() {
             return Err(AigerError::DefinedTwice { literal: out }.at(place));
         }
     }
@@ -388,102 +421,51 @@ impl Literals {
 /// When the logic of the design has loops; a design that was read has none.
 pub fn write(design: &Design, binary: bool) -> Vec<u8> {
     let view = View::of(&design.logic, &[]).expect("the logic of a design has no loops");
-    let mut graph = Ands::new(view.network.inputs);
-    let mut literals: Vec<usize> = vec![0, 1];
-    literals.extend((0..view.network.inputs).map(|i| 2 * (i + 1)));
-    for &Gate { function, pins } in &view.network.gates {
-        let literal = graph.function(function, pins.map(|pin| literals[pin as usize]));
-        literals.push(literal);
-    }
-    let outputs: Vec<_> = view.network.outputs.iter().map(|&output| literals[output as usize]).collect();
-    graph.text(design, &outputs, binary)
+    let mut graph = AndGraph::new(view.network.inputs);
+    let sources: Vec<AndLiteral> = (0..view.network.inputs).map(|at| graph.source(at)).collect();
+    let outputs = graph.outputs(&view.network, &sources);
+    text(&graph, design, &outputs, binary)
 }
 
-/// An and-inverter graph that is being written.
-struct Ands {
-    inputs: usize,
-    ands: Vec<[usize; 2]>,
-    known: std::collections::BTreeMap<[usize; 2], usize>,
-}
-
-impl Ands {
-    fn new(inputs: usize) -> Self {
-        Self { inputs, ands: Vec::new(), known: std::collections::BTreeMap::new() }
+/// The file of a graph whose outputs are those of the design and then the next values of its registers.
+fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool) -> Vec<u8> {
+    let (ports, latches) = (design.inputs(), design.registers.len());
+    let (shown, nexts) = outputs.split_at(design.outputs());
+    let word = if binary { "aig" } else { "aag" };
+    let total = graph.signals();
+    let mut text = format!("{word} {total} {ports} {latches} {} {}\n", shown.len(), graph.ands.len());
+    let own = |i: usize| 2 * (i + 1);
+    if !binary {
+        (0..ports).for_each(|i| text.push_str(&format!("{}\n", own(i))));
     }
-
-    fn and(&mut self, a: usize, b: usize) -> usize {
-        match [a.max(b), a.min(b)] {
-            [_, 0] => 0,
-            [a, 1] => a,
-            [a, b] if a == b => a,
-            [a, b] if a ^ b == 1 => 0,
-            pins => *self.known.entry(pins).or_insert_with(|| {
-                self.ands.push(pins);
-                2 * (self.inputs + self.ands.len())
-            }),
-        }
+    for (i, (register, next)) in design.registers.iter().zip(nexts).enumerate() {
+        let latch = own(ports + i);
+        let start = register.start.map_or(latch, usize::from);
+        let _ = if binary { writeln!(text, "{next} {start}") } else { writeln!(text, "{latch} {next} {start}") };
     }
-
-    fn function(&mut self, function: Function, [a, b]: [usize; 2]) -> usize {
-        if function.arity() < 2 {
-            return match (function.depends_on(0), function.depends_on(1)) {
-                (true, _) => a ^ usize::from(function == Function::NOT),
-                (_, true) => b ^ usize::from(function == Function::NOT_B),
-                _ => usize::from(function == Function::ONE),
-            };
-        }
-        let minterms: Vec<_> = (0..4).filter(|i| function.bits() >> i & 1 == 1).collect();
-        let literal = |i: usize| (a ^ usize::from(i >> 1 == 0), b ^ usize::from(i & 1 == 0));
-        match minterms[..] {
-            [i] => self.and(literal(i).0, literal(i).1),
-            [i, j] => {
-                let one = self.and(literal(i).0, literal(i).1);
-                let two = self.and(literal(j).0, literal(j).1);
-                self.and(one ^ 1, two ^ 1) ^ 1
-            }
-            _ => self.function(function.inverted(), [a, b]) ^ 1,
+    shown.iter().for_each(|literal| text.push_str(&format!("{literal}\n")));
+    let mut bytes = text.into_bytes();
+    for (i, &[a, b]) in graph.ands.iter().enumerate() {
+        let out = own(ports + latches + i);
+        if binary {
+            push_delta(&mut bytes, out - a);
+            push_delta(&mut bytes, a - b);
+        } else {
+            bytes.extend(format!("{out} {a} {b}\n").bytes());
         }
     }
-
-    fn text(&self, design: &Design, outputs: &[usize], binary: bool) -> Vec<u8> {
-        let (ports, latches) = (design.inputs(), design.registers.len());
-        let (shown, nexts) = outputs.split_at(design.outputs());
-        let word = if binary { "aig" } else { "aag" };
-        let total = self.inputs + self.ands.len();
-        let mut text = format!("{word} {total} {ports} {latches} {} {}\n", shown.len(), self.ands.len());
-        let own = |i: usize| 2 * (i + 1);
-        if !binary {
-            (0..ports).for_each(|i| text.push_str(&format!("{}\n", own(i))));
-        }
-        for (i, (register, next)) in design.registers.iter().zip(nexts).enumerate() {
-            let latch = own(ports + i);
-            let start = register.start.map_or(latch, usize::from);
-            let _ = if binary { writeln!(text, "{next} {start}") } else { writeln!(text, "{latch} {next} {start}") };
-        }
-        shown.iter().for_each(|literal| text.push_str(&format!("{literal}\n")));
-        let mut bytes = text.into_bytes();
-        for (i, &[a, b]) in self.ands.iter().enumerate() {
-            let out = own(self.inputs + i);
-            if binary {
-                push_delta(&mut bytes, out - a);
-                push_delta(&mut bytes, a - b);
-            } else {
-                bytes.extend(format!("{out} {a} {b}\n").bytes());
-            }
-        }
-        let readable = |name: &str| name.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
-        let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
-        let names = FileNames::new(&design.logic, &design.registers, &[], true, legal);
-        let label = |kind: &str, ids: &[NetId]| {
-            let line = |(i, &id)| format!("{kind}{i} {}\n", names.net(id));
-            ids.iter().enumerate().map(line).collect::<String>()
-        };
-        let (inputs, states) = design.logic.inputs().split_at(ports);
-        bytes.extend(label("i", inputs).bytes());
-        bytes.extend(label("l", states).bytes());
-        bytes.extend(label("o", &design.logic.outputs()[..shown.len()]).bytes());
-        bytes
-    }
+    let readable = |name: &str| name.chars().map(|c| if c.is_control() { '_' } else { c }).collect::<String>();
+    let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
+    let names = FileNames::new(&design.logic, &design.registers, &[], true, legal);
+    let label = |kind: &str, ids: &[NetId]| {
+        let line = |(i, &id)| format!("{kind}{i} {}\n", names.net(id));
+        ids.iter().enumerate().map(line).collect::<String>()
+    };
+    let (inputs, states) = design.logic.inputs().split_at(ports);
+    bytes.extend(label("i", inputs).bytes());
+    bytes.extend(label("l", states).bytes());
+    bytes.extend(label("o", &design.logic.outputs()[..shown.len()]).bytes());
+    bytes
 }
 
 fn push_delta(bytes: &mut Vec<u8>, mut value: usize) {

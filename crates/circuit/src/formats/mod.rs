@@ -1,6 +1,7 @@
 //! Exchange formats: BLIF, PLA, AIGER and ISCAS .bench in; BLIF, PLA, AIGER, Verilog, DOT and .nb out.
 
 pub mod aiger;
+mod aiger_model;
 pub mod bench;
 pub mod blif;
 mod blif_register;
@@ -23,6 +24,7 @@ mod verilog_names;
 mod verilog_ports;
 mod wording;
 
+pub use aiger_model::AigerModel;
 pub use design::{Design, Forcing, Register, RegisterKind};
 pub use format::{CircuitFormat, CircuitSource};
 pub use nb_names::is_word;

@@ -170,7 +170,7 @@ fn is_legal(word: &str) -> bool {
         "async_latch" | "async_register" | "set_reset_latch" | "set_reset_register" => false,
         "and" | "circuit" | "else" | "evolution" | "for" | "if" | "import" | "in" | "init" | "latch" | "library"
         | "log2" | "material" | "nand" | "net" | "nor" | "not" | "or" | "register" | "schedule" | "simulate"
-        | "stimulus" | "swarm" | "table" | "test" | "then" | "use" | "world" | "xnor" | "xor" => false,
+        | "prove" | "stimulus" | "swarm" | "table" | "test" | "then" | "use" | "world" | "xnor" | "xor" => false,
         _ => word.chars().any(|c| c != '_') && !word.starts_with(|c: char| c.is_ascii_digit()),
     }
 }

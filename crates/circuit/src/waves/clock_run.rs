@@ -75,7 +75,7 @@ impl ClockRun {
 mod tests {
     use super::*;
     use crate::Logic;
-    use crate::waves::tests::random_machine;
+    use crate::example::random_machine;
     use rand::{RngExt, SeedableRng};
     use rand_chacha::ChaCha8Rng;
 

@@ -5,42 +5,13 @@ use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
 use super::*;
-use crate::registers::flip_flop;
-use crate::{NetId, Node};
+use crate::Node;
+use crate::example::random_machine;
 use nbc_base::model::Function;
 
 /// The robots of clock 1 in the shipped library.
 fn thin_cells() -> CellLibrary {
     CellLibrary::uniform(Function::all().filter(|f| ![Function::XOR, Function::XNOR].contains(f) && f.arity() > 0))
-}
-
-/// A random machine with some ports and registers.
-pub(super) fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
-    let mut draw = |bound: usize| (random.next_u32() as usize) % bound;
-    let mut netlist = Netlist::new("machine");
-    let ports: Vec<NetId> = (0..draw(3)).map(|at| netlist.add_input(format!("i{at}"))).collect();
-    let clock = netlist.add_input("clk");
-    let bits = draw(5);
-    let wires: Vec<NetId> = (0..bits).map(|at| netlist.add_wire(format!("w{at}"), None, None)).collect();
-    let mut nets: Vec<NetId> = ports.iter().chain(&wires).copied().collect();
-    if nets.is_empty() {
-        nets.push(netlist.add_constant(true));
-    }
-    for _ in 0..draw(12) {
-        let function = Function::all().filter(|function| function.depends_on(0)).nth(draw(12)).unwrap();
-        let pins = [nets[draw(nets.len())], nets[draw(nets.len())]];
-        nets.push(netlist.add_gate(function, &pins[..function.arity()]));
-    }
-    for (at, &wire) in wires.iter().enumerate() {
-        let data = nets[draw(nets.len())];
-        let q = flip_flop(&mut netlist, &format!("q{at}"), data, clock, draw(2) == 1);
-        netlist.drive(wire, 0, q);
-    }
-    for at in 0..1 + draw(3) {
-        let net = nets[draw(nets.len())];
-        netlist.add_output(format!("o{at}"), net);
-    }
-    netlist
 }
 
 /// What the source shows of each row: the first before an edge, each later one after one.

@@ -89,6 +89,8 @@ pub(crate) struct CircuitChecker<'a> {
     pub(crate) headers: &'a Headers,
     pub(crate) home: Home,
     pub(crate) is_environment: bool,
+    /// The clock of `before`, if there is one.
+    pub(crate) steps: Option<NetSlot>,
     pub(crate) circuit: Circuit,
     pub(crate) scopes: Vec<BTreeMap<&'a str, Binding>>,
     /// For each net, whether it is read.
@@ -119,6 +121,22 @@ pub(crate) fn circuit(
     declared: Vocabulary<'_>,
     headers: &Headers,
 ) -> CheckedCircuit {
+    checked(source, home, declared, headers, None)
+}
+
+/// Checks what is said of the steps of a circuit: `before` is a register, whose clock is the last input.
+pub(crate) fn monitor(source: &tree::CircuitSyntax, declared: Vocabulary<'_>, headers: &Headers) -> CheckedCircuit {
+    let clock = NetSlot(source.inputs.len() as u32 - 1);
+    checked(source, Home::Own, declared, headers, Some(clock))
+}
+
+fn checked(
+    source: &tree::CircuitSyntax,
+    home: Home,
+    declared: Vocabulary<'_>,
+    headers: &Headers,
+    steps: Option<NetSlot>,
+) -> CheckedCircuit {
     let circuit = Circuit {
         name: source.name.text.clone(),
         span: source.name.span,
@@ -139,6 +157,7 @@ pub(crate) fn circuit(
         headers,
         home,
         is_environment: source.is_environment,
+        steps,
         circuit,
         scopes: vec![BTreeMap::new()],
         used: Vec::new(),

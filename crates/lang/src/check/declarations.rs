@@ -49,6 +49,14 @@ impl<'a> Declarations<'a> {
         })
     }
 
+    /// The claims of the checked file.
+    pub(crate) fn own_claims(&self) -> impl Iterator<Item = (Span, &'a tree::Prove)> + use<'a> {
+        self.own().filter_map(|declaration| match &declaration.kind {
+            DeclarationKind::Prove(claim) => Some((declaration.span, claim)),
+            _ => None,
+        })
+    }
+
     /// Whether the declaration at a place has lost a part.
     pub(crate) fn is_broken(&self, place: Span) -> bool {
         let before = self.broken.range(..=(place.file, place.start)).next_back();

@@ -6,13 +6,16 @@ use std::num::IntErrorKind;
 use crate::check::circuit::{CircuitChecker, Header};
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::check::wording::{CircuitError, NameError, OperandError};
+use crate::check::wording::{CircuitError, NameError, OperandError, PropertyError};
 use crate::syntax::tree::{self, Infix};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{
-    CircuitId, ExpressionId, ExpressionKind, FreeNumber, Operator, Relation, SizeId, SizeKind, SizeOperator,
+    CircuitId, ExpressionId, ExpressionKind, FreeNumber, NetSlot, Operator, Relation, SizeId, SizeKind, SizeOperator,
 };
 use nbc_base::source::Span;
+
+/// The call of a value as it was in the step before, in what is said of the steps of a circuit.
+pub(crate) const BEFORE: &str = "before";
 
 /// The operators that can be written as calls.
 const OPERATORS: [&str; 7] = ["and", "or", "xor", "nand", "nor", "xnor", "not"];
@@ -238,6 +241,9 @@ impl<'a> CircuitChecker<'a> {
         outputs: usize,
         span: Span,
     ) -> ExpressionKind {
+        if let Some(clock) = self.steps.filter(|_| name.text == BEFORE) {
+            return self.before(name, operands, values, clock);
+        }
         let circuit = match self.declared.circuits.resolve_beside(name, self.home, &OPERATORS) {
             Ok(circuit) => circuit,
             Err(fault) => {
@@ -259,6 +265,31 @@ impl<'a> CircuitChecker<'a> {
         self.uses.extend(arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
         let arguments = self.arguments(name, &header.parameters, arguments);
         ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
+    }
+
+    /// A value as it was in the step before.
+    fn before(
+        &mut self,
+        name: &tree::NameSyntax,
+        operands: &[tree::OperandSyntax],
+        values: &[ExpressionId],
+        clock: NetSlot,
+    ) -> ExpressionKind {
+        let &[value] = values else {
+            self.diagnostics.push(PropertyError::OperandsOfBefore { found: values.len() }.at(name.span));
+            return ExpressionKind::Bits(vec![false]);
+        };
+        if let Some(port) = operands.iter().find_map(|operand| operand.name.as_ref()) {
+            self.diagnostics.push(PropertyError::OperandsOfBefore { found: 1 }.at(port.span));
+        }
+        let register = self.declared.circuits.find("register", Home::Prelude).expect("the prelude declares registers");
+        self.calls.push((CircuitId(register as u32), name.span));
+        let header = &self.headers.circuits[register];
+        let arguments = vec![None; header.parameters.len()];
+        let mut given = vec![None; header.inputs.len()];
+        let clock = self.push(ExpressionKind::Net(clock), name.span);
+        (given[0], given[1]) = (Some(value), Some(clock));
+        ExpressionKind::Call { circuit: CircuitId(register as u32), arguments, operands: given }
     }
 
     /// The operands in the order of the ports. One without a name is for the port at its own place.
@@ -374,7 +405,7 @@ fn table_values(rows: &[tree::TableRowSyntax]) -> impl Iterator<Item = tree::Exp
 }
 
 /// The first expression of the contiguous range that ends with `root`.
-fn first_leaf(expressions: &[tree::ExpressionSyntax], root: tree::ExpressionSyntaxId) -> u32 {
+pub(crate) fn first_leaf(expressions: &[tree::ExpressionSyntax], root: tree::ExpressionSyntaxId) -> u32 {
     let mut at = root;
     loop {
         use tree::ExpressionSyntaxKind as Kind;

@@ -65,6 +65,7 @@ impl Converter<'_> {
                 let name = self.name(&parts.next().expect("a name"));
                 DeclarationKind::File(FileSyntax { name, path: self.quoted(parts.next().expect("a path")) })
             }
+            Rule::prove => DeclarationKind::Prove(self.prove(pair)),
             Rule::test => DeclarationKind::Test(self.test(pair)),
             Rule::slip_declaration => {
                 self.slip_declaration(pair);
@@ -216,6 +217,9 @@ fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
                 | Rule::rows_word
                 | Rule::from_word
                 | Rule::least_word
+                | Rule::prove_word
+                | Rule::within_word
+                | Rule::steps_word
                 | Rule::match_word
                 | Rule::or_word
         )

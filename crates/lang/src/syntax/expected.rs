@@ -98,6 +98,10 @@ fn word(rule: Rule) -> Option<&'static str> {
         }
         Rule::columns | Rule::inputs | Rule::outputs | Rule::operands | Rule::named_operands => "`(`",
         Rule::spells | Rule::body | Rule::test_table => "`{`",
+        Rule::property | Rule::quantifier => "`always`, `never` or `assume`",
+        Rule::implies => "`=>`",
+        Rule::within => "`within`",
+        Rule::steps_word => "`steps`",
         Rule::spell | Rule::row | Rule::cell | Rule::repeated => "a row",
         Rule::until => "`until`",
         Rule::at_word | Rule::at_least => "`at`",

@@ -32,7 +32,7 @@ pub struct Token {
 }
 
 /// Operators of two characters.
-const PAIRS: [[u8; 2]; 10] = [*b"->", *b"==", *b"!=", *b"<=", *b">=", *b"<<", *b">>", *b"..", *b"**", *b":="];
+const PAIRS: [[u8; 2]; 11] = [*b"->", *b"=>", *b"==", *b"!=", *b"<=", *b">=", *b"<<", *b">>", *b"..", *b"**", *b":="];
 
 /// The tokens of a text, in order.
 pub fn tokens(text: &str) -> impl Iterator<Item = Token> {

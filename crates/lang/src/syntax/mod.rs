@@ -4,6 +4,7 @@ mod arena;
 mod convert;
 mod convert_circuit;
 mod convert_expression;
+mod convert_prove;
 mod convert_record;
 mod convert_test;
 mod expected;

@@ -10,6 +10,7 @@ pub(crate) enum PartKind {
     Statement,
     Field,
     Spell,
+    Property,
     Row,
     TableRow,
 }
@@ -22,6 +23,7 @@ impl PartKind {
             Self::Statement => Rule::some_statements,
             Self::Field => Rule::some_fields,
             Self::Spell => Rule::some_spells,
+            Self::Property => Rule::some_properties,
             Self::Row => Rule::some_row,
             Self::TableRow => Rule::some_table_rows,
         }

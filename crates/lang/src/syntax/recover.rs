@@ -12,6 +12,7 @@ use crate::syntax::grammar::NbParser;
 use crate::syntax::lexer::{Token, TokenKind, bracket, tokens};
 use crate::syntax::part::{PartKind, PartPlace};
 use nbc_base::diag::Diagnostic;
+use nbc_base::model::PropertyKind;
 use nbc_base::source::FileId;
 
 /// What is wrong with a declaration.
@@ -41,7 +42,7 @@ pub(crate) fn slips(converter: &mut Converter<'_>, kind: PartKind, source: &str)
         PartKind::Statement => _ = converter.statements(pair, &mut arena),
         PartKind::Field => _ = converter.record(pair),
         PartKind::TableRow => parts(pair).for_each(|row| _ = converter.table_row(row, &mut arena)),
-        PartKind::Declaration | PartKind::Spell | PartKind::Row => {}
+        PartKind::Declaration | PartKind::Spell | PartKind::Property | PartKind::Row => {}
     }
 }
 
@@ -141,12 +142,13 @@ impl Recovery<'_> {
             }
             (PartKind::Declaration, "test") if self.word(at - 1) == "inputs" => Some(PartKind::Statement),
             (PartKind::Declaration, "test") => Some(PartKind::Row),
+            (PartKind::Declaration, "prove") => Some(PartKind::Property),
             (PartKind::Declaration, "schedule" | "simulate") => Some(PartKind::Spell),
             (PartKind::Declaration, "material" | "evolution" | "library" | "swarm" | "world") => Some(PartKind::Field),
             (PartKind::Statement, "for") => Some(PartKind::Statement),
             (PartKind::Row, "repeat") => Some(PartKind::Row),
             (PartKind::Field, _) => Some(PartKind::Field),
-            (PartKind::Statement, _) if self.is_table(at) || self.is_match(start, at) => Some(PartKind::TableRow),
+            (PartKind::Statement | PartKind::Property, _) if self.is_table(at) || self.is_match(start, at) => Some(PartKind::TableRow),
             _ => None,
         }
     }
@@ -225,6 +227,7 @@ impl Recovery<'_> {
         let is_first = self.tokens[at].is_first;
         match holds {
             PartKind::Row => is_first,
+            PartKind::Property => is_first && PropertyKind::parse(here).is_some(),
             PartKind::Spell => is_first && here != "for" && before != "for",
             PartKind::Field => {
                 let is_named = matches!(next, ":" | "=") && here.starts_with(|c: char| c.is_alphabetic() || c == '_');
@@ -241,7 +244,7 @@ fn continues(before: &str, here: &str) -> bool {
     let infix = |word: &str| {
         let words = ["and", "nand", "or", "nor", "xor", "xnor", "then", "else", "init", "in"];
         let signs = [
-            "=", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^", "?",
+            "=", "=>", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^", "?",
             ":", ":=", ",",
         ];
         words.contains(&word) || signs.contains(&word)

@@ -116,7 +116,7 @@ impl<'a> SlipPlace<'a> {
 
     /// Whether the place is in the body of a circuit.
     fn in_body(&self) -> bool {
-        matches!(self.kind, PartKind::Statement | PartKind::TableRow)
+        matches!(self.kind, PartKind::Statement | PartKind::TableRow | PartKind::Property)
     }
 
     /// The word before the place, its start, and the text before it on its line.

@@ -8,7 +8,7 @@ use std::ops::Range;
 use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens};
 
 /// The keywords that begin declarations.
-pub const KEYWORDS: [&str; 15] = [
+pub const KEYWORDS: [&str; 16] = [
     "circuit",
     "enum",
     "environment",
@@ -17,6 +17,7 @@ pub const KEYWORDS: [&str; 15] = [
     "let",
     "library",
     "material",
+    "prove",
     "schedule",
     "simulate",
     "stimulus",

@@ -98,6 +98,11 @@ impl<'t> Before<'t> {
             "use" => Place::UsedFile,
             "circuit" => self.in_circuit(offset),
             "test" => self.in_test(offset),
+            "prove" => match self.open.first() {
+                None if self.tokens.len() == 1 => Place::Circuit,
+                None => Place::NewName,
+                Some(_) => Place::Columns(self.word(1)),
+            },
             "simulate" | "schedule" if is_number && self.last_word_before() == "for" => Place::Unit,
             "simulate" => self.in_simulation(),
             "schedule" => match self.bracket() {

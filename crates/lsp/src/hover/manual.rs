@@ -5,10 +5,12 @@ use nbc_lang::syntax::tree::RecordKeyword;
 const MANUAL: &str = include_str!("../../language.md");
 
 /// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 45] = [
+const KEYWORDS: [(&str, &str); 50] = [
     ("against", "Tests"),
     ("all", "Tests"),
+    ("always", "Properties"),
     ("and", "Expressions"),
+    ("assume", "Properties"),
     ("bins", "Evolutions"),
     ("circuit", "Circuits"),
     ("cycles", "Units"),
@@ -32,9 +34,11 @@ const KEYWORDS: [(&str, &str); 45] = [
     ("ms", "Units"),
     ("nand", "Expressions"),
     ("net", "Constants and buses"),
+    ("never", "Properties"),
     ("nor", "Expressions"),
     ("not", "Expressions"),
     ("or", "Expressions"),
+    ("prove", "Properties"),
     ("repeat", "Tests"),
     ("s", "Units"),
     ("schedule", "Schedules"),
@@ -48,6 +52,7 @@ const KEYWORDS: [(&str, &str); 45] = [
     ("until", "Tests"),
     ("use", "Files"),
     ("with", "Libraries, swarms and simulations"),
+    ("within", "Properties"),
     ("world", "Worlds"),
     ("xnor", "Expressions"),
     ("xor", "Expressions"),

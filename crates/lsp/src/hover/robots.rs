@@ -41,6 +41,7 @@ pub(super) fn of_operator(
     let checked = spot.files.checked;
     let circuit = around.and_then(|around| match &around.kind {
         DeclarationKind::Circuit(circuit) => Some(circuit.name.text.as_str()),
+        DeclarationKind::Prove(claim) => Some(claim.circuit.name.text.as_str()),
         DeclarationKind::Test(test) => Some(test.circuit.name.text.as_str()),
         _ => None,
     });

@@ -10,6 +10,8 @@ pub(crate) enum StoreError {
     CircuitFormat { file: String },
     /// A module of a file that has none.
     NoModules { file: String },
+    /// A file that is no model with properties.
+    NoModel { file: String },
     /// Several files of which one is not Verilog.
     SeveralFiles,
     /// Parameters of a file that has none.
@@ -30,6 +32,9 @@ impl From<StoreError> for Diagnostic {
                     "unrecognized circuit format of `{file}`; expected .blif, .pla, .aig, .aag, .bench, .v or .sv"
                 );
                 Self::without_place(Code::BadValue, message)
+            }
+            StoreError::NoModel { file } => {
+                Self::without_place(Code::CircuitFile, format!("`{file}` is no model: expected .aig or .aag"))
             }
             StoreError::NoModules { file } => {
                 Self::without_place(Code::BadValue, format!("`{file}` has one circuit, which has no name"))

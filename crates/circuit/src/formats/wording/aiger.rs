@@ -35,8 +35,12 @@ pub enum AigerError {
     Header { found: String },
     /// A header with a wrong number of numbers.
     HeaderNumbers { found: usize },
-    /// Something of the header that is not part of a circuit.
+    /// Properties, of which circuits have none.
     Property { what: &'static str, number: usize },
+    /// Properties of infinite runs.
+    Liveness { what: &'static str, number: usize },
+    /// A model without outputs and bad states.
+    NoProperties,
     /// A number of the header above the limit.
     TooLarge { number: usize, most: u64 },
     /// Too many ports or latches.
@@ -86,7 +90,13 @@ impl AigerError {
             Self::NotAiger { found } => format!("expected `aag` or `aig`, found `{found}`"),
             Self::Header { found } => format!("expected a header such as `aag 3 2 0 1 1`, found `{found}`"),
             Self::HeaderNumbers { found } => format!("expected five to nine numbers in the header, found {found}"),
-            Self::Property { what, number } => format!("{what} are not supported, and the header has {number}"),
+            Self::Property { what, number } => {
+                format!("{what} are not part of a circuit, and the header has {number}; `nbc prove` reads them")
+            }
+            Self::Liveness { what, number } => {
+                format!("{what} are not supported, and the header has {number}: they are about runs without an end")
+            }
+            Self::NoProperties => "no properties: expected bad states, or outputs in their place".to_owned(),
             Self::TooLarge { number, most } => format!("expected at most {most} variables, found {number}"),
             Self::TooManyPorts { most } => format!("expected at most {most} inputs and {most} latches"),
             Self::Sum { inputs, latches, ands, variables, binary } => {

@@ -1,5 +1,6 @@
 //! The declarations of all files: first their names, then each kind after the kinds it refers to.
 
+mod claims;
 mod runs;
 
 use std::collections::{BTreeMap, BTreeSet};
@@ -415,10 +416,18 @@ impl<'a> Assembly<'a> {
                 inspector.inspect_body(reference);
             }
         }
+        let mut claims = Vec::new();
+        for (span, claim) in self.declarations.own_claims() {
+            claims.extend(self.claim(span, claim, &program, &mut inspector));
+        }
+        for claim in &claims {
+            inspector.inspect_body(&claim.monitor);
+        }
         self.same_titles();
         let found = inspector.finish();
         program.simulations = simulations;
         program.tests = tests;
+        program.claims = claims;
         self.program = program;
         found
     }

@@ -5,7 +5,7 @@ use std::collections::btree_map::Entry;
 use std::slice;
 
 use crate::check::against;
-use crate::check::circuit::circuit;
+use crate::check::circuit::{CheckedCircuit, circuit};
 use crate::check::instance::instance;
 use crate::check::names::Home;
 use crate::check::program::Assembly;
@@ -311,6 +311,17 @@ impl<'a> Assembly<'a> {
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { is_environment: false, name, parameters: Vec::new(), inputs, outputs, body };
         let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers);
+        self.beside_ports(checked, tested, &instance.circuit)
+    }
+
+    /// A checked circuit with ports of another circuit, which is named at `tested`, unless something in it is wrong. It
+    /// may ignore some of them.
+    pub(super) fn beside_ports(
+        &mut self,
+        checked: CheckedCircuit,
+        tested: &NameSyntax,
+        circuit: &str,
+    ) -> Option<nbc_base::model::Circuit> {
         let sound = !self.declarations.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|&(callee, _)| self.circuits.is_sound(callee));
         // Its ports are those of the tested circuit.
@@ -320,9 +331,8 @@ impl<'a> Assembly<'a> {
             .filter(|found| found.place != tested.span)
             .map(|found| NameSyntax { text: self.declarations.sources.text(found.place).to_owned(), span: found.place })
             .collect();
-        self.ports_named(&instance.circuit, &names);
+        self.ports_named(circuit, &names);
         self.inner.extend(own);
-        // The reference may ignore an input of the tested circuit.
         self.faults.extend(checked.diagnostics.into_iter().filter(|fault| fault.code != Code::Unused));
         (sound && called).then_some(checked.circuit)
     }

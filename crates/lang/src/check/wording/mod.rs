@@ -4,6 +4,7 @@ mod circuits;
 mod evolutions;
 mod files;
 mod names;
+mod properties;
 mod rows;
 mod values;
 
@@ -11,5 +12,6 @@ pub(crate) use circuits::{ArrayError, CircuitError, EnumerationError, OperandErr
 pub(crate) use evolutions::EvolutionError;
 pub(crate) use files::{LoadError, at_use};
 pub(crate) use names::NameError;
+pub(crate) use properties::PropertyError;
 pub(crate) use rows::{CellError, EnvironmentError, RowError};
 pub(crate) use values::{Bounds, Expected, FieldError, Record, ValueError};

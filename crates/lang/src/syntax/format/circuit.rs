@@ -114,7 +114,7 @@ fn keyword(circuit: &CircuitSyntax) -> &'static str {
 }
 
 /// Where the comments in pieces begin.
-fn places(pieces: &[LayoutPiece]) -> impl Iterator<Item = u32> {
+pub(super) fn places(pieces: &[LayoutPiece]) -> impl Iterator<Item = u32> {
     pieces.iter().filter_map(|piece| match piece {
         LayoutPiece::Comment { start, .. } => Some(*start),
         _ => None,

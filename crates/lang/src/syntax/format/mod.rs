@@ -5,6 +5,7 @@ mod circuit;
 mod expression;
 mod layout;
 mod printer;
+mod prove;
 mod record;
 mod rows;
 
@@ -62,6 +63,7 @@ impl Printer<'_> {
                 self.write(&format!("let {} = {value}", integer.name.text));
             }
             DeclarationKind::File(file) => self.write(&format!("file {} = \"{}\"", file.name.text, file.path.text)),
+            DeclarationKind::Prove(prove) => self.prove(prove, declaration.span),
             DeclarationKind::Test(test) => self.test(test, declaration.span),
         }
     }
@@ -89,6 +91,7 @@ fn head_end(declaration: &Declaration) -> u32 {
             With::Named(_) => declaration.span.end,
             With::Spells { spells, .. } => first(spells.iter().map(|one| one.span.start).collect()),
         },
+        DeclarationKind::Prove(prove) => first(prove.properties.iter().map(|one| one.span.start).collect()),
         DeclarationKind::Test(test) => match &test.kind {
             TestKind::Table(table) => table.header.start,
             TestKind::Against(_) | TestKind::FromFile { .. } => declaration.span.end,

@@ -3,6 +3,7 @@
 
 mod circuit;
 mod expression;
+mod prove;
 mod record;
 mod size;
 mod test;
@@ -13,6 +14,7 @@ pub use circuit::{
     BodySyntax, CircuitSyntax, Grouping, ParameterSyntax, Port, StatementKind, StatementSyntax, TargetSyntax,
 };
 pub use expression::{ExpressionSyntax, ExpressionSyntaxKind, Infix, OperandSyntax, TableOutputSyntax, TableRowSyntax};
+pub use prove::{PropertySyntax, Prove};
 pub use record::{
     Field, InstanceSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, RecordSyntax, ScheduleSyntax,
     SpellSyntax, ValueKind, ValueSyntax,
@@ -70,6 +72,8 @@ pub enum DeclarationKind {
     Let(LetSyntax),
     /// `file program = "hello.hex"`
     File(FileSyntax),
+    /// `prove`
+    Prove(Prove),
     /// `test`
     Test(Test),
 }

@@ -1,0 +1,88 @@
+//! Claims: what is said of every step of a circuit, for all inputs.
+
+use super::{Circuit, Column, Instance};
+use crate::source::Span;
+
+/// A declared claim. The source is needed for messages only.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// The circuit, with numbers for its parameters.
+    pub circuit: Instance,
+    /// The title; empty if there is none.
+    pub title: String,
+    /// The place of the declaration.
+    pub span: Span,
+    /// The file in which it is declared.
+    pub file: String,
+    /// The line at which it is declared.
+    pub line: usize,
+    /// The input ports of the circuit in order of declaration.
+    pub inputs: Vec<Column>,
+    /// The output ports of the circuit in order of declaration.
+    pub outputs: Vec<Column>,
+    /// The properties, in order of declaration.
+    pub properties: Vec<Property>,
+    /// What the properties say, as a circuit: its inputs are the ports of the circuit and a clock that rises between
+    /// two steps, its outputs those of [`Property::outputs`].
+    pub monitor: Box<Circuit>,
+}
+
+/// A property of the steps of a circuit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Property {
+    /// What is said.
+    pub kind: PropertyKind,
+    /// The property as written, in one line.
+    pub text: String,
+    /// The place of the property.
+    pub span: Span,
+    /// Its line in the file.
+    pub line: usize,
+    /// Whether it is said only of steps in which a condition holds, which stands before `=>`.
+    pub has_condition: bool,
+    /// The number of steps within which what it says must happen; `None` if it must be in the same step.
+    pub within: Option<usize>,
+    /// The number of steps before that it looks at: it is said of the steps after so many.
+    pub before: usize,
+}
+
+/// What a property says of its expression.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum PropertyKind {
+    /// It is 1 in every step.
+    Always,
+    /// It is 0 in every step.
+    Never,
+    /// Steps in which it is 0, and all that follows them, do not count.
+    Assume,
+}
+
+impl PropertyKind {
+    /// The word of the language.
+    pub fn word(self) -> &'static str {
+        match self {
+            Self::Always => "always",
+            Self::Never => "never",
+            Self::Assume => "assume",
+        }
+    }
+
+    /// The kind of a word.
+    pub fn parse(word: &str) -> Option<Self> {
+        [Self::Always, Self::Never, Self::Assume].into_iter().find(|kind| kind.word() == word)
+    }
+}
+
+impl Property {
+    /// The number of outputs that the monitor has for it: the condition, if there is one, and the expression.
+    pub fn outputs(&self) -> usize {
+        1 + usize::from(self.has_condition)
+    }
+}
+
+impl Claim {
+    /// The properties that are to be proved: all but the assumptions.
+    pub fn wanted(&self) -> impl Iterator<Item = &Property> {
+        self.properties.iter().filter(|property| property.kind != PropertyKind::Assume)
+    }
+}

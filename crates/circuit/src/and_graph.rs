@@ -1,0 +1,100 @@
+//! And-inverter graphs: every function is made of and-gates of two pins, which may be inverted.
+
+use std::collections::BTreeMap;
+
+use crate::network::{Gate, Network};
+use nbc_base::model::Function;
+
+/// A signal and whether it is inverted: 0 and 1 are the constants, and `2 * n` is signal `n`, counted from 1: the
+/// sources, then the gates. `2 * n + 1` is its inverse.
+pub type AndLiteral = usize;
+
+/// Gates without duplicates, each after what it reads.
+#[derive(Clone, Debug)]
+pub(crate) struct AndGraph {
+    /// The number of signals that are no gates.
+    sources: usize,
+    /// The pins of each gate, the larger first.
+    pub(crate) ands: Vec<[AndLiteral; 2]>,
+    known: BTreeMap<[AndLiteral; 2], AndLiteral>,
+}
+
+impl AndGraph {
+    /// A graph without gates.
+    pub(crate) fn new(sources: usize) -> Self {
+        Self { sources, ands: Vec::new(), known: BTreeMap::new() }
+    }
+
+    /// The literal of a source.
+    pub(crate) fn source(&self, at: usize) -> AndLiteral {
+        assert!(at < self.sources, "the source exists");
+        2 * (at + 1)
+    }
+
+    /// The number of signals, but for the constant.
+    pub(crate) fn signals(&self) -> usize {
+        self.sources + self.ands.len()
+    }
+
+    /// Both.
+    pub(crate) fn and(&mut self, a: AndLiteral, b: AndLiteral) -> AndLiteral {
+        match [a.max(b), a.min(b)] {
+            [_, 0] => 0,
+            [a, 1] => a,
+            [a, b] if a == b => a,
+            [a, b] if a ^ b == 1 => 0,
+            pins => *self.known.entry(pins).or_insert_with(|| {
+                self.ands.push(pins);
+                2 * (self.sources + self.ands.len())
+            }),
+        }
+    }
+
+    /// At least one.
+    pub(crate) fn or(&mut self, a: AndLiteral, b: AndLiteral) -> AndLiteral {
+        self.and(a ^ 1, b ^ 1) ^ 1
+    }
+
+    /// The first if `choice` is 1, else the second.
+    pub(crate) fn choice(&mut self, choice: AndLiteral, then: AndLiteral, otherwise: AndLiteral) -> AndLiteral {
+        if then == otherwise {
+            return then;
+        }
+        let [then, otherwise] = [self.and(choice, then), self.and(choice ^ 1, otherwise)];
+        self.or(then, otherwise)
+    }
+
+    /// A function of two literals.
+    pub(crate) fn function(&mut self, function: Function, [a, b]: [AndLiteral; 2]) -> AndLiteral {
+        if function.arity() < 2 {
+            return match (function.depends_on(0), function.depends_on(1)) {
+                (true, _) => a ^ usize::from(function == Function::NOT),
+                (_, true) => b ^ usize::from(function == Function::NOT_B),
+                _ => usize::from(function == Function::ONE),
+            };
+        }
+        let minterms: Vec<_> = (0..4).filter(|i| function.bits() >> i & 1 == 1).collect();
+        let literal = |i: usize| (a ^ usize::from(i >> 1 == 0), b ^ usize::from(i & 1 == 0));
+        match minterms[..] {
+            [i] => self.and(literal(i).0, literal(i).1),
+            [i, j] => {
+                let one = self.and(literal(i).0, literal(i).1);
+                let two = self.and(literal(j).0, literal(j).1);
+                self.or(one, two)
+            }
+            _ => self.function(function.inverted(), [a, b]) ^ 1,
+        }
+    }
+
+    /// The gates of a network whose inputs are these literals; returns the literal of each of its outputs.
+    pub(crate) fn outputs(&mut self, network: &Network, inputs: &[AndLiteral]) -> Vec<AndLiteral> {
+        assert_eq!(inputs.len(), network.inputs, "a literal for each input");
+        let mut made: Vec<AndLiteral> = vec![0, 1];
+        made.extend(inputs);
+        for &Gate { function, pins } in &network.gates {
+            let literal = self.function(function, pins.map(|pin| made[pin as usize]));
+            made.push(literal);
+        }
+        network.outputs.iter().map(|&output| made[output as usize]).collect()
+    }
+}

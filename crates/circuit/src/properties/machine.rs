@@ -1,0 +1,197 @@
+//! The steps of a circuit, as and-gates.
+//!
+//! The steps are the rows of a test. A circuit whose registers have one clock makes a step when it rises: the first step
+//! is before the first rise and shows the start values, and each later one shows the outputs after a rise, with the
+//! inputs that were there when the clock rose. A circuit without a clock makes a step whenever its inputs change and
+//! everything has settled, at the level of logic: all cells take the same time. It must settle for all inputs.
+
+use crate::and_graph::{AndGraph, AndLiteral};
+use crate::network::{Network, View};
+use crate::passes::{DissolveWires, Pass, Sweep};
+use crate::properties::solver::{ClauseSolver, Solved};
+use crate::properties::wording::NoSteps;
+use crate::waves::{ClockStep, StateBit, WaveError};
+use crate::{Logic, Loops, NetId, Netlist};
+use nbc_base::source::CancelFlag;
+
+/// The most cells of a circuit with feedback but without registers of one clock.
+const MOST_CELLS: usize = 400;
+
+/// The most time steps after which such a circuit must have settled.
+const MOST_TIME: usize = 64;
+
+/// A circuit as a machine that makes steps.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    /// The number of input ports, the clock included.
+    pub inputs: usize,
+    /// The clock, as an index of the inputs.
+    pub clock: Option<usize>,
+    /// The bits of its state.
+    pub state: Vec<StateBit>,
+    kind: MachineKind,
+}
+
+#[derive(Clone, Debug)]
+enum MachineKind {
+    /// The logic between the rises of a clock: its inputs are the ports and the state, its outputs the ports and the
+    /// next state.
+    Clocked(Network),
+    /// One time step of all cells, whose values are the state: the inputs of the network are the ports and the cells,
+    /// and its outputs the ports and the cells. After so many time steps nothing changes any more.
+    Settling(Network, usize),
+}
+
+impl Machine {
+    /// The machine that a circuit is.
+    ///
+    /// # Errors
+    /// When its memory has no steps.
+    ///
+    /// # Panics
+    /// When the netlist is not well formed.
+    pub fn of(netlist: &Netlist, cancel: &CancelFlag) -> Result<Self, NoSteps> {
+        match ClockStep::of(netlist) {
+            Ok(step) if step.rises => Ok(Self::clocked(step)),
+            Ok(step) => {
+                let clock = step.clock.map(|at| step.inputs[at].clone());
+                Err(NoSteps::Falls { clock: clock.expect("what falls is a clock") })
+            }
+            Err(why) => Self::settling(netlist, why, cancel),
+        }
+    }
+
+    fn clocked(step: ClockStep) -> Self {
+        let ClockStep { inputs, clock, state, logic, .. } = step;
+        Self { inputs: inputs.len(), clock, state, kind: MachineKind::Clocked(logic) }
+    }
+
+    /// A circuit with feedback that is no flip-flop of one clock.
+    fn settling(netlist: &Netlist, why: WaveError, cancel: &CancelFlag) -> Result<Self, NoSteps> {
+        let mut plain = netlist.clone();
+        let is_plain = DissolveWires.run_on(&mut plain).and_then(|()| Sweep.run(&mut plain));
+        if is_plain.is_err() || plain.cells().count() > MOST_CELLS {
+            return Err(NoSteps::Memory(why));
+        }
+        debug_assert!(!Loops::of(&plain).cores().is_empty(), "a circuit without feedback is a step");
+        let cells: Vec<NetId> = plain.cells().map(|(id, _)| id).collect();
+        let step = View::of(&plain, &cells).expect("all loops are cut").network;
+        let logic = Logic::new(&plain);
+        let state: Vec<StateBit> = cells
+            .iter()
+            .map(|&id| StateBit { name: plain.net_label(id), start: logic.value(id) })
+            .collect();
+        let inputs = plain.inputs().len();
+        let time = settling_time(&step, inputs, &state, cancel)?;
+        Ok(Self { inputs, clock: None, state, kind: MachineKind::Settling(step, time) })
+    }
+
+    /// Whether it makes a step when its clock rises.
+    pub(super) fn is_clocked(&self) -> bool {
+        self.clock.is_some()
+    }
+
+    /// What the outputs show in a step, and the state after it. `first` is 1 in the first step.
+    pub(super) fn step(
+        &self,
+        graph: &mut AndGraph,
+        inputs: &[AndLiteral],
+        state: &[AndLiteral],
+        first: AndLiteral,
+    ) -> (Vec<AndLiteral>, Vec<AndLiteral>) {
+        match &self.kind {
+            MachineKind::Clocked(logic) => {
+                let outputs = logic.outputs.len() - state.len();
+                let after = applied(graph, logic, inputs, state).split_off(outputs);
+                let now: Vec<AndLiteral> =
+                    state.iter().zip(after).map(|(&before, after)| graph.choice(first, before, after)).collect();
+                let mut shown = applied(graph, logic, inputs, &now);
+                shown.truncate(outputs);
+                (shown, now)
+            }
+            MachineKind::Settling(step, time) => {
+                let settled = settled(graph, step, inputs, state, *time);
+                let mut shown = applied(graph, step, inputs, &settled);
+                shown.truncate(step.outputs.len() - state.len());
+                (shown, settled)
+            }
+        }
+    }
+}
+
+/// The outputs of a network of ports and a state.
+fn applied(
+    graph: &mut AndGraph,
+    network: &Network,
+    inputs: &[AndLiteral],
+    state: &[AndLiteral],
+) -> Vec<AndLiteral> {
+    graph.outputs(network, &[inputs, state].concat())
+}
+
+/// The values of all cells after so many time steps.
+fn settled(
+    graph: &mut AndGraph,
+    step: &Network,
+    inputs: &[AndLiteral],
+    cells: &[AndLiteral],
+    time: usize,
+) -> Vec<AndLiteral> {
+    let outputs = step.outputs.len() - cells.len();
+    (0..time).fold(cells.to_vec(), |cells, _| applied(graph, step, inputs, &cells).split_off(outputs))
+}
+
+/// The number of time steps after which nothing changes any more, from any settled state and from the start, for all
+/// inputs.
+fn settling_time(step: &Network, inputs: usize, start: &[StateBit], cancel: &CancelFlag) -> Result<usize, NoSteps> {
+    // The inputs before, the inputs now, and the cells.
+    let mut graph = AndGraph::new(2 * inputs + start.len());
+    let sources = |graph: &AndGraph, range: std::ops::Range<usize>| range.map(|at| graph.source(at)).collect::<Vec<_>>();
+    let before = sources(&graph, 0..inputs);
+    let now = sources(&graph, inputs..2 * inputs);
+    let cells = sources(&graph, 2 * inputs..2 * inputs + start.len());
+    let kept = settled(&mut graph, step, &before, &cells, 1);
+    let at_rest = same(&mut graph, &cells, &kept);
+    let beginning = cells.iter().zip(start).fold(1, |all, (&cell, bit)| graph.and(all, cell ^ usize::from(!bit.start)));
+    let possible = graph.or(at_rest, beginning);
+    let mut last = cells;
+    for time in 0..=MOST_TIME {
+        let next = settled(&mut graph, step, &now, &last, 1);
+        // Only some numbers are tried: each call of the solver reads all gates.
+        if time.is_power_of_two() || time == 0 {
+            let rests = same(&mut graph, &last, &next);
+            let moves = graph.and(possible, rests ^ 1);
+            match can_be(&graph, 2 * inputs + start.len(), moves, cancel) {
+                Solved::No => return Ok(time),
+                Solved::Open => return Err(NoSteps::Cancelled),
+                Solved::Yes => {}
+            }
+        }
+        last = next;
+    }
+    Err(NoSteps::Unsettled { most: MOST_TIME })
+}
+
+/// Whether all of two lists are equal.
+fn same(graph: &mut AndGraph, one: &[AndLiteral], other: &[AndLiteral]) -> AndLiteral {
+    one.iter().zip(other).fold(1, |all, (&a, &b)| {
+        let equal = graph.choice(a, b, b ^ 1);
+        graph.and(all, equal)
+    })
+}
+
+/// Whether a literal can be 1.
+fn can_be(graph: &AndGraph, sources: usize, literal: AndLiteral, cancel: &CancelFlag) -> Solved {
+    let mut solver = ClauseSolver::new(cancel.clone());
+    let mut made = vec![!solver.one()];
+    made.extend((0..sources).map(|_| solver.fresh()));
+    let value = |made: &[batsat::Lit], literal: AndLiteral| {
+        if literal & 1 == 1 { !made[literal / 2] } else { made[literal / 2] }
+    };
+    for &[a, b] in &graph.ands {
+        let both = solver.and(value(&made, a), value(&made, b));
+        made.push(both);
+    }
+    let wanted = value(&made, literal);
+    solver.solve(&[wanted], u64::MAX)
+}

@@ -1,0 +1,28 @@
+//! Properties of all steps of a machine: a search proves them, or finds the shortest run that violates one
+//! (docs/always.md).
+//!
+//! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), as a file of
+//! AIGER is one already. The search looks at one number of steps after the other (`bounded.rs`), tries induction, and
+//! looks for an invariant (`frames.rs`). Proofs are checked by other code (`certificate.rs`), and runs are simulated.
+
+mod bounded;
+mod certificate;
+mod cubes;
+mod frames;
+mod machine;
+mod monitor;
+mod search;
+mod solver;
+mod system;
+#[cfg(test)]
+mod tests;
+mod unrolled;
+mod wording;
+
+pub use crate::and_graph::AndLiteral;
+pub use certificate::InductiveProof;
+pub use machine::Machine;
+pub use monitor::Monitored;
+pub use search::{PropertySearch, PropertyVerdict, SearchBudget};
+pub use system::{SystemRegister, SystemRun, TransitionSystem};
+pub use wording::NoSteps;

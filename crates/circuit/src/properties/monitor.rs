@@ -1,0 +1,124 @@
+//! A machine with its properties as one transition system. What is said of a step is a circuit, too, the monitor: its
+//! inputs are the ports of the machine and a clock, its registers remember what was there in the step before, and its
+//! outputs are the expressions of the properties.
+
+use crate::and_graph::{AndGraph, AndLiteral};
+use crate::network::Network;
+use crate::properties::machine::Machine;
+use crate::properties::system::{SystemRegister, TransitionSystem};
+use crate::properties::wording::NoSteps;
+use crate::waves::{ClockStep, StateBit};
+use crate::Netlist;
+use nbc_base::model::{Property, PropertyKind};
+
+/// A machine and its properties, ready for a search.
+#[derive(Clone, Debug)]
+pub struct Monitored {
+    /// The system. Its properties are those that are no assumptions, in order.
+    pub system: TransitionSystem,
+    /// For each input of the system, the input port of the circuit.
+    pub ports: Vec<usize>,
+}
+
+impl Monitored {
+    /// The system of a machine and a monitor. The monitor has an output for each property, and one before it for what
+    /// the property depends on, if it has a condition.
+    ///
+    /// # Errors
+    /// When a property reads the clock.
+    ///
+    /// # Panics
+    /// When the monitor does not have these ports, or has other memory than registers of its clock.
+    pub fn of(machine: &Machine, monitor: &Netlist, properties: &[Property]) -> Result<Self, NoSteps> {
+        let monitor = ClockStep::of(monitor).expect("a monitor has registers of one clock");
+        if let Some(clock) = machine.clock.filter(|&clock| reads(&monitor.logic, clock)) {
+            return Err(NoSteps::ClockHasNoValue { clock: monitor.inputs[clock].clone() });
+        }
+        Ok(Assembly::of(machine, &monitor, properties))
+    }
+}
+
+/// Whether an output of a network depends on an input.
+fn reads(network: &Network, input: usize) -> bool {
+    let mut used: Vec<bool> = (0..network.signals()).map(|signal| signal == 2 + input).collect();
+    for (at, gate) in network.gates.iter().enumerate() {
+        used[2 + network.inputs + at] =
+            (0..2).any(|pin| gate.function.depends_on(pin) && used[gate.pins[pin] as usize]);
+    }
+    network.outputs.iter().any(|&output| used[output as usize])
+}
+
+/// Registers that are added to a machine.
+struct Assembly {
+    graph: AndGraph,
+    registers: Vec<SystemRegister>,
+    /// The first source that is a register.
+    first: usize,
+}
+
+impl Assembly {
+    fn of(machine: &Machine, monitor: &ClockStep, properties: &[Property]) -> Monitored {
+        let ports: Vec<usize> = (0..machine.inputs).filter(|&port| Some(port) != machine.clock).collect();
+        let depth = properties.iter().map(|property| property.before).max().unwrap_or(0);
+        let waits: usize = properties.iter().filter_map(|property| property.within).sum();
+        let own = usize::from(machine.is_clocked());
+        let count = machine.state.len() + own + monitor.state.len() + depth + waits;
+        let graph = AndGraph::new(ports.len() + count);
+        let mut assembly = Self { graph, registers: Vec::new(), first: ports.len() };
+        let state = assembly.state(&machine.state);
+        let first = match machine.is_clocked() {
+            true => assembly.register("the first step", true),
+            false => 0,
+        };
+        let remembered = assembly.state(&monitor.state);
+        let started: Vec<AndLiteral> = (1..=depth).map(|step| assembly.register(&format!("step {step}"), false)).collect();
+
+        let mut inputs = vec![0; machine.inputs];
+        ports.iter().enumerate().for_each(|(at, &port)| inputs[port] = assembly.graph.source(at));
+        let (shown, after) = machine.step(&mut assembly.graph, &inputs, &state, first);
+        let seen = [&inputs[..], &shown, &[0], &remembered].concat();
+        let mut said = assembly.graph.outputs(&monitor.logic, &seen);
+        let kept = said.split_off(monitor.outputs.len());
+
+        let mut nexts = after;
+        nexts.extend((machine.is_clocked()).then_some(0));
+        nexts.extend(kept);
+        nexts.extend([1].iter().chain(&started).take(depth));
+        let (mut bad, mut constraints) = (Vec::new(), Vec::new());
+        let mut said = said.into_iter();
+        let mut next = || said.next().expect("an output for each property");
+        for property in properties {
+            let begins = property.before.checked_sub(1).map_or(1, |last| started[last]);
+            let condition = if property.has_condition { next() } else { 1 };
+            let value = next();
+            let active = assembly.graph.and(begins, condition);
+            let wrong = assembly.graph.and(active, value ^ usize::from(property.kind != PropertyKind::Never));
+            match (property.kind, property.within) {
+                (PropertyKind::Assume, _) => constraints.push(wrong ^ 1),
+                (_, None) => bad.push(wrong),
+                (_, Some(within)) => {
+                    let mut waiting = wrong;
+                    for step in 1..=within {
+                        let before = assembly.register(&format!("{step} steps without it"), false);
+                        nexts.push(waiting);
+                        waiting = assembly.graph.and(before, value ^ 1);
+                    }
+                    bad.push(waiting);
+                }
+            }
+        }
+        let Self { graph, mut registers, .. } = assembly;
+        registers.iter_mut().zip(nexts).for_each(|(register, next)| register.next = next);
+        let names = ports.iter().map(|&port| monitor.inputs[port].clone()).collect();
+        Monitored { system: TransitionSystem { inputs: names, registers, ands: graph.ands, bad, constraints }, ports }
+    }
+
+    fn register(&mut self, name: &str, start: bool) -> AndLiteral {
+        self.registers.push(SystemRegister { name: name.to_owned(), start: Some(start), next: 0 });
+        self.graph.source(self.first + self.registers.len() - 1)
+    }
+
+    fn state(&mut self, bits: &[StateBit]) -> Vec<AndLiteral> {
+        bits.iter().map(|bit| self.register(&bit.name, bit.start)).collect()
+    }
+}

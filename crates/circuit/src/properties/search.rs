@@ -1,0 +1,219 @@
+//! The search that decides properties: bounded search and induction for the first steps, then bounded search and the
+//! search for invariants in turn, each with the same share of work.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::properties::bounded::{Bounded, Induction};
+use crate::properties::certificate::InductiveProof;
+use crate::properties::frames::{Found, Frames};
+use crate::properties::system::{SystemRun, TransitionSystem};
+use nbc_base::source::CancelFlag;
+
+/// The steps in which induction is tried.
+const INDUCTION_STEPS: usize = 12;
+
+/// The work of one call of the solver in bounded search and induction.
+const PORTION: u64 = 2_000;
+
+/// The most work of the induction.
+const INDUCTION_WORK: u64 = 20_000;
+
+/// What is known of a property.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum PropertyVerdict {
+    /// It holds in every step of every run.
+    Proved(InductiveProof),
+    /// The last step of this run violates it. No shorter run does.
+    Refuted(SystemRun),
+    /// The budget ended. It holds in so many first steps.
+    Undecided {
+        /// The number of steps.
+        steps: usize,
+    },
+}
+
+/// How much a search may do. Work is counted in calls of the solver and clauses that it learned.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct SearchBudget {
+    /// The most steps of a run that are looked at one after the other.
+    pub steps: usize,
+    /// The most work.
+    pub work: u64,
+}
+
+impl Default for SearchBudget {
+    fn default() -> Self {
+        Self { steps: 10_000, work: 50_000_000 }
+    }
+}
+
+/// A search for the truth of all properties of a system, which is advanced in portions.
+pub struct PropertySearch {
+    system: TransitionSystem,
+    budget: SearchBudget,
+    cancel: CancelFlag,
+    verdicts: BTreeMap<usize, PropertyVerdict>,
+    open: BTreeSet<usize>,
+    bounded: Bounded,
+    induction: Option<Induction>,
+    /// The search for an invariant of the first open property, with the steps that each has done.
+    frames: Option<(usize, Frames)>,
+    /// The work of searches for invariants that have ended.
+    frames_work: u64,
+}
+
+impl PropertySearch {
+    /// A search that has done nothing yet.
+    pub fn new(system: TransitionSystem, budget: SearchBudget, cancel: CancelFlag) -> Self {
+        let open = (0..system.bad.len()).collect();
+        let bounded = Bounded::new(&system, cancel.clone());
+        let induction = Some(Induction::new(&system, cancel.clone()));
+        Self {
+            system,
+            budget,
+            cancel,
+            verdicts: BTreeMap::new(),
+            open,
+            bounded,
+            induction,
+            frames: None,
+            frames_work: 0,
+        }
+    }
+
+    /// The system.
+    pub fn system(&self) -> &TransitionSystem {
+        &self.system
+    }
+
+    /// The number of properties that are decided.
+    pub fn decided(&self) -> usize {
+        self.verdicts.len()
+    }
+
+    /// The number of first steps in which no open property is violated.
+    pub fn steps(&self) -> usize {
+        self.bounded.step
+    }
+
+    /// The work so far.
+    pub fn work(&self) -> u64 {
+        let induction = self.induction.as_ref().map_or(0, Induction::work);
+        self.bounded.work() + induction + self.invariant_work()
+    }
+
+    fn invariant_work(&self) -> u64 {
+        self.frames_work + self.frames.as_ref().map_or(0, |(_, frames)| frames.work())
+    }
+
+    /// Whether all properties are decided, or the budget has ended.
+    pub fn is_done(&self) -> bool {
+        self.open.is_empty() || self.work() >= self.budget.work || self.cancel.is_raised()
+    }
+
+    /// Does a portion of the search.
+    pub fn advance(&mut self) {
+        if self.is_done() {
+            return;
+        }
+        if self.induction.is_some() {
+            self.begin();
+        } else if self.bounded.step < self.budget.steps && self.bounded.work() < self.invariant_work() {
+            self.look_further();
+        } else {
+            self.look_for_invariant();
+        }
+    }
+
+    /// The first steps: induction over each number of steps in which the bounded search has found nothing.
+    fn begin(&mut self) {
+        let Some(induction) = &mut self.induction else { return };
+        if induction.steps >= INDUCTION_STEPS || induction.work() > INDUCTION_WORK {
+            self.induction = None;
+        } else if self.bounded.step <= induction.steps {
+            let before = self.bounded.work();
+            self.look_further();
+            if self.bounded.work() > before + PORTION / 2 {
+                // The first steps are hard: what does not unroll them may be quicker.
+                self.induction = None;
+            }
+        } else {
+            induction.extend(&self.system);
+            match induction.proved(&self.system, &self.open, PORTION) {
+                None => self.induction = None,
+                Some(together) => {
+                    let steps = induction.steps;
+                    for &property in &together {
+                        let proof = InductiveProof::Steps { steps, together: together.clone() };
+                        self.decide(property, PropertyVerdict::Proved(proof));
+                    }
+                }
+            }
+        }
+    }
+
+    fn look_further(&mut self) {
+        if let Some((property, run)) = self.bounded.advance(&self.system, &self.open, PORTION) {
+            self.decide(property, PropertyVerdict::Refuted(run));
+        }
+    }
+
+    fn look_for_invariant(&mut self) {
+        let first = *self.open.first().expect("a property is open");
+        let is_other = self.frames.as_ref().is_some_and(|(property, _)| *property != first);
+        if is_other {
+            self.frames_work = self.invariant_work();
+            self.frames = None;
+        }
+        let (system, cancel) = (&self.system, &self.cancel);
+        let proved = self.verdicts.iter().filter(|(_, verdict)| matches!(verdict, PropertyVerdict::Proved(_)));
+        let given: Vec<usize> = proved.map(|(&property, _)| property).collect();
+        let (_, frames) =
+            self.frames.get_or_insert_with(|| (first, Frames::new(system, first, given, cancel.clone())));
+        match frames.advance(system) {
+            Found::Nothing => {}
+            Found::Violation(run) => self.decide(first, PropertyVerdict::Refuted(run)),
+            Found::Invariant(cubes) => {
+                let given = frames.given().iter().copied().collect();
+                let opposite = |cube: Vec<(usize, bool)>| cube.into_iter().map(|(at, value)| (at, !value)).collect();
+                let clauses = cubes.into_iter().map(opposite).collect();
+                self.decide(first, PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }));
+            }
+        }
+    }
+
+    /// Notes what is known of a property, after a check.
+    fn decide(&mut self, property: usize, verdict: PropertyVerdict) {
+        let verdict = match verdict {
+            PropertyVerdict::Refuted(run) => {
+                let last = run.inputs.len() - 1;
+                assert_eq!(self.system.violation(property, &run), Some(last), "the run violates the property");
+                PropertyVerdict::Refuted(self.system.plainer(property, run))
+            }
+            PropertyVerdict::Proved(proof) => {
+                assert!(proof.proves(&self.system, property), "the proof of property {property} holds");
+                PropertyVerdict::Proved(proof)
+            }
+            PropertyVerdict::Undecided { .. } => verdict,
+        };
+        self.open.remove(&property);
+        self.verdicts.insert(property, verdict);
+    }
+
+    /// What is known of each property.
+    pub fn verdicts(&self) -> Vec<PropertyVerdict> {
+        let open = |property: usize| {
+            let own = self.frames.as_ref().filter(|(first, _)| *first == property);
+            PropertyVerdict::Undecided { steps: own.map_or(0, |(_, frames)| frames.steps()).max(self.bounded.step) }
+        };
+        (0..self.system.bad.len()).map(|at| self.verdicts.get(&at).cloned().unwrap_or_else(|| open(at))).collect()
+    }
+
+    /// Searches to the end.
+    pub fn finish(mut self) -> Vec<PropertyVerdict> {
+        while !self.is_done() {
+            self.advance();
+        }
+        self.verdicts()
+    }
+}

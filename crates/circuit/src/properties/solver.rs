@@ -1,0 +1,111 @@
+//! The solver of a search: it counts its work, and stops where a portion of the search ends.
+
+use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, lbool};
+
+use nbc_base::source::CancelFlag;
+
+/// What ends a call of the solver.
+pub(super) struct Limits {
+    /// The clauses learned so far.
+    learned: u64,
+    most: u64,
+    cancel: CancelFlag,
+}
+
+impl Callbacks for Limits {
+    fn on_new_clause(&mut self, _: &[Lit], source: ClauseKind) {
+        self.learned += u64::from(source == ClauseKind::Learnt);
+    }
+
+    fn stop(&self) -> bool {
+        self.learned >= self.most || self.cancel.is_raised()
+    }
+}
+
+/// Whether some values fulfill all clauses.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Solved {
+    /// They do.
+    Yes,
+    /// No values do.
+    No,
+    /// The portion ended before this was known.
+    Open,
+}
+
+/// A solver with its literal for 1.
+pub(super) struct ClauseSolver {
+    solver: Solver<Limits>,
+    one: Lit,
+    calls: u64,
+}
+
+impl ClauseSolver {
+    pub(super) fn new(cancel: CancelFlag) -> Self {
+        let limits = Limits { learned: 0, most: u64::MAX, cancel };
+        let mut solver = Solver::new(SolverOpts::default(), limits);
+        let one = Lit::new(solver.new_var_default(), true);
+        solver.add_clause_reuse(&mut vec![one]);
+        Self { solver, one, calls: 0 }
+    }
+
+    /// The literal that is always 1.
+    pub(super) fn one(&self) -> Lit {
+        self.one
+    }
+
+    /// A new variable, as the literal that is 1 where it is.
+    pub(super) fn fresh(&mut self) -> Lit {
+        Lit::new(self.solver.new_var_default(), true)
+    }
+
+    /// Requires that one of these literals is 1.
+    pub(super) fn clause(&mut self, literals: &[Lit]) {
+        self.solver.add_clause_reuse(&mut literals.to_vec());
+    }
+
+    /// The literal that is 1 where both are.
+    pub(super) fn and(&mut self, a: Lit, b: Lit) -> Lit {
+        let one = self.one;
+        match (a, b) {
+            _ if a == !one || b == !one || a == !b => !one,
+            _ if a == one || a == b => b,
+            _ if b == one => a,
+            _ => {
+                let both = self.fresh();
+                self.clause(&[!both, a]);
+                self.clause(&[!both, b]);
+                self.clause(&[both, !a, !b]);
+                both
+            }
+        }
+    }
+
+    /// Whether all clauses can hold with these literals at 1, as far as a portion of work tells.
+    pub(super) fn solve(&mut self, assumed: &[Lit], portion: u64) -> Solved {
+        self.calls += 1;
+        let limits = self.solver.cb_mut();
+        limits.most = limits.learned.saturating_add(portion);
+        let solved = self.solver.solve_limited(assumed);
+        match solved == lbool::TRUE {
+            true => Solved::Yes,
+            false if solved == lbool::FALSE => Solved::No,
+            false => Solved::Open,
+        }
+    }
+
+    /// Whether a literal is 1 in what was found last.
+    pub(super) fn is_on(&self, literal: Lit) -> bool {
+        self.solver.value_lit(literal) == lbool::TRUE
+    }
+
+    /// Whether an assumption of the last call belongs to those that cannot hold together.
+    pub(super) fn is_needed(&self, assumed: Lit) -> bool {
+        self.solver.unsat_core_contains_var(assumed.var())
+    }
+
+    /// The work so far: a unit for each call and each clause learned. It does not depend on the machine.
+    pub(super) fn work(&self) -> u64 {
+        self.calls + self.solver.cb().learned
+    }
+}

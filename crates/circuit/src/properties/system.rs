@@ -1,0 +1,140 @@
+//! A machine as a plain transition system: and-gates between inputs, registers and what is said of every step.
+
+use crate::and_graph::AndLiteral;
+
+/// A register of a transition system.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SystemRegister {
+    /// What it is called in messages.
+    pub name: String,
+    /// Its value in the first step; `None` if that may be either.
+    pub start: Option<bool>,
+    /// Its value in the step after.
+    pub next: AndLiteral,
+}
+
+/// A machine, and properties of its steps. In every step its inputs have any values that fulfill the constraints.
+///
+/// Literals are counted as in AIGER: signal 0 is the constant 0, then the inputs, the registers, and the gates.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TransitionSystem {
+    /// The names of the inputs.
+    pub inputs: Vec<String>,
+    /// The registers.
+    pub registers: Vec<SystemRegister>,
+    /// The pins of each gate; a gate reads earlier signals only.
+    pub ands: Vec<[AndLiteral; 2]>,
+    /// For each property, what is 1 in a step that violates it.
+    pub bad: Vec<AndLiteral>,
+    /// What is 1 in every step. What comes after a step in which one is 0 does not count, nor does that step.
+    pub constraints: Vec<AndLiteral>,
+}
+
+/// A run of a transition system from its start.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SystemRun {
+    /// The values of the registers in the first step.
+    pub start: Vec<bool>,
+    /// The values of the inputs in each step.
+    pub inputs: Vec<Vec<bool>>,
+}
+
+impl TransitionSystem {
+    /// The literal of a register.
+    pub fn register(&self, at: usize) -> AndLiteral {
+        2 * (1 + self.inputs.len() + at)
+    }
+
+    /// The number of signals, the constant included.
+    pub(super) fn signals(&self) -> usize {
+        1 + self.inputs.len() + self.registers.len() + self.ands.len()
+    }
+
+    /// The register that a literal is, maybe inverted.
+    pub(super) fn register_of(&self, literal: AndLiteral) -> Option<usize> {
+        (literal / 2).checked_sub(1 + self.inputs.len()).filter(|&at| at < self.registers.len())
+    }
+
+    /// The pins of the gate that a literal is, maybe inverted.
+    pub(super) fn gate_of(&self, literal: AndLiteral) -> Option<[AndLiteral; 2]> {
+        let at = (literal / 2).checked_sub(1 + self.inputs.len() + self.registers.len())?;
+        Some(self.ands[at])
+    }
+
+    /// The registers on which a property or a constraint depends, now or later.
+    pub(super) fn relevant(&self) -> Vec<usize> {
+        let mut seen = vec![false; self.signals()];
+        let mut open: Vec<AndLiteral> = self.bad.iter().chain(&self.constraints).copied().collect();
+        while let Some(literal) = open.pop() {
+            if std::mem::replace(&mut seen[literal / 2], true) {
+                continue;
+            }
+            open.extend(self.register_of(literal).map(|at| self.registers[at].next));
+            open.extend(self.gate_of(literal).into_iter().flatten());
+        }
+        (0..self.registers.len()).filter(|&at| seen[self.register(at) / 2]).collect()
+    }
+
+    /// The values of all signals in a step.
+    pub fn values(&self, inputs: &[bool], state: &[bool]) -> Vec<bool> {
+        assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
+        assert_eq!(state.len(), self.registers.len(), "a value for each register");
+        let mut values = Vec::with_capacity(self.signals());
+        values.push(false);
+        values.extend(inputs.iter().chain(state));
+        for pins in &self.ands {
+            let [a, b] = pins.map(|pin| is_on(&values, pin));
+            values.push(a && b);
+        }
+        values
+    }
+
+    /// The values of the registers after a step.
+    pub fn next(&self, values: &[bool]) -> Vec<bool> {
+        self.registers.iter().map(|register| is_on(values, register.next)).collect()
+    }
+
+    /// Whether the start values permit a state as the first.
+    pub fn may_start(&self, state: &[bool]) -> bool {
+        self.registers.iter().zip(state).all(|(register, &value)| register.start.is_none_or(|start| start == value))
+    }
+
+    /// The first step of a run, counted from 0, that violates a property; `None` if none does, the run does not begin at
+    /// the start, or a constraint does not hold before.
+    pub fn violation(&self, property: usize, run: &SystemRun) -> Option<usize> {
+        if !self.may_start(&run.start) {
+            return None;
+        }
+        let mut state = run.start.clone();
+        for (step, inputs) in run.inputs.iter().enumerate() {
+            let values = self.values(inputs, &state);
+            if !self.constraints.iter().all(|&constraint| is_on(&values, constraint)) {
+                return None;
+            }
+            if is_on(&values, self.bad[property]) {
+                return Some(step);
+            }
+            state = self.next(&values);
+        }
+        None
+    }
+
+    /// The run with as many inputs of 0 as can be, one after the other; it violates the property in the same step.
+    pub(super) fn plainer(&self, property: usize, mut run: SystemRun) -> SystemRun {
+        let step = self.violation(property, &run);
+        for at in 0..run.inputs.len() {
+            for input in 0..self.inputs.len() {
+                if run.inputs[at][input] {
+                    run.inputs[at][input] = false;
+                    run.inputs[at][input] = self.violation(property, &run) != step;
+                }
+            }
+        }
+        run
+    }
+}
+
+/// The value of a literal among those of the signals.
+pub fn is_on(values: &[bool], literal: AndLiteral) -> bool {
+    values[literal / 2] != (literal & 1 == 1)
+}

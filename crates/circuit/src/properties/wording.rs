@@ -1,0 +1,45 @@
+//! Why a circuit has no steps, in words.
+
+use std::fmt;
+
+use crate::waves::WaveError;
+
+/// Why a circuit has no steps in which a property could hold.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum NoSteps {
+    /// Its registers take their values when the clock falls.
+    Falls {
+        /// The clock.
+        clock: String,
+    },
+    /// It has memory that is no register of one clock, and is too large for other steps.
+    Memory(WaveError),
+    /// It has feedback that does not settle for some inputs.
+    Unsettled {
+        /// The time that was tried.
+        most: usize,
+    },
+    /// A property reads the clock.
+    ClockHasNoValue {
+        /// The clock.
+        clock: String,
+    },
+    /// Nobody waits for the answer any more.
+    Cancelled,
+}
+
+impl fmt::Display for NoSteps {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Falls { clock } => write!(f, "its registers store when `{clock}` falls, and a step is a rise"),
+            Self::Memory(why) => why.fmt(f),
+            Self::Unsettled { most } => {
+                write!(f, "from some settled state and for some inputs, it does not settle within {most} time steps")
+            }
+            Self::ClockHasNoValue { clock } => {
+                write!(f, "a property cannot read the clock `{clock}`: each step after the first is a rise of it")
+            }
+            Self::Cancelled => f.write_str("the check was cancelled"),
+        }
+    }
+}

@@ -1,0 +1,128 @@
+//! The claims of a program: properties of all steps of a circuit, as a circuit that watches its ports.
+
+use crate::check::against::PortLists;
+use crate::check::circuit::monitor;
+use crate::check::expression::{BEFORE, first_leaf};
+use crate::check::program::Assembly;
+use crate::check::vocabulary::Vocabulary;
+use crate::check::wording::PropertyError;
+use crate::syntax::tree::{self, ExpressionSyntaxId, ExpressionSyntaxKind, NameSyntax, PropertySyntax};
+use nbc_base::budget::Limit;
+use nbc_base::diag::Diagnostic;
+use nbc_base::model::{Claim, Program, Property, PropertyKind};
+use nbc_base::source::Span;
+use nbc_circuit::Inspector;
+
+/// The name of the clock of `before`, which no source can name.
+const CLOCK: &str = "the clock of the steps";
+
+impl<'a> Assembly<'a> {
+    /// A claim of the program's own file.
+    pub(super) fn claim(
+        &mut self,
+        span: Span,
+        source: &'a tree::Prove,
+        program: &Program,
+        inspector: &mut Inspector<'_>,
+    ) -> Option<Claim> {
+        let circuit = self.instance(&source.circuit, program)?;
+        let (inputs, outputs) = self.ports(&circuit, source.circuit.name.span, inspector)?;
+        let before = self.faults.len();
+        let is_broken = self.declarations.is_broken(source.circuit.name.span);
+        if !is_broken && source.properties.iter().all(|property| property.kind == PropertyKind::Assume) {
+            let error = PropertyError::NothingToProve { circuit: circuit.circuit.clone() };
+            self.faults.push(error.at(source.circuit.name.span));
+        }
+        let properties = source.properties.iter().map(|property| self.property(property, source)).collect();
+        let monitor = self.monitor(source, (&inputs, &outputs), program)?;
+        if self.faults[before..].iter().any(Diagnostic::is_error) || is_broken {
+            return None;
+        }
+        let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
+        let (file, line) = self.declarations.line(span);
+        Some(Claim { circuit, title, span, file, line, inputs, outputs, properties, monitor: Box::new(monitor) })
+    }
+
+    fn property(&mut self, source: &PropertySyntax, claim: &tree::Prove) -> Property {
+        let text = |span: Span| self.declarations.sources.text(span).split_whitespace().collect::<Vec<_>>().join(" ");
+        let span = |id: ExpressionSyntaxId| claim.body.expressions[id.0 as usize].span;
+        let mut faults = Vec::new();
+        if let (PropertyKind::Never, Some(condition)) = (source.kind, source.condition) {
+            let (condition, value) = (text(span(condition)), text(span(source.value)));
+            faults.push(PropertyError::NeverImplies { condition, value, whole: source.span }.at(source.word));
+        }
+        let within = source.within.as_ref().map(|number| {
+            if source.kind != PropertyKind::Always {
+                faults.push(PropertyError::Within { kind: source.kind }.at(number.span));
+            }
+            let steps = number.text.parse::<u64>().ok();
+            let steps = steps.filter(|&steps| steps > 0 && Limit::PropertySteps.permit(steps).is_ok());
+            let wrong = || PropertyError::Steps { text: number.text.clone(), most: Limit::PropertySteps.most() };
+            steps.unwrap_or_else(|| {
+                faults.push(wrong().at(number.span));
+                1
+            }) as usize
+        });
+        let depth = |id| depth(&claim.body.expressions, id);
+        let property = Property {
+            kind: source.kind,
+            text: text(source.span),
+            span: source.span,
+            line: self.declarations.line(source.span).1,
+            has_condition: source.condition.is_some(),
+            within,
+            before: source.condition.map_or(0, depth).max(depth(source.value)),
+        };
+        self.faults.extend(faults);
+        property
+    }
+
+    /// The circuit that watches the ports: each expression drives an output of its own.
+    fn monitor(
+        &mut self,
+        source: &'a tree::Prove,
+        (inputs, outputs): PortLists<'_>,
+        program: &Program,
+    ) -> Option<nbc_base::model::Circuit> {
+        let mut body = source.body.clone();
+        let place = source.circuit.name.span;
+        let name = |text: String, span: Span| NameSyntax { text, span };
+        let mut port = |text: String, width: usize| {
+            let kind = tree::SizeSyntaxKind::Literal(width.to_string());
+            body.sizes.push(tree::SizeSyntax { kind, span: place });
+            tree::Port::new(name(text, place), Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)))
+        };
+        let seen = inputs.iter().chain(outputs).map(|column| (column.name.clone(), column.width));
+        let seen = seen.chain([(CLOCK.to_owned(), 1)]).map(|(text, width)| port(text, width)).collect();
+        let mut said = Vec::new();
+        for (at, property) in source.properties.iter().enumerate() {
+            let condition = property.condition.map(|value| (format!("condition {}", at + 1), value));
+            let value = (format!("property {}", at + 1), property.value);
+            for (text, value) in condition.into_iter().chain([value]) {
+                said.push(port(text.clone(), 1));
+                let span = source.body.expressions[value.0 as usize].span;
+                let target =
+                    tree::TargetSyntax { name: name(text, span), index: None, second: None, start: None, span };
+                let kind = tree::StatementKind::Drive { targets: vec![target], grouping: tree::Grouping::Single, value };
+                body.statements.push(tree::StatementSyntax { kind, span });
+            }
+        }
+        let name = name(format!("{} as claimed", source.circuit.name.text), place);
+        let parameters = Vec::new();
+        let circuit = tree::CircuitSyntax { is_environment: false, name, parameters, inputs: seen, outputs: said, body };
+        let checked = monitor(&circuit, Vocabulary::of(&self.names, program), &self.circuits.headers);
+        self.beside_ports(checked, &source.circuit.name, &source.circuit.name.text)
+    }
+}
+
+/// The most steps before that an expression looks at: how deep calls of `before` are inside each other.
+fn depth(expressions: &[tree::ExpressionSyntax], root: ExpressionSyntaxId) -> usize {
+    let first = first_leaf(expressions, root) as usize;
+    let is_before = |kind: &ExpressionSyntaxKind| {
+        matches!(kind, ExpressionSyntaxKind::Call { name, .. } if name.text == BEFORE)
+    };
+    let calls = (first..=root.0 as usize).filter(|&at| is_before(&expressions[at].kind));
+    let ranges: Vec<_> =
+        calls.map(|at| first_leaf(expressions, ExpressionSyntaxId(at as u32)) as usize..=at).collect();
+    ranges.iter().map(|inner| ranges.iter().filter(|outer| outer.contains(inner.end())).count()).max().unwrap_or(0)
+}

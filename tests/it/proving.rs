@@ -1,0 +1,136 @@
+//! Properties of all steps, through the program: the gallery, its mutants, and models in AIGER's format.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::support::bench::Bench;
+use crate::support::root;
+
+/// A file of the gallery, with a part of its text replaced.
+fn mutant(bench: &Bench, file: &str, replaced: &str, by: &str) -> String {
+    let text = fs::read_to_string(root().join("circuits").join(file)).unwrap();
+    assert!(text.contains(replaced), "{file} has `{replaced}`");
+    bench.file(file, text.replacen(replaced, by, 1));
+    file.to_owned()
+}
+
+/// What is known of the properties of a file, in order.
+fn verdicts(bench: &Bench, arguments: &[&str], status: i32) -> Vec<Value> {
+    let ran = bench.run(&[&["prove"], arguments, &["--format", "json"]].concat());
+    assert_eq!(ran.status, status, "{}{}", ran.out, ran.err);
+    let found: Value = serde_json::from_str(&ran.out).unwrap();
+    let claims = found["claims"].as_array().unwrap();
+    claims.iter().flat_map(|claim| claim["properties"].as_array().unwrap()).cloned().collect()
+}
+
+#[test]
+fn every_clocked_program_of_the_gallery_has_a_property_that_is_proved_in_ten_seconds() {
+    let bench = Bench::new();
+    let mut proved = 0;
+    for entry in fs::read_dir(root().join("circuits")).unwrap() {
+        let path = entry.unwrap().path();
+        let Some(text) = path.extension().filter(|end| *end == "nb").map(|_| fs::read_to_string(&path).unwrap()) else {
+            continue;
+        };
+        let is_clocked = text.contains("register") || text.contains("use \"computer.nb\"");
+        if !text.contains("\nprove ") {
+            assert!(!is_clocked, "{} has no property", path.display());
+            continue;
+        }
+        let found = verdicts(&bench, &[path.to_str().unwrap(), "--seconds", "10"], 0);
+        assert!(!found.is_empty(), "{}", path.display());
+        proved += found.len();
+    }
+    assert!(proved > 25, "{proved} are proved");
+}
+
+/// Mutants of the gallery: a part of a file, what it becomes, and the property that is refuted.
+const MUTANTS: [(&str, &str, &str, &str); 3] = [
+    ("traffic_light.nb", "else:                      10", "else:                      11", "main_stops xor side_stops"),
+    ("counter.nb", "count + 3'd1", "count + {1'd0, count[2], 1'd1}", "count == before(count) + 1"),
+    ("lfsr.nb", "state[2] xor state[1]", "state[2] and state[1]", "never state == 0"),
+];
+
+#[test]
+fn a_mutant_of_the_gallery_is_refuted_by_a_test_that_it_passes() {
+    for (file, part, other, property) in MUTANTS {
+        let bench = Bench::new();
+        let file = mutant(&bench, file, part, other);
+        let found = verdicts(&bench, &[&file], 1);
+        let refuted = found.iter().find(|found| found["verdict"] == "refuted").unwrap();
+        assert!(refuted["property"].as_str().unwrap().contains(property), "{refuted}");
+        let test = refuted["test"].as_str().unwrap();
+        let text = fs::read_to_string(bench.path().join(&file)).unwrap();
+        // The tests of the file fail now; only the one that was printed is run.
+        bench.file("shown.nb", format!("{text}\n{test}"));
+        let ran = bench.run(&["test", "shown.nb", "--logic", "--only", refuted["property"].as_str().unwrap()]);
+        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+        assert_eq!(bench.run(&["fmt", "--check", "shown.nb"]).status, 0, "it is in the canonical form");
+    }
+}
+
+#[test]
+fn robots_do_what_refutes_a_property() {
+    let bench = Bench::new();
+    let file = mutant(&bench, "latch.nb", "nand(not d, e)", "nand(d, e)");
+    let found = verdicts(&bench, &[&file, "--physics"], 1);
+    let refuted: Vec<&Value> = found.iter().filter(|found| found["verdict"] == "refuted").collect();
+    assert!(!refuted.is_empty(), "{found:?}");
+    assert!(refuted.iter().all(|found| found["physics"] == true), "{refuted:?}");
+}
+
+#[test]
+fn a_search_that_ends_is_undecided_and_the_same_again() {
+    let bench = Bench::new();
+    let wide = "circuit wide(clk) -> (count[24]) {\n    count = register(count + 1, clk)\n}\n\n\
+                prove wide \"ends\" {\n    never count == 9000000\n}\n";
+    bench.file("wide.nb", wide);
+    let search = || bench.run(&["prove", "wide.nb", "--work", "2000", "--format", "json"]);
+    let first = search();
+    assert_eq!(first.status, 1, "{}", first.err);
+    assert!(first.out.contains("\"verdict\":\"undecided\""), "{}", first.out);
+    assert_eq!(search().out, first.out);
+    let text = bench.run(&["prove", "wide.nb", "--work", "2000"]).out;
+    assert!(text.contains("undecided  never count == 9000000  (it holds in the first "), "{text}");
+    assert!(text.ends_with("0 proved, 0 refuted, 1 undecided\n"), "{text}");
+}
+
+#[test]
+fn one_claim_of_several_is_chosen_by_its_title_or_circuit() {
+    let bench = Bench::new();
+    let path = root().join("circuits/traffic_light.nb");
+    let path = path.to_str().unwrap();
+    assert_eq!(verdicts(&bench, &[path, "--only", "never green for both roads"], 0).len(), 1);
+    assert!(verdicts(&bench, &[path, "--only", "traffic_light"], 0).len() > 1);
+    bench.run(&["prove", path, "--only", "traffic"]).expect_fault(&["no claim of", "called `traffic`"]);
+    let file = bench.file("none.nb", "circuit f(a) -> (q) {\n    q = a\n}\n");
+    bench.run(&["prove", file.to_str().unwrap()]).expect_fault(&["`none.nb` claims nothing", "prove my_circuit {"]);
+}
+
+#[test]
+fn a_register_of_a_file_does_not_change_what_was_before() {
+    let bench = Bench::new();
+    let own = "circuit register(d, clk) -> (q) {\n    q = d xor clk\n}\n\n\
+               circuit same(a) -> (q) {\n    q = a\n}\n\n\
+               prove same {\n    always before(a) == before(q)\n    never before(a) and not before(q)\n}\n";
+    bench.file("own.nb", own);
+    assert_eq!(verdicts(&bench, &["own.nb"], 0).len(), 2);
+}
+
+#[test]
+fn models_are_decided_with_witnesses() {
+    let bench = Bench::new();
+    // A latch that turns over while the input is 0; the second property is its being 0 and 1 at once.
+    bench.file("model.aag", "aag 4 1 1 0 2 2\n2\n4 6\n4\n8\n6 3 5\n8 4 5\nb0 on\nb1 both\n");
+    let found = verdicts(&bench, &["model.aag", "--witness", "model.wit"], 1);
+    assert_eq!((&found[0]["property"], &found[0]["verdict"]), (&"on".into(), &"refuted".into()));
+    assert_eq!((&found[1]["property"], &found[1]["verdict"]), (&"both".into(), &"proved".into()));
+    let witness = fs::read_to_string(bench.path().join("model.wit")).unwrap();
+    assert_eq!(witness, "1\nb0\n0\n0\n0\n.\n0\nb1\n.\n");
+    bench.file("live.aag", "aag 1 1 0 0 0 0 0 1\n2\n1\n2\n");
+    bench.run(&["prove", "live.aag"]).expect_fault(&["justice properties are not supported"]);
+    let latch = root().join("circuits/latch.nb");
+    let refused = bench.run(&["prove", latch.to_str().unwrap(), "--witness", "latch.wit"]);
+    refused.expect_fault(&["`--witness` is for one model"]);
+}
