@@ -17,11 +17,11 @@ use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::Claim;
 use nbc_circuit::CancelFlag;
-use nbc_circuit::formats::CircuitSource;
-use nbc_circuit::properties::{PropertySearch, SearchBudget};
+use nbc_circuit::formats::{AigerModel, CircuitSource};
+use nbc_circuit::properties::SearchBudget;
 use nbc_session::report::Schema;
 use nbc_session::store;
-use nbc_session::{Checked, ClaimReport, DecidedClaim, RunEnd, Session, TestOptions};
+use nbc_session::{Checked, ClaimReport, DecidedClaim, ModelSearch, RunEnd, Session, TestOptions};
 use nbc_swarm::Level;
 
 /// How often the time is looked at while the solver works.
@@ -37,8 +37,8 @@ const WATCH: Duration = Duration::from_millis(20);
 A step is a row of a test: the first one, and then one for each rise of the clock. A circuit without a clock has a \
 step whenever its inputs change and all has settled.
 Each property of a `prove` declaration is proved, refuted with a test that shows it, or undecided when the time or the \
-work ends. A proof is checked by other code than that of the search. Without the time of --seconds, the result does not \
-depend on the machine.
+work ends. A proof is checked by other code than that of the search. A result depends on the machine only if the time \
+ends.
 A model is an AIGER file, .aig or .aag, with bad states and constraints, or with outputs in the place of bad states.
 Exit status: 0 all proved, 1 a property is refuted or undecided, 2 the file has errors, 4 interrupted.")]
 pub struct ProveArguments {
@@ -94,7 +94,7 @@ impl ProveArguments {
         for (subject, claim) in chosen {
             let report = match (subject, claim) {
                 (Subject::Source(file), Some(claim)) => self.claim(&session, file, claim, &interrupt)?,
-                (Subject::Model(path, model), _) => self.model(path, model, &interrupt),
+                (Subject::Model(path, model), _) => self.model(path, (**model).clone(), &interrupt),
                 (Subject::Source(_), None) => unreachable!("a source is chosen with a claim"),
             };
             if interrupt.is_raised() {
@@ -188,15 +188,14 @@ impl ProveArguments {
         Ok(report)
     }
 
-    fn model(&self, path: &Path, model: &nbc_circuit::formats::AigerModel, interrupt: &Interrupt) -> ClaimReport {
+    fn model(&self, path: &Path, model: AigerModel, interrupt: &Interrupt) -> ClaimReport {
         let timer = Timer::start(self.seconds, interrupt);
-        let mut search = PropertySearch::new(model.system.clone(), self.budget(), timer.flag());
-        let bar = Progress::new("proving", model.properties.len() as u64);
-        while !search.is_done() {
-            search.advance();
-            show(&bar, search.decided(), search.steps());
+        let mut search = ModelSearch::new(path.display().to_string(), model, self.budget(), timer.flag());
+        let bar = Progress::new("proving", search.progress()[1] as u64);
+        while search.advance() {
+            show(&bar, search.progress()[0], search.steps());
         }
-        ClaimReport::of_model(&path.display().to_string(), model, &search.verdicts(), search.work())
+        search.finish()
     }
 }
 
@@ -232,7 +231,7 @@ fn in_physics(
 /// What is proved.
 enum Subject<'a> {
     Source(Arc<Checked>),
-    Model(&'a Path, Box<nbc_circuit::formats::AigerModel>),
+    Model(&'a Path, Box<AigerModel>),
 }
 
 fn is_model(path: &Path) -> bool {

@@ -184,7 +184,8 @@ fn text_of_test(test: &CircuitTest) -> String {
         columns.iter().map(|column| column.name.clone()).collect::<Vec<_>>().join(" ")
     };
     let title = test.title.replace('"', "'");
-    let mut text = format!("test {} \"{title}\" {{\n{} | {}\n", test.circuit, ports(&test.inputs), ports(&test.outputs));
+    let mut text =
+        format!("test {} \"{title}\" {{\n{} | {}\n", test.circuit, ports(&test.inputs), ports(&test.outputs));
     for (at, row) in rows.iter().enumerate().filter(|(_, row)| !row.is_half) {
         let half = at.checked_sub(1).map(|at| &rows[at]).filter(|before| before.is_half);
         let inputs = input_words(test, row, half);

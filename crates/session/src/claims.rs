@@ -3,9 +3,7 @@
 use crate::wording::ClaimError;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation, TestRow};
-use nbc_circuit::properties::{
-    Machine, Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem,
-};
+use nbc_circuit::properties::{Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem};
 use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate, elaborate_reference};
 
 /// A claim that is being decided. It can be dropped between any two portions.
@@ -52,10 +50,10 @@ impl ClaimSearch {
             let circuit = claim.circuit.to_string();
             vec![ClaimError::NoSteps { circuit, why }.at(claim.span)]
         };
-        let machine = Machine::of(&circuit, &cancel).map_err(fault)?;
-        let Monitored { system, ports } = Monitored::of(&machine, &monitor, &claim.properties).map_err(fault)?;
+        let monitored = Monitored::of(&circuit, &monitor, &claim.properties, &cancel).map_err(fault)?;
+        let Monitored { system, ports, clock } = monitored;
         let search = PropertySearch::new(system, budget, cancel);
-        Ok(Self { claim: claim.clone(), search, ports, clock: machine.clock, circuit, monitor })
+        Ok(Self { claim: claim.clone(), search, ports, clock, circuit, monitor })
     }
 
     /// Does a portion of the search; whether there is more to do.

@@ -3,8 +3,8 @@
 
 use std::sync::Arc;
 
-use crate::documents::Documents;
 use crate::claims::ClaimSearch;
+use crate::documents::Documents;
 use crate::observer::Observer;
 use crate::replay::{self, Excerpt};
 use crate::robots::RobotSources;

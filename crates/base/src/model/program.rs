@@ -1,8 +1,8 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
 use super::{
-    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Instance, Material, NamedWorld,
-    Schedule,
+    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Instance, Material,
+    NamedWorld, Schedule,
 };
 use crate::source::Span;
 

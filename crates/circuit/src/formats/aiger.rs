@@ -22,10 +22,10 @@ const EXTRA: [&str; 4] =
 /// # Errors
 /// The first error of the file, with its line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
-    Reader::new(bytes).read(clock)
+    AigerReader::new(bytes).read(clock)
 }
 
-pub(super) struct Reader<'b> {
+pub(super) struct AigerReader<'b> {
     bytes: &'b [u8],
     at: usize,
     /// The lines read so far.
@@ -35,7 +35,7 @@ pub(super) struct Reader<'b> {
 }
 
 /// The numbers of the header.
-pub(super) struct Header {
+pub(super) struct AigerHeader {
     binary: bool,
     pub(super) variables: usize,
     inputs: usize,
@@ -51,7 +51,7 @@ pub(super) struct Header {
 pub(super) type Placed = (usize, AigerPlace);
 
 /// A latch: its literal, its next literal, its start value.
-pub(super) struct Latch {
+pub(super) struct AigerLatch {
     pub(super) literal: usize,
     pub(super) next: usize,
     pub(super) start: Option<bool>,
@@ -67,16 +67,16 @@ pub(super) struct And {
 }
 
 /// The contents of a file before its symbols.
-pub(super) struct Graph {
+pub(super) struct AigerGraph {
     pub(super) inputs: Vec<Placed>,
-    pub(super) latches: Vec<Latch>,
+    pub(super) latches: Vec<AigerLatch>,
     pub(super) outputs: Vec<Placed>,
     pub(super) bad: Vec<Placed>,
     pub(super) constraints: Vec<Placed>,
     pub(super) ands: Vec<And>,
 }
 
-impl<'b> Reader<'b> {
+impl<'b> AigerReader<'b> {
     pub(super) fn new(bytes: &'b [u8]) -> Self {
         Self { bytes, at: 0, lines: 0, place: AigerPlace::Line(1) }
     }
@@ -114,7 +114,7 @@ impl<'b> Reader<'b> {
         }
     }
 
-    pub(super) fn header(&mut self) -> Result<Header, Diagnostic> {
+    pub(super) fn header(&mut self) -> Result<AigerHeader, Diagnostic> {
         let line = self.line()?;
         let mut words = line.split(' ');
         let binary = match words.next() {
@@ -151,7 +151,7 @@ impl<'b> Reader<'b> {
         if [outputs, ands, bad, constraints].into_iter().fold(0, usize::saturating_add) > self.bytes.len() {
             return self.fault(AigerError::TooShort { outputs, ands });
         }
-        Ok(Header { binary, variables, inputs, latches, outputs, ands, bad, constraints })
+        Ok(AigerHeader { binary, variables, inputs, latches, outputs, ands, bad, constraints })
     }
 
     fn read(mut self, clock: Option<&str>) -> Result<Design, Diagnostic> {
@@ -167,7 +167,7 @@ impl<'b> Reader<'b> {
     }
 
     /// The file up to its symbols.
-    pub(super) fn graph(&mut self, header: &Header) -> Result<Graph, Diagnostic> {
+    pub(super) fn graph(&mut self, header: &AigerHeader) -> Result<AigerGraph, Diagnostic> {
         let mut inputs = Vec::with_capacity(header.inputs);
         for i in 0..header.inputs {
             inputs.push(if header.binary { (2 * (i + 1), self.place) } else { self.literal("an input")? });
@@ -178,10 +178,10 @@ impl<'b> Reader<'b> {
         let bad = literals(header.bad, "a property")?;
         let constraints = literals(header.constraints, "a constraint")?;
         let ands = (0..header.ands).map(|i| self.and(header, i)).collect::<Result<_, _>>()?;
-        Ok(Graph { inputs, latches, outputs, bad, constraints, ands })
+        Ok(AigerGraph { inputs, latches, outputs, bad, constraints, ands })
     }
 
-    fn latch(&mut self, header: &Header, i: usize) -> Result<Latch, Diagnostic> {
+    fn latch(&mut self, header: &AigerHeader, i: usize) -> Result<AigerLatch, Diagnostic> {
         let mut numbers = self.numbers()?;
         if header.binary {
             numbers.insert(0, 2 * (header.inputs + i + 1));
@@ -193,10 +193,10 @@ impl<'b> Reader<'b> {
             [latch, _, start] => return self.fault(AigerError::LatchStart { latch, start }),
             _ => return self.fault(AigerError::Latch),
         };
-        Ok(Latch { literal, next, start, place: self.place })
+        Ok(AigerLatch { literal, next, start, place: self.place })
     }
 
-    fn and(&mut self, header: &Header, i: usize) -> Result<And, Diagnostic> {
+    fn and(&mut self, header: &AigerHeader, i: usize) -> Result<And, Diagnostic> {
         if !header.binary {
             return match self.numbers()?[..] {
                 [out, a, b] => Ok(And { out, pins: [a, b], place: self.place }),
@@ -286,8 +286,8 @@ pub(super) fn excerpt(line: &str) -> String {
 }
 
 /// The design of a graph.
-fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, Diagnostic> {
-    let Graph { inputs, latches, outputs, ands, .. } = graph;
+fn build(header: &AigerHeader, graph: &AigerGraph, clock: Option<&str>) -> Result<Design, Diagnostic> {
+    let AigerGraph { inputs, latches, outputs, ands, .. } = graph;
     let mut logic = Netlist::new("circuit");
     let mut nets: Vec<Option<NetId>> = vec![None; header.variables + 1];
     let ports = inputs.iter().enumerate().map(|(i, &placed)| (format!("i{i}"), placed));
@@ -317,7 +317,7 @@ fn build(header: &Header, graph: &Graph, clock: Option<&str>) -> Result<Design, 
         logic.add_output(name, net);
     });
     let clock = Some(clock.unwrap_or("clk").to_owned());
-    let register = |(i, latch): (usize, &Latch)| Register {
+    let register = |(i, latch): (usize, &AigerLatch)| Register {
         name: format!("l{i}"),
         kind: RegisterKind::Rising,
         clock: clock.clone(),

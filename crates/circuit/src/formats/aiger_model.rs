@@ -2,7 +2,7 @@
 //! 1.9 have outputs in the place of bad states.
 
 use crate::and_graph::AndLiteral;
-use crate::formats::aiger::{And, Graph, Placed, Reader, excerpt, sorted};
+use crate::formats::aiger::{AigerGraph, AigerReader, And, Placed, excerpt, sorted};
 use crate::formats::wording::AigerError;
 use crate::properties::{PropertyVerdict, SystemRegister, TransitionSystem};
 use nbc_base::diag::Diagnostic;
@@ -24,7 +24,7 @@ impl AigerModel {
     /// # Errors
     /// The first error of the file, with its line or byte.
     pub fn read(bytes: &[u8]) -> Result<Self, Diagnostic> {
-        let mut reader = Reader::new(bytes);
+        let mut reader = AigerReader::new(bytes);
         let header = reader.header()?;
         let graph = reader.graph(&header)?;
         let are_outputs = graph.bad.is_empty() && graph.constraints.is_empty();
@@ -41,7 +41,7 @@ impl AigerModel {
     }
 
     /// Reads the names after the gates.
-    fn symbols(&mut self, reader: &mut Reader<'_>, outputs: usize, constraints: usize) -> Result<(), Diagnostic> {
+    fn symbols(&mut self, reader: &mut AigerReader<'_>, outputs: usize, constraints: usize) -> Result<(), Diagnostic> {
         while let Some((kind, number, name)) = reader.symbol()? {
             let unused = |count: usize| number < count;
             let known = match kind {
@@ -80,7 +80,7 @@ impl AigerModel {
 }
 
 /// The system of a graph: its variables are renumbered, the gates in an order in which each reads earlier ones.
-fn system(variables: usize, graph: &Graph, wanted: &[Placed]) -> Result<TransitionSystem, Diagnostic> {
+fn system(variables: usize, graph: &AigerGraph, wanted: &[Placed]) -> Result<TransitionSystem, Diagnostic> {
     let mut known: Vec<Option<AndLiteral>> = vec![None; variables + 1];
     known[0] = Some(0);
     let sources = graph.inputs.iter().copied().chain(graph.latches.iter().map(|latch| (latch.literal, latch.place)));
@@ -105,7 +105,7 @@ fn system(variables: usize, graph: &Graph, wanted: &[Placed]) -> Result<Transiti
         ands.push([a?, b?]);
     }
     let all = |list: &[Placed]| list.iter().map(|&placed| value(&known, placed)).collect::<Result<Vec<_>, _>>();
-    let register = |(at, latch): (usize, &crate::formats::aiger::Latch)| {
+    let register = |(at, latch): (usize, &crate::formats::aiger::AigerLatch)| {
         let next = value(&known, (latch.next, latch.place))?;
         Ok(SystemRegister { name: format!("l{at}"), start: latch.start, next })
     };

@@ -142,9 +142,8 @@ impl Induction {
     /// Requires that steps with the same state in what was found have different ones; whether there are any.
     fn require_different(&mut self, system: &TransitionSystem) -> bool {
         let states: Vec<Vec<bool>> = (0..=self.steps).map(|step| self.unrolled.state(system, step)).collect();
-        let same = |&(first, second): &(usize, usize)| {
-            self.relevant.iter().all(|&at| states[first][at] == states[second][at])
-        };
+        let same =
+            |&(first, second): &(usize, usize)| self.relevant.iter().all(|&at| states[first][at] == states[second][at]);
         let pairs = (1..states.len()).flat_map(|second| (0..second).map(move |first| (first, second)));
         let pairs: Vec<(usize, usize)> = pairs.filter(same).collect();
         for &(first, second) in &pairs {

@@ -48,8 +48,9 @@ struct Obligation {
 pub(super) struct Frames {
     cancel: CancelFlag,
     property: usize,
-    /// Properties that are proved.
+    /// Properties that are proved, and cubes that are known to be never reached.
     given: Vec<usize>,
+    known: Vec<Cube>,
     step: Unrolled,
     /// The literal that requires the start, and those that require the cubes to be left out, for each number of steps.
     active: Vec<Lit>,
@@ -69,13 +70,20 @@ pub(super) struct Frames {
 }
 
 impl Frames {
-    pub(super) fn new(system: &TransitionSystem, property: usize, given: Vec<usize>, cancel: CancelFlag) -> Self {
+    /// The search for an invariant, with properties that are proved and cubes that are known to be never reached.
+    pub(super) fn new(
+        system: &TransitionSystem,
+        property: usize,
+        (given, known): (Vec<usize>, Vec<Cube>),
+        cancel: CancelFlag,
+    ) -> Self {
         let step = Unrolled::new(false, cancel.clone());
         let constrained = step.solver.one();
         let mut frames = Self {
             cancel,
             property,
             given,
+            known,
             step,
             active: Vec::new(),
             constrained,
@@ -104,6 +112,10 @@ impl Frames {
         }
         for &property in &self.given {
             self.step.require(system, 0, system.bad[property] ^ 1);
+        }
+        for cube in self.known.clone() {
+            let clause = self.outside(system, &cube);
+            self.step.solver.clause(&clause);
         }
         let start = self.step.solver.fresh();
         self.active.push(start);
@@ -212,7 +224,7 @@ impl Frames {
             let last = self.steps();
             if frame < last && self.cubes[frame].is_empty() {
                 self.pushing = None;
-                return Found::Invariant(self.cubes[frame + 1..].concat());
+                return Found::Invariant([self.cubes[frame + 1..].concat(), self.known.clone()].concat());
             }
             self.pushing = (frame + 1 < last).then_some((frame + 1, 0));
             return Found::Nothing;
@@ -262,7 +274,7 @@ impl Frames {
             self.spent += 1;
             let active = self.step.solver.fresh();
             let mut clause = vec![!active];
-            clause.extend(cube.iter().map(|&(at, value)| !self.step.literal(system, 0, register_of(system, at, value))));
+            clause.extend(self.outside(system, cube));
             self.step.solver.clause(&clause);
             assumed.push(active);
             outside = Some(active);
@@ -272,9 +284,7 @@ impl Frames {
         assumed.extend(&nexts);
         let reached = match self.step.solver.solve(&assumed, u64::MAX) {
             Solved::Open => Reached::Open,
-            Solved::Yes => {
-                Reached::From { state: self.step.state(system, 0), inputs: self.step.inputs(system, 0) }
-            }
+            Solved::Yes => Reached::From { state: self.step.state(system, 0), inputs: self.step.inputs(system, 0) },
             Solved::No => {
                 let needed = cube.iter().zip(&nexts).filter(|(_, next)| self.step.solver.is_needed(**next));
                 let mut smaller: Cube = needed.map(|(&literal, _)| literal).collect();
@@ -338,8 +348,13 @@ impl Frames {
 
     fn leave_out(&mut self, system: &TransitionSystem, frame: usize, cube: &[(usize, bool)]) {
         let mut clause = vec![!self.active[frame]];
-        clause.extend(cube.iter().map(|&(at, value)| !self.step.literal(system, 0, register_of(system, at, value))));
+        clause.extend(self.outside(system, cube));
         self.step.solver.clause(&clause);
+    }
+
+    /// The clause of all states that are not in a cube.
+    fn outside(&mut self, system: &TransitionSystem, cube: &[(usize, bool)]) -> Vec<Lit> {
+        cube.iter().map(|&(at, value)| !self.step.literal(system, 0, register_of(system, at, value))).collect()
     }
 
     /// The run from the start through an obligation and all that follow it.

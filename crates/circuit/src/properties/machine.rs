@@ -1,8 +1,8 @@
 //! The steps of a circuit, as and-gates.
 //!
-//! The steps are the rows of a test. A circuit whose registers have one clock makes a step when it rises: the first step
-//! is before the first rise and shows the start values, and each later one shows the outputs after a rise, with the
-//! inputs that were there when the clock rose. A circuit without a clock makes a step whenever its inputs change and
+//! The steps are the rows of a test. A circuit whose registers have one clock makes a step when it rises: the first
+//! step is before the first rise and shows the start values, and each later one shows the outputs after a rise, with
+//! the inputs that were there when the clock rose. A circuit without a clock makes a step whenever its inputs change and
 //! everything has settled, at the level of logic: all cells take the same time. It must settle for all inputs.
 
 use crate::and_graph::{AndGraph, AndLiteral};
@@ -22,13 +22,13 @@ const MOST_TIME: usize = 64;
 
 /// A circuit as a machine that makes steps.
 #[derive(Clone, Debug)]
-pub struct Machine {
+pub(super) struct Machine {
     /// The number of input ports, the clock included.
-    pub inputs: usize,
+    pub(super) inputs: usize,
     /// The clock, as an index of the inputs.
-    pub clock: Option<usize>,
+    pub(super) clock: Option<usize>,
     /// The bits of its state.
-    pub state: Vec<StateBit>,
+    pub(super) state: Vec<StateBit>,
     kind: MachineKind,
 }
 
@@ -43,21 +43,22 @@ enum MachineKind {
 }
 
 impl Machine {
-    /// The machine that a circuit is.
+    /// The machine that a circuit is. Inputs are only those that make all outputs of `allowed` 1, of which each input
+    /// port is an input.
     ///
     /// # Errors
     /// When its memory has no steps.
     ///
     /// # Panics
     /// When the netlist is not well formed.
-    pub fn of(netlist: &Netlist, cancel: &CancelFlag) -> Result<Self, NoSteps> {
+    pub(super) fn of(netlist: &Netlist, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {
         match ClockStep::of(netlist) {
             Ok(step) if step.rises => Ok(Self::clocked(step)),
             Ok(step) => {
                 let clock = step.clock.map(|at| step.inputs[at].clone());
                 Err(NoSteps::Falls { clock: clock.expect("what falls is a clock") })
             }
-            Err(why) => Self::settling(netlist, why, cancel),
+            Err(why) => Self::settling(netlist, why, allowed, cancel),
         }
     }
 
@@ -67,7 +68,7 @@ impl Machine {
     }
 
     /// A circuit with feedback that is no flip-flop of one clock.
-    fn settling(netlist: &Netlist, why: WaveError, cancel: &CancelFlag) -> Result<Self, NoSteps> {
+    fn settling(netlist: &Netlist, why: WaveError, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {
         let mut plain = netlist.clone();
         let is_plain = DissolveWires.run_on(&mut plain).and_then(|()| Sweep.run(&mut plain));
         if is_plain.is_err() || plain.cells().count() > MOST_CELLS {
@@ -77,12 +78,10 @@ impl Machine {
         let cells: Vec<NetId> = plain.cells().map(|(id, _)| id).collect();
         let step = View::of(&plain, &cells).expect("all loops are cut").network;
         let logic = Logic::new(&plain);
-        let state: Vec<StateBit> = cells
-            .iter()
-            .map(|&id| StateBit { name: plain.net_label(id), start: logic.value(id) })
-            .collect();
+        let state: Vec<StateBit> =
+            cells.iter().map(|&id| StateBit { name: plain.net_label(id), start: logic.value(id) }).collect();
         let inputs = plain.inputs().len();
-        let time = settling_time(&step, inputs, &state, cancel)?;
+        let time = settling_time(&step, allowed, &state, cancel)?;
         Ok(Self { inputs, clock: None, state, kind: MachineKind::Settling(step, time) })
     }
 
@@ -120,12 +119,7 @@ impl Machine {
 }
 
 /// The outputs of a network of ports and a state.
-fn applied(
-    graph: &mut AndGraph,
-    network: &Network,
-    inputs: &[AndLiteral],
-    state: &[AndLiteral],
-) -> Vec<AndLiteral> {
+fn applied(graph: &mut AndGraph, network: &Network, inputs: &[AndLiteral], state: &[AndLiteral]) -> Vec<AndLiteral> {
     graph.outputs(network, &[inputs, state].concat())
 }
 
@@ -142,18 +136,26 @@ fn settled(
 }
 
 /// The number of time steps after which nothing changes any more, from any settled state and from the start, for all
-/// inputs.
-fn settling_time(step: &Network, inputs: usize, start: &[StateBit], cancel: &CancelFlag) -> Result<usize, NoSteps> {
+/// inputs that are allowed.
+fn settling_time(step: &Network, allowed: &Network, start: &[StateBit], cancel: &CancelFlag) -> Result<usize, NoSteps> {
+    let inputs = allowed.inputs;
     // The inputs before, the inputs now, and the cells.
     let mut graph = AndGraph::new(2 * inputs + start.len());
-    let sources = |graph: &AndGraph, range: std::ops::Range<usize>| range.map(|at| graph.source(at)).collect::<Vec<_>>();
+    let sources =
+        |graph: &AndGraph, range: std::ops::Range<usize>| range.map(|at| graph.source(at)).collect::<Vec<_>>();
     let before = sources(&graph, 0..inputs);
     let now = sources(&graph, inputs..2 * inputs);
     let cells = sources(&graph, 2 * inputs..2 * inputs + start.len());
     let kept = settled(&mut graph, step, &before, &cells, 1);
     let at_rest = same(&mut graph, &cells, &kept);
     let beginning = cells.iter().zip(start).fold(1, |all, (&cell, bit)| graph.and(all, cell ^ usize::from(!bit.start)));
-    let possible = graph.or(at_rest, beginning);
+    let permit = |graph: &mut AndGraph, inputs: &[AndLiteral]| {
+        graph.outputs(allowed, inputs).into_iter().fold(1, |all, output| graph.and(all, output))
+    };
+    let [was_allowed, is_allowed] = [&before, &now].map(|inputs| permit(&mut graph, inputs));
+    let rested = graph.and(at_rest, was_allowed);
+    let from = graph.or(rested, beginning);
+    let possible = graph.and(from, is_allowed);
     let mut last = cells;
     for time in 0..=MOST_TIME {
         let next = settled(&mut graph, step, &now, &last, 1);

@@ -21,7 +21,6 @@ mod wording;
 
 pub use crate::and_graph::AndLiteral;
 pub use certificate::InductiveProof;
-pub use machine::Machine;
 pub use monitor::Monitored;
 pub use search::{PropertySearch, PropertyVerdict, SearchBudget};
 pub use system::{SystemRegister, SystemRun, TransitionSystem};

@@ -2,14 +2,15 @@
 //! inputs are the ports of the machine and a clock, its registers remember what was there in the step before, and its
 //! outputs are the expressions of the properties.
 
+use crate::Netlist;
 use crate::and_graph::{AndGraph, AndLiteral};
-use crate::network::Network;
+use crate::network::{Network, Signal};
 use crate::properties::machine::Machine;
 use crate::properties::system::{SystemRegister, TransitionSystem};
 use crate::properties::wording::NoSteps;
 use crate::waves::{ClockStep, StateBit};
-use crate::Netlist;
-use nbc_base::model::{Property, PropertyKind};
+use nbc_base::model::{Function, Property, PropertyKind};
+use nbc_base::source::CancelFlag;
 
 /// A machine and its properties, ready for a search.
 #[derive(Clone, Debug)]
@@ -18,24 +19,56 @@ pub struct Monitored {
     pub system: TransitionSystem,
     /// For each input of the system, the input port of the circuit.
     pub ports: Vec<usize>,
+    /// The input port that is the clock.
+    pub clock: Option<usize>,
 }
 
 impl Monitored {
-    /// The system of a machine and a monitor. The monitor has an output for each property, and one before it for what
+    /// The system of a circuit and a monitor. The monitor has an output for each property, and one before it for what
     /// the property depends on, if it has a condition.
     ///
     /// # Errors
-    /// When a property reads the clock.
+    /// When the circuit has no steps, or a property reads their clock.
     ///
     /// # Panics
     /// When the monitor does not have these ports, or has other memory than registers of its clock.
-    pub fn of(machine: &Machine, monitor: &Netlist, properties: &[Property]) -> Result<Self, NoSteps> {
+    pub fn of(
+        circuit: &Netlist,
+        monitor: &Netlist,
+        properties: &[Property],
+        cancel: &CancelFlag,
+    ) -> Result<Self, NoSteps> {
         let monitor = ClockStep::of(monitor).expect("a monitor has registers of one clock");
+        let machine = &Machine::of(circuit, &allowed(&monitor, properties, circuit.inputs().len()), cancel)?;
         if let Some(clock) = machine.clock.filter(|&clock| reads(&monitor.logic, clock)) {
             return Err(NoSteps::ClockHasNoValue { clock: monitor.inputs[clock].clone() });
         }
         Ok(Assembly::of(machine, &monitor, properties))
     }
+}
+
+/// What the assumptions say of the inputs alone, as a network of the input ports whose outputs must be 1.
+fn allowed(monitor: &ClockStep, properties: &[Property], ports: usize) -> Network {
+    let mut made = Network::new(ports);
+    let input = |signal: usize| (signal < 2 + ports).then_some(signal as Signal);
+    let mut known: Vec<Option<Signal>> = (0..2 + monitor.logic.inputs).map(input).collect();
+    for gate in &monitor.logic.gates {
+        let pin = |pin: usize| if gate.function.depends_on(pin) { known[gate.pins[pin] as usize] } else { Some(0) };
+        let pins = pin(0).zip(pin(1));
+        known.push(pins.map(|(a, b)| made.add(gate.function, [a, b])));
+    }
+    let mut said = monitor.logic.outputs.iter().map(|&output| known[output as usize]);
+    for property in properties {
+        let own: Vec<Option<Signal>> = said.by_ref().take(property.outputs()).collect();
+        let allows = match own[..] {
+            _ if property.kind != PropertyKind::Assume => None,
+            [Some(condition), Some(value)] => Some(made.add(Function::OR.with_input_inverted(0), [condition, value])),
+            [Some(value)] => Some(value),
+            _ => None,
+        };
+        made.outputs.extend(allows);
+    }
+    made
 }
 
 /// Whether an output of a network depends on an input.
@@ -71,7 +104,8 @@ impl Assembly {
             false => 0,
         };
         let remembered = assembly.state(&monitor.state);
-        let started: Vec<AndLiteral> = (1..=depth).map(|step| assembly.register(&format!("step {step}"), false)).collect();
+        let started: Vec<AndLiteral> =
+            (1..=depth).map(|step| assembly.register(&format!("step {step}"), false)).collect();
 
         let mut inputs = vec![0; machine.inputs];
         ports.iter().enumerate().for_each(|(at, &port)| inputs[port] = assembly.graph.source(at));
@@ -99,7 +133,7 @@ impl Assembly {
                 (_, Some(within)) => {
                     let mut waiting = wrong;
                     for step in 1..=within {
-                        let before = assembly.register(&format!("{step} steps without it"), false);
+                        let before = assembly.register(&format!("waiting[{step}]"), false);
                         nexts.push(waiting);
                         waiting = assembly.graph.and(before, value ^ 1);
                     }
@@ -110,7 +144,8 @@ impl Assembly {
         let Self { graph, mut registers, .. } = assembly;
         registers.iter_mut().zip(nexts).for_each(|(register, next)| register.next = next);
         let names = ports.iter().map(|&port| monitor.inputs[port].clone()).collect();
-        Monitored { system: TransitionSystem { inputs: names, registers, ands: graph.ands, bad, constraints }, ports }
+        let system = TransitionSystem { inputs: names, registers, ands: graph.ands, bad, constraints };
+        Monitored { system, ports, clock: machine.clock }
     }
 
     fn register(&mut self, name: &str, start: bool) -> AndLiteral {

@@ -1,22 +1,26 @@
-//! The search that decides properties: bounded search and induction for the first steps, then bounded search and the
-//! search for invariants in turn, each with the same share of work.
+//! The search that decides properties: bounded search and induction for the first steps, then bounded search, induction
+//! and the search for invariants in turn, each with the same share of work.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::properties::bounded::{Bounded, Induction};
 use crate::properties::certificate::InductiveProof;
+use crate::properties::cubes::Cube;
 use crate::properties::frames::{Found, Frames};
 use crate::properties::system::{SystemRun, TransitionSystem};
 use nbc_base::source::CancelFlag;
 
-/// The steps in which induction is tried.
-const INDUCTION_STEPS: usize = 12;
+/// The steps in which only bounded search and induction are tried.
+const FIRST_STEPS: usize = 8;
+
+/// The most steps of an induction.
+const INDUCTION_STEPS: usize = 40;
 
 /// The work of one call of the solver in bounded search and induction.
 const PORTION: u64 = 2_000;
 
-/// The most work of the induction.
-const INDUCTION_WORK: u64 = 20_000;
+/// The most work in the first steps.
+const FIRST_WORK: u64 = 20_000;
 
 /// What is known of a property.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -55,11 +59,15 @@ pub struct PropertySearch {
     verdicts: BTreeMap<usize, PropertyVerdict>,
     open: BTreeSet<usize>,
     bounded: Bounded,
-    induction: Option<Induction>,
+    induction: Induction,
+    /// Whether a proof by induction over more steps is still tried.
+    induces: bool,
     /// The search for an invariant of the first open property, with the steps that each has done.
     frames: Option<(usize, Frames)>,
     /// The work of searches for invariants that have ended.
     frames_work: u64,
+    /// States that are never reached, as cubes.
+    known: Vec<Cube>,
 }
 
 impl PropertySearch {
@@ -67,7 +75,7 @@ impl PropertySearch {
     pub fn new(system: TransitionSystem, budget: SearchBudget, cancel: CancelFlag) -> Self {
         let open = (0..system.bad.len()).collect();
         let bounded = Bounded::new(&system, cancel.clone());
-        let induction = Some(Induction::new(&system, cancel.clone()));
+        let induction = Induction::new(&system, cancel.clone());
         Self {
             system,
             budget,
@@ -76,8 +84,10 @@ impl PropertySearch {
             open,
             bounded,
             induction,
+            induces: true,
             frames: None,
             frames_work: 0,
+            known: Vec::new(),
         }
     }
 
@@ -98,8 +108,7 @@ impl PropertySearch {
 
     /// The work so far.
     pub fn work(&self) -> u64 {
-        let induction = self.induction.as_ref().map_or(0, Induction::work);
-        self.bounded.work() + induction + self.invariant_work()
+        self.bounded.work() + self.induction.work() + self.invariant_work()
     }
 
     fn invariant_work(&self) -> u64 {
@@ -116,39 +125,28 @@ impl PropertySearch {
         if self.is_done() {
             return;
         }
-        if self.induction.is_some() {
-            self.begin();
-        } else if self.bounded.step < self.budget.steps && self.bounded.work() < self.invariant_work() {
+        let is_first = self.bounded.step <= FIRST_STEPS && self.bounded.work() < FIRST_WORK;
+        let [bounded, invariant] = [self.bounded.work(), self.invariant_work()];
+        let is_behind = self.induces && self.induction.steps < self.bounded.step;
+        if is_behind && (is_first || self.induction.work() < bounded.min(invariant)) {
+            self.induce();
+        } else if self.bounded.step < self.budget.steps && (is_first || bounded < invariant) {
             self.look_further();
         } else {
             self.look_for_invariant();
         }
     }
 
-    /// The first steps: induction over each number of steps in which the bounded search has found nothing.
-    fn begin(&mut self) {
-        let Some(induction) = &mut self.induction else { return };
-        if induction.steps >= INDUCTION_STEPS || induction.work() > INDUCTION_WORK {
-            self.induction = None;
-        } else if self.bounded.step <= induction.steps {
-            let before = self.bounded.work();
-            self.look_further();
-            if self.bounded.work() > before + PORTION / 2 {
-                // The first steps are hard: what does not unroll them may be quicker.
-                self.induction = None;
-            }
-        } else {
-            induction.extend(&self.system);
-            match induction.proved(&self.system, &self.open, PORTION) {
-                None => self.induction = None,
-                Some(together) => {
-                    let steps = induction.steps;
-                    for &property in &together {
-                        let proof = InductiveProof::Steps { steps, together: together.clone() };
-                        self.decide(property, PropertyVerdict::Proved(proof));
-                    }
-                }
-            }
+    /// Induction over one step more, all of which the bounded search has looked at.
+    fn induce(&mut self) {
+        self.induction.extend(&self.system);
+        let steps = self.induction.steps;
+        let found = self.induction.proved(&self.system, &self.open, PORTION);
+        self.induces = steps < INDUCTION_STEPS && found.is_some();
+        let together = found.unwrap_or_default();
+        for &property in &together {
+            let proof = InductiveProof::Steps { steps, together: together.clone() };
+            self.decide(property, PropertyVerdict::Proved(proof));
         }
     }
 
@@ -168,14 +166,16 @@ impl PropertySearch {
         let (system, cancel) = (&self.system, &self.cancel);
         let proved = self.verdicts.iter().filter(|(_, verdict)| matches!(verdict, PropertyVerdict::Proved(_)));
         let given: Vec<usize> = proved.map(|(&property, _)| property).collect();
-        let (_, frames) =
-            self.frames.get_or_insert_with(|| (first, Frames::new(system, first, given, cancel.clone())));
+        let known = self.known.clone();
+        let begin = || (first, Frames::new(system, first, (given, known), cancel.clone()));
+        let (_, frames) = self.frames.get_or_insert_with(begin);
         match frames.advance(system) {
             Found::Nothing => {}
             Found::Violation(run) => self.decide(first, PropertyVerdict::Refuted(run)),
             Found::Invariant(cubes) => {
                 let given = frames.given().iter().copied().collect();
-                let opposite = |cube: Vec<(usize, bool)>| cube.into_iter().map(|(at, value)| (at, !value)).collect();
+                self.known.clone_from(&cubes);
+                let opposite = |cube: Cube| cube.into_iter().map(|(at, value)| (at, !value)).collect();
                 let clauses = cubes.into_iter().map(opposite).collect();
                 self.decide(first, PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }));
             }

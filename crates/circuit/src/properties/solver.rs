@@ -5,14 +5,14 @@ use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, lb
 use nbc_base::source::CancelFlag;
 
 /// What ends a call of the solver.
-pub(super) struct Limits {
+pub(super) struct SolverLimits {
     /// The clauses learned so far.
     learned: u64,
     most: u64,
     cancel: CancelFlag,
 }
 
-impl Callbacks for Limits {
+impl Callbacks for SolverLimits {
     fn on_new_clause(&mut self, _: &[Lit], source: ClauseKind) {
         self.learned += u64::from(source == ClauseKind::Learnt);
     }
@@ -35,14 +35,14 @@ pub(super) enum Solved {
 
 /// A solver with its literal for 1.
 pub(super) struct ClauseSolver {
-    solver: Solver<Limits>,
+    solver: Solver<SolverLimits>,
     one: Lit,
     calls: u64,
 }
 
 impl ClauseSolver {
     pub(super) fn new(cancel: CancelFlag) -> Self {
-        let limits = Limits { learned: 0, most: u64::MAX, cancel };
+        let limits = SolverLimits { learned: 0, most: u64::MAX, cancel };
         let mut solver = Solver::new(SolverOpts::default(), limits);
         let one = Lit::new(solver.new_var_default(), true);
         solver.add_clause_reuse(&mut vec![one]);

@@ -99,8 +99,8 @@ impl TransitionSystem {
         self.registers.iter().zip(state).all(|(register, &value)| register.start.is_none_or(|start| start == value))
     }
 
-    /// The first step of a run, counted from 0, that violates a property; `None` if none does, the run does not begin at
-    /// the start, or a constraint does not hold before.
+    /// The first step of a run, counted from 0, that violates a property; `None` if none does, the run does not begin
+    /// at the start, or a constraint does not hold before.
     pub fn violation(&self, property: usize, run: &SystemRun) -> Option<usize> {
         if !self.may_start(&run.start) {
             return None;

@@ -98,9 +98,9 @@ fn word(rule: Rule) -> Option<&'static str> {
         }
         Rule::columns | Rule::inputs | Rule::outputs | Rule::operands | Rule::named_operands => "`(`",
         Rule::spells | Rule::body | Rule::test_table => "`{`",
-        Rule::property | Rule::quantifier => "`always`, `never` or `assume`",
+        Rule::property | Rule::quantifier => "a property",
         Rule::implies => "`=>`",
-        Rule::within => "`within`",
+        Rule::within | Rule::within_word => "`within`",
         Rule::steps_word => "`steps`",
         Rule::spell | Rule::row | Rule::cell | Rule::repeated => "a row",
         Rule::until => "`until`",

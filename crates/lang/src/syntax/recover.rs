@@ -148,7 +148,9 @@ impl Recovery<'_> {
             (PartKind::Statement, "for") => Some(PartKind::Statement),
             (PartKind::Row, "repeat") => Some(PartKind::Row),
             (PartKind::Field, _) => Some(PartKind::Field),
-            (PartKind::Statement | PartKind::Property, _) if self.is_table(at) || self.is_match(start, at) => Some(PartKind::TableRow),
+            (PartKind::Statement | PartKind::Property, _) if self.is_table(at) || self.is_match(start, at) => {
+                Some(PartKind::TableRow)
+            }
             _ => None,
         }
     }
@@ -244,8 +246,8 @@ fn continues(before: &str, here: &str) -> bool {
     let infix = |word: &str| {
         let words = ["and", "nand", "or", "nor", "xor", "xnor", "then", "else", "init", "in"];
         let signs = [
-            "=", "=>", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^", "?",
-            ":", ":=", ",",
+            "=", "=>", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|",
+            "^", "?", ":", ":=", ",",
         ];
         words.contains(&word) || signs.contains(&word)
     };

@@ -103,13 +103,15 @@ impl<'a> Assembly<'a> {
                 let span = source.body.expressions[value.0 as usize].span;
                 let target =
                     tree::TargetSyntax { name: name(text, span), index: None, second: None, start: None, span };
-                let kind = tree::StatementKind::Drive { targets: vec![target], grouping: tree::Grouping::Single, value };
+                let kind =
+                    tree::StatementKind::Drive { targets: vec![target], grouping: tree::Grouping::Single, value };
                 body.statements.push(tree::StatementSyntax { kind, span });
             }
         }
         let name = name(format!("{} as claimed", source.circuit.name.text), place);
         let parameters = Vec::new();
-        let circuit = tree::CircuitSyntax { is_environment: false, name, parameters, inputs: seen, outputs: said, body };
+        let circuit =
+            tree::CircuitSyntax { is_environment: false, name, parameters, inputs: seen, outputs: said, body };
         let checked = monitor(&circuit, Vocabulary::of(&self.names, program), &self.circuits.headers);
         self.beside_ports(checked, &source.circuit.name, &source.circuit.name.text)
     }
@@ -118,11 +120,9 @@ impl<'a> Assembly<'a> {
 /// The most steps before that an expression looks at: how deep calls of `before` are inside each other.
 fn depth(expressions: &[tree::ExpressionSyntax], root: ExpressionSyntaxId) -> usize {
     let first = first_leaf(expressions, root) as usize;
-    let is_before = |kind: &ExpressionSyntaxKind| {
-        matches!(kind, ExpressionSyntaxKind::Call { name, .. } if name.text == BEFORE)
-    };
+    let is_before =
+        |kind: &ExpressionSyntaxKind| matches!(kind, ExpressionSyntaxKind::Call { name, .. } if name.text == BEFORE);
     let calls = (first..=root.0 as usize).filter(|&at| is_before(&expressions[at].kind));
-    let ranges: Vec<_> =
-        calls.map(|at| first_leaf(expressions, ExpressionSyntaxId(at as u32)) as usize..=at).collect();
+    let ranges: Vec<_> = calls.map(|at| first_leaf(expressions, ExpressionSyntaxId(at as u32)) as usize..=at).collect();
     ranges.iter().map(|inner| ranges.iter().filter(|outer| outer.contains(inner.end())).count()).max().unwrap_or(0)
 }

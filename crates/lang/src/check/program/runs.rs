@@ -266,7 +266,7 @@ impl<'a> Assembly<'a> {
     }
 
     /// The circuit of a test.
-    fn instance(&mut self, source: &tree::InstanceSyntax, program: &Program) -> Option<Instance> {
+    pub(super) fn instance(&mut self, source: &tree::InstanceSyntax, program: &Program) -> Option<Instance> {
         let declared = Vocabulary::of(&self.names, program);
         let named = instance(source, Home::Own, declared, &self.circuits.headers);
         named.map_err(|fault| self.faults.push(fault)).ok()
