@@ -2,8 +2,8 @@
 //!
 //! The steps are the rows of a test. A circuit whose registers have one clock makes a step when it rises: the first
 //! step is before the first rise and shows the start values, and each later one shows the outputs after a rise, with
-//! the inputs that were there when the clock rose. A circuit without a clock makes a step whenever its inputs change and
-//! everything has settled, at the level of logic: all cells take the same time. It must settle for all inputs.
+//! the inputs that were there when the clock rose. A circuit without a clock makes a step whenever its inputs change
+//! and everything has settled, at the level of logic: all cells take the same time. It must settle for all inputs.
 
 use crate::and_graph::{AndGraph, AndLiteral};
 use crate::network::{Network, View};
