@@ -116,7 +116,8 @@ impl ClaimSearch {
         }
         assert!(watcher.shows(&self.claim.properties, property), "the cells violate `{}` in this run", property.text);
         let (title, stimulation) = (property.text.clone(), Stimulation::Rows(rows));
-        CircuitTest { circuit, title, span, file, line, inputs, outputs, stimulation, worlds: Vec::new() }
+        let (rows_from, worlds) = (None, Vec::new());
+        CircuitTest { circuit, title, span, file, line, inputs, outputs, stimulation, rows_from, worlds }
     }
 }
 
