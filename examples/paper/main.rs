@@ -143,7 +143,7 @@ fn print_runs(declarations: &[(&str, &BTreeMap<u64, Run>)]) {
 
 /// The generation in which a run had all behaviors.
 fn whole(run: &Run) -> f64 {
-    let found = run.results.progress.iter().find(|line| line.behaviors.len() == 16);
+    let found = run.results.progress.iter().find(|line| line.best.len() == 16);
     found.map_or(f64::INFINITY, |line| f64::from(line.generation))
 }
 

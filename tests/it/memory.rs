@@ -240,10 +240,9 @@ fn gallery(library: &CellLibrary) -> Vec<Netlist> {
         let circuits: std::collections::BTreeSet<_> =
             program.tests.iter().map(|test| test.circuit.to_string()).collect();
         let of = |name: &String| program.tests.iter().find(|test| test.circuit.to_string() == *name).unwrap();
-        let netlists = circuits
-            .iter()
-            .map(|name| map_with(&elaborate(program, &of(name).circuit).unwrap(), library, &fast).unwrap());
-        found.extend(netlists.filter(|netlist| !Loops::memory(netlist).cores().is_empty()));
+        let netlists = circuits.iter().map(|name| elaborate(program, &of(name).circuit).unwrap());
+        let with_memory = netlists.filter(|netlist| !Loops::memory(netlist).cores().is_empty());
+        found.extend(with_memory.map(|netlist| map_with(&netlist, library, &fast).unwrap()));
     }
     assert!(found.len() > 5, "the gallery has memory");
     found

@@ -9,9 +9,7 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFile, VerilogPlace};
 use nbc_circuit::CancelFlag;
-use nbc_circuit::formats::{
-    AigerModel, CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module,
-};
+use nbc_circuit::formats::{AigerModel, CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module};
 use nbc_lang::syntax;
 
 /// A circuit file to be read.
