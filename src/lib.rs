@@ -444,7 +444,7 @@ pub use nbc_sim::{Flock, Snapshot};
 /// scenes.reset(0);
 /// scenes.restore(0, &before);
 /// ```
-pub use nbc_sim::{Constants, Grid, Scene, SceneObject, SceneState, Scenes, State};
+pub use nbc_sim::{Constants, Grid, ObjectCenter, Scene, SceneObject, SceneState, Scenes, Sight, State};
 
 /// ```
 /// use nbc::{MemoryWorld, OverlayWorld, SourceWorld};

@@ -1,5 +1,7 @@
 //! Voxels as the physics sees them: what robots, packages and terrain are made of (docs/physics.md 1 and 16).
 
+use std::collections::BTreeSet;
+
 use nbc_base::model::{Body, MaterialKind};
 
 /// A voxel of a grid.
@@ -37,11 +39,16 @@ pub struct Grid {
     cells: Vec<Option<GridCell>>,
     codes: Vec<u8>,
     channels: usize,
+    /// Neighbors that are not joined: their places in reading order, the smaller first.
+    apart: BTreeSet<[usize; 2]>,
 }
+
+/// The neighbor across each side: columns, rows. Sides are numbered clockwise from the top.
+const ACROSS: [[isize; 2]; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
 
 impl Grid {
     /// Evolution Gym's codes, row by row from the top: 0 empty, 1 rigid, 2 soft, 3 horizontal actuator, 4 vertical
-    /// actuator, 5 fixed. The actuators' channels are their places in reading order.
+    /// actuator, 5 fixed. The actuators' channels are their places in reading order. All neighbors are joined.
     ///
     /// # Panics
     /// When the number of codes is not `width * height`, or a code is above 5.
@@ -62,7 +69,13 @@ impl Grid {
             _ => panic!("codes are 0 to 5"),
         };
         let cells = codes.iter().map(cell).collect();
-        Self { width, height, cells, codes: codes.to_vec(), channels }
+        Self { width, height, cells, codes: codes.to_vec(), channels, apart: BTreeSet::new() }
+    }
+
+    /// The same grid with some neighbors left apart: their places in reading order.
+    pub fn with_apart(mut self, pairs: impl IntoIterator<Item = [usize; 2]>) -> Self {
+        self.apart.extend(pairs.into_iter().map(|[a, b]| [a.min(b), a.max(b)]));
+        self
     }
 
     /// The number of columns.
@@ -86,6 +99,17 @@ impl Grid {
         if is_inside { self.cells[row as usize * self.width + column as usize] } else { None }
     }
 
+    /// Whether a voxel is joined to a neighbor across a side: 0 the top, 1 the right, 2 the bottom, 3 the left.
+    pub fn is_joined(&self, row: usize, column: usize, side: usize) -> bool {
+        let [across, down] = ACROSS[side];
+        let (to_row, to_column) = (row as isize + down, column as isize + across);
+        if self.cell(row as isize, column as isize).is_none() || self.cell(to_row, to_column).is_none() {
+            return false;
+        }
+        let ends = [row * self.width + column, to_row as usize * self.width + to_column as usize];
+        !self.apart.contains(&[ends[0].min(ends[1]), ends[0].max(ends[1])])
+    }
+
     /// The code of a place inside the grid.
     pub fn code(&self, row: usize, column: usize) -> u8 {
         self.codes[row * self.width + column]
@@ -105,13 +129,17 @@ impl Grid {
     /// those of the grid above it.
     pub fn stack(grids: &[&Grid]) -> (Self, Vec<usize>) {
         let width = grids.iter().map(|grid| grid.width).max().unwrap_or(0);
-        let mut stack = Self { width, height: 0, cells: Vec::new(), codes: Vec::new(), channels: 0 };
+        let (cells, codes, apart) = (Vec::new(), Vec::new(), BTreeSet::new());
+        let mut stack = Self { width, height: 0, cells, codes, channels: 0, apart };
         let mut tops = Vec::with_capacity(grids.len());
         for grid in grids {
             if stack.height > 0 {
                 stack.height += 1;
             }
             tops.push(stack.height);
+            let place = |at: usize| (stack.height + at / grid.width) * width + at % grid.width;
+            let apart: Vec<[usize; 2]> = grid.apart.iter().map(|pair| pair.map(place)).collect();
+            stack.apart.extend(apart);
             stack.height += grid.height;
             stack.cells.resize(tops[tops.len() - 1] * width, None);
             stack.codes.resize(stack.cells.len(), 0);
@@ -151,6 +179,7 @@ impl From<&Body> for Grid {
             cells: body.codes().iter().map(cell).collect(),
             codes: body.codes().to_vec(),
             channels: body.palette().materials().len() + 1,
+            apart: BTreeSet::new(),
         }
     }
 }
@@ -168,5 +197,21 @@ mod tests {
         assert_eq!(codes, [3, 0, 1, 0, 0, 0, 4, 5]);
         assert_eq!(stack.cell(3, 0), Some(GridCell::Active { channel: 1, axis: DriveAxis::Vertical }));
         assert_eq!((stack.cell(2, 0), stack.cell(-1, 0), stack.cell(0, 2)), (None, None, None));
+    }
+
+    #[test]
+    fn neighbors_that_are_left_apart_stay_so_in_a_stack() {
+        let slit = Grid::structure(2, 2, &[3; 4]).with_apart([[1, 0]]);
+        let joined =
+            |grid: &Grid, row: usize, column: usize| [0, 1, 2, 3].map(|side| grid.is_joined(row, column, side));
+        assert_eq!(joined(&slit, 0, 0), [false, false, true, false]);
+        assert_eq!(joined(&slit, 1, 0), [true, true, false, false]);
+        let (stack, tops) = Grid::stack(&[&Grid::structure(3, 1, &[5; 3]), &slit]);
+        assert_eq!(tops, [0, 2]);
+        assert_eq!(joined(&stack, 2, 0), [false, false, true, false]);
+        assert_eq!(
+            (joined(&stack, 2, 1), joined(&stack, 0, 1)),
+            ([false, false, true, false], [false, true, false, true])
+        );
     }
 }

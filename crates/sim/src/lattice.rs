@@ -1,6 +1,6 @@
 //! A body's lattice at rest: its points, its edges with their springs, its surface (docs/physics.md 2 and 3).
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use crate::constants::Constants;
 use crate::grid::{DriveAxis, Grid, GridCell};
@@ -39,9 +39,9 @@ pub struct LatticePoint {
     pub column: usize,
     /// Rows from the top edge of the body's box.
     pub row: usize,
-    /// If two voxels touch only diagonally, each has its own point here: false for the upper, true for the lower
-    /// voxel's.
-    pub twin: bool,
+    /// Voxels that touch only diagonally, or are left apart, have points of their own here, numbered in order of
+    /// creation.
+    pub copy: u8,
 }
 
 /// An edge between two points, which is a spring.
@@ -55,6 +55,9 @@ pub struct Edge {
     pub rest: f64,
     /// Stiffness in newtons per meter (docs/physics.md 3).
     pub stiffness: f64,
+    /// Whether it is the earlier one of two edges with the same ends: neighbors that are left apart may share both
+    /// points of their sides.
+    pub doubled: bool,
 }
 
 /// A voxel that is not empty.
@@ -74,6 +77,9 @@ pub struct Voxel {
     pub corners: [usize; CORNERS],
     /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
+    /// The ends of the edges at its top and its left side, if any of them is not between its corners (docs/physics.md
+    /// 16): left before right, and upper before lower.
+    pub strays: Option<[[usize; 2]; 2]>,
 }
 
 impl Voxel {
@@ -176,9 +182,6 @@ const OFFSETS: [(usize, usize); CORNERS] = [(0, 0), (1, 0), (1, 1), (0, 1)];
 /// Corners in order of creation: top left, top right, bottom left, bottom right.
 const CREATION: [usize; CORNERS] = [0, 1, 3, 2];
 
-/// The neighbour across each side: columns, rows.
-const ACROSS: [(isize, isize); CORNERS] = [(0, -1), (1, 0), (0, 1), (-1, 0)];
-
 /// A lattice under construction.
 struct Builder<'a> {
     grid: &'a Grid,
@@ -188,23 +191,37 @@ struct Builder<'a> {
 
 /// An edge while its owners are being visited.
 struct Draft {
+    ends: (End, End),
     rest: f64,
     stiffness: f64,
     drivers: Vec<(u16, DriveAxis)>,
 }
 
+/// The sides at each corner: that above or below, then that to the left or right.
+const SIDES: [[usize; 2]; CORNERS] = [[0, 3], [0, 1], [2, 1], [2, 3]];
+
+/// Each corner as seen from the neighbor across these sides, and from the diagonal one.
+const SEEN: [[usize; 3]; CORNERS] = [[3, 1, 2], [2, 0, 3], [1, 3, 0], [0, 2, 1]];
+
+/// The two corners of each side, left before right and upper before lower.
+const ALONG: [[usize; 2]; CORNERS] = [[0, 1], [1, 2], [3, 2], [0, 3]];
+
 impl Builder<'_> {
     fn build(self) -> Lattice {
-        let (points, voxels) = self.points_and_voxels();
-        let drafts = self.drafts(&points, &voxels);
-        let mut edges = Vec::with_capacity(drafts.len());
+        let (points, mut voxels) = self.points_and_voxels();
+        let mut drafts = self.drafts(&points, &mut voxels);
+        // Of those with the same ends the earlier one stays first.
+        drafts.sort_by_key(|draft| draft.ends);
+        let mut edges: Vec<Edge> = Vec::with_capacity(drafts.len());
         let mut driven = Vec::new();
-        for ((a, b), draft) in drafts {
+        for (n, draft) in drafts.iter().enumerate() {
             if let Some(&(first, axis)) = draft.drivers.first() {
                 let second = draft.drivers.get(1).map(|&(channel, _)| channel);
-                driven.push(DrivenEdge { edge: edges.len(), first, second, axis });
+                driven.push(DrivenEdge { edge: n, first, second, axis });
             }
-            edges.push(Edge { a: a.1, b: b.1, rest: draft.rest, stiffness: draft.stiffness });
+            let doubled = drafts.get(n + 1).is_some_and(|next| next.ends == draft.ends);
+            let (a, b) = (draft.ends.0.1, draft.ends.1.1);
+            edges.push(Edge { a, b, rest: draft.rest, stiffness: draft.stiffness, doubled });
         }
         let holds = |voxel: &&Voxel| self.cell(voxel) == GridCell::Fixed;
         let fixed: BTreeSet<usize> = voxels.iter().filter(holds).flat_map(|voxel| voxel.corners).collect();
@@ -216,74 +233,115 @@ impl Builder<'_> {
         self.grid.cell(voxel.row as isize, voxel.column as isize).expect("a voxel is not empty")
     }
 
-    fn occupied(&self, column: isize, row: isize) -> bool {
-        self.grid.cell(row, column).is_some()
-    }
-
-    /// Whether the lattice point at (column, row) is two points: exactly two voxels around it, diagonal to each other.
-    fn is_split(&self, column: usize, row: usize) -> bool {
-        let (i, j) = (column as isize, row as isize);
-        let falling = [(i - 1, j - 1), (i, j)].map(|(column, row)| self.occupied(column, row));
-        let rising = [(i, j - 1), (i - 1, j)].map(|(column, row)| self.occupied(column, row));
-        (falling == [true; 2] && rising == [false; 2]) || (falling == [false; 2] && rising == [true; 2])
-    }
-
+    /// Voxels share the points that Evolution Gym's do: a corner is that of the voxel across a side, if they are joined
+    /// and that has been visited, or that of the diagonal voxel which one of them is joined to. Of several the last
+    /// counts.
     fn points_and_voxels(&self) -> (Vec<LatticePoint>, Vec<Voxel>) {
-        let mut points = Vec::new();
-        let mut voxels = Vec::new();
-        let mut numbers = BTreeMap::new();
+        let (mut points, mut voxels): (Vec<LatticePoint>, Vec<Voxel>) = (Vec::new(), Vec::new());
+        // The corners of the voxels in the row above and in this row.
+        let mut visited: [Vec<Option<[usize; CORNERS]>>; 2] = [const { Vec::new() }; 2];
+        let mut copies: Vec<u8> = vec![0; (self.grid.width() + 1) * (self.grid.height() + 1)];
         for row in 0..self.grid.height() {
+            visited.swap(0, 1);
+            visited[1] = vec![None; self.grid.width() + 1];
+            visited[0].resize(self.grid.width() + 1, None);
             for column in 0..self.grid.width() {
                 let Some(cell) = self.grid.cell(row as isize, column as isize) else { continue };
-                let mut corners = [0; CORNERS];
+                let mut corners = [usize::MAX; CORNERS];
                 for corner in CREATION {
                     let (i, j) = (column + OFFSETS[corner].0, row + OFFSETS[corner].1);
-                    let point = LatticePoint { column: i, row: j, twin: self.is_split(i, j) && j == row };
-                    corners[corner] = *numbers.entry(point).or_insert_with(|| {
-                        points.push(point);
+                    let shared = self.neighbors_at(row, column, corner).into_iter().flatten();
+                    let found = shared.filter_map(|(row_of, column_of, corner)| {
+                        let line = (row_of + 1).checked_sub(row).filter(|&line| line < 2)?;
+                        Some(visited[line][column_of]?[corner])
+                    });
+                    corners[corner] = found.last().unwrap_or_else(|| {
+                        let copy = &mut copies[j * (self.grid.width() + 1) + i];
+                        points.push(LatticePoint { column: i, row: j, copy: *copy });
+                        *copy += 1;
                         points.len() - 1
                     });
                 }
-                let surface = ACROSS.map(|(i, j)| !self.occupied(column as isize + i, row as isize + j));
+                visited[1][column] = Some(corners);
+                let surface = [0, 1, 2, 3].map(|side| !self.grid.is_joined(row, column, side));
                 let (code, rigid) = (self.grid.code(row, column), cell == GridCell::Rigid);
                 let part = part_at(&self.parts, row);
-                voxels.push(Voxel { row, column, code, rigid, part, corners, surface });
+                voxels.push(Voxel { row, column, code, rigid, part, corners, surface, strays: None });
             }
         }
         (points, voxels)
     }
 
-    /// The edges under the places and numbers of their ends. A later voxel in reading order overwrites the stiffness of
-    /// a shared main edge unless it is rigid (docs/physics.md 3).
-    fn drafts(&self, points: &[LatticePoint], voxels: &[Voxel]) -> BTreeMap<(End, End), Draft> {
-        let mut drafts: BTreeMap<(End, End), Draft> = BTreeMap::new();
+    /// The voxels that may share a corner of a voxel, as row, column and corner: that above or below, that to the left
+    /// or right, and the diagonal one.
+    fn neighbors_at(&self, row: usize, column: usize, corner: usize) -> [Option<(usize, usize, usize)>; 3] {
+        let [upright, level] = SIDES[corner];
+        let step = |row: usize, column: usize, side: usize| match side {
+            0 => (row.wrapping_sub(1), column),
+            1 => (row, column + 1),
+            2 => (row + 1, column),
+            _ => (row, column.wrapping_sub(1)),
+        };
+        let via = |first: usize, second: usize| {
+            let (to_row, to_column) = step(row, column, first);
+            let joined = self.grid.is_joined(row, column, first);
+            joined && self.grid.is_joined(to_row, to_column, second)
+        };
+        let at = |(row, column): (usize, usize), place: usize| (row, column, SEEN[corner][place]);
+        let beside = |side: usize, place: usize| {
+            self.grid.is_joined(row, column, side).then(|| at(step(row, column, side), place))
+        };
+        let (to_row, to_column) = step(row, column, upright);
+        let is_reached = via(upright, level) || via(level, upright);
+        let diagonal = is_reached.then(|| at(step(to_row, to_column, level), 2));
+        [beside(upright, 0), beside(level, 1), diagonal]
+    }
+
+    /// The edges in order of creation. A later voxel in reading order overwrites the stiffness of a shared main edge
+    /// unless it is rigid (docs/physics.md 3).
+    fn drafts(&self, points: &[LatticePoint], voxels: &mut [Voxel]) -> Vec<Draft> {
+        let mut drafts: Vec<Draft> = Vec::new();
         let side = self.constants.cell;
         let diagonal = (side * side + side * side).sqrt();
-        for voxel in voxels {
-            let cell = self.cell(voxel);
-            let (main, share) = self.stiffness(cell);
-            let end = |corner: usize| {
-                let point = points[voxel.corners[corner]];
-                ((point.row, point.column, point.twin), voxel.corners[corner])
+        let ends_of = |a: usize, b: usize| {
+            let end = |point: usize| ((points[point].row, points[point].column, points[point].copy), point);
+            if end(a) < end(b) { (end(a), end(b)) } else { (end(b), end(a)) }
+        };
+        // The bottom edges of the voxels above, and the right edge of the voxel before.
+        let mut bottoms: Vec<usize> = vec![0; self.grid.width()];
+        let mut right = 0;
+        for voxel in voxels.iter_mut() {
+            let own = |drafts: &mut Vec<Draft>, [a, b]: [usize; 2]| {
+                let ends = ends_of(voxel.corners[a], voxel.corners[b]);
+                let stiffness = self.constants.rigid_stiffness;
+                drafts.push(Draft { ends, rest: side, stiffness, drivers: Vec::new() });
+                drafts.len() - 1
             };
-            let key = |a: usize, b: usize| if end(a) < end(b) { (end(a), end(b)) } else { (end(b), end(a)) };
-            for from in 0..CORNERS {
-                let draft = drafts.entry(key(from, (from + 1) % CORNERS)).or_insert_with(|| Draft {
-                    rest: side,
-                    stiffness: self.constants.rigid_stiffness,
-                    drivers: Vec::new(),
-                });
+            let top = if voxel.surface[0] { own(&mut drafts, ALONG[0]) } else { bottoms[voxel.column] };
+            bottoms[voxel.column] = own(&mut drafts, ALONG[2]);
+            let left = if voxel.surface[3] { own(&mut drafts, ALONG[3]) } else { right };
+            right = own(&mut drafts, ALONG[1]);
+            let found = [top, left].map(|edge| [drafts[edge].ends.0.1, drafts[edge].ends.1.1]);
+            let expected = [ALONG[0], ALONG[3]].map(|ends| ends.map(|corner| voxel.corners[corner]));
+            voxel.strays = (found != expected).then_some(found);
+            let cell = self.cell(voxel);
+            let (main, _) = self.stiffness(cell);
+            for (edge, is_level) in [(top, true), (right, false), (bottoms[voxel.column], true), (left, false)] {
                 if !matches!(cell, GridCell::Rigid | GridCell::Fixed) {
-                    draft.stiffness = main;
+                    drafts[edge].stiffness = main;
                 }
                 if let GridCell::Active { channel, axis } = cell
-                    && (from % 2 == 0) == (axis == DriveAxis::Horizontal)
+                    && is_level == (axis == DriveAxis::Horizontal)
                 {
-                    draft.drivers.push((channel, axis));
+                    drafts[edge].drivers.push((channel, axis));
                 }
             }
+        }
+        for voxel in voxels.iter() {
+            let (main, share) = self.stiffness(self.cell(voxel));
             for (a, b) in [(1, 3), (0, 2)] {
-                drafts.insert(key(a, b), Draft { rest: diagonal, stiffness: main * share, drivers: Vec::new() });
+                let ends = ends_of(voxel.corners[a], voxel.corners[b]);
+                drafts.push(Draft { ends, rest: diagonal, stiffness: main * share, drivers: Vec::new() });
             }
         }
         drafts
@@ -300,8 +358,8 @@ impl Builder<'_> {
     }
 }
 
-/// An edge's end: its place (row, column, twin) and its point's number.
-type End = ((usize, usize, bool), usize);
+/// An edge's end: its place (row, column, copy) and its point's number.
+type End = ((usize, usize, u8), usize);
 
 #[cfg(test)]
 mod tests {
@@ -332,8 +390,36 @@ mod tests {
         check(&["30", "03"], 8, 12, 8);
         check(&["30", "33"], 8, 16, 8);
         let twins = lattice(&["30", "03"]);
-        let places: Vec<_> = twins.points().iter().filter(|p| (p.column, p.row) == (1, 1)).map(|p| p.twin).collect();
-        assert_eq!(places, [false, true]);
+        let places: Vec<_> = twins.points().iter().filter(|p| (p.column, p.row) == (1, 1)).map(|p| p.copy).collect();
+        assert_eq!(places, [0, 1]);
+    }
+
+    #[test]
+    fn neighbors_that_are_left_apart_have_sides_of_their_own() {
+        let without = |width: usize, height: usize, apart: [usize; 2]| {
+            let grid = Grid::structure(width, height, &vec![3; width * height]).with_apart([apart]);
+            Lattice::of(&[&grid], &Constants::default())
+        };
+        let counts = |lattice: &Lattice| {
+            let doubled = lattice.edges().iter().filter(|edge| edge.doubled).count();
+            let strays = lattice.voxels().iter().filter(|voxel| voxel.strays.is_some()).count();
+            (lattice.points().len(), lattice.edges().len(), doubled, strays)
+        };
+        // A slit from below, from the left and from the right ends at a point of all four.
+        for apart in [[2, 3], [0, 2], [1, 3]] {
+            assert_eq!(counts(&without(2, 2, apart)), (10, 21, 0, 0), "{apart:?}");
+        }
+        // A slit from above ends at two points, as in Evolution Gym, each of which belongs to a voxel above and to the
+        // voxel below the other.
+        let slit = without(2, 2, [0, 1]);
+        assert_eq!(counts(&slit), (11, 21, 0, 2));
+        let [a, b, c, d] = [0, 1, 2, 3].map(|voxel| slit.voxels()[voxel]);
+        assert_eq!((a.corners, b.corners), ([0, 1, 3, 2], [4, 5, 7, 6]));
+        assert_eq!((c.corners, d.corners), ([2, 6, 9, 8], [3, 7, 10, 9]));
+        assert_eq!((c.strays, d.strays), (Some([[2, 3], [2, 8]]), Some([[6, 7], [6, 9]])));
+        // So does the lower end of a slit inside a body. The two sides of a level one have the same points.
+        assert_eq!(counts(&without(2, 3, [2, 3])), (13, 30, 0, 2));
+        assert_eq!(counts(&without(3, 2, [1, 4])), (12, 30, 1, 0));
     }
 
     #[test]

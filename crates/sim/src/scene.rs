@@ -32,8 +32,18 @@ pub struct Scene {
 enum Placed {
     /// In the lattice of what moves.
     Moving { points: Range<usize>, channels: Range<usize> },
-    /// They stay where they are, in meters.
-    Still { points: Vec<[f64; 2]>, voxels: Vec<[usize; CORNERS]> },
+    /// They stay where they are.
+    Still(Still),
+}
+
+/// Points that never move.
+#[derive(Clone, Debug)]
+struct Still {
+    /// In meters, in order of creation.
+    points: Vec<[f64; 2]>,
+    /// The same in voxels, from left to right.
+    by_column: Vec<[f64; 2]>,
+    voxels: Vec<[usize; CORNERS]>,
 }
 
 /// Evolution Gym's π, the cosine that it takes for those above 1, and the product of two distances from the center of
@@ -100,8 +110,11 @@ impl Scene {
             let own = Lattice::of(&[grid], constants);
             let origin = at.map(|axis| axis as f64);
             let points = own.points().iter().map(|p| corner(origin, grid.height(), p.column, p.row, constants));
+            let points: Vec<[f64; 2]> = points.collect();
+            let mut by_column: Vec<[f64; 2]> = points.iter().map(|at| at.map(|axis| axis / constants.cell)).collect();
+            by_column.sort_by(|a, b| a[0].total_cmp(&b[0]));
             let voxels = own.voxels().iter().map(|voxel| voxel.corners).collect();
-            placed[n] = Some(Placed::Still { points: points.collect(), voxels });
+            placed[n] = Some(Placed::Still(Still { points, by_column, voxels }));
         }
         let terrain = Terrain::new(still.iter().map(|&n| (&objects[n].grid, objects[n].at)), constants);
         let objects = placed.into_iter().map(|place| place.expect("each object moves or is still")).collect();
@@ -117,7 +130,7 @@ impl Scene {
     pub fn channels(&self, object: usize) -> Range<usize> {
         match &self.objects[object] {
             Placed::Moving { channels, .. } => channels.clone(),
-            Placed::Still { .. } => 0..0,
+            Placed::Still(_) => 0..0,
         }
     }
 
@@ -131,7 +144,7 @@ impl Scene {
     pub fn positions(&self, object: usize, state: &State, constants: &Constants) -> Vec<[f64; 2]> {
         let meters = match &self.objects[object] {
             Placed::Moving { points, .. } => &state.position[points.clone()],
-            Placed::Still { points, .. } => points,
+            Placed::Still(still) => &still.points,
         };
         meters.iter().map(|at| at.map(|axis| axis / constants.cell)).collect()
     }
@@ -143,7 +156,15 @@ impl Scene {
                 let speed = |axis: f64| axis / constants.substep / constants.cell;
                 state.velocity[points.clone()].iter().map(|velocity| velocity.map(speed)).collect()
             }
-            Placed::Still { points, .. } => vec![[0.0; 2]; points.len()],
+            Placed::Still(still) => vec![[0.0; 2]; still.points.len()],
+        }
+    }
+
+    /// The points of an object that never moves, in voxels, from left to right.
+    pub(crate) fn still_by_column(&self, object: usize) -> Option<&[[f64; 2]]> {
+        match &self.objects[object] {
+            Placed::Moving { .. } => None,
+            Placed::Still(still) => Some(&still.by_column),
         }
     }
 
@@ -173,7 +194,7 @@ impl Scene {
                 let own = self.lattice.voxels().iter().filter(|voxel| points.contains(&voxel.corners[0]));
                 own.map(|voxel| voxel.corners.map(|point| point - points.start)).collect()
             }
-            Placed::Still { voxels, .. } => voxels.clone(),
+            Placed::Still(still) => still.voxels.clone(),
         }
     }
 

@@ -35,9 +35,8 @@ impl Terrain {
             (columns, rows) = (columns.max(left + grid.width()), rows.max(bottom + grid.height()));
             for row in 0..grid.height() {
                 for column in 0..grid.width() {
-                    let is_there = |i: isize, j: isize| grid.cell(row as isize + j, column as isize + i).is_some();
-                    let surface = [(0, -1), (1, 0), (0, 1), (-1, 0)].map(|(i, j)| !is_there(i, j));
-                    if is_there(0, 0) && surface.contains(&true) {
+                    let surface = [0, 1, 2, 3].map(|side| !grid.is_joined(row, column, side));
+                    if grid.cell(row as isize, column as isize).is_some() && surface.contains(&true) {
                         let voxel =
                             TerrainVoxel { corners: corners(grid, [left, bottom], row, column, constants), surface };
                         placed.push(([left + column, bottom + grid.height() - 1 - row], voxel));

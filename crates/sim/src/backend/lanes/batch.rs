@@ -30,6 +30,9 @@ pub struct Round<R: Real> {
     pub lanes: R::Mask,
     /// The voxels' masses, top left, top right, bottom right, bottom left, and their lanes.
     pub voxels: Vec<([usize; CORNERS], R::Mask)>,
+    /// The masses at the ends of their sides, if any of these is not between the corners of its voxel: top, right,
+    /// bottom, left.
+    pub strays: Option<Vec<([[usize; 2]; CORNERS], R::Mask)>>,
 }
 
 /// One lane's robot, with its points and voxels as masses of the batch.
@@ -54,6 +57,8 @@ pub struct SurfaceVoxel {
     pub corners: [usize; CORNERS],
     /// Which sides are surface.
     pub sides: [bool; CORNERS],
+    /// The masses at the ends of its top and its left side, if these are not between its corners.
+    pub strays: Option<[[usize; 2]; 2]>,
     /// The object that it belongs to.
     pub part: usize,
 }
@@ -120,11 +125,11 @@ pub struct Row {
     pub frames: Range<usize>,
 }
 
-/// A mass's place in the box: row, column, twin.
-type Key = (usize, usize, bool);
+/// A mass's place in the box: row, column, copy.
+type Key = (usize, usize, u8);
 
 fn key(point: LatticePoint) -> Key {
-    (point.row, point.column, point.twin)
+    (point.row, point.column, point.copy)
 }
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
@@ -261,12 +266,16 @@ fn fixed<M: Mask>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<(usize, M)
     fixed.into_iter().map(|(mass, lanes)| (mass, M::from_bits(lanes))).collect()
 }
 
+/// The key of a rigid voxel, and the ends of its top and its left side if these are not between its corners.
+type RigidKey = (TileKey, Option<[[usize; 2]; 2]>);
+
 /// The rigid voxels of all lanes.
 fn rigid<R: Real>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Round<R>> {
-    let mut rounds: Vec<BTreeMap<TileKey, u32>> = Vec::new();
+    let mut rounds: Vec<BTreeMap<RigidKey, u32>> = Vec::new();
     for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
         let rigid = body.voxels().iter().filter(|voxel| voxel.rigid);
-        let own: BTreeSet<TileKey> = rigid.map(|voxel| tile_key(voxel, occupant)).collect();
+        let key = |voxel: &Voxel| (tile_key(voxel, occupant), strays(voxel, &occupant.masses));
+        let own: BTreeSet<RigidKey> = rigid.map(key).collect();
         rounds.resize(rounds.len().max(own.len()), BTreeMap::new());
         for (key, round) in own.into_iter().zip(&mut rounds) {
             *round.entry(key).or_default() |= 1 << lane;
@@ -276,11 +285,25 @@ fn rigid<R: Real>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Round<R>> 
 }
 
 impl<R: Real> Round<R> {
-    fn new(voxels: &BTreeMap<TileKey, u32>) -> Self {
+    fn new(voxels: &BTreeMap<RigidKey, u32>) -> Self {
         let lanes = voxels.values().fold(0, |all, lanes| all | lanes);
-        let voxel = |(&(_, corners), &lanes): (&TileKey, &u32)| (corners, R::Mask::from_bits(lanes));
-        Self { lanes: R::Mask::from_bits(lanes), voxels: voxels.iter().map(voxel).collect() }
+        let voxel = |(&((_, corners), _), &lanes): (&RigidKey, &u32)| (corners, R::Mask::from_bits(lanes));
+        let sides = |(&((_, [a, b, c, d]), strays), &lanes): (&RigidKey, &u32)| {
+            let [top, left] = strays.unwrap_or([[a, b], [a, d]]);
+            ([top, [b, c], [d, c], left], R::Mask::from_bits(lanes))
+        };
+        let has_strays = voxels.keys().any(|(_, strays)| strays.is_some());
+        Self {
+            lanes: R::Mask::from_bits(lanes),
+            voxels: voxels.iter().map(voxel).collect(),
+            strays: has_strays.then(|| voxels.iter().map(sides).collect()),
+        }
     }
+}
+
+/// The masses at the ends of a voxel's top and left side, if these are not between its corners.
+fn strays(voxel: &Voxel, masses: &[usize]) -> Option<[[usize; 2]; 2]> {
+    voxel.strays.map(|sides| sides.map(|ends| ends.map(|point| masses[point])))
 }
 
 impl Occupant {
@@ -292,7 +315,8 @@ impl Occupant {
             for (corner, &mass) in corners.iter().enumerate() {
                 at_mass[mass].push((surface.len(), corner));
             }
-            surface.push(SurfaceVoxel { corners, sides: voxel.surface, part: voxel.part });
+            let strays = strays(voxel, &masses);
+            surface.push(SurfaceVoxel { corners, sides: voxel.surface, strays, part: voxel.part });
         }
         let count = |part: usize| surface.iter().filter(|voxel| voxel.part == part).count() as u32;
         let parts = body.parts().iter().enumerate();

@@ -30,6 +30,8 @@ pub struct Quad {
     pub bounds: [Vector2<f64>; 2],
     /// Bounds outside of which a point is clearly outside.
     reach: [Vector2<f64>; 2],
+    /// The ends of its top and its left side, if these are not between its corners.
+    strays: Option<[[Vector2<f64>; 2]; 2]>,
 }
 
 /// A corner of one voxel inside another.
@@ -72,7 +74,12 @@ impl Quad {
         let [least, greatest] = bounds;
         let is_sound = greatest.x - least.x < SOUND && greatest.y - least.y < SOUND;
         let clear = Vector2::repeat(if is_sound { CLEAR } else { f64::INFINITY });
-        Self { corners, surface, bounds, reach: [least - clear, greatest + clear] }
+        Self { corners, surface, bounds, reach: [least - clear, greatest + clear], strays: None }
+    }
+
+    /// The same voxel with these ends of its top and its left side, if these are not between its corners.
+    pub fn with_strays(self, strays: Option<[[Vector2<f64>; 2]; 2]>) -> Self {
+        Self { strays, ..self }
     }
 
     /// The corners of a side: clockwise on the surface, else left to right or top to bottom (docs/physics.md 3).
@@ -82,6 +89,10 @@ impl Quad {
     }
 
     fn segment(&self, side: usize) -> [Vector2<f64>; 2] {
+        // A side at the surface is between its corners.
+        if let Some([top, left]) = self.strays.filter(|_| side % 3 == 0 && !self.surface[side]) {
+            return if side == 0 { top } else { left };
+        }
         self.ends(side).map(|corner| self.corners[corner])
     }
 

