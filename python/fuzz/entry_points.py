@@ -23,9 +23,17 @@ from typing import Any, Callable, Dict, List, Tuple
 import numpy as np
 
 import nbc
+from evogym_points import evogym_points
 
 MEMORY = 4 << 30
-ACCEPTED = (ValueError, TypeError, LookupError, OverflowError, OSError, MemoryError, nbc.NbcError)
+ACCEPTED = [ValueError, TypeError, LookupError, OverflowError, OSError, MemoryError, nbc.NbcError]
+try:
+    # Its own for seeds that are no numbers.
+    from gymnasium.error import Error as GymnasiumError
+
+    ACCEPTED.append(GymnasiumError)
+except ImportError:
+    pass
 SOURCE = """
 circuit inverter(a) -> (q) { q = not a }
 circuit add(a[2], b[2]) -> (s[2]) { s = a + b }
@@ -188,6 +196,7 @@ def entry_points(make: Maker) -> List[Tuple[str, Callable[[], Any]]]:
         ("to_structure", lambda: nbc.evogym.to_structure(make.any(), as_actuators=make.any())),
         ("from_structure", lambda: nbc.evogym.from_structure(make.any(), some(None))),
         ("actions", lambda: nbc.evogym.actions(some(["345"]), some("00*1", spells))),
+        *evogym_points(make),
     ]
 
 
@@ -209,7 +218,7 @@ def fuzz(seed: int, seconds: float, calls: int, trace: bool) -> Dict[str, int]:
                 call()
                 end = "result"
             except Exception as error:
-                if isinstance(error, nbc.InternalError) or not isinstance(error, ACCEPTED):
+                if isinstance(error, nbc.InternalError) or not isinstance(error, tuple(ACCEPTED)):
                     print(f"seed {seed}, call {made}: {name}", file=sys.stderr)
                     raise
                 end = type(error).__name__

@@ -91,8 +91,12 @@ impl Flock {
             let (found, expected) = (patterns.len(), self.size);
             return Err(bad_value(format!("{found} patterns, expected {expected}: one for each robot")));
         }
-        let patterns = patterns.into_iter().map(pattern).collect::<PyResult<Vec<Pattern>>>()?;
-        let watch = self.robots.with(py, |setup| Ok(setup.watch.clone()))?;
+        let (watch, stimuli) = self.robots.with(py, |setup| {
+            let stimuli = setup.bodies.first().map_or(0, |body| body.palette().stimuli());
+            Ok((setup.watch.clone(), stimuli))
+        })?;
+        let read = |digits: String| pattern(digits, stimuli);
+        let patterns = patterns.into_iter().map(read).collect::<PyResult<Vec<Pattern>>>()?;
         self.robots.run(py, &watch, None, move |setup, _| setup.advance(&patterns, env_steps))?.finished()
     }
 

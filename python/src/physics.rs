@@ -51,7 +51,7 @@ impl ScheduleWords {
             Self::Text(text) => return read(&text).map_err(|found| diagnosed(py, &found)),
             Self::Spells(spells) => spells,
         };
-        let spell = |(digits, steps)| Ok(Spell { pattern: pattern(digits)?, steps });
+        let spell = |(digits, steps)| Ok(Spell { pattern: pattern(digits, stimuli)?, steps });
         Ok(Schedule { spells: spells.into_iter().map(spell).collect::<PyResult<_>>()? })
     }
 }
@@ -65,9 +65,15 @@ pub fn read_schedule(py: Python<'_>, schedule: ScheduleWords) -> PyResult<Vec<(S
     })
 }
 
-/// A pattern of digits.
-pub fn pattern(digits: String) -> PyResult<Pattern> {
-    Pattern::try_from(digits).map_err(|error| bad_value(error.to_string()))
+/// A pattern of digits, one for each stimulus.
+pub fn pattern(digits: String, stimuli: usize) -> PyResult<Pattern> {
+    let count = digits.len();
+    let pattern = Pattern::try_from(digits.clone()).map_err(|error| bad_value(error.to_string()))?;
+    if count != stimuli {
+        let plural = if count == 1 { "" } else { "s" };
+        return Err(bad_value(format!("the pattern `{digits}` has {count} digit{plural}, expected {stimuli}")));
+    }
+    Ok(pattern)
 }
 
 /// Why a body cannot stand in the setting, if it cannot.

@@ -1,10 +1,16 @@
 //! Evolution Gym's worlds: robots that are driven from outside, on terrain and among objects.
 
-use nbc::{Constants, Grid, Scene, SceneObject, SceneState, Scenes as Simulations, State};
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use nbc::{Constants, Grid, Scene, SceneObject, SceneState, Scenes as Simulations, Sight, State};
+use numpy::{
+    IntoPyArray, PyArray1, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2, PyUntypedArrayMethods,
+};
+use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 
 use crate::errors::bad_value;
+use crate::memory;
 use crate::physics::Ending;
 use crate::slot::Slot;
 use crate::work::{Watch, at_once};
@@ -19,8 +25,12 @@ const PORTION: u32 = 64;
 /// The most columns and rows of a world: a table has a place for each of its cells.
 const MOST_CELLS: usize = 4096;
 
-/// An object: its codes, row 0 on top, and the column and row of its lower left corner.
-type Object<'py> = (PyReadonlyArray2<'py, u8>, usize, usize);
+/// An object: its codes, row 0 on top, the column and row of its lower left corner, and the neighbors that are left
+/// apart, by their places in reading order.
+type Object<'py> = (PyReadonlyArray2<'py, u8>, usize, usize, Vec<[usize; 2]>);
+
+/// Numbers of scenes, or of an object in each of them.
+type Numbers<'py> = PyReadonlyArray1<'py, usize>;
 
 /// Positions and velocities.
 type Moving<'py> = (Bound<'py, PyArray2<f64>>, Bound<'py, PyArray2<f64>>);
@@ -33,6 +43,8 @@ type Kept<'py> = (Bound<'py, PyArray2<f64>>, u32, Option<(u32, String)>);
 pub struct Scenes {
     scenes: Slot<Simulations>,
     size: usize,
+    /// How often a scene was changed.
+    changes: AtomicU64,
 }
 
 #[pymethods]
@@ -40,16 +52,25 @@ impl Scenes {
     #[new]
     fn new(py: Python<'_>, scenes: Vec<Vec<Object<'_>>>) -> PyResult<Self> {
         let size = scenes.len();
+        let voxels =
+            scenes.iter().flatten().map(|(codes, ..)| codes.as_array().iter().filter(|&&code| code > 0).count());
+        let bytes = (voxels.sum::<usize>() as u64).saturating_mul(memory::VOXEL_BYTES);
+        memory::check(bytes, "the worlds", "use fewer or smaller worlds")?;
         let made = at_once(py, || {
             let constants = Constants::default();
             let scenes = scenes.iter().map(|objects| scene(objects, &constants)).collect::<PyResult<Vec<Scene>>>()?;
             Ok(Simulations::new(scenes))
         })?;
-        Ok(Self { scenes: Slot::new("simulation", made), size })
+        Ok(Self { scenes: Slot::new("simulation", made), size, changes: AtomicU64::new(0) })
     }
 
     fn __len__(&self) -> usize {
         self.size
+    }
+
+    /// A number that grows whenever the state of a scene changes.
+    fn changes(&self) -> u64 {
+        self.changes.load(Ordering::Relaxed)
     }
 
     /// Sets the targets of the actuators of all scenes, one scene after another.
@@ -69,6 +90,7 @@ impl Scenes {
 
     /// Simulates env steps. After an interrupt the scenes are as before.
     fn step(&self, py: Python<'_>, env_steps: u32) -> PyResult<()> {
+        self.changes.fetch_add(1, Ordering::Relaxed);
         if env_steps > PORTION || self.size >= FEW {
             let advance = move |scenes: &mut Simulations, watch: &Watch| advance(scenes, env_steps, watch);
             return self.scenes.run(py, &Watch::over(0), None, advance)?.finished();
@@ -81,7 +103,9 @@ impl Scenes {
 
     /// Puts a scene back to its start.
     fn reset(&self, py: Python<'_>, scene: usize) -> PyResult<()> {
+        self.changes.fetch_add(1, Ordering::Relaxed);
         self.scenes.with(py, |scenes| {
+            known(scenes, scene)?;
             scenes.reset(scene);
             Ok(())
         })
@@ -90,37 +114,128 @@ impl Scenes {
     /// The places of an object's actuators in the targets of a scene.
     fn channels(&self, py: Python<'_>, scene: usize, object: usize) -> PyResult<(usize, usize)> {
         self.scenes.with(py, |scenes| {
-            let channels = scenes.scene(scene).channels(object);
+            let channels = look(scenes, scene, object)?.0.channels(object);
             Ok((channels.start, channels.end))
         })
     }
 
     /// The points of an object in each of these scenes, one scene after another: position in voxels, and velocity in
     /// voxels per second.
-    fn points<'py>(&self, py: Python<'py>, scenes: Vec<usize>, object: usize) -> PyResult<Moving<'py>> {
-        let (positions, velocities) = self.scenes.with(py, |all| {
-            let constants = Constants::default();
-            let (mut positions, mut velocities): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
-            for n in scenes {
-                let state = all.state(n).state;
-                positions.extend(all.scene(n).positions(object, &state, &constants));
-                velocities.extend(all.scene(n).velocities(object, &state, &constants));
-            }
-            Ok((positions, velocities))
+    fn points<'py>(&self, py: Python<'py>, scenes: Numbers<'py>, objects: Numbers<'py>) -> PyResult<Moving<'py>> {
+        let constants = Constants::default();
+        let (mut positions, mut velocities): (Vec<[f64; 2]>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
+        self.each(py, &scenes, &objects, |_, scene, object, state| {
+            positions.extend(scene.positions(object, state, &constants));
+            velocities.extend(scene.velocities(object, state, &constants));
         })?;
         Ok((array(py, positions)?, array(py, velocities)?))
     }
 
+    /// How many points an object has in each of these scenes.
+    fn counts<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: Numbers<'py>,
+        objects: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<usize>>> {
+        let (constants, mut counts) = (Constants::default(), Vec::new());
+        self.each(py, &scenes, &objects, |_, scene, object, state| {
+            counts.push(scene.positions(object, state, &constants).len());
+        })?;
+        Ok(counts.into_pyarray(py))
+    }
+
+    /// Means over the points of an object in each of these scenes: their place in voxels and in meters, and their
+    /// velocity in voxels and in meters per second, x before y.
+    fn centers<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: Numbers<'py>,
+        objects: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let constants = Constants::default();
+        self.table(py, &scenes, &objects, 8, |scene, object, state, row| {
+            let center = scene.center(object, state, &constants);
+            let means = [center.place, center.place_in_meters, center.velocity, center.velocity_in_meters];
+            row.copy_from_slice(means.as_flattened());
+        })
+    }
+
+    /// The points of an object from its center of mass in each of these scenes, in voxels: first x, then y, each with
+    /// room for that many points.
+    fn shapes<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: Numbers<'py>,
+        objects: Numbers<'py>,
+        most: usize,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let constants = Constants::default();
+        self.table(py, &scenes, &objects, 2 * most, |scene, object, state, row| {
+            let middle = scene.center(object, state, &constants).place;
+            let (xs, ys) = row.split_at_mut(most);
+            for ((at, x), y) in scene.positions(object, state, &constants).iter().zip(xs).zip(ys) {
+                (*x, *y) = (at[0] - middle[0], at[1] - middle[1]);
+            }
+        })
+    }
+
+    /// How far below (or above) the center of mass of an object the terrain is in each column, in voxels. `terrain` has
+    /// the numbers of the objects that are terrain, a row for each scene.
+    #[expect(clippy::too_many_arguments, reason = "each is an argument of Evolution Gym's, too")]
+    fn surface<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: Numbers<'py>,
+        objects: Numbers<'py>,
+        terrain: PyReadonlyArray2<'py, usize>,
+        columns: usize,
+        reach: f64,
+        is_above: bool,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let (constants, sight) = (Constants::default(), Sight { columns, reach, is_above });
+        let terrain = terrain.as_array();
+        let mut rows = terrain.rows().into_iter();
+        let mut wrong = None;
+        let found = self.table(py, &scenes, &objects, 2 * columns + 1, |scene, object, state, row| {
+            let terrain: Vec<usize> = rows.next().into_iter().flatten().copied().collect();
+            match terrain.iter().find(|&&object| object >= scene.objects()) {
+                Some(&object) => wrong = Some(object),
+                None => row.copy_from_slice(&scene.surface(object, &terrain, &sight, state, &constants)),
+            }
+        });
+        wrong.map_or(found, |object| Err(no_object(object)))
+    }
+
+    /// The width and the height of an object in each of these scenes, and the area of the convex hull of its points, in
+    /// voxels.
+    fn extents<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: Numbers<'py>,
+        objects: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let constants = Constants::default();
+        self.table(py, &scenes, &objects, 3, |scene, object, state, row| {
+            row.copy_from_slice(&scene.extent(object, state, &constants));
+        })
+    }
+
     /// How far an object has turned in each of these scenes.
-    fn turns<'py>(&self, py: Python<'py>, scenes: Vec<usize>, object: usize) -> PyResult<Bound<'py, PyArray1<f64>>> {
-        let turns: Vec<f64> =
-            self.scenes.with(py, |all| Ok(scenes.iter().map(|&scene| all.turn(scene, object)).collect()))?;
+    fn turns<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: Numbers<'py>,
+        objects: Numbers<'py>,
+    ) -> PyResult<Bound<'py, PyArray1<f64>>> {
+        let mut turns = Vec::new();
+        self.each(py, &scenes, &objects, |_, scene, object, state| turns.push(scene.turn(object, state)))?;
         Ok(turns.into_pyarray(py))
     }
 
     /// The four points of each voxel of an object, by their places among its points.
     fn voxels(&self, py: Python<'_>, scene: usize, object: usize) -> PyResult<Vec<[usize; 4]>> {
-        self.scenes.with(py, |scenes| Ok(scenes.scene(scene).voxels(object)))
+        self.scenes.with(py, |scenes| Ok(look(scenes, scene, object)?.0.voxels(object)))
     }
 
     /// The env step that was abandoned in each scene, 0 for none.
@@ -140,7 +255,10 @@ impl Scenes {
 
     /// The state of a scene, for `restore`.
     fn state<'py>(&self, py: Python<'py>, scene: usize) -> PyResult<Kept<'py>> {
-        let SceneState { state, clock, fault } = self.scenes.with(py, |scenes| Ok(scenes.state(scene)))?;
+        let SceneState { state, clock, fault } = self.scenes.with(py, |scenes| {
+            known(scenes, scene)?;
+            Ok(scenes.state(scene))
+        })?;
         let State { position, previous, velocity } = state;
         let all: Vec<[f64; 2]> = [position, previous, velocity].concat();
         let words = Ending::from(fault).words();
@@ -156,6 +274,7 @@ impl Scenes {
         clock: u32,
         fault: Option<(u32, String)>,
     ) -> PyResult<()> {
+        self.changes.fetch_add(1, Ordering::Relaxed);
         let values = points.as_slice()?;
         let all: Vec<[f64; 2]> = values.chunks_exact(2).map(|at| [at[0], at[1]]).collect();
         let count = all.len() / 3;
@@ -169,6 +288,7 @@ impl Scenes {
             kind: if kind == "unstable" { nbc::FaultKind::Unstable } else { nbc::FaultKind::NonFinite },
         });
         self.scenes.with(py, |scenes| {
+            known(scenes, scene)?;
             if scenes.state(scene).state.position.len() != count || all.len() != 3 * count {
                 return Err(bad_value("the state is of other objects"));
             }
@@ -181,6 +301,60 @@ impl Scenes {
     fn close(&self, py: Python<'_>) -> PyResult<()> {
         self.scenes.close(py)
     }
+}
+
+impl Scenes {
+    /// Looks at an object of each of these scenes: at the number of the look, the scene, the object and the state.
+    fn each(
+        &self,
+        py: Python<'_>,
+        scenes: &Numbers<'_>,
+        objects: &Numbers<'_>,
+        mut see: impl FnMut(usize, &Scene, usize, &State),
+    ) -> PyResult<()> {
+        let (scenes, objects) = (scenes.as_slice()?, objects.as_slice()?);
+        self.scenes.with(py, |all| {
+            for (n, (&scene, &object)) in scenes.iter().zip(objects).enumerate() {
+                let (scene, state) = look(all, scene, object)?;
+                see(n, scene, object, state);
+            }
+            Ok(())
+        })
+    }
+
+    /// A row of numbers for an object of each of these scenes.
+    fn table<'py>(
+        &self,
+        py: Python<'py>,
+        scenes: &Numbers<'py>,
+        objects: &Numbers<'py>,
+        columns: usize,
+        mut fill: impl FnMut(&Scene, usize, &State, &mut [f64]),
+    ) -> PyResult<Bound<'py, PyArray2<f64>>> {
+        let rows = scenes.len();
+        let mut values = vec![0.0; rows * columns];
+        self.each(py, scenes, objects, |n, scene, object, state| {
+            fill(scene, object, state, &mut values[n * columns..][..columns]);
+        })?;
+        values.into_pyarray(py).reshape([rows, columns])
+    }
+}
+
+/// Checks the number of a scene.
+fn known(scenes: &Simulations, scene: usize) -> PyResult<()> {
+    let is_known = scene < scenes.len();
+    if is_known { Ok(()) } else { Err(PyIndexError::new_err(format!("there is no scene {scene}"))) }
+}
+
+/// A scene with its state, if it has such an object.
+fn look(scenes: &mut Simulations, scene: usize, object: usize) -> PyResult<(&Scene, &State)> {
+    known(scenes, scene)?;
+    let found = scenes.look(scene);
+    if object < found.0.objects() { Ok(found) } else { Err(no_object(object)) }
+}
+
+fn no_object(object: usize) -> PyErr {
+    PyIndexError::new_err(format!("there is no object {object}"))
 }
 
 /// Simulates env steps in portions; if the watch ends them, the scenes are put back.
@@ -200,7 +374,7 @@ fn advance(scenes: &mut Simulations, env_steps: u32, watch: &Watch) {
 
 /// The scene of these objects.
 fn scene(objects: &[Object<'_>], constants: &Constants) -> PyResult<Scene> {
-    let read = |(codes, column, row): &Object<'_>| {
+    let read = |(codes, column, row, apart): &Object<'_>| {
         let codes = codes.as_array();
         let (height, width) = codes.dim();
         if column.saturating_add(width).max(row.saturating_add(height)) > MOST_CELLS {
@@ -210,7 +384,8 @@ fn scene(objects: &[Object<'_>], constants: &Constants) -> PyResult<Scene> {
             return Err(bad_value("codes of voxels are 0 to 5"));
         }
         let codes: Vec<u8> = codes.iter().copied().collect();
-        Ok(SceneObject { grid: Grid::structure(width, height, &codes), at: [*column, *row] })
+        let grid = Grid::structure(width, height, &codes).with_apart(apart.iter().copied());
+        Ok(SceneObject { grid, at: [*column, *row] })
     };
     let objects = objects.iter().map(read).collect::<PyResult<Vec<SceneObject>>>()?;
     if objects.iter().all(|object| object.grid.is_fixed()) {

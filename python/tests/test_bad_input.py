@@ -28,6 +28,8 @@ BODY = np.full((1, 2, 3), 3, dtype=np.uint8)
         (BODY.astype(complex), TypeError, "dtype complex128"),
         (BODY.astype(bool), TypeError, "dtype bool"),
         (BODY.astype(str), TypeError, "dtype <U"),
+        (np.ma.array(BODY, mask=BODY == 3), TypeError, "masked arrays are not read; `filled` makes a plain"),
+        ([np.ma.array(BODY[0])], TypeError, "masked arrays are not read"),
         (BODY.astype(int) * 100, ValueError, "300 is not a material code"),
         (-BODY.astype(int), ValueError, "-3 is not a material code"),
         (BODY * 4, ValueError, r"bodies\[0\]: row 1, column 1: 12 is not a material code; expected 0 to 8"),
@@ -66,6 +68,8 @@ def test_bodies(bodies, error, message):
         ({"schedule": [("00", 1.5)]}, TypeError, "is 1.5, expected a whole number"),
         ({"schedule": [("02", 1)]}, ValueError, "`02` is not a pattern"),
         ({"schedule": [("", 1)]}, ValueError, "is not a pattern"),
+        ({"schedule": [("0", 5)]}, ValueError, "the pattern `0` has 1 digit, expected 2"),
+        ({"schedule": [("000", 5)]}, ValueError, "the pattern `000` has 3 digits, expected 2"),
         ({"schedule": [("0" * 33, 1)]}, ValueError, "is not a pattern"),
         ({"schedule": [(0, 1)]}, TypeError, "0 is not a pattern"),
         ({"schedule": [("00", 10_000_000), ("00", 1)]}, ValueError, "too long"),
@@ -103,6 +107,13 @@ def test_paths_that_do_not_fit_into_memory_are_refused():
         nbc.simulate(np.repeat(BODY, 1000, axis=0), "00*10000000steps")
 
 
+def test_more_bodies_than_a_call_can_take_are_refused():
+    many = np.broadcast_to(np.uint8(3), (50_000_000, 1, 1))
+    for use in (lambda: nbc.simulate(many, "00*1"), lambda: nbc.Flock(many), lambda: nbc.evaluate(many)):
+        with pytest.raises(ValueError, match="there are 50000000 bodies, expected at most 10000000 in one call"):
+            use()
+
+
 def test_a_schedule_has_diagnostics_with_places():
     with pytest.raises(nbc.NbcError) as caught:
         nbc.simulate(BODY, "00*10 02*10 00*0")
@@ -132,6 +143,7 @@ def test_a_closed_flock_is_refused():
         (np.zeros(2, dtype=bool), 1, ValueError, r"shape \(2,\), expected \(1, stimuli\)"),
         (np.full((1, 2), 2), 1, ValueError, "other than 0 and 1"),
         (np.full((1, 2), np.nan), 1, TypeError, "float64"),
+        ("000", 1, ValueError, "the pattern `000` has 3 digits, expected 2"),
         ("00", -1, ValueError, "steps is -1"),
         ("00", 0.5, TypeError, "steps is 0.5"),
         ("00", 10**8, ValueError, "expected 0 to 10000000"),

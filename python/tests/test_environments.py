@@ -234,7 +234,7 @@ def test_wrong_actions_are_refused_with_their_numbers(action, error, message):
         (lambda: TaskEnv("Walker-v0", BODY, render_mode="rgb"), "the render mode is 'rgb', expected one of 'img'"),
         (lambda: TaskEnv("Walker-v0", BODY, render_options={"hide_gird": 1}), "did you mean `hide_grid`"),
         (lambda: TaskEnv("Walkr-v0", BODY), "no task called `Walkr-v0`; did you mean `Walker-v0`?"),
-        (lambda: TaskEnv("Walker-v0", [[3, 3]], [[], []]), "`robot`: row 1, column 1 and row 1, column 2 are not conn"),
+        (lambda: TaskEnv("Walker-v0", [[3, 3]], [[], []]), "of the object `robot` do not join it into one piece"),
         (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": []}), "there are 0 goals"),
         (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": "abc"}), "the goals are 'abc'"),
         (lambda: TaskEnv("Catcher-v0", BODY).reset(options={"goals": [1]}), "there are 1 goals, expected two numbers"),

@@ -118,5 +118,11 @@ def test_a_world_that_there_is_not_is_refused_and_the_others_stay(number):
 
 @pytest.mark.parametrize("shape", [(0, 5), (5, 0), (-1, 2)])
 def test_a_random_robot_has_a_place_for_a_voxel(shape):
-    with pytest.raises(ValueError, match="expected at least one row and one column"):
+    with pytest.raises(ValueError, match=r"a side of robot_shape is (0|-1), expected 1 to 1000"):
         evogym.sample_robot(shape)
+
+
+def test_a_shape_that_is_too_large_to_be_in_one_piece_is_given_up():
+    with pytest.raises(ValueError, match=r"no body of the shape \(60, 60\) in one piece was found"):
+        evogym.sample_robot((60, 60))
+    assert evogym.sample_robot((60, 60), [0, 1, 1, 1, 1])[0].all()

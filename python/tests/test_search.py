@@ -242,12 +242,16 @@ def test_archives_go_to_pyribs_and_back(done):
     assert len(there) == len(archive) and there.dims.tolist() == [bins for _, bins in archive.axes]
     best = there.best_elite
     row = archive.elites[archive.elites["fitness"][:, 0].argmax()]
-    np.testing.assert_array_equal(best["solution"], row["body"])
+    np.testing.assert_array_equal(best["solution"], row["body"].ravel())
     np.testing.assert_array_equal(best["measures"], row["niche"])
     names = [name for name, _ in archive.axes]
     assert nbc.Archive.from_ribs(there, names, archive.materials) == archive
     with pytest.raises(ValueError, match="2 axes are named, expected 4"):
         nbc.Archive.from_ribs(there, ["voxels", "behavior"])
+    pytest.importorskip("pandas")
+    frame = there.data(return_type="pandas")
+    assert len(frame) == len(archive) and set(frame["width"]) == {row["body"].shape[1]}
+    assert {"solution_0", "measures_0", "displacement_3", "function"} <= set(frame)
 
 
 def test_archives_that_do_not_fit_pyribs_are_refused():

@@ -143,7 +143,7 @@ def test_what_a_vector_cannot_do_is_refused_and_leaves_it_whole(use, error, mess
 
 
 def test_what_makes_no_vector_is_refused():
-    with pytest.raises(ValueError, match="there are no bodies"):
+    with pytest.raises(ValueError, match="the number of bodies is 0, expected 1 to 100000"):
         TaskVectorEnv("Walker-v0", [])
     with pytest.raises(ValueError, match="the render mode is 'human', expected 'img', 'rgb_array'"):
         TaskVectorEnv("Walker-v0", [BODY], render_mode="human")

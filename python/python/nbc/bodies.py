@@ -36,6 +36,7 @@ material. Arrays may be of numpy or of any library whose arrays have ``__array__
 All shapes of the package are (rows, columns), as those of numpy."""
 
 MOST_SIDE = 100
+MOST_BODIES = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
@@ -176,6 +177,7 @@ def pack(bodies: Bodies) -> Packed:
         return _pack_array(bodies)
     if isinstance(bodies, (str, bytes)) or not isinstance(bodies, (Sequence, np.ndarray)):
         raise TypeError(f"bodies is of type {type(bodies).__name__}, expected an array (N, H, W) or a list of bodies")
+    _check_count(len(bodies))
     packed, errors = [], {}
     for number, body in enumerate(bodies):
         try:
@@ -188,12 +190,18 @@ def pack(bodies: Bodies) -> Packed:
     return Packed(np.concatenate(flat) if flat else np.empty(0, dtype=np.uint8), shapes, errors)
 
 
+def _check_count(found: int) -> None:
+    if found > MOST_BODIES:
+        raise ValueError(f"there are {found} bodies, expected at most {MOST_BODIES} in one call")
+
+
 def _pack_array(bodies: npt.NDArray[Any]) -> Packed:
     if bodies.ndim != 3:
         hint = "; for one body write `body[None]`" if bodies.ndim == 2 else ""
         raise ValueError(f"bodies has the shape {bodies.shape}, expected (N, H, W){hint}")
     if max(bodies.shape[1:]) > MOST_SIDE:
         raise ValueError(f"bodies has the shape {bodies.shape}, expected at most {(len(bodies), MOST_SIDE, MOST_SIDE)}")
+    _check_count(len(bodies))
     _check_integers(bodies, "bodies")
     shapes = np.empty((len(bodies), 2), dtype=np.uint64)
     shapes[:] = bodies.shape[1:]

@@ -44,7 +44,13 @@ def is_array(value: Any) -> bool:
 
 
 def array_of(value: Any) -> npt.NDArray[Any]:
-    """The numpy array of an array of any library, without a copy where possible."""
+    """The numpy array of an array of any library, without a copy where possible.
+
+    Raises:
+        TypeError: for a masked array, whose mask would be lost.
+    """
+    if isinstance(value, np.ma.MaskedArray):
+        raise TypeError("masked arrays are not read; `filled` makes a plain array of one")
     # A tensor of torch with a gradient gives its numbers only when it is detached.
     if getattr(value, "requires_grad", False) is True:
         value = value.detach()

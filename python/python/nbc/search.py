@@ -6,7 +6,7 @@ import json
 import os
 import time
 import warnings
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
@@ -18,6 +18,9 @@ from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
 from .names import unknown
 from .numbers import array_of, count, seconds
 from .progress import Progress, reporting
+
+if TYPE_CHECKING:
+    import pandas
 
 __all__ = ["Archive", "Candidates", "Search", "evolve", "read_archive"]
 
@@ -93,7 +96,7 @@ class Archive:
 
     __hash__ = None  # type: ignore[assignment]
 
-    def frame(self) -> Any:
+    def frame(self) -> pandas.DataFrame:
         """The elites as a pandas frame, with the columns of the CSV of ``nbc export`` (docs/export.md), except
         ``run`` and ``seed``."""
         import pandas
@@ -115,9 +118,9 @@ class Archive:
         return pandas.DataFrame(columns)
 
     def to_ribs(self) -> Any:
-        """The elites as a ``GridArchive`` of pyribs: solutions are bodies, shape (H, W), the objective is the first
-        fitness, and the measures are the bins of `axes`. Its extra fields have the rest. Of several elites in a niche
-        it has the one with the greatest first fitness.
+        """The elites as a ``GridArchive`` of pyribs: solutions are the codes of bodies in reading order, the objective
+        is the first fitness, and the measures are the bins of `axes`. Its extra fields have the rest, and the ``width``
+        of each body. Of several elites in a niche it has the one with the greatest first fitness.
 
         Raises:
             ValueError: for an archive with the axis ``class``, of which not all behaviors have a bin.
@@ -128,15 +131,17 @@ class Archive:
             raise ValueError("pyribs has no archive with the axis `class`")
         types = {name: (self.elites.dtype[name].shape, _ribs_type(self.elites.dtype[name])) for name in _EXTRA}
         archive = GridArchive(
-            solution_dim=self.elites["body"].shape[1:],
+            solution_dim=int(np.prod(self.elites["body"].shape[1:])),
             dims=[bins for _, bins in self.axes],
             ranges=[(-0.5, bins - 0.5) for _, bins in self.axes],
-            extra_fields={**types, "function": ((), object)},
+            extra_fields={**types, "function": ((), object), "width": ((), np.int64)},
         )
         if len(self):
             extra = {name: self.elites[name].astype(of) for name, (_, of) in types.items()}
-            archive.add(self.elites["body"], self.elites["fitness"][:, 0], self.elites["niche"],
-                        function=np.array(self._functions, dtype=object), **extra)
+            bodies = self.elites["body"]
+            archive.add(bodies.reshape(len(self), -1), self.elites["fitness"][:, 0], self.elites["niche"],
+                        function=np.array(self._functions, dtype=object), width=np.full(len(self), bodies.shape[2]),
+                        **extra)
         return archive
 
     @classmethod
@@ -151,7 +156,7 @@ class Archive:
         Raises:
             ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures.
         """
-        missing = [name for name in (*_EXTRA, "function") if name not in archive.field_list]
+        missing = [name for name in (*_EXTRA, "function", "width") if name not in archive.field_list]
         if missing:
             raise ValueError(f"the archive has no field `{missing[0]}`; `to_ribs` makes archives with it")
         if len(axes) != len(archive.dims):
@@ -161,7 +166,12 @@ class Archive:
         order = np.argsort(found["index"])
         arrays = {name: found[name][order] for name in (*_EXTRA, "function")}
         arrays["niche"] = np.rint(found["measures"][order]).astype(np.uint16)
-        arrays["body"] = found["solution"][order].astype(np.uint8)
+        widths = np.unique(found["width"])
+        if len(widths) > 1:
+            raise ValueError(f"the bodies have the widths {widths.tolist()}, expected one")
+        width = int(widths[0]) if len(widths) else 1
+        codes = found["solution"].astype(np.uint8)
+        arrays["body"] = codes.reshape(len(codes), codes.shape[1] // width, width)[order]
         return cls(arrays, tuple(zip(axes, (int(bins) for bins in archive.dims))), materials)
 
     def _patterns(self) -> int:

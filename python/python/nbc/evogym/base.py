@@ -11,7 +11,6 @@ import numpy.typing as npt
 
 from ..names import meant
 from .sim import VOXEL_SIZE, EvoSim, targets_of
-from .tasks import depths
 from .viewer import PICTURES, WINDOWS, EvoViewer, RenderMode, check_mode
 from .world import EvoWorld
 
@@ -27,10 +26,23 @@ def check_options(options: Optional[Dict[str, Any]], known: Sequence[str]) -> Di
     Raises:
         ValueError: when one is not known.
     """
+    if options is not None and not isinstance(options, dict):
+        raise TypeError(f"the render options are of type {type(options).__name__}, expected a dictionary")
     for name in options or {}:
         if name not in known:
             raise ValueError(f"there is no render option `{name}`, expected {', '.join(known)}{meant(name, known)}")
     return dict(options or {})
+
+
+def reset_options(options: Optional[Dict[str, Any]]) -> Dict[str, Any]:
+    """The options of a reset.
+
+    Raises:
+        TypeError: when they are not a dictionary.
+    """
+    if options is not None and not isinstance(options, dict):
+        raise TypeError(f"the options are of type {type(options).__name__}, expected a dictionary")
+    return options or {}
 
 
 class EvoGymBase(gym.Env):
@@ -59,9 +71,9 @@ class EvoGymBase(gym.Env):
     def _open(self, sim: EvoSim, render_mode: Optional[RenderMode], options: Optional[Dict[str, Any]]) -> None:
         if render_mode is not None:
             check_mode(render_mode)
-        self._mode: Optional[RenderMode] = render_mode
-        self.render_mode, self._options = render_mode, check_options(options, RENDER_OPTIONS)
-        self._sim, self._viewer = sim, EvoViewer(sim)
+        self._render_mode: Optional[RenderMode] = render_mode
+        self.render_mode, self._render_options = render_mode, check_options(options, RENDER_OPTIONS)
+        self._sim, self._default_viewer = sim, EvoViewer(sim)
 
     @property
     def sim(self) -> EvoSim:
@@ -71,11 +83,13 @@ class EvoGymBase(gym.Env):
     @property
     def default_viewer(self) -> EvoViewer:
         """The camera of `render`."""
-        return self._viewer
+        return self._default_viewer
 
     def step(self, action: Dict[str, npt.ArrayLike]) -> Any:
         """Simulates an env step with the targets of each robot by its name, clipped to 0.6 to 1.6. Returns whether a
         robot became unstable."""
+        if not isinstance(action, dict):
+            raise TypeError(f"the action is of type {type(action).__name__}, expected targets by the names of robots")
         for name, targets in action.items():
             self._sim.set_action(name, np.clip(targets_of(targets), 0.6, 1.6))
         is_unstable = self._sim.step()
@@ -90,15 +104,17 @@ class EvoGymBase(gym.Env):
     def render(self) -> Optional[npt.NDArray[np.uint8]]:
         """The world as a picture, shape (height, width, 3); None without a render mode, and after a window showed
         it."""
-        return None if self._mode is None else self._viewer.render(self._mode, **self._options)
+        if self._render_mode is None:
+            return None
+        return self._default_viewer.render(self._render_mode, **self._render_options)
 
     def close(self) -> None:
         """Frees the simulation, and closes the window."""
-        self._viewer.close()
+        self._default_viewer.close()
         self._sim.scenes.close()
 
     def _show(self) -> None:
-        if self._mode in WINDOWS:
+        if self._render_mode in WINDOWS:
             self.render()
 
     def get_time(self) -> int:
@@ -176,10 +192,8 @@ class EvoGymBase(gym.Env):
         return self._depths(object_name, terrain_list, sight_dist, sight_range, above=True)
 
     def _depths(self, name: str, terrain: List[str], sight: int, reach: float, above: bool) -> _Floats:
-        now = self.get_time()
-        x, y = np.mean(self._sim.object_pos_at_time(now, name), axis=1)
-        points = [self._sim.object_pos_at_time(now, each).T for each in terrain]
-        return depths(np.concatenate([np.empty((0, 2)), *points]), (x, y), sight, reach, above)
+        found: _Floats = self._sim.scenes.surface([0], name, terrain, sight, reach, above)
+        return found[0].copy()
 
 
 class BenchmarkBase(EvoGymBase):
@@ -190,7 +204,7 @@ class BenchmarkBase(EvoGymBase):
 
     def _open(self, sim: EvoSim, render_mode: Optional[RenderMode], options: Optional[Dict[str, Any]]) -> None:
         super()._open(sim, render_mode, options)
-        self._viewer.track_objects("robot")
+        self._default_viewer.track_objects("robot")
 
     def pos_at_time(self, time: int) -> _Floats:
         return super().pos_at_time(time) * self.VOXEL_SIZE

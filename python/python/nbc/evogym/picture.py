@@ -8,6 +8,7 @@ from typing import Any, Iterable, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
+from ..numbers import count
 from .sim import Scenes
 from .world import EvoWorld
 
@@ -45,13 +46,16 @@ def draw(
         follow: the object that is in the middle.
         hide_background, hide_grid, hide_edges, hide_voxels: what is not drawn.
     """
+    pixels, across = (count(width, "width", 1, 10_000), count(height, "height", 1, 10_000)), float(view)
+    if not 0 < across < np.inf:
+        raise ValueError(f"view is {view}, expected a positive number of voxels")
     if follow in world.objects:
         middle = scenes.points([scene], follow)[0].mean(axis=0)
     else:
-        middle = np.array([view / 2, view / 4])
-    corner = (float(middle[0]) - view / 2, float(middle[1]) - height * view / width / 2.5)
+        middle = np.array([across / 2, across / 4])
+    corner = (float(middle[0]) - across / 2, float(middle[1]) - pixels[1] * across / pixels[0] / 2.5)
     hidden = Hidden(hide_background, hide_grid, hide_edges, hide_voxels)
-    return paint(scenes, scene, world, corner, width / view, (width, height), hidden)
+    return paint(scenes, scene, world, corner, pixels[0] / across, pixels, hidden)
 
 
 class Hidden(NamedTuple):
@@ -107,6 +111,7 @@ def save_gif(path: Union[str, os.PathLike[str]], pictures: Iterable[npt.NDArray[
         from PIL import Image
     except ImportError:
         raise ImportError("Pillow writes films, and is not installed: `pip install pillow`") from None
+    path = os.fspath(path)
     if not fps > 0:
         raise ValueError(f"fps is {fps}, expected a positive number")
     frames = [Image.fromarray(np.asarray(each)) for each in pictures]

@@ -11,12 +11,12 @@ import numpy.typing as npt
 
 from .. import _nbc
 from ..numbers import array_of, count
-from .exchange import not_joined
 from .world import EvoWorld, WorldObject
 
 __all__ = ["EvoSim", "Scenes"]
 
 _Points = npt.NDArray[np.float64]
+_Numbers = npt.NDArray[np.uintp]
 VOXEL_SIZE = 0.1
 
 
@@ -38,8 +38,12 @@ class Scenes:
         """Puts the objects of each world at their start.
 
         Raises:
-            ValueError: for a world in which nothing can move, and for neighbors that are not joined.
+            ValueError: for a world in which nothing can move, and for an object that its connections do not join into
+                one piece.
         """
+        for world in worlds:
+            if not isinstance(world, EvoWorld):
+                raise TypeError(f"a world is of type {type(world).__name__}, expected EvoWorld")
         self.names = [[each.name for each in world.ordered()] for world in worlds]
         self._objects = [[_packed(each) for each in world.ordered()] for world in worlds]
         self._start()
@@ -64,12 +68,15 @@ class Scenes:
         Raises:
             TypeError, ValueError: when there is not one finite target for each actuator.
         """
-        targets = np.ascontiguousarray(targets_of(actions)).ravel()
+        self.drive(targets_of(actions).ravel(), count(steps, "steps"))
+
+    def drive(self, targets: _Points, steps: int = 1) -> None:
+        """Simulates env steps as `step` does, with targets that are finite numbers in an array of one dimension."""
         if len(targets) != self._targets:
             expected = f"expected {self._targets}, one for each actuator"
             raise ValueError(f"the actions have {len(targets)} targets, {expected}")
         self._native.act(targets)
-        self._native.step(count(steps, "steps"))
+        self._native.step(steps)
 
     def reset(self, scene: int) -> None:
         """Puts a world back to its start. Its targets stay until the next step."""
@@ -78,16 +85,58 @@ class Scenes:
     def points(self, scenes: Sequence[int], name: str) -> Tuple[_Points, _Points]:
         """The points of an object in some worlds, one world after another: positions in voxels, shape (P, 2), and
         velocities in voxels per second."""
-        places = {self._place(scene, name) for scene in scenes}
-        if len(places) == 1:
-            return self._native.points(list(scenes), places.pop())
-        found = [self._native.points([scene], self._place(scene, name)) for scene in scenes]
-        return np.concatenate([each[0] for each in found]), np.concatenate([each[1] for each in found])
+        return self._native.points(*self.places(scenes, name))
+
+    def centers(self, scenes: Sequence[int], name: str) -> Tuple[_Points, _Points]:
+        """The center of mass of an object in each of some worlds: its position in voxels, shape (N, 2), and its
+        velocity in voxels per second."""
+        found = self._native.centers(*self.places(scenes, name))
+        return found[:, :2], found[:, 4:6]
+
+    def shapes(self, scenes: Sequence[int], name: str) -> _Points:
+        """The points of an object from its center of mass in each of some worlds, shape (N, 2 P): first x, then y, with
+        zeros where a world has fewer points than the most."""
+        numbers, objects = self.places(scenes, name)
+        most = int(self._native.counts(numbers, objects).max(initial=1))
+        return self._native.shapes(numbers, objects, most)
+
+    def surface(
+        self,
+        scenes: Sequence[int],
+        name: str,
+        terrain: Sequence[str],
+        sight_dist: int,
+        sight_range: float = 5,
+        above: bool = False,
+    ) -> _Points:
+        """How far below the center of mass of an object the terrain is in each of some worlds, in voxels.
+
+        Args:
+            scenes: the numbers of the worlds.
+            name: the object.
+            terrain: the objects that are terrain.
+            sight_dist: the columns to the left and to the right of that in the middle.
+            sight_range: the most that is seen, and what is said of a column without terrain.
+            above: whether terrain above the object is meant.
+
+        Returns:
+            A distance for each column, shape (N, 2 sight_dist + 1).
+        """
+        numbers, objects = self.places(scenes, name)
+        columns = [self.places(scenes, each)[1] for each in terrain]
+        grounds = np.stack(columns, axis=1) if columns else np.empty((len(numbers), 0), dtype=np.uintp)
+        sight = count(sight_dist, "sight_dist", most=4096)
+        return self._native.surface(numbers, objects, grounds, sight, float(sight_range), bool(above))
+
+    def extents(self, scenes: Sequence[int], name: str) -> _Points:
+        """The width and the height of an object in each of some worlds, and the area of the convex hull of its points,
+        shape (N, 3), in voxels."""
+        return self._native.extents(*self.places(scenes, name))
 
     def turns(self, scenes: Sequence[int], name: str) -> _Points:
         """How far an object has turned in each of some worlds since the start, in radians from 0 to 2π,
         counterclockwise, by Evolution Gym's estimate."""
-        return np.concatenate([self._native.turns([scene], self._place(scene, name)) for scene in scenes])
+        return self._native.turns(*self.places(scenes, name))
 
     def voxels(self, scene: int, name: str) -> npt.NDArray[np.intp]:
         """The four points of each voxel of an object, by their rows in `points`, shape (V, 4)."""
@@ -112,6 +161,16 @@ class Scenes:
     def close(self) -> None:
         """Frees the worlds. Later calls raise ValueError."""
         self._native.close()
+
+    @property
+    def changes(self) -> int:
+        """A number that grows whenever the state of a world changes."""
+        return self._native.changes()
+
+    def places(self, scenes: Sequence[int], name: str) -> Tuple[_Numbers, _Numbers]:
+        """The numbers of some worlds, and that of an object in each of them."""
+        objects = [self._place(scene, name) for scene in scenes]
+        return np.array(scenes, dtype=np.uintp).reshape(-1), np.array(objects, dtype=np.uintp)
 
     def __getstate__(self) -> Dict[str, Any]:
         states = [self._native.state(n) for n in range(len(self))]
@@ -154,10 +213,10 @@ def targets_of(actions: npt.ArrayLike) -> npt.NDArray[np.float64]:
     return targets
 
 
-def _packed(each: WorldObject) -> Tuple[npt.NDArray[np.uint8], int, int]:
-    for a, b in each.apart:
-        raise ValueError(f"the object `{each.name}`: {not_joined(each.structure, a, b)}")
-    return np.ascontiguousarray(each.structure, dtype=np.uint8), each.pos[0], each.pos[1]
+def _packed(each: WorldObject) -> Tuple[npt.NDArray[np.uint8], int, int, List[Tuple[int, int]]]:
+    if not each.is_joined():
+        raise ValueError(f"the connections of the object `{each.name}` do not join it into one piece")
+    return np.ascontiguousarray(each.structure, dtype=np.uint8), each.pos[0], each.pos[1], each.apart
 
 
 class EvoSim:
@@ -179,7 +238,8 @@ class EvoSim:
     VOXEL_SIZE = VOXEL_SIZE
 
     def __init__(self, world: EvoWorld) -> None:
-        self.follow(world.copy(), Scenes([world]))
+        scenes = Scenes([world])
+        self.follow(world.copy(), scenes)
 
     @classmethod
     def of(cls, world: EvoWorld, scenes: Scenes) -> EvoSim:
@@ -221,7 +281,7 @@ class EvoSim:
     def step(self) -> bool:
         """Simulates an env step. Returns whether a robot became unstable; then time and positions stay as they were,
         and only `reset` helps."""
-        self.scenes.step(self._targets)
+        self.scenes.drive(self._targets)
         return not self.keep()
 
     def keep(self) -> bool:

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from ..registration import EPISODES
 from ..names import unknown
 from ..numbers import array_of
-from .sim import VOXEL_SIZE, Scenes, targets_of
+from .sim import VOXEL_SIZE, Scenes
 from .world import EvoWorld
 
 __all__ = ["TASKS", "Task", "TaskWorlds", "task_of"]
@@ -27,22 +27,20 @@ _Bools = npt.NDArray[np.bool_]
 
 
 class Thing:
-    """The points of an object in some worlds at one time."""
+    """An object in some worlds at one time."""
 
-    def __init__(self, positions: _Floats, velocities: _Floats, turn: Optional[_Floats], layout: _Layout) -> None:
-        self.positions, self.velocities, self._layout = positions * VOXEL_SIZE, velocities * VOXEL_SIZE, layout
-        self.com, self._voxels, self._turn = layout.mean(self.positions), positions, turn
-
-    @property
-    def middle(self) -> _Floats:
-        """Their centers of mass in voxels. Points are added one after another, as Evolution Gym does it: a column of a
-        terrain may end exactly at the middle of a symmetric robot, so the last bit matters."""
-        return np.stack([own.T.mean(axis=1) for own in self._layout.split(self._voxels)])
+    def __init__(self, means: _Floats, turn: Optional[_Floats], extents: Optional[_Floats]) -> None:
+        self.com, self._means, self._turn, self._extents = means[:, 2:4], means, turn, extents
 
     @property
     def velocity(self) -> _Floats:
         """Velocities of the centers of mass, shape (N, 2)."""
-        return self._layout.mean(self.velocities)
+        return self._means[:, 4:6] * VOXEL_SIZE
+
+    @property
+    def mean_velocity(self) -> _Floats:
+        """The means of the velocities of the points, shape (N, 2): the same but for its last bit."""
+        return self._means[:, 6:8]
 
     @property
     def turn(self) -> _Floats:
@@ -51,36 +49,16 @@ class Thing:
         return self._turn
 
     @property
-    def relative(self) -> _Floats:
-        """Positions of the points from the center of mass, shape (N, 2 P): first x, then y, zeros where a world has
-        fewer points than the most."""
-        return self._layout.padded(self.positions - self.com[self._layout.owner])
+    def span(self) -> _Floats:
+        """Widths and heights, shape (N, 2)."""
+        assert self._extents is not None, "a task that needs extents says so"
+        return self._extents[:, :2] * VOXEL_SIZE
 
-    def each(self) -> List[_Floats]:
-        """The positions in each world."""
-        return self._layout.split(self.positions)
-
-
-class _Layout:
-    """Where the points of an object of each world are in the arrays of all."""
-
-    def __init__(self, counts: Sequence[int]) -> None:
-        self.counts = np.asarray(counts)
-        self.first = np.concatenate(([0], np.cumsum(self.counts)[:-1])).astype(np.intp)
-        self.owner = np.repeat(np.arange(len(self.counts)), self.counts)
-        self._slot = np.arange(len(self.owner)) - self.first[self.owner]
-
-    def split(self, values: _Floats) -> List[_Floats]:
-        return np.split(values, self.first[1:])
-
-    def mean(self, values: _Floats) -> _Floats:
-        mean: _Floats = np.add.reduceat(values, self.first, axis=0) / self.counts[:, None]
-        return mean
-
-    def padded(self, values: _Floats) -> _Floats:
-        padded = np.zeros((len(self.counts), 2, int(self.counts.max())))
-        padded[self.owner, :, self._slot] = values
-        return padded.reshape(len(self.counts), -1)
+    @property
+    def area(self) -> _Floats:
+        """Areas of the convex hulls, shape (N,)."""
+        assert self._extents is not None, "a task that needs extents says so"
+        return self._extents[:, 2] * VOXEL_SIZE**2
 
 
 @dataclass
@@ -114,37 +92,20 @@ def turn(now: Moment) -> _Floats:
 
 
 def shape(now: Moment) -> _Floats:
-    """The points of the robot from its center of mass."""
-    return now.robot.relative
+    """The points of the robot from its center of mass: first x, then y, zeros where a world has fewer points than the
+    most."""
+    return now.worlds.shape()
 
 
-def depths(points: _Floats, middle: Tuple[float, float], sight: int, reach: float, above: bool) -> _Floats:
-    """How far below (or above) a place the highest (lowest) point is in each column, up to ``reach``, in voxels."""
-    x, y = middle
-    points = points[points[:, 1] > y] if above else points[points[:, 1] < y]
-    found = np.full(2 * sight + 1, reach, dtype=np.float64)
-    for column in range(2 * sight + 1):
-        at = x + (column - sight)
-        own = points[(points[:, 0] > at - 0.5) & (points[:, 0] < at + 0.5), 1]
-        if len(own):
-            found[column] = own.min() - y if above else y - own.max()
-    return np.clip(found, 0, reach)
-
-
-def surface(now: Moment, names: Sequence[str], sight: int, above: bool = False, reach: float = 5.0) -> _Floats:
+def surface(now: Moment, names: Tuple[str, ...], sight: int, above: bool = False, reach: float = 5.0) -> _Floats:
     """How far below (or above) the robot's center of mass the terrain is in each column, up to ``reach`` voxels."""
-    # In voxels; see `Thing.middle`.
-    found = [
-        depths(now.worlds.terrain(world, names), (x, y), sight, reach, above)
-        for world, (x, y) in enumerate(now.robot.middle)
-    ]
-    return np.stack(found) * VOXEL_SIZE
+    return now.worlds.surface(names, sight, above, reach)
 
 
 def pair(now: Moment, name: str) -> _Floats:
     """Velocities of the robot and of an object, and the way from one to the other."""
     other = now.object(name)
-    return np.concatenate((now.robot.velocity, other.com - now.robot.com, other.velocity), axis=1)
+    return np.concatenate((now.robot.mean_velocity, other.com - now.robot.com, other.mean_velocity), axis=1)
 
 
 def way_to(now: Moment, name: str) -> _Floats:
@@ -163,9 +124,11 @@ def turn_of(now: Moment, name: str) -> _Floats:
 
 
 def goal(now: Moment) -> _Floats:
-    """The number of the goal, its place, and how far it is."""
-    places = np.array([goals[min(int(at), len(goals) - 1)] for goals, at in zip(now.worlds.goals, now.worlds.goal)])
-    return np.stack((now.worlds.goal, places * 0.1, places * 0.1 - now.robot.com[:, 0]), axis=1)
+    """The number of the goal, its place, and how far it is. A goal that is passed in an env step is observed once more,
+    as Evolution Gym does it."""
+    sought = now.worlds.sought
+    places = now.worlds.goal_places(sought) * 0.1
+    return np.stack((sought, places, places - now.robot.com[:, 0]), axis=1)
 
 
 # ---- what is rewarded ----
@@ -229,14 +192,12 @@ def balances(before: Moment, after: Moment, x: float, y: float) -> Tuple[_Floats
 
 def changes_area(before: Moment, after: Moment, sign: int) -> Tuple[_Floats, _Bools]:
     """The area of the convex hull grows or shrinks."""
-    areas = [np.array([_hull_area(points) for points in moment.robot.each()]) for moment in (before, after)]
-    return (areas[1] - areas[0]) * 10 * sign, _no(after)
+    return (after.robot.area - before.robot.area) * 10 * sign, _no(after)
 
 
 def changes_span(before: Moment, after: Moment, axis: int) -> Tuple[_Floats, _Bools]:
     """The width or the height grows."""
-    spans = [np.array([np.ptp(points[:, axis]) for points in moment.robot.each()]) for moment in (before, after)]
-    return spans[1] - spans[0], _no(after)
+    return after.robot.span[:, axis] - before.robot.span[:, axis], _no(after)
 
 
 def carries(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
@@ -297,34 +258,15 @@ def lifts(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
 
 def visits(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
     """Comes nearer to the next of some goals; those within two voxels are passed."""
-    worlds, reward = after.worlds, np.zeros(len(after.robot.com))
-    for n, (one, two) in enumerate(zip(before.robot.com[:, 0], after.robot.com[:, 0])):
-        passes = True
-        while passes and worlds.goal[n] < len(worlds.goals[n]):
-            place = worlds.goals[n][int(worlds.goal[n])] * 0.1
-            reward[n] = abs(place - one) - abs(place - two)
-            passes = abs(place - two) < 2 * 0.1
-            worlds.goal[n] += passes
-    done = np.array([at >= len(goals) for goals, at in zip(worlds.goals, worlds.goal)])
+    worlds, one, two = after.worlds, before.robot.com[:, 0], after.robot.com[:, 0]
+    reward, passes = np.zeros(len(two)), np.ones(len(two), dtype=bool)
+    while (passes := passes & ~worlds.arrived()).any():
+        place = worlds.goal_places(worlds.goal) * 0.1
+        reward = np.where(passes, np.abs(place - one) - np.abs(place - two), reward)
+        passes &= np.abs(place - two) < 2 * 0.1
+        worlds.goal += passes
+    done = worlds.arrived()
     return reward + done, done
-
-
-def _hull_area(points: _Floats) -> float:
-    """The area of the convex hull of points."""
-    ordered = sorted(map(tuple, points.tolist()))
-    hull: List[Tuple[float, float]] = []
-    for side in (ordered, ordered[::-1]):
-        half: List[Tuple[float, float]] = []
-        for x, y in side:
-            while len(half) > 1:
-                (a, b), (c, d) = half[-2:]
-                if (c - a) * (y - b) - (d - b) * (x - a) > 0:
-                    break
-                half.pop()
-            half.append((x, y))
-        hull += half[:-1]
-    following = hull[1:] + hull[:1]
-    return sum(a * d - c * b for (a, b), (c, d) in zip(hull, following)) / 2
 
 
 def catches(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
@@ -356,11 +298,16 @@ class Task:
         return task_of, (self.name,)
 
     @property
-    def turns(self) -> Optional[str]:
+    def turned(self) -> Optional[str]:
         """The object whose turn is observed."""
         if turn in self.observes:
             return "robot"
         return self.others[0] if any(getattr(part, "func", None) is turn_of for part in self.observes) else None
+
+    @property
+    def needs_extents(self) -> bool:
+        """Whether widths, heights and areas are rewarded."""
+        return getattr(self.judge, "func", None) in (changes_area, changes_span)
 
     def make_world(
         self, body: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None, drop: Tuple[int, int] = (0, 0)
@@ -487,43 +434,51 @@ class TaskWorlds:
     def __init__(self, task: Task, worlds: Sequence[EvoWorld]) -> None:
         self.task, self.worlds, self.scenes = task, list(worlds), Scenes(worlds)
         self.goals: List[List[int]] = [[0] for _ in worlds]
-        self.goal = np.zeros(len(worlds))
+        self.goal = np.zeros(len(worlds), dtype=np.int64)
+        # The goals before the last env step.
+        self.sought = self.goal.copy()
         self._prepare()
 
     def _prepare(self) -> None:
         """Finds out what the worlds and their states say."""
-        self._all = list(range(len(self.worlds)))
+        self._all = range(len(self.worlds))
         places = [self.scenes.actuators(n, "robot") for n in self._all]
         self.actuators = np.array([end - first for first, end in places])
-        self._layouts: Dict[str, _Layout] = {}
-        for name in ("robot", *self.task.others):
-            self._layouts[name] = _Layout([len(self.scenes.points([n], name)[0]) for n in self._all])
-        self._is_fixed = [
-            {each.name: bool((each.structure[each.structure > 0] == 5).all()) for each in world.objects.values()}
-            for world in self.worlds
-        ]
-        self._terrain: Dict[Tuple[int, str], _Floats] = {}
+        self._places = {name: self.scenes.places(self._all, name) for name in ("robot", *self.task.others)}
+        self._points = int(self.scenes._native.counts(*self._places["robot"]).max())
+        self._grounds: Dict[Tuple[str, ...], npt.NDArray[np.uintp]] = {}
+        self._lay_out_goals()
+        self._turned, self._is_spread = self.task.turned, self.task.needs_extents
+        self._seen = -1
         self.look()
+
+    def _lay_out_goals(self) -> None:
+        self._counts = np.array([len(goals) for goals in self.goals])
+        self._table = np.zeros((len(self), int(self._counts.max())), dtype=np.int64)
+        for own, goals in zip(self._table, self.goals):
+            own[: len(goals)] = goals
 
     def __len__(self) -> int:
         return len(self._all)
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {each: getattr(self, each) for each in ("task", "worlds", "scenes", "goals", "goal")}
+        return {each: getattr(self, each) for each in ("task", "worlds", "scenes", "goals", "goal", "sought")}
 
     def __setstate__(self, kept: Dict[str, Any]) -> None:
         self.__dict__.update(kept)
         self._prepare()
 
-    def step(self, actions: npt.ArrayLike) -> Tuple[_Floats, _Bools]:
-        """Simulates an env step; see `Scenes.step`. Actions are clipped to 0.6 to 1.6. Returns rewards, and whether
-        each world is done."""
-        before = self.now
-        self.scenes.step(np.clip(targets_of(actions), 0.6, 1.6))
+    def step(self, targets: _Floats) -> Tuple[_Floats, _Bools]:
+        """Simulates an env step with the targets of `targets_of`, which are clipped to 0.6 to 1.6. Returns rewards, and
+        whether each world is done."""
         self.look()
-        broken = self.scenes.faults > 0
+        before = self.now
+        self.scenes.drive(np.minimum(np.maximum(targets, 0.6), 1.6))
+        self.look()
+        self.sought[:] = self.goal
         reward, done = self.task.judge(before, self.now)
-        return reward - 3.0 * broken, done | broken
+        broken = self.scenes.faults > 0
+        return (reward - 3.0 * broken, done | broken) if broken.any() else (reward, done)
 
     def reset(
         self, worlds: Sequence[int], randoms: Sequence[Any], goals: Sequence[Optional[Sequence[int]]] = ()
@@ -546,7 +501,8 @@ class TaskWorlds:
             if self.task.falls:
                 self._drop(worlds, found)
             for n, own in zip(worlds, found):
-                self.goals[n], self.goal[n] = own, 0
+                self.goals[n], self.goal[n], self.sought[n] = own, 0, 0
+            self._lay_out_goals()
         for n in worlds:
             self.scenes.reset(n)
         self.look()
@@ -555,35 +511,48 @@ class TaskWorlds:
         """Makes some worlds anew, with the package somewhere else."""
         made = list(self.worlds)
         for n, (right, up) in zip(worlds, places):
-            made[n] = self.task.make_world(made[n].objects["robot"].structure, drop=(right, up))
+            robot = made[n].objects["robot"]
+            made[n] = self.task.make_world(robot.structure, robot.get_connections(), (right, up))
         scenes = Scenes(made)
         for n in self._all:
             if n not in worlds:
                 scenes._native.restore(n, *self.scenes._native.state(n))
         self.scenes.close()
-        self.worlds, self.scenes = made, scenes
+        self.worlds, self.scenes, self._seen = made, scenes, -1
 
     def observe(self) -> _Floats:
         """What each robot observes, shape (N, most values)."""
         return np.concatenate([part(self.now) for part in self.task.observes], axis=1)
 
-    def terrain(self, world: int, names: Sequence[str]) -> _Floats:
-        """The points of some objects in voxels."""
-        return np.concatenate([self._points(world, name) for name in names])
+    def shape(self) -> _Floats:
+        """The points of each robot from its center of mass."""
+        return self.scenes._native.shapes(*self._places["robot"], self._points) * VOXEL_SIZE
 
-    def _points(self, world: int, name: str) -> _Floats:
-        if not self._is_fixed[world][name]:
-            return self.scenes.points([world], name)[0]
-        if (world, name) not in self._terrain:
-            self._terrain[world, name] = self.scenes.points([world], name)[0]
-        return self._terrain[world, name]
+    def surface(self, names: Tuple[str, ...], sight: int, above: bool, reach: float) -> _Floats:
+        """The terrain around each robot."""
+        if names not in self._grounds:
+            self._grounds[names] = np.stack([self.scenes.places(self._all, name)[1] for name in names], axis=1)
+        found = self.scenes._native.surface(*self._places["robot"], self._grounds[names], sight, reach, above)
+        return found * VOXEL_SIZE
+
+    def goal_places(self, numbers: npt.NDArray[np.int64]) -> npt.NDArray[np.int64]:
+        """The goals with these numbers, or the last one of a world that has fewer, in voxels."""
+        return self._table[self._all, np.minimum(numbers, self._counts - 1)]
+
+    def arrived(self) -> _Bools:
+        """The worlds in which all goals have been passed."""
+        return self.goal >= self._counts
 
     def look(self) -> None:
-        """Takes the state of the worlds as that of now."""
-        things = {}
-        for name, layout in self._layouts.items():
-            turns = self.scenes.turns(self._all, name) if name == self.task.turns else None
-            things[name] = Thing(*self.scenes.points(self._all, name), turns, layout)
+        """Takes the state of the worlds as that of now. They may have been stepped or reset by themselves."""
+        changes = self.scenes.changes
+        if changes == self._seen:
+            return
+        self._seen, native, things = changes, self.scenes._native, {}
+        for name, places in self._places.items():
+            turns = native.turns(*places) if name == self._turned else None
+            extents = native.extents(*places) if name == "robot" and self._is_spread else None
+            things[name] = Thing(native.centers(*places), turns, extents)
         self.now = Moment(things.pop("robot"), things, self)
 
 

@@ -5,11 +5,14 @@ from __future__ import annotations
 import operator
 import random
 import time
+from bisect import bisect_left
+from itertools import accumulate
 from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
+from ..numbers import count
 from .exchange import connections
 
 __all__ = [
@@ -43,6 +46,10 @@ BASELINE_ENV_NAMES: List[str] = [
 """The names of Evolution Gym's tasks; `nbc.evogym.TASKS` has those that are here."""
 
 
+MOST_DRAWN = 300_000
+"""The voxels that `sample_robot` draws before it gives up."""
+
+
 def get_uniform(x: int) -> npt.NDArray[np.float64]:
     """A uniform distribution over ``x`` values."""
     if x <= 0:
@@ -52,15 +59,21 @@ def get_uniform(x: int) -> npt.NDArray[np.float64]:
 
 def draw(pd: npt.ArrayLike) -> int:
     """A number drawn from a distribution, which need not add up to 1, by Python's ``random``."""
-    weights = np.asarray(pd, dtype=float)
-    if weights.size == 0 or (weights < 0).any() or weights.sum() <= 0:
+    return _drawn(_sums(np.asarray(pd, dtype=float)))
+
+
+def _sums(weights: npt.NDArray[np.float64]) -> List[float]:
+    """The sums of a distribution up to each value."""
+    if weights.size == 0 or not (weights >= 0).all() or not 0 < weights.sum() < np.inf:
         raise ValueError(f"the distribution is {weights.tolist()}, expected weights from 0 on, not all 0")
-    drawn, total = random.uniform(0, 1), 0.0
-    for value, share in enumerate(weights / weights.sum()):
-        total += share
-        if drawn <= total:
-            return value
-    return int(np.flatnonzero(weights)[-1])
+    shares = (weights / weights.sum()).ravel().tolist()
+    sums = list(accumulate(shares))
+    # What rounding leaves belongs to the last value that has a weight.
+    return sums[: max(n for n, share in enumerate(shares) if share > 0)] + [1.0]
+
+
+def _drawn(sums: List[float]) -> int:
+    return bisect_left(sums, random.uniform(0, 1))
 
 
 def sample_robot(
@@ -72,20 +85,25 @@ def sample_robot(
     Args:
         robot_shape: rows and columns.
         pd: the weights of the five codes; by default 0.6 for empty and 0.2 for the others.
+
+    Raises:
+        ValueError: for wrong arguments, and when no body in one piece is found after `MOST_DRAWN` drawn voxels, because
+            the shape is too large for so many empty ones.
     """
     weights = np.array([0.6, 0.2, 0.2, 0.2, 0.2]) if pd is None else np.asarray(pd, dtype=float)
     if weights.shape != (5,):
         raise ValueError(f"pd has the shape {weights.shape}, expected (5,)")
     if weights[3] + weights[4] <= 0:
         raise ValueError("pd gives no actuator")
-    if min(robot_shape) < 1:
-        raise ValueError(f"robot_shape is {tuple(robot_shape)}, expected at least one row and one column")
-    while True:
-        robot = np.zeros(robot_shape)
-        for place in np.ndindex(*robot_shape):
-            robot[place] = draw(weights)
+    rows, columns = (count(side, "a side of robot_shape", least=1, most=1000) for side in robot_shape)
+    sums = _sums(weights)
+    for _ in range(1 + MOST_DRAWN // (rows * columns)):
+        robot = np.zeros((rows, columns))
+        for place in np.ndindex(rows, columns):
+            robot[place] = _drawn(sums)
         if is_connected(robot) and has_actuator(robot):
             return robot, get_full_connectivity(robot)
+    raise ValueError(f"no body of the shape ({rows}, {columns}) in one piece was found; give fewer empty voxels in pd")
 
 
 def is_connected(robot: npt.NDArray[Any]) -> bool:

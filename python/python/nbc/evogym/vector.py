@@ -13,7 +13,7 @@ from gymnasium.vector import AutoresetMode, VectorEnv
 
 from ..names import meant
 from ..numbers import array_of, count
-from .base import RENDER_OPTIONS, check_options
+from .base import RENDER_OPTIONS, check_options, reset_options
 from .picture import draw
 from .sim import targets_of
 from .tasks import TaskWorlds, task_of
@@ -22,6 +22,7 @@ from .viewer import PICTURES
 __all__ = ["TaskVectorEnv", "make_many"]
 
 _Array = npt.NDArray[Any]
+MOST_WORLDS = 100_000
 _Autoreset = Union[AutoresetMode, Literal["NextStep", "SameStep", "Disabled"]]
 
 
@@ -48,6 +49,7 @@ class TaskVectorEnv(VectorEnv):
         render_mode: Optional[Literal["img", "rgb_array"]] = None,
         render_options: Optional[Dict[str, Any]] = None,
         max_episode_steps: Optional[int] = None,
+        connections: Optional[Sequence[Optional[npt.ArrayLike]]] = None,
     ) -> None:
         """Puts each robot into a world of its own.
 
@@ -59,6 +61,7 @@ class TaskVectorEnv(VectorEnv):
             render_mode: ``"rgb_array"`` or ``"img"`` to draw pictures.
             render_options: what is not drawn: ``hide_background``, ``hide_grid``, ``hide_edges``, ``hide_voxels``.
             max_episode_steps: the env steps after which an episode is truncated; by default those of the task.
+            connections: the connections of each robot, or None for a robot whose neighbors are all joined.
         """
         mode = AutoresetMode(autoreset_mode)
         if render_mode is not None and render_mode not in PICTURES:
@@ -70,9 +73,12 @@ class TaskVectorEnv(VectorEnv):
         self.max_episode_steps = (
             self.task.steps if max_episode_steps is None else count(max_episode_steps, "max_episode_steps", least=1)
         )
-        if not len(bodies):
-            raise ValueError("there are no bodies, expected at least one")
-        self._worlds = TaskWorlds(self.task, [self.task.make_world(body) for body in bodies])
+        count(len(bodies), "the number of bodies", least=1, most=MOST_WORLDS)
+        joined = [None] * len(bodies) if connections is None else list(connections)
+        if len(joined) != len(bodies):
+            raise ValueError(f"there are connections of {len(joined)} bodies, expected {len(bodies)}")
+        worlds = [self.task.make_world(body, own) for body, own in zip(bodies, joined)]
+        self._worlds = TaskWorlds(self.task, worlds)
         self.actuators: npt.NDArray[np.int64] = self._worlds.actuators
         self.num_envs = len(self._worlds)
         most = int(self.actuators.max())
@@ -111,7 +117,7 @@ class TaskVectorEnv(VectorEnv):
                 `TaskEnv.reset`; worlds that are reset by themselves later keep them. ``reset_mask`` is an array of
                 booleans, and worlds where it is False go on.
         """
-        options = dict(options or {})
+        options = reset_options(options)
         chosen = self._mask(options.get("reset_mask"))
         goals = self._goals_of(options.get("goals"), chosen)
         randoms = list(self._randoms)
@@ -204,13 +210,17 @@ class TaskVectorEnv(VectorEnv):
         return [new if chosen[n] else old for n, (new, old) in enumerate(zip(given, self._goals))]
 
 
-def make_many(task: str, num_envs: int, body: npt.ArrayLike, **options: Any) -> TaskVectorEnv:
+def make_many(
+    task: str, num_envs: int, body: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None, **options: Any
+) -> TaskVectorEnv:
     """What ``gymnasium.make_vec`` makes: a task with robots of one body.
 
     Args:
         task: the name of the task.
         num_envs: how many robots there are.
         body: their structure.
+        connections: their connections, or None if all neighbors are joined.
         options: the arguments of `TaskVectorEnv`.
     """
-    return TaskVectorEnv(task, [body] * count(num_envs, "num_envs", least=1), **options)
+    number = count(num_envs, "num_envs", least=1, most=MOST_WORLDS)
+    return TaskVectorEnv(task, [body] * number, connections=[connections] * number, **options)

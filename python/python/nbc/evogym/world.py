@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+from functools import lru_cache
 from importlib import resources
 from typing import Any, Dict, List, Mapping, Optional, Tuple
 
@@ -26,7 +27,7 @@ class WorldObject:
         name: how `EvoSim` calls it.
         structure: the codes of its voxels, row 0 on top, shape (H, W).
         pos: column and row of its lower left corner in the world.
-        apart: the neighbors that are not joined, by their numbers in the flattened structure. `EvoSim` refuses them.
+        apart: the neighbors that are not joined, by their numbers in the flattened structure.
     """
 
     def __init__(self) -> None:
@@ -118,6 +119,22 @@ class WorldObject:
         is_joined = [(a, b) not in self.apart for a, b in edges.T.tolist()]
         return edges[:, is_joined] if self.apart else edges
 
+    def is_joined(self) -> bool:
+        """Whether its connections join all of its voxels."""
+        if not self.apart:
+            return True
+        left = set(np.flatnonzero(self.structure).tolist())
+        beside: Dict[int, List[int]] = {}
+        for a, b in self.get_connections().T.tolist():
+            beside.setdefault(a, []).append(b)
+            beside.setdefault(b, []).append(a)
+        found = [left.pop()]
+        while found:
+            reached = left.intersection(beside.get(found.pop(), ()))
+            left -= reached
+            found += reached
+        return not left
+
     def get_pos(self) -> Tuple[int, int]:
         """Column and row of its lower left corner."""
         return (self.pos[0], self.pos[1])
@@ -194,8 +211,7 @@ class EvoWorld:
     @classmethod
     def of_task(cls, name: str) -> EvoWorld:
         """The world of a task of Evolution Gym, such as ``"UpStepper-v0"``, without its robot."""
-        text = resources.files(__package__).joinpath("worlds.json").read_text(encoding="utf-8")
-        known = json.loads(text)["worlds"]
+        known = _task_worlds()
         if name not in known:
             raise ValueError(f"there is no world {name!r}")
         world = cls()
@@ -226,6 +242,8 @@ class EvoWorld:
         Raises:
             ValueError: when its name is taken, or it overlaps another.
         """
+        if not isinstance(obj, WorldObject):
+            raise TypeError(f"the object is of type {type(obj).__name__}, expected WorldObject")
         if obj.name in self.objects:
             raise ValueError(f"the world has an object `{obj.name}` already")
         cells = set(obj._cells())
@@ -250,9 +268,11 @@ class EvoWorld:
 
     def move_object(self, obj_name: str, x: int, y: int) -> None:
         """Moves an object."""
-        before = self.remove_object(obj_name)
-        moved = before.copy()
+        if obj_name not in self.objects:
+            raise ValueError(f"the world has no object `{obj_name}`")
+        moved = self.objects[obj_name].copy()
         moved.set_pos(x, y)
+        before = self.remove_object(obj_name)
         try:
             self.add_object(moved)
         except ValueError:
@@ -282,6 +302,14 @@ class EvoWorld:
         """The objects in the order of Evolution Gym: those with actuators first, and each kind by name."""
         is_passive = {name: not np.isin(each.structure, (3, 4)).any() for name, each in self.objects.items()}
         return [self.objects[name] for name in sorted(self.objects, key=lambda name: (is_passive[name], name))]
+
+
+@lru_cache(maxsize=None)
+def _task_worlds() -> Dict[str, Any]:
+    """The objects of the worlds of all tasks."""
+    text = resources.files(__package__).joinpath("worlds.json").read_text(encoding="utf-8")
+    found: Dict[str, Any] = json.loads(text)["worlds"]
+    return found
 
 
 def _read_object(name: str, found: Mapping[str, Any], width: int) -> WorldObject:

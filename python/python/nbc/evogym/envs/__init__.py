@@ -13,13 +13,15 @@ import numpy as np
 import numpy.typing as npt
 from gymnasium import spaces
 
-from ..registration import register_tasks
-from .base import BenchmarkBase, EvoGymBase
-from .sim import EvoSim, targets_of
-from .tasks import TaskWorlds, task_of
-from .vector import TaskVectorEnv, make_many
-from .viewer import RenderMode
-from .world import EvoWorld
+from ... import evogym
+from ...evogym import *  # noqa: F403
+from ...registration import register_tasks
+from ..base import BenchmarkBase, EvoGymBase, reset_options
+from ..sim import EvoSim, targets_of
+from ..tasks import TaskWorlds, task_of
+from ..vector import TaskVectorEnv, make_many
+from ..viewer import RenderMode
+from ..world import EvoWorld
 
 _Floats = npt.NDArray[np.float64]
 
@@ -67,9 +69,7 @@ class TaskEnv(BenchmarkBase):
         targets = targets_of(action)
         if targets.size != self._worlds.actuators[0]:
             raise ValueError(f"the action has {targets.size} values, expected {self._worlds.actuators[0]}")
-        # The simulation may have been stepped or reset by itself.
-        self._worlds.look()
-        reward, done = self._worlds.step(targets)
+        reward, done = self._worlds.step(targets.ravel())
         self._sim.keep()
         self._show()
         return self._observe(), float(reward[0]), bool(done[0]), False, {}
@@ -79,8 +79,9 @@ class TaskEnv(BenchmarkBase):
     ) -> Tuple[_Floats, Dict[str, Any]]:
         """Goes back to the start. ``options={"goals": [...]}`` sets the goals of BidirectionalWalker-v0, or by how many
         voxels the package of Catcher-v0 begins to the right of its usual place and above it."""
+        goals = reset_options(options).get("goals")
         super().reset(seed=seed)
-        self._worlds.reset([0], [self.np_random], [(options or {}).get("goals")])
+        self._worlds.reset([0], [self.np_random], [goals])
         self._sim.follow(self.world, self._worlds.scenes)
         self._show()
         return self._observe(), {}
@@ -341,6 +342,9 @@ __all__ = [
     "make_many",
     "register_tasks",
 ]
+
+# As `from evogym.envs import *` has those of ``evogym``, too.
+__all__ += evogym.__all__
 
 register_tasks()
 # As after `import evogym.envs`; where that comes first or later, these names are Evolution Gym's own.
