@@ -14,7 +14,8 @@ RECORDED = np.load(Path(__file__).parent / "data/connections.npz")
 NUMBERS = sorted({key.split("/")[0] for key in RECORDED.files if "/" in key})
 
 # A slit from above ends at two points, and sides of the voxels around it end in the same point. Last bits decide
-# whether such sides cross, so from some env step on these bodies are in contact or not. The env steps that are the same:
+# whether such sides cross, so from some env step on these bodies are in contact or not. The env steps that are
+# the same:
 SAME = {"1": 5, "4": 1, "6": 1, "8": 0, "11": 5}
 
 

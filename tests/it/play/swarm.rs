@@ -138,7 +138,7 @@ fn tests_run_and_lead_to_their_moment() {
     let swarm = page.done(replay)["swarm"].take();
     let frame = page.frame(|frame| json!(frame.number) == swarm["number"] && frame.now > 0);
     assert_eq!((frame.outputs() & 1, frame.runs, frame.last), (1, false, frame.now));
-    let missing = json!({ "do": "replay", "path": "latch.nb", "test": 0, "swarm": null, "row": 0 });
+    let missing = json!({ "do": "replay", "path": "latch.nb", "test": 0, "swarm": null, "row": 6 });
     assert_eq!(page.ask(missing).unwrap_err()["message"], "the program has no such test or row");
 }
 
