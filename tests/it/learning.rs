@@ -31,9 +31,9 @@ fn what_can_be_recognized_is_exact_in_rows_that_were_held_out() {
     };
     exact("parity.csv", rows(16, 400, |x| u64::from((x & 0xa5f3).count_ones() % 2)), "the parity of 10 inputs", 27);
     exact("ones.csv", rows(12, 600, |x| u64::from(matches!(x.count_ones(), 3 | 7 | 8))), "the number of ones", 120);
-    exact("carry.csv", rows(16, 600, |x| (x >> 8) + (x & 255) >> 8), "bit 8 of a sum", 80);
+    exact("carry.csv", rows(16, 600, |x| ((x >> 8) + (x & 255)) >> 8), "bit 8 of a sum", 80);
     exact("less.csv", rows(20, 600, |x| u64::from(x >> 10 < x & 1023)), "a comparison by `<`", 40);
-    exact("middle.csv", rows(16, 600, |x| (x >> 8) * (x & 255) >> 8 & 1), "bit 8 of a product", 700);
+    exact("middle.csv", rows(16, 600, |x| (((x >> 8) * (x & 255)) >> 8) & 1), "bit 8 of a product", 700);
     exact("root.csv", rows(16, 600, |x| x.isqrt() & 1), "bit 0 of a square root", 700);
 }
 
@@ -102,7 +102,7 @@ fn a_number_of_few_values_may_be_learned_as_a_code() {
 fn the_same_seed_gives_the_same_file() {
     let bench = Bench::new();
     // Noise, so that the choice of rows matters.
-    bench.file("noise.csv", rows(10, 300, |x| x * x >> 3 & 1 ^ u64::from(x % 7 == 3)));
+    bench.file("noise.csv", rows(10, 300, |x| (((x * x) >> 3) & 1) ^ u64::from(x % 7 == 3)));
     let file = |seed: &str| {
         let ran = bench.run(&["learn", "noise.csv", "-o", "noise.blif", "--seed", seed]);
         assert_eq!(ran.status, 0, "{}", ran.err);

@@ -90,8 +90,8 @@ fn progress_shows_every_seed_the_median_and_the_band() {
     let course = Course::of("coverage", "niches", vec![run(1.0), run(3.0), short]);
     let svg = report::draw_progress("gates", "generation", &[course]).finish();
     let document = Document::parse(&svg).unwrap();
-    let lines = group(&document, "course-0").descendants().filter(|n| n.has_tag_name("polyline"));
-    assert_eq!(lines.last().unwrap().attribute("points").unwrap().split(' ').count(), 4);
+    let mut lines = group(&document, "course-0").descendants().filter(|n| n.has_tag_name("polyline"));
+    assert_eq!(lines.next_back().unwrap().attribute("points").unwrap().split(' ').count(), 4);
     report::png(&report::draw_progress("none", "generation", &[Course::of("", "", vec![vec![]])]));
 }
 

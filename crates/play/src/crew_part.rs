@@ -12,9 +12,9 @@ use nbc_swarm::{CyclePart, PartStates};
 #[derive(Clone, Debug, PartialEq)]
 pub enum CrewPart {
     /// A cycle of some robots of a swarm.
-    Cycle(CyclePart),
+    Cycle(Box<CyclePart>),
     /// Bodies of a search.
-    Bodies(BodyTrials),
+    Bodies(Box<BodyTrials>),
 }
 
 /// What became of a part of the same kind.

@@ -96,7 +96,7 @@ impl SharedSearch {
         };
         let mut split = trials.split(parts).into_iter();
         let own = split.next().expect("there is a part");
-        let others = crew.give(split.map(CrewPart::Bodies).collect());
+        let others = crew.give(split.map(|trials| CrewPart::Bodies(Box::new(trials))).collect());
         self.begun = Some(BegunGeneration { bodies: trials.bodies, own: own.measure(&job.simulator()), others });
         None
     }

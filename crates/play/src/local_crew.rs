@@ -79,12 +79,11 @@ impl Crew for LocalCrew {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_session::BodyTrials;
 
     #[test]
     fn results_go_to_those_who_wait_for_them_and_others_are_dropped() {
         let trials = nbc_session::BodySearch::new(None, [2, 2], 1, 1).ask(|_| false);
-        let parts = |count| vec![CrewPart::Bodies(BodyTrials::clone(&trials)); count];
+        let parts = |count| vec![CrewPart::Bodies(Box::new(trials.clone())); count];
         let crew = LocalCrew::default();
         let (first, second) = (crew.give(parts(2)), crew.give(parts(1)));
         drop(crew.give(parts(3)));

@@ -12,7 +12,7 @@ use crate::message::{
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
-use crate::script::Script;
+use crate::script::GivenInputs;
 use crate::shared_cycle::SharedCycles;
 use crate::shell::Shell;
 use crate::site::SCHEME;
@@ -96,7 +96,7 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
 pub(super) fn loading(
     (session, checked): (&Session, &Checked),
     compiled: Compiled,
-    script: Script,
+    script: GivenInputs,
     answer: impl FnOnce(SwarmAnswer) -> RequestResult,
     (number, job, shell): (u32, &Job, Arc<dyn Shell>),
 ) -> Result<LoadingSwarm, Refused> {

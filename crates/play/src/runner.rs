@@ -253,8 +253,8 @@ impl RunningSwarm {
         None
     }
 
-    /// Simulates a cycle with the inputs, or a part of it. Returns the reason if a robot failed, so that there is no such
-    /// cycle.
+    /// Simulates a cycle with the inputs, or a part of it. Returns the reason if a robot failed, so that there is no
+    /// such cycle.
     fn cycle(&mut self) -> Poll<Option<String>> {
         if !self.cycles.waits() {
             self.set_next_inputs();

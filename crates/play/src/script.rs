@@ -11,7 +11,7 @@ const MOST_ROWS: usize = 4096;
 
 /// The inputs of a live swarm's first cycles.
 #[derive(Default)]
-pub(super) struct Script {
+pub(super) struct GivenInputs {
     /// The input bits of each cycle.
     pub(super) inputs: Vec<Vec<bool>>,
     /// The cycles that are simulated before the swarm is shown.
@@ -21,7 +21,7 @@ pub(super) struct Script {
 }
 
 /// What a page asks for: a test by its index, in a swarm and a world, up to the end of a row. Rows count from 1.
-pub(super) struct Moment<'a> {
+pub(super) struct TestMoment<'a> {
     pub(super) test: usize,
     pub(super) swarm: Option<&'a str>,
     pub(super) world: Option<&'a str>,
@@ -35,9 +35,9 @@ pub(super) struct Moment<'a> {
 pub(super) fn begin(
     session: &Session,
     checked: &Checked,
-    Moment { test, swarm, world, row }: Moment<'_>,
+    TestMoment { test, swarm, world, row }: TestMoment<'_>,
     job: &Job,
-) -> Result<(Compiled, Script), Refused> {
+) -> Result<(Compiled, GivenInputs), Refused> {
     let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
     let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
     let cases = session.cases(checked, test, &options)?;
@@ -56,7 +56,7 @@ pub(super) fn begin(
     };
     let environment = environment.map(|run| shown(run, &begins.take(all).collect::<Vec<_>>()));
     let shown = ShownScript { title: test.title.clone(), cycles: driven.inputs.len(), environment };
-    Ok((driven.compiled, Script { inputs: driven.inputs, before, shown: Some(shown) }))
+    Ok((driven.compiled, GivenInputs { inputs: driven.inputs, before, shown: Some(shown) }))
 }
 
 /// An environment whose rows begin after so many cycles.

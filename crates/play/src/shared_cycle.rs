@@ -41,7 +41,7 @@ impl SharedCycle {
         let part = |robots: Range<usize>| swarm.part(&begun, assembly, cycles, robots);
         let mut ranges = ranges(parts(crew.size(), assembly.members.len()), assembly.members.len());
         let own = part(ranges.next().expect("there is a part"));
-        let others = crew.give(ranges.map(|robots| CrewPart::Cycle(part(robots))).collect());
+        let others = crew.give(ranges.map(|robots| CrewPart::Cycle(Box::new(part(robots)))).collect());
         Ok(Self { own: own.simulate(&Simulator::default()), begun, others })
     }
 

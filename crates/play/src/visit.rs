@@ -18,7 +18,7 @@ use crate::page_files::{PageFiles, example, examples, is_circuit, program_around
 use crate::refusal::Refused;
 use crate::request::{Request, TakeKind, Verb};
 use crate::runner::{LoadingSwarm, Runner};
-use crate::script::{Moment, Script};
+use crate::script::{GivenInputs, TestMoment};
 use crate::shell::WorkKind;
 use crate::site::PlaySite;
 use crate::text_checker::TextChecker;
@@ -194,12 +194,12 @@ impl Visit {
                 let choice = Choice { circuit: Some(circuit), swarm };
                 self.swarm(path, RequestResult::Compile, move |session, checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
-                    Ok((session.compile(checked, &circuit, &options)?, Script::default()))
+                    Ok((session.compile(checked, &circuit, &options)?, GivenInputs::default()))
                 })
             }
             Verb::Replay { path, test, swarm, world, row } => {
                 self.swarm(path, RequestResult::Replay, move |session, checked, job| {
-                    let moment = Moment { test, swarm: swarm.as_deref(), world: world.as_deref(), row };
+                    let moment = TestMoment { test, swarm: swarm.as_deref(), world: world.as_deref(), row };
                     script::begin(session, checked, moment, job)
                 })
             }
@@ -290,12 +290,13 @@ impl Visit {
         }
     }
 
-    /// Compiles a circuit, runs its swarm through cycles of its script, and hands it over to be shown, which is the answer.
+    /// Compiles a circuit, runs its swarm through cycles of its script, and hands it over to be shown, which is the
+    /// answer.
     fn swarm(
         &mut self,
         path: String,
         answer: fn(SwarmAnswer) -> RequestResult,
-        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, Script), Refused> + Send + 'static,
+        compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, GivenInputs), Refused> + Send + 'static,
     ) -> JobWork {
         self.swarms += 1;
         let (number, loaded) = (self.swarms, self.loaded.0.clone());

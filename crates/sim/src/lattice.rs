@@ -251,11 +251,11 @@ impl Builder<'_> {
                 for corner in CREATION {
                     let (i, j) = (column + OFFSETS[corner].0, row + OFFSETS[corner].1);
                     let shared = self.neighbors_at(row, column, corner).into_iter().flatten();
-                    let found = shared.filter_map(|(row_of, column_of, corner)| {
+                    let mut found = shared.filter_map(|(row_of, column_of, corner)| {
                         let line = (row_of + 1).checked_sub(row).filter(|&line| line < 2)?;
                         Some(visited[line][column_of]?[corner])
                     });
-                    corners[corner] = found.last().unwrap_or_else(|| {
+                    corners[corner] = found.next_back().unwrap_or_else(|| {
                         let copy = &mut copies[j * (self.grid.width() + 1) + i];
                         points.push(LatticePoint { column: i, row: j, copy: *copy });
                         *copy += 1;

@@ -15,8 +15,17 @@ use nbc_swarm::evolve::Scores;
 /// A part without numbers that must keep their bits.
 #[derive(Serialize, Deserialize)]
 enum PartHead {
-    Cycle { setting: Setting, bodies: BodyHeads, patterns: Vec<Pattern>, stops: Vec<u32>, starts: Vec<SnapshotHead> },
-    Bodies { evolution: Box<Evolution>, bodies: BodyHeads },
+    Cycle {
+        setting: Box<Setting>,
+        bodies: BodyHeads,
+        patterns: Vec<Pattern>,
+        stops: Vec<u32>,
+        starts: Vec<SnapshotHead>,
+    },
+    Bodies {
+        evolution: Box<Evolution>,
+        bodies: BodyHeads,
+    },
 }
 
 /// What became of a part, without such numbers.
@@ -52,7 +61,7 @@ pub(crate) fn write_part(part: &CrewPart) -> Vec<u8> {
     match part {
         CrewPart::Cycle(part) => {
             let head = PartHead::Cycle {
-                setting: part.setting,
+                setting: Box::new(part.setting),
                 bodies: BodyHeads::of(&part.bodies),
                 patterns: part.patterns.clone(),
                 stops: part.stops.clone(),
@@ -60,7 +69,8 @@ pub(crate) fn write_part(part: &CrewPart) -> Vec<u8> {
             };
             joined(&head, part.starts.iter().flat_map(numbers))
         }
-        CrewPart::Bodies(BodyTrials { evolution, bodies }) => {
+        CrewPart::Bodies(trials) => {
+            let BodyTrials { evolution, bodies } = &**trials;
             let head = PartHead::Bodies { evolution: Box::new(evolution.clone()), bodies: BodyHeads::of(bodies) };
             joined(&head, [])
         }
@@ -73,10 +83,10 @@ fn read_part(bytes: &[u8]) -> Option<CrewPart> {
     Some(match head {
         PartHead::Cycle { setting, bodies, patterns, stops, starts } => {
             let starts = starts.into_iter().map(|start| start.snapshot(&mut numbers)).collect::<Option<_>>()?;
-            CrewPart::Cycle(CyclePart { setting, bodies: bodies.read()?, starts, patterns, stops })
+            CrewPart::Cycle(Box::new(CyclePart { setting: *setting, bodies: bodies.read()?, starts, patterns, stops }))
         }
         PartHead::Bodies { evolution, bodies } => {
-            CrewPart::Bodies(BodyTrials { evolution: *evolution, bodies: bodies.read()? })
+            CrewPart::Bodies(Box::new(BodyTrials { evolution: *evolution, bodies: bodies.read()? }))
         }
     })
 }
@@ -189,7 +199,8 @@ mod tests {
         let mut starts: Vec<Snapshot> = (0..3).map(|robot| flock.snapshot(robot)).collect();
         starts[2].fault = Some(Fault { env_step: 7, kind: FaultKind::Unstable });
         let patterns = Pattern::PAIRS[..3].to_vec();
-        let part = CrewPart::Cycle(CyclePart { setting, bodies, starts, patterns, stops: vec![7, CYCLE_STEPS] });
+        let part =
+            CrewPart::Cycle(Box::new(CyclePart { setting, bodies, starts, patterns, stops: vec![7, CYCLE_STEPS] }));
         let bytes = write_part(&part);
         assert_eq!(read_part(&bytes).as_ref(), Some(&part));
         let result = part.perform(&Simulator::default());
@@ -200,7 +211,7 @@ mod tests {
 
     #[test]
     fn bodies_as_bytes_have_the_same_scores() {
-        let part = CrewPart::Bodies(BodySearch::new(None, [2, 2], 1, 3).ask(|_| true));
+        let part = CrewPart::Bodies(Box::new(BodySearch::new(None, [2, 2], 1, 3).ask(|_| true)));
         let bytes = write_part(&part);
         assert_eq!(read_part(&bytes).as_ref(), Some(&part));
         let result = part.perform(&Simulator::default());

@@ -64,13 +64,13 @@ impl Converter<'_> {
         let what = parts.next().expect("a table, a file or `for all inputs`");
         let kind = match what.as_rule() {
             Rule::test_table => TestKind::Table(self.test_table(what)),
-            Rule::from_file => self.from_file(what),
+            Rule::from_file => self.rows_from_file(what),
             _ => self.for_all(what),
         };
         Test { circuit, title, environment, worlds, kind }
     }
 
-    fn from_file(&self, pair: Pair<Rule>) -> TestKind {
+    fn rows_from_file(&self, pair: Pair<Rule>) -> TestKind {
         let mut parts = parts(pair);
         let path = self.quoted(parts.next().expect("a path"));
         let share = parts.next().and_then(|at_least| super::convert::parts(at_least).next());

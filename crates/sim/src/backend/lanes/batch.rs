@@ -30,10 +30,12 @@ pub struct Round<R: Real> {
     pub lanes: R::Mask,
     /// The voxels' masses, top left, top right, bottom right, bottom left, and their lanes.
     pub voxels: Vec<([usize; CORNERS], R::Mask)>,
-    /// The masses at the ends of their sides, if any of these is not between the corners of its voxel: top, right,
-    /// bottom, left.
-    pub strays: Option<Vec<([[usize; 2]; CORNERS], R::Mask)>>,
+    /// Their sides, if any of these is not between the corners of its voxel.
+    pub strays: Option<Vec<(VoxelSides, R::Mask)>>,
 }
+
+/// The masses at the ends of the sides of a voxel: top, right, bottom, left.
+pub type VoxelSides = [[usize; 2]; CORNERS];
 
 /// One lane's robot, with its points and voxels as masses of the batch.
 #[derive(Clone, Debug)]

@@ -90,7 +90,7 @@ impl Quad {
 
     fn segment(&self, side: usize) -> [Vector2<f64>; 2] {
         // A side at the surface is between its corners.
-        if let Some([top, left]) = self.strays.filter(|_| side % 3 == 0 && !self.surface[side]) {
+        if let Some([top, left]) = self.strays.filter(|_| side.is_multiple_of(3) && !self.surface[side]) {
             return if side == 0 { top } else { left };
         }
         self.ends(side).map(|corner| self.corners[corner])

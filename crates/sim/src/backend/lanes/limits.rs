@@ -1,6 +1,6 @@
 //! Length limits: after the integrator, edges that are too long or too short are partly corrected (docs/physics.md 8).
 
-use crate::backend::lanes::batch::{Batch, Round, Row};
+use crate::backend::lanes::batch::{Batch, Round, Row, VoxelSides};
 use crate::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::backend::lanes::real::{Mask, Real};
 use crate::backend::lanes::springs::{DIAGONAL, FRAME, MAIN, rest};
@@ -129,7 +129,7 @@ impl<R: Real> Rigid<R> {
 
     /// The limits of voxels with sides that are not between their corners, side by side.
     #[inline(never)]
-    fn limit_strays(self, masses: &mut [Mass<R>], voxels: &[([[usize; 2]; CORNERS], R::Mask)], lanes: R::Mask) {
+    fn limit_strays(self, masses: &mut [Mass<R>], voxels: &[(VoxelSides, R::Mask)], lanes: R::Mask) {
         for side in 0..CORNERS {
             let mut at = [[R::splat(0.0); 2]; CORNERS];
             for &(sides, lanes) in voxels {
