@@ -44,6 +44,9 @@ pub(super) fn begin(
     let is_meant =
         |case: &TestCase| (swarm.is_none() || case.swarm() == swarm) && (world.is_none() || case.world_name() == world);
     let meant = cases.into_iter().find(is_meant).ok_or(Refused::NoTest)?;
+    if row > meant.rows().last().map_or(0, |last| last.row) {
+        return Err(Refused::NoTest);
+    }
     let rows = meant.rows().iter().take_while(|one| one.row <= row).count();
     let all = meant.rows().len().min(rows.saturating_add(MOST_ROWS));
     let driven = meant.into_physics(all).ok_or(Refused::NoTest)?;

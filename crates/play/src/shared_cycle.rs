@@ -26,8 +26,8 @@ impl SharedCycle {
         parts(crew.size(), robots) > 1
     }
 
-    /// Begins a cycle of a swarm that was made of an assembly for `cycles`, gives its parts to a crew, and simulates one
-    /// of them.
+    /// Begins a cycle of a swarm that was made of an assembly for `cycles`, gives its parts to a crew, and simulates
+    /// one of them.
     ///
     /// # Errors
     /// When a robot has failed before.

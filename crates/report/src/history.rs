@@ -92,7 +92,7 @@ mod tests {
         let text = line(1).replace("true}", &format!("true,\"best\":{best}}}"));
         let found: Vec<String> =
             History::read(&text, 1).lines().flat_map(|line| line.best).map(|(b, _)| b.to_string()).collect();
-        assert_eq!(found, ["LLRR", "LRLL"]);
+        assert_eq!(found, ["LRLL", "LLRR"]);
     }
 
     #[test]

@@ -237,7 +237,8 @@ mod tests {
         assert_eq!(alone.last(), together.last());
     }
 
-    /// The texts for the page, and the number of parts that others did, when these bring what they have done last first.
+    /// The texts for the page, and the number of parts that others did, when these bring what they have done last
+    /// first.
     fn answers(crew: usize, requests: &[Value]) -> (Vec<Value>, usize) {
         let mut tab = Tab::new(None, Duration::ZERO);
         tab.set_crew(crew);
@@ -301,7 +302,10 @@ mod tests {
         let evolve = json!({ "id": 1, "do": "evolve", "body": null, "box": [2, 2], "generations": 1, "seed": 1 });
         tab.receive(&evolve.to_string(), Duration::ZERO);
         while tab.advance(Duration::ZERO).is_zero() {}
-        let is_done = |message: &TabMessage| matches!(message, TabMessage::Page(PageMessage::Text(text)) if text.contains("\"ok\""));
+        let is_done = |message: &TabMessage| match message {
+            TabMessage::Page(PageMessage::Text(text)) => text.contains("\"ok\""),
+            _ => false,
+        };
         assert!(!std::iter::from_fn(|| tab.next(true)).any(|message| is_done(&message)), "it waits for the others");
         tab.set_crew(0);
         while tab.advance(Duration::ZERO).is_zero() {}
