@@ -45,7 +45,7 @@ pub struct LearnArguments {
     /// So many rows after each other belong together, such as views of one thing: all are held out, or none
     #[arg(long, value_name = "ROWS", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
     group: u32,
-    /// The seed that decides which rows are held out
+    /// The seed of all random choices, such as which rows are held out
     #[arg(long, default_value_t = LearnOptions::default().seed)]
     seed: u64,
 }

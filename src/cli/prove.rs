@@ -18,7 +18,7 @@ use nbc_base::diag::counted;
 use nbc_base::model::Claim;
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{AigerModel, CircuitSource};
-use nbc_circuit::properties::SearchBudget;
+use nbc_circuit::properties::{PropertySearch, SearchBudget};
 use nbc_session::report::Schema;
 use nbc_session::store;
 use nbc_session::{Checked, ClaimReport, DecidedClaim, ModelSearch, RunEnd, Session, TestOptions};
@@ -175,11 +175,8 @@ impl ProveArguments {
     ) -> Result<ClaimReport, Failure> {
         let timer = Timer::start(self.seconds, interrupt);
         let mut search = session.prove(file, claim, self.budget(), timer.flag())?;
-        let bar = Progress::new("proving", search.progress()[1] as u64);
-        while search.advance() {
-            show(&bar, search.progress()[0], search.steps());
-        }
-        drop((bar, timer));
+        decide(search.search());
+        drop(timer);
         let decided = search.finish();
         let mut report = ClaimReport::of(&decided);
         if self.physics && !interrupt.is_raised() {
@@ -191,17 +188,18 @@ impl ProveArguments {
     fn model(&self, path: &Path, model: AigerModel, interrupt: &Interrupt) -> ClaimReport {
         let timer = Timer::start(self.seconds, interrupt);
         let mut search = ModelSearch::new(path.display().to_string(), model, self.budget(), timer.flag());
-        let bar = Progress::new("proving", search.progress()[1] as u64);
-        while search.advance() {
-            show(&bar, search.progress()[0], search.steps());
-        }
+        decide(search.search());
         search.finish()
     }
 }
 
-/// Shows the properties that are decided, and the steps in which the others hold.
-fn show(bar: &Progress, decided: usize, steps: usize) {
-    bar.set_with_note(decided as u64, format!(", {}", counted(steps, "step")));
+/// Searches to the end, and shows the properties that are decided, and the steps in which the others hold.
+fn decide(search: &mut PropertySearch) {
+    let bar = Progress::new("proving", search.system().bad.len() as u64);
+    while !search.is_done() {
+        search.advance();
+        bar.set_with_note(search.decided() as u64, format!(", {}", counted(search.steps(), "step")));
+    }
 }
 
 /// Runs the tests that refute properties with robots.

@@ -19,7 +19,7 @@ pub struct LearnOptions {
     pub gates: usize,
     /// The share of the rows in percent that is held out: the learner does not see them.
     pub hold_out: f64,
-    /// The seed that decides which rows are held out.
+    /// The seed of all random choices: which rows are held out, and of codes.
     pub seed: u64,
     /// So many rows after each other belong together, such as views of one thing: all of them are held out, or none.
     pub group: usize,
@@ -153,11 +153,11 @@ enum Phase {
     /// A method is tried on an output bit; the others come after it.
     Trying { parts: Parts, fitting: Fitting, methods: Vec<LearningMethod>, tried: Vec<Tried>, best: Option<Choice> },
     /// A code is tried on all bits; the others come after it.
-    Coding { fitting: CodeFitting, shapes: Vec<CodeShape>, best: Option<(f64, CodeShape)> },
+    Coding { classes: Classes, fitting: CodeFitting, shapes: Vec<CodeShape>, best: Option<(f64, CodeShape)> },
     /// The chosen method learns an output bit from all training rows.
     Again { parts: Parts, fitting: Fitting },
     /// The chosen code learns all bits from all training rows.
-    CodingAgain(CodeFitting),
+    CodingAgain { classes: Classes, fitting: CodeFitting },
 }
 
 /// An output port that is being learned.
@@ -240,7 +240,7 @@ impl Learner {
             Phase::Coding { shapes, .. } => {
                 work.bits.len() * methods + (CodeShape::ALL.len() - 1 - shapes.len()) * methods
             }
-            Phase::Again { .. } | Phase::CodingAgain(_) => {
+            Phase::Again { .. } | Phase::CodingAgain { .. } => {
                 of_port(work.bits.len()) - work.bits.len() + work.learned.len()
             }
         };
@@ -258,19 +258,20 @@ impl Learner {
                     Tries::More(phase) => Some(*phase),
                     Tries::Best(choice, tried) => {
                         choices.push((choice, tried));
-                        Some(match (choices.len() < bits.len(), self.classes(&bits, false)) {
-                            (true, _) => self.trying(bits.start + choices.len()),
-                            (false, Some(classes)) => self.coding(CodeShape::ALL.to_vec(), None, &classes, port),
-                            (false, None) => self.again(&bits, &choices, 0),
+                        Some(if choices.len() < bits.len() {
+                            self.trying(bits.start + choices.len())
+                        } else if let Some(classes) = self.classes(&bits, false) {
+                            self.coding(CodeShape::ALL.to_vec(), None, classes, port)
+                        } else {
+                            self.again(&bits, &choices, 0)
                         })
                     }
                 }
             }
-            Phase::Coding { mut fitting, shapes, best } => {
-                let classes = self.classes(&bits, false).expect("a port of classes");
+            Phase::Coding { classes, mut fitting, shapes, best } => {
                 let seed = self.options.seed;
                 if fitting.advance(&classes, seed, port) {
-                    Some(Phase::Coding { fitting, shapes, best })
+                    Some(Phase::Coding { classes, fitting, shapes, best })
                 } else {
                     let shape = fitting.shape();
                     let (graph, literals) = fitting.finish(&classes);
@@ -278,13 +279,16 @@ impl Learner {
                     let is_better = worth.is_some_and(|worth| best.is_none_or(|(most, _)| worth > most));
                     let best = if is_better { worth.map(|worth| (worth, shape)) } else { best };
                     codes.push(tried);
-                    Some(match best {
-                        _ if !shapes.is_empty() => self.coding(shapes, best, &classes, port),
-                        Some((worth, shape)) if worth > self.worth_of(&choices, &bits) => {
-                            let all = self.classes(&bits, true).expect("a port of classes");
-                            Phase::CodingAgain(CodeFitting::new(shape, &all, seed, port))
+                    let won = best.filter(|&(worth, _)| shapes.is_empty() && worth > self.worth_of(&choices, &bits));
+                    // All training rows may have too many values, though those to learn from have few.
+                    let won = won.and_then(|(_, shape)| Some((shape, self.classes(&bits, true)?)));
+                    Some(match won {
+                        _ if !shapes.is_empty() => self.coding(shapes, best, classes, port),
+                        Some((shape, all)) => {
+                            let fitting = CodeFitting::new(shape, &all, seed, port);
+                            Phase::CodingAgain { classes: all, fitting }
                         }
-                        _ => self.again(&bits, &choices, 0),
+                        None => self.again(&bits, &choices, 0),
                     })
                 }
             }
@@ -295,10 +299,9 @@ impl Learner {
                     (learned.len() < bits.len()).then(|| self.again(&bits, &choices, learned.len()))
                 }
             },
-            Phase::CodingAgain(mut fitting) => {
-                let classes = self.classes(&bits, true).expect("a port of classes");
+            Phase::CodingAgain { classes, mut fitting } => {
                 if fitting.advance(&classes, self.options.seed, port) {
-                    Some(Phase::CodingAgain(fitting))
+                    Some(Phase::CodingAgain { classes, fitting })
                 } else {
                     let what = fitting.shape().to_string();
                     let (graph, literals) = fitting.finish(&classes);
@@ -365,9 +368,15 @@ impl Learner {
     }
 
     /// The next code.
-    fn coding(&self, mut shapes: Vec<CodeShape>, best: Option<(f64, CodeShape)>, fit: &Classes, port: usize) -> Phase {
-        let fitting = CodeFitting::new(shapes.remove(0), fit, self.options.seed, port);
-        Phase::Coding { fitting, shapes, best }
+    fn coding(
+        &self,
+        mut shapes: Vec<CodeShape>,
+        best: Option<(f64, CodeShape)>,
+        classes: Classes,
+        port: usize,
+    ) -> Phase {
+        let fitting = CodeFitting::new(shapes.remove(0), &classes, self.options.seed, port);
+        Phase::Coding { classes, fitting, shapes, best }
     }
 
     /// The chosen method for an output bit, on all training rows.
@@ -383,8 +392,7 @@ impl Learner {
         (ands <= budget).then(|| accuracy - PRICE * ands as f64 / budget.max(1) as f64)
     }
 
-    /// The training rows that say what all bits of a port are: those that choose, or those to learn from, or with
-    /// those that choose.
+    /// The training rows that are `wanted` and say what all bits of a port are.
     fn port_rows(&self, bits: &Range<usize>, wanted: impl Fn(usize) -> bool) -> Examples {
         let outputs = &self.training.outputs[bits.clone()];
         let is_known = |row: &usize| outputs.iter().all(|output| output.known.get(*row));

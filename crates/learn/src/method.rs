@@ -65,7 +65,7 @@ impl LearningMethod {
         all
     }
 
-    /// Whether its result is a guess that is either exact or of no use.
+    /// Whether it recognizes a function: if that is right in all rows, nothing else is tried.
     pub fn is_recognition(self) -> bool {
         matches!(self, Self::Parity | Self::Count | Self::Arithmetic | Self::Chain)
     }

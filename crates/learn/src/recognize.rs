@@ -66,7 +66,7 @@ pub fn of_count(graph: &mut GateGraph, inputs: &[Bits], target: &Bits) -> Guess 
 /// The most input bits of which products, quotients and roots are tried.
 const MOST_WIDE: usize = 64;
 
-/// The words that the input bits may be: pairs of words of the same width with what tells the orders apart.
+/// The pairs of words of the same width that the input bits may be, in each order.
 fn pairs(bits: &[Literal]) -> Vec<(Vec<Literal>, Vec<Literal>)> {
     let half = bits.len() / 2;
     if !bits.len().is_multiple_of(2) || half == 0 {

@@ -20,7 +20,8 @@ pub(super) struct GivenInputs {
     pub(super) shown: Option<ShownScript>,
 }
 
-/// What a page asks for: a test by its index, in a swarm and a world, up to the end of a row. Rows count from 1.
+/// What a page asks for: a test by its index, in a swarm and a world, up to the end of a row.
+/// Rows count from 1, and 0 is the start.
 pub(super) struct TestMoment<'a> {
     pub(super) test: usize,
     pub(super) swarm: Option<&'a str>,
@@ -31,7 +32,7 @@ pub(super) struct TestMoment<'a> {
 /// The circuit of a test, with the test as its script.
 ///
 /// # Errors
-/// When there is no such test, or its circuit cannot be compiled.
+/// When there is no such test or row, or its circuit cannot be compiled.
 pub(super) fn begin(
     session: &Session,
     checked: &Checked,

@@ -56,20 +56,9 @@ impl ClaimSearch {
         Ok(Self { claim: claim.clone(), search, ports, clock, circuit, monitor })
     }
 
-    /// Does a portion of the search; whether there is more to do.
-    pub fn advance(&mut self) -> bool {
-        self.search.advance();
-        !self.search.is_done()
-    }
-
-    /// The properties that are decided, and all of them.
-    pub fn progress(&self) -> [usize; 2] {
-        [self.search.decided(), self.search.system().bad.len()]
-    }
-
-    /// The first steps in which no undecided property is violated.
-    pub fn steps(&self) -> usize {
-        self.search.steps()
+    /// The search, to be advanced.
+    pub fn search(&mut self) -> &mut PropertySearch {
+        &mut self.search
     }
 
     /// What is known now.
@@ -134,7 +123,7 @@ impl Watcher {
         self.logic.settle(&row(true)).expect("a monitor settles");
     }
 
-    /// Whether the last step violates a property, and none does an assumption.
+    /// Whether the last step violates a property, and no step violates an assumption.
     fn shows(&self, properties: &[Property], wanted: &Property) -> bool {
         let mut at = 0;
         let mut is_shown = false;

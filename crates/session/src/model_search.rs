@@ -19,20 +19,9 @@ impl ModelSearch {
         Self { file, model, search }
     }
 
-    /// Does a portion of the search; whether there is more to do.
-    pub fn advance(&mut self) -> bool {
-        self.search.advance();
-        !self.search.is_done()
-    }
-
-    /// The properties that are decided, and all of them.
-    pub fn progress(&self) -> [usize; 2] {
-        [self.search.decided(), self.model.properties.len()]
-    }
-
-    /// The first steps in which no undecided property is violated.
-    pub fn steps(&self) -> usize {
-        self.search.steps()
+    /// The search, to be advanced.
+    pub fn search(&mut self) -> &mut PropertySearch {
+        &mut self.search
     }
 
     /// What is known now.

@@ -168,7 +168,7 @@ impl Reader {
             ".p" => {}
             ".e" | ".end" => return false,
             _ if first.starts_with('.') => self.fault(PlaError::UnknownDirective { directive: first.to_owned() }, span),
-            _ => self.cube(words),
+            _ => return self.cube(words),
         }
         self.errors.len() < MOST_ERRORS
     }
@@ -178,7 +178,7 @@ impl Reader {
         let read = words.get(1).and_then(|(number, _)| number.parse::<u64>().ok()).filter(|number| *number > 0);
         match read {
             Some(width) if Limit::Width.permit(width).is_ok() => self.widths[side] = Some(width as usize),
-            Some(_) => self.fault(TextError::TooLarge { most: Limit::Width.most() }, span),
+            Some(_) => self.fault(TextError::TooMany { what: "ports on a side", most: Limit::Width.most() }, span),
             None => self.fault(PlaError::Count { directive: words[0].0.to_owned() }, span),
         }
     }
@@ -205,29 +205,38 @@ impl Reader {
         self.kind_span = span;
     }
 
-    fn cube(&mut self, words: &[(&str, Span)]) {
+    /// Reads a cube; false if no more are read.
+    fn cube(&mut self, words: &[(&str, Span)]) -> bool {
         let span = words[0].1.to(words[words.len() - 1].1);
-        let [Some(inputs), Some(outputs)] = self.widths else { return self.fault(PlaError::NoWidths, span) };
         let digits: Vec<u8> = words.iter().flat_map(|(word, _)| word.bytes()).filter(|&digit| digit != b'|').collect();
-        if digits.len() != inputs + outputs {
-            return self.fault(PlaError::CubeWidth { inputs, outputs, found: digits.len() }, span);
-        }
         self.digits += digits.len() as u64;
         if Limit::RowBits.permit(self.digits).is_err() {
-            self.errors.push(TextError::TooLarge { most: Limit::RowBits.most() }.at(span));
-            return;
+            self.fault(TextError::TooMany { what: "digits", most: Limit::RowBits.most() }, span);
+            return false;
+        }
+        match self.read_cube(&digits, span) {
+            Ok(cube) => self.cubes.push(cube),
+            Err(error) => self.fault(error, span),
+        }
+        self.errors.len() < MOST_ERRORS
+    }
+
+    fn read_cube(&self, digits: &[u8], span: Span) -> Result<PlaCube, PlaError> {
+        let [Some(inputs), Some(outputs)] = self.widths else { return Err(PlaError::NoWidths) };
+        if digits.len() != inputs + outputs {
+            return Err(PlaError::CubeWidth { inputs, outputs, found: digits.len() });
         }
         let (left, right) = digits.split_at(inputs);
-        let digit = |digits: &[u8], known: &[u8]| digits.iter().copied().find(|digit| !known.contains(digit));
-        if let Some(found) = digit(left, b"01-2") {
-            return self.fault(PlaError::InputDigit { found: char::from(found) }, span);
+        let other = |digits: &[u8], known: &[u8]| digits.iter().copied().find(|digit| !known.contains(digit));
+        if let Some(found) = other(left, b"01-2") {
+            return Err(PlaError::InputDigit { found: char::from(found) });
         }
-        if let Some(found) = digit(right, b"01-2~34") {
-            return self.fault(PlaError::OutputDigit { found: char::from(found) }, span);
+        if let Some(found) = other(right, b"01-2~34") {
+            return Err(PlaError::OutputDigit { found: char::from(found) });
         }
         let inputs = left.iter().map(|&digit| if digit == b'2' { b'-' } else { digit }).collect();
         let outputs = right.iter().map(|&digit| self.kind.meaning(digit)).collect();
-        self.cubes.push(PlaCube { inputs, outputs, span });
+        Ok(PlaCube { inputs, outputs, span })
     }
 
     fn finish(mut self) -> Result<Pla, Vec<Diagnostic>> {

@@ -3,13 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::file::{FileRow, RowFile};
-use super::wording::RowFileError;
+use super::wording::{MOST_ERRORS, RowFileError};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::Column;
 use nbc_base::source::Span;
-
-/// The most errors that are reported.
-const MOST_ERRORS: usize = 20;
 
 /// A row of a file as the bits of ports.
 #[derive(Clone, Debug, PartialEq, Eq)]

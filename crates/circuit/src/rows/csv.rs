@@ -3,13 +3,10 @@
 use std::collections::BTreeMap;
 
 use super::file::{FileRow, RowColumn, RowFile};
-use super::wording::RowFileError;
+use super::wording::{MOST_ERRORS, RowFileError};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Span};
-
-/// The most errors that are reported.
-const MOST_ERRORS: usize = 20;
 
 /// A word of a line with its place, without blanks and quotes around it.
 type Cell<'t> = (&'t str, Span);

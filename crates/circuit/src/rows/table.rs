@@ -1,5 +1,7 @@
 //! The rows of a PLA: those that it lists, or all rows of a table whose ones it lists.
 
+use std::collections::BTreeMap;
+
 use super::file::{FileRow, RowColumn, RowFile};
 use super::wording::RowFileError;
 use crate::formats::pla::{Pla, PlaCube};
@@ -11,7 +13,7 @@ use nbc_base::source::Span;
 /// of type `f` and `fd` say what the outputs are for all inputs, so there is a row for each.
 ///
 /// # Errors
-/// When there would be too many rows.
+/// When two columns have one name, or there would be too many rows.
 pub(super) fn rows(pla: Pla) -> Result<RowFile, Vec<Diagnostic>> {
     let start = pla.kind_span;
     let side = |ports: &[(String, Span)], is_output| {
@@ -24,6 +26,12 @@ pub(super) fn rows(pla: Pla) -> Result<RowFile, Vec<Diagnostic>> {
         ports.iter().map(column).collect::<Vec<_>>()
     };
     let columns = [side(&pla.inputs, false), side(&pla.outputs, true)].concat();
+    let mut known = BTreeMap::new();
+    for RowColumn { name, span, .. } in &columns {
+        if let Some(first) = known.insert(name, *span) {
+            return Err(vec![RowFileError::Twice { name: name.clone(), first }.at(*span)]);
+        }
+    }
     let rows = if pla.kind.is_listed() { listed(&pla) } else { all(&pla) };
     let rows = rows.map_err(|error| vec![error])?;
     if rows.is_empty() {
@@ -118,12 +126,13 @@ mod tests {
     }
 
     #[test]
-    fn too_many_rows_are_refused() {
+    fn other_tables_are_refused() {
         check(".i 17\n.o 1\n", Err("a PLA of this type describes all rows of 17 inputs"));
         let open = format!(".i 17\n.o 1\n.type fr\n{} 1\n", "-".repeat(17));
         check(&open, Err("row leaves 17 inputs open"));
         let many = format!(".i 16\n.o 1\n.type fr\n{}", format!("{} 1\n", "-".repeat(16)).repeat(20));
         check(&many, Err("file has more than 1000000 rows"));
         check(".i 1\n.o 1\n.type fr\n", Err("file has no rows"));
+        check(".i 2\n.o 1\n.ilb a a\n.ob q\n11 1\n", Err("column `a` is there twice"));
     }
 }

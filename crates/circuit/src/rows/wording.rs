@@ -4,6 +4,9 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};
 use nbc_base::source::Span;
 
+/// The most errors that are reported of a file.
+pub(super) const MOST_ERRORS: usize = 20;
+
 /// A file that has no rows for a circuit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum RowFileError {

@@ -19,6 +19,8 @@ pub enum TextError {
     LongName { bytes: usize, most: u64 },
     /// A circuit with too many gates.
     TooLarge { most: u64 },
+    /// Too many other things.
+    TooMany { what: &'static str, most: u64 },
     /// A net with two gates.
     DefinedTwice { net: String, first: Span },
     /// A clock that is neither an input nor a register.
@@ -67,6 +69,10 @@ impl TextError {
             Self::Pla(error) => worded(error.words(), span),
             Self::TooLarge { most } => {
                 let message = format!("the circuit has more than {most} pins of gates");
+                Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
+            }
+            Self::TooMany { what, most } => {
+                let message = format!("the file has more than {most} {what}");
                 Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
             }
             Self::DefinedTwice { net, first } => {
