@@ -63,6 +63,10 @@ test core "runs" with memory in [paper, worn] {
 }
 test core in worn { a | q
     1 | 0 }
+test read "held-out" from "a.csv" at least 92.5%
+test read in [paper] from "b.csv"
+test a "last" for all inputs {
+}
 `;
   assert.deepEqual(declaredTests(source), [
     {
@@ -90,6 +94,9 @@ test core in worn { a | q
       ],
     },
     { circuit: "core", title: "", line: 23, endLine: 24, rows: [{ line: 24, text: "1 | 0" }] },
+    { circuit: "read", title: "held-out", line: 25, endLine: 25, rows: [] },
+    { circuit: "read", title: "", line: 26, endLine: 26, rows: [] },
+    { circuit: "a", title: "last", line: 27, endLine: 28, rows: [] },
   ]);
 });
 

@@ -81,11 +81,16 @@ function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: n
   const allInputs = is(tokens[at], "for");
   const body = allInputs ? at + 3 : at;
   const against = allInputs && is(tokens[body], "against");
-  if (!against && !is(tokens[body], "{")) {
+  const fromFile = is(tokens[body], "from") && tokens[body + 1]?.kind === "text";
+  if (!against && !fromFile && !is(tokens[body], "{")) {
     return undefined;
   }
-  const last = against ? afterInstance(tokens, body + 1) : closing(tokens, body, "{", "}");
-  const rows = allInputs ? [] : rowsOf(tokens.slice(body + 1, last));
+  const last = against
+    ? afterInstance(tokens, body + 1)
+    : fromFile
+      ? afterShare(tokens, body + 1)
+      : closing(tokens, body, "{", "}");
+  const rows = allInputs || fromFile ? [] : rowsOf(tokens.slice(body + 1, last));
   const endLine = tokens[last]!.line;
   return { test: { circuit, title, line: tokens[start]!.line, endLine, rows }, last };
 }
@@ -99,6 +104,16 @@ function afterClauses(tokens: Token[], at: number): number {
     return (is(tokens[at + 1], "[") ? closing(tokens, at + 1, "[", "]") : at + 1) + 1;
   }
   return at;
+}
+
+/** The last token of a file at `at` and of the share of its rows that must hold: `at least 93%`. */
+function afterShare(tokens: Token[], at: number): number {
+  if (!is(tokens[at + 1], "at") || !is(tokens[at + 2], "least")) {
+    return at;
+  }
+  const rest = tokens.slice(at + 3);
+  const other = rest.findIndex(({ text }) => !/^(\d+|[.%])$/.test(text));
+  return at + 2 + (other < 0 ? rest.length : other);
 }
 
 /** The last token of an instance such as `adder[8]`. */
