@@ -1,11 +1,12 @@
-// Every lesson is done by doing it, several pages at once.
+// Every lesson is done by doing it, several pages at once. A page without a program computes by itself, with all
+// processors, and is alone.
 
 import assert from "node:assert/strict";
 import { after, before, describe, test } from "node:test";
 
 import { closeBrowser, visit } from "./browser.mjs";
 import { SHIPPED, lessonsOf, playLesson } from "./lessons.mjs";
-import { folderWith, play } from "./program.mjs";
+import { SITE, folderWith, play } from "./program.mjs";
 
 const LESSONS = lessonsOf(SHIPPED);
 
@@ -24,7 +25,7 @@ after(async () => {
   place?.remove();
 });
 
-describe("lessons", { concurrency: 4 }, () => {
+describe("lessons", { concurrency: SITE === undefined ? 4 : 1 }, () => {
   for (const lesson of LESSONS) {
     test(lesson.name, async () => {
       const page = await visit(program.url);
