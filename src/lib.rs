@@ -208,11 +208,21 @@ pub use nbc_base::model::{Axis, Behavior, Count, Displacements};
 
 /// ```
 /// use nbc::{Pattern, Schedule, Spell};
-/// let spells = vec![Spell { pattern: Pattern::PAIRS[1], steps: 840 }];
+/// let spells = vec![Spell::of(Pattern::PAIRS[1], 840)];
 /// assert_eq!(nbc::read_schedule("schedule", "01*10", 2)?, Schedule { spells });
 /// # Ok::<(), nbc::Diagnostics>(())
 /// ```
 pub use nbc_base::model::Spell;
+
+/// ```
+/// use std::sync::Arc;
+///
+/// use nbc::{Image, Pattern, Spell};
+/// let image = Image::new([1, 2], vec![0.25, 1.0]).unwrap();
+/// let spell = Spell { image: Some(Arc::new(image)), ..Spell::of(Pattern::default(), 250) };
+/// assert_eq!(spell.value_over([0, 1], [1, 2]), 1.0);
+/// ```
+pub use nbc_base::model::Image;
 
 /// ```
 /// use nbc::{Body, Palette, Setting, SettingError};

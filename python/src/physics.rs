@@ -51,7 +51,7 @@ impl ScheduleWords {
             Self::Text(text) => return read(&text).map_err(|found| diagnosed(py, &found)),
             Self::Spells(spells) => spells,
         };
-        let spell = |(digits, steps)| Ok(Spell { pattern: pattern(digits, stimuli)?, steps });
+        let spell = |(digits, steps)| Ok(Spell::of(pattern(digits, stimuli)?, steps));
         Ok(Schedule { spells: spells.into_iter().map(spell).collect::<PyResult<_>>()? })
     }
 }

@@ -82,7 +82,7 @@ fn changes() -> Vec<Change> {
             },
         ),
         ("variable: other", |run| {
-            let spell = |pattern: usize, steps| Spell { pattern: nbc_base::model::Pattern::PAIRS[pattern], steps };
+            let spell = |pattern: usize, steps| Spell::of(nbc_base::model::Pattern::PAIRS[pattern], steps);
             run.variable = Schedule { spells: vec![spell(1, 60), spell(2, 70), spell(0, 50), spell(3, 40)] };
         }),
         ("fixed: 100 steps", |run| run.fixed_steps = 100),
@@ -159,7 +159,7 @@ fn the_papers_experiment_is_declared_as_the_paper_says() {
         assert_eq!((run.width, run.height), (side, side));
         assert_eq!((run.batch, run.generations, run.seeds.len()), (16, 3000, 10), "{name}");
         let patterns = nbc_base::model::Pattern::PAIRS;
-        assert_eq!(run.variable.spells, patterns.map(|pattern| Spell { pattern, steps: 840 }));
+        assert_eq!(run.variable.spells, patterns.map(|pattern| Spell::of(pattern, 840)));
         assert_eq!((run.fixed_steps, run.objective, run.niche), (840, SearchObjective::Distance, Niche::Dominance));
         assert_eq!((&run.palette, run.mutation), (&Palette::paper(), MutationWeights::default()));
         assert_eq!(Search::new(run, 1).archive().stats().niches, 1024);

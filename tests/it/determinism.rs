@@ -44,7 +44,7 @@ fn body(width: usize, height: usize) -> impl Strategy<Value = Body> {
 pub fn own_palette() -> Arc<Palette> {
     let named = |(i, kind): (usize, MaterialKind)| Material { name: format!("own_{i}"), kind };
     let drive = |period, phase, low, high| MaterialKind::Actuator(Drive { period, phase, low, high });
-    let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response { stimulus, absent, present });
+    let sensor = |stimulus, absent, present| MaterialKind::Sensor(Response::of(stimulus, absent, present));
     let kinds = vec![
         MaterialKind::Soft,
         drive(30, 45.0, 0.7, 1.5),
@@ -62,8 +62,8 @@ pub fn own_palette() -> Arc<Palette> {
 fn schedule(cycles: u32) -> impl Strategy<Value = Schedule> {
     (1..84 * cycles, 0usize..4, 0usize..4).prop_map(move |(first, a, b)| Schedule {
         spells: vec![
-            Spell { pattern: Pattern::PAIRS[a], steps: first },
-            Spell { pattern: Pattern::PAIRS[b], steps: 84 * cycles - first },
+            Spell::of(Pattern::PAIRS[a], first),
+            Spell::of(Pattern::PAIRS[b], 84 * cycles - first),
         ],
     })
 }
@@ -93,7 +93,7 @@ proptest! {
 /// The paper's materials and one with an extreme width, which makes a body unstable unless targets are clipped.
 pub fn broken_palette() -> Arc<Palette> {
     let mut materials = Palette::paper().materials().to_vec();
-    let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: 0.6, present: f64::MAX });
+    let kind = MaterialKind::Sensor(Response::of(0, 0.6, f64::MAX));
     materials.push(Material { name: "broken".to_owned(), kind });
     Arc::new(Palette::new(materials))
 }
@@ -111,8 +111,8 @@ fn a_faulting_lane_does_not_change_its_neighbors() {
         body: body.clone(),
         schedule: Schedule {
             spells: vec![
-                Spell { pattern: Pattern::PAIRS[1], steps: 40 },
-                Spell { pattern: Pattern::PAIRS[pattern], steps: 80 },
+                Spell::of(Pattern::PAIRS[1], 40),
+                Spell::of(Pattern::PAIRS[pattern], 80),
             ],
         },
     };

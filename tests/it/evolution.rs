@@ -412,7 +412,7 @@ proptest! {
         codes[10] = 3;
         let body = Body::new(4, 3, codes, Palette::paper());
         let setting = Setting::default();
-        let spells = |patterns: [Pattern; 4]| patterns.map(|pattern| Spell { pattern, steps: 60 }).to_vec();
+        let spells = |patterns: [Pattern; 4]| patterns.map(|pattern| Spell::of(pattern, 60)).to_vec();
         let schedule = |patterns: [Pattern; 4]| Schedule { spells: spells(patterns) };
         let after = order.map(|i| Pattern::PAIRS[i]);
         for recoding in recodings(body.palette()) {

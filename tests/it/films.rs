@@ -12,7 +12,7 @@ use crate::support::traces::latch;
 const WALKER: [&str; 5] = ["66666", "46666", "44444", "44404", "44005"];
 
 fn schedule(cycles: u32) -> Schedule {
-    Schedule { spells: vec![Spell { pattern: Pattern::PAIRS[1], steps: cycles * 84 }] }
+    Schedule { spells: vec![Spell::of(Pattern::PAIRS[1], cycles * 84)] }
 }
 
 fn film(body: &Body, cycles: u32) -> (Film, Stage) {
@@ -180,7 +180,7 @@ fn a_fault_stops_the_robot_and_not_the_film() {
     let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], &Palette::paper()).unwrap();
     let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::default() };
     let schedule = Schedule {
-        spells: vec![Spell { pattern: Pattern::PAIRS[3], steps: 60 }, Spell { pattern: Pattern::PAIRS[0], steps: 60 }],
+        spells: vec![Spell::of(Pattern::PAIRS[3], 60), Spell::of(Pattern::PAIRS[0], 60)],
     };
     let moments: Vec<_> = Stage::of_trial(&setting, &body, &schedule, 7).collect();
     assert_eq!(moments.len(), 120 / 7 + 1);
@@ -204,7 +204,7 @@ fn an_empty_schedule_gives_one_frame() {
 #[test]
 fn a_strip_has_a_row_for_each_pattern_with_ghosts() {
     let body = Body::parse(&WALKER, &Palette::paper()).unwrap();
-    let spells = [0, 3].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: 2 * 84 });
+    let spells = [0, 3].map(|i| Spell::of(Pattern::PAIRS[i], 2 * 84));
     let svg = report::draw_strip("walker", &body, &Schedule { spells: spells.to_vec() }, Scheme::Safe).finish();
     let document = roxmltree::Document::parse(&svg).unwrap();
     let voxels = |ghost: bool| {

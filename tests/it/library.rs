@@ -41,7 +41,7 @@ fn each_gate_is_correct_after_random_switches() {
     let setting = Setting { world_width: 2000, ..Setting::default() };
     let plans: Vec<_> = (0u64..).zip(robots).map(|(seed, robot)| holds(robot.character.clock, seed)).collect();
     let spells = |plan: &[(Pattern, u32)]| {
-        plan.iter().map(|&(pattern, cycles)| Spell { pattern, steps: cycles * CYCLE_STEPS }).collect()
+        plan.iter().map(|&(pattern, cycles)| Spell::of(pattern, cycles * CYCLE_STEPS)).collect()
     };
     let trials: Vec<Trial> = robots
         .iter()
@@ -79,7 +79,7 @@ fn quick_gates() -> Vec<Robot> {
 fn wrong_cycles(robot: &Robot, plans: &[Vec<Pattern>]) -> Vec<Vec<usize>> {
     // No robot walks to the end of this ground.
     let setting = Setting { world_width: 32_768, ..Setting::default() };
-    let spell = |&pattern: &Pattern| Spell { pattern, steps: CYCLE_STEPS };
+    let spell = |&pattern: &Pattern| Spell::of(pattern, CYCLE_STEPS);
     let trial = |plan: &Vec<Pattern>| Trial {
         body: robot.body.clone(),
         schedule: Schedule { spells: plan.iter().map(spell).collect() },

@@ -237,7 +237,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     };
     let conditions = SwarmConditions { inputs: vec![vec![true], vec![false]], window: 1, poses: None };
     let trace = nbc_swarm::simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {});
-    let spells = [2, 0].map(|i| Spell { pattern: Pattern::PAIRS[i], steps: CYCLE_STEPS }).to_vec();
+    let spells = [2, 0].map(|i| Spell::of(Pattern::PAIRS[i], CYCLE_STEPS)).to_vec();
     for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {
         let trial = Trial { body: body.clone(), schedule: Schedule { spells: spells.clone() } };
         let alone = Simulator::default().run_trials(&assembly.setting(2), &[trial]).remove(0);

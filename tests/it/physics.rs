@@ -71,7 +71,7 @@ impl Case {
     }
 
     fn schedule(&self) -> Schedule {
-        let spell = |(digits, steps): &(String, u32)| Spell { pattern: pattern(digits), steps: *steps };
+        let spell = |(digits, steps): &(String, u32)| Spell::of(pattern(digits), *steps);
         Schedule { spells: self.schedule.iter().map(spell).collect() }
     }
 

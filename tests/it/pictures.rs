@@ -139,7 +139,7 @@ fn an_empty_trace_is_still_drawn() {
 
 #[test]
 fn one_robots_diagram_shows_its_schedule() {
-    let spell = |pattern: usize, steps| Spell { pattern: Pattern::PAIRS[pattern], steps };
+    let spell = |pattern: usize, steps| Spell::of(Pattern::PAIRS[pattern], steps);
     let schedule = Schedule { spells: vec![spell(0, 840), spell(3, 840)] };
     let com_x: Vec<f64> = (0..=1680).map(|i| 250.0 + f64::from(i) * 0.01).collect();
     let body = Body::parse(&["3"], &nbc_base::model::Palette::paper()).unwrap();

@@ -21,7 +21,7 @@ impl PhysicsId {
     /// The hash of the bits of two short trajectories, and of the evaluations of their bodies.
     pub fn compute(simulator: &Simulator) -> Self {
         let bodies: Vec<Body> = (0..BODIES).map(|shift| Body::patchwork(5, shift)).collect();
-        let schedule = Schedule { spells: Pattern::PAIRS.map(|pattern| Spell { pattern, steps: STEPS }).to_vec() };
+        let schedule = Schedule { spells: Pattern::PAIRS.map(|pattern| Spell::of(pattern, STEPS)).to_vec() };
         let trial = |body: &Body| Trial { body: body.clone(), schedule: schedule.clone() };
         let trials: Vec<Trial> = bodies.iter().map(trial).collect();
         let mut hash = Fnv::default();

@@ -238,7 +238,7 @@ impl EvaluationRecord {
         }
         let spell = |(bits, steps): (u32, u32)| {
             let present: Vec<bool> = (0..Pattern::MAX_STIMULI).map(|i| bits >> i & 1 == 1).collect();
-            Spell { pattern: Pattern::new(&present), steps }
+            Spell::of(Pattern::new(&present), steps)
         };
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
         let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };

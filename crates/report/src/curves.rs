@@ -5,7 +5,7 @@ use crate::chart::Panel;
 use crate::element::{Paint, Point, Type};
 use crate::scheme::Scheme;
 use crate::svg::Svg;
-use nbc_base::model::{CYCLE_STEPS, Material, MaterialKind, Palette, Pattern, Schedule};
+use nbc_base::model::{CYCLE_STEPS, Material, MaterialKind, Palette, Pattern, Schedule, Spell};
 use nbc_sim::{Constants, Signals};
 
 const WIDTH: f64 = 420.0;
@@ -45,16 +45,16 @@ pub fn draw_response(material: &Material) -> Option<Svg> {
 
 /// The width of an actuator over two periods.
 fn periods(signals: &Signals, period: u32) -> Vec<Point> {
-    let (steps, nothing) = (2 * period, Pattern::new(&[]));
+    let (steps, nothing) = (2 * period, Spell::of(Pattern::new(&[]), 1));
     let every = steps.div_ceil(SAMPLES).max(1) as usize;
-    (0..=steps).step_by(every).map(|step| (cycles(step), signals.target(1, step, nothing))).collect()
+    (0..=steps).step_by(every).map(|step| (cycles(step), signals.target(1, step, &nothing))).collect()
 }
 
 /// The width of a sensor while its stimulus is absent, present and absent again, for a cycle each.
 fn appearance(signals: &Signals, stimulus: usize) -> Vec<Point> {
     let width = |present: bool| {
         let pattern: Vec<bool> = (0..=stimulus).map(|i| present && i == stimulus).collect();
-        signals.target(1, 0, Pattern::new(&pattern))
+        signals.target(1, 0, &Spell::of(Pattern::new(&pattern), 1))
     };
     let ends = |cycle: u8| {
         let (start, width) = (f64::from(cycle), width(cycle == 1));
@@ -108,7 +108,6 @@ fn cycles(steps: u32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::model::Spell;
 
     #[test]
     fn actuators_and_sensors_have_a_curve() {
@@ -127,7 +126,7 @@ mod tests {
     #[test]
     fn a_stimulus_is_drawn_at_both_ends_of_each_spell() {
         let [off, on] = [[false, false], [false, true]].map(|present| Pattern::new(&present));
-        let spells = vec![Spell { pattern: off, steps: 84 }, Spell { pattern: on, steps: 168 }];
+        let spells = vec![Spell::of(off, 84), Spell::of(on, 168)];
         assert_eq!(presence(&Schedule { spells }, 1), [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (3.0, 1.0)]);
     }
 }

@@ -91,7 +91,7 @@ fn ranked(results: &EvolutionResults) -> Vec<Entry<'_>> {
 
 /// Frames per cycle, and the gaits of the first elites, as many as fit.
 fn record(entries: &[Entry<'_>], stimuli: usize) -> (u32, Vec<Recorded>) {
-    let spell = |pattern| Spell { pattern, steps: GAIT_CYCLES as u32 * CYCLE_STEPS };
+    let spell = |pattern| Spell::of(pattern, GAIT_CYCLES as u32 * CYCLE_STEPS);
     let schedule = Schedule { spells: Pattern::all(stimuli).map(spell).collect() };
     let bodies: Vec<Body> = entries.iter().map(|entry| entry.elite.body.clone()).collect();
     let setting = Setting::default();

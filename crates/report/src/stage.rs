@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use crate::sprite::Pose;
-use nbc_base::model::{Body, CYCLE_STEPS, GroundProfile, Palette, Pattern, Schedule, Setting};
+use nbc_base::model::{Body, CYCLE_STEPS, GroundProfile, Palette, Pattern, Schedule, Setting, Spell};
 use nbc_sim::{Flock, Simulator, Snapshot};
 use nbc_swarm::{Assembly, Recording, SwarmTrace};
 
@@ -13,8 +13,8 @@ pub struct Stage {
     ground: GroundProfile,
     /// The materials of each robot's codes.
     palettes: Vec<Arc<Palette>>,
-    /// Consecutive spells: env steps, and each robot's stimuli.
-    spells: Vec<(u32, Vec<Pattern>)>,
+    /// Consecutive spells: env steps, and each robot's spell of that length.
+    spells: Vec<(u32, Vec<Spell>)>,
     /// The current spell, and its remaining env steps.
     spell: usize,
     left: u32,
@@ -47,7 +47,7 @@ impl Stage {
 
     /// Several bodies under one schedule.
     pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
-        let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.pattern; bodies.len()])).collect();
+        let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.clone(); bodies.len()])).collect();
         let palettes = bodies.iter().map(|body| Arc::clone(body.palette())).collect();
         Self::new((Simulator::default().flock(setting, bodies), setting.ground), palettes, spells, stride)
     }
@@ -77,7 +77,8 @@ impl Stage {
 
     fn in_world(assembly: &Assembly, trace: &SwarmTrace, cycles: usize, stride: u32) -> Self {
         let palettes = assembly.members.iter().map(|member| Arc::clone(member.robot.body.palette())).collect();
-        let spells = trace.cycles.iter().map(|cycle| (CYCLE_STEPS, cycle.sensed.clone())).collect();
+        let sensed = |sensed: &[Pattern]| sensed.iter().map(|&pattern| Spell::of(pattern, CYCLE_STEPS)).collect();
+        let spells = trace.cycles.iter().map(|cycle| (CYCLE_STEPS, sensed(&cycle.sensed))).collect();
         let ground = assembly.setting(cycles).ground;
         Self::new((assembly.flock(&Simulator::default(), cycles), ground), palettes, spells, stride)
     }
@@ -85,7 +86,7 @@ impl Stage {
     fn new(
         (flock, ground): (Box<dyn Flock>, GroundProfile),
         palettes: Vec<Arc<Palette>>,
-        spells: Vec<(u32, Vec<Pattern>)>,
+        spells: Vec<(u32, Vec<Spell>)>,
         stride: u32,
     ) -> Self {
         assert!(stride > 0, "frames are some steps apart");
@@ -142,11 +143,12 @@ impl Stage {
     fn moment(&self) -> Moment {
         let robots = 0..self.robots();
         let none = vec![Pattern::default(); self.robots()];
+        let patterns = |(_, spells): &(u32, Vec<Spell>)| spells.iter().map(|spell| spell.pattern).collect();
         Moment {
             step: self.step,
             poses: robots.clone().map(|i| self.pose(i)).collect(),
             centers: robots.clone().map(|i| self.flock.center(i)).collect(),
-            patterns: self.spells.get(self.spell).or(self.spells.last()).map_or(none, |spell| spell.1.clone()),
+            patterns: self.spells.get(self.spell).or(self.spells.last()).map_or(none, patterns),
             faults: robots.map(|i| self.flock.fault(i).is_some()).collect(),
         }
     }
@@ -168,7 +170,8 @@ impl Stage {
         while wanted > 0 {
             let steps = wanted.min(self.left);
             if steps > 0 {
-                self.flock.advance(&self.spells[self.spell].1, steps);
+                let spells = self.spells[self.spell].1.iter().map(|spell| Spell { steps, ..spell.clone() });
+                self.flock.advance_under(&spells.collect::<Vec<_>>());
             }
             (wanted, self.left) = (wanted - steps, self.left - steps);
             if self.left == 0 && self.spell + 1 < self.spells.len() {

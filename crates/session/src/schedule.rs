@@ -53,7 +53,7 @@ fn parse_entry(file: &SourceFile, span: Span, stimuli: usize) -> Result<Spell, D
     let bits_span = Span::new(file.id, start, start + bits.len());
     let length_span = Span::new(file.id, start + bits.len() + 1, span.range().end);
     let pattern = parse_bits(bits, stimuli).map_err(|fault| fault.at(bits_span, stimuli))?;
-    Ok(Spell { pattern, steps: parse_length(length).map_err(|fault| fault.at(length_span, stimuli))? })
+    Ok(Spell::of(pattern, parse_length(length).map_err(|fault| fault.at(length_span, stimuli))?))
 }
 
 fn parse_bits(bits: &str, stimuli: usize) -> Result<Pattern, ScheduleError> {

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use nbc_base::model::{Body, MaterialKind};
+use nbc_base::model::{Body, MaterialKind, Response};
 
 /// A voxel of a grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -162,23 +162,45 @@ impl Grid {
     }
 }
 
+impl Grid {
+    /// The voxels of a body that sense an image: row, column and response of each, in reading order. Their channels
+    /// follow those of the materials.
+    pub(crate) fn seeing(body: &Body) -> impl Iterator<Item = ([usize; 2], Response)> + '_ {
+        body.codes().iter().enumerate().filter_map(|(at, &code)| match body.palette().kind(code) {
+            Some(MaterialKind::Sensor(response)) if response.image.is_some() => {
+                Some(([at / body.width(), at % body.width()], response))
+            }
+            _ => None,
+        })
+    }
+}
+
 impl From<&Body> for Grid {
-    /// The channel of an active voxel is its material's code.
+    /// The channel of an active voxel is its material's code; a voxel that senses an image has one of its own.
     fn from(body: &Body) -> Self {
+        let mut channels = body.palette().materials().len() as u16 + 1;
+        let mut own = || {
+            channels += 1;
+            channels - 1
+        };
         let cell = |&code: &u8| match body.palette().kind(code) {
             None => None,
             Some(MaterialKind::Rigid) => Some(GridCell::Rigid),
             Some(MaterialKind::Soft) => Some(GridCell::Soft),
+            Some(MaterialKind::Sensor(Response { image: Some(_), .. })) => {
+                Some(GridCell::Active { channel: own(), axis: DriveAxis::Horizontal })
+            }
             Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)) => {
                 Some(GridCell::Active { channel: u16::from(code), axis: DriveAxis::Horizontal })
             }
         };
+        let cells = body.codes().iter().map(cell).collect();
         Self {
             width: body.width(),
             height: body.height(),
-            cells: body.codes().iter().map(cell).collect(),
+            cells,
             codes: body.codes().to_vec(),
-            channels: body.palette().materials().len() + 1,
+            channels: usize::from(channels),
             apart: BTreeSet::new(),
         }
     }

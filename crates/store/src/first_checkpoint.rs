@@ -64,6 +64,7 @@ fn material(text: &str) -> Option<Material> {
         }),
         "Sensor" => MaterialKind::Sensor(Response {
             stimulus: number("stimulus")?.parse().ok()?,
+            image: None,
             absent: real("absent")?,
             present: real("present")?,
         }),

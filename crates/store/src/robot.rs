@@ -177,7 +177,7 @@ pub(crate) mod tests {
         let mut materials = Palette::paper().materials().to_vec();
         materials[0] = named("no", MaterialKind::Rigid);
         materials[2] = named("heart", MaterialKind::Actuator(drive));
-        materials.push(named("e5", MaterialKind::Sensor(Response { stimulus: 31, absent: 1.0, present: 1.1 })));
+        materials.push(named("e5", MaterialKind::Sensor(Response::of(31, 1.0, 1.1))));
         Arc::new(Palette::new(materials))
     }
 

@@ -370,6 +370,7 @@ fn sensed_patterns(body: &Body) -> Vec<Pattern> {
     for &code in body.codes() {
         // A fourth stimulus is always absent.
         if let Some(MaterialKind::Sensor(response)) = palette.kind(code)
+            && response.image.is_none()
             && let Some(sensed) = sensed.get_mut(response.stimulus)
         {
             *sensed = true;
@@ -391,7 +392,7 @@ mod tests {
 
     /// A search in which many bodies are dropped, with a long simulation of these spells.
     fn evolution(spells: &[(usize, u32)]) -> Evolution {
-        let spell = |&(pattern, steps): &(usize, u32)| Spell { pattern: Pattern::PAIRS[pattern], steps };
+        let spell = |&(pattern, steps): &(usize, u32)| Spell::of(Pattern::PAIRS[pattern], steps);
         let variable = Schedule { spells: spells.iter().map(spell).collect() };
         let whole = crate::evolve::tests::evolution();
         Evolution { width: 3, height: 2, fixed_steps: 84, batch: 8, variable, ..whole }

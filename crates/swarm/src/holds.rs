@@ -27,7 +27,7 @@ impl HoldPlan {
 
     /// The plan in env steps.
     pub(crate) fn schedule(&self) -> Schedule {
-        let spell = |&(pattern, cycles): &_| Spell { pattern, steps: cycles * CYCLE_STEPS };
+        let spell = |&(pattern, cycles): &_| Spell::of(pattern, cycles * CYCLE_STEPS);
         Schedule { spells: self.0.iter().map(spell).collect() }
     }
 }

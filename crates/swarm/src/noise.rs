@@ -7,7 +7,7 @@ use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use nbc_base::model::{
-    Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Pattern, Response, Schedule, WorldNoise,
+    Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Response, Schedule, Spell, WorldNoise,
 };
 
 /// The name of the material of voxels that never move.
@@ -65,18 +65,16 @@ impl<'a> RobotNoise<'a> {
         if self.noise.missed <= 0.0 {
             return schedule.clone();
         }
-        let mut steps: Vec<Pattern> =
-            schedule.spells.iter().flat_map(|spell| std::iter::repeat_n(spell.pattern, spell.steps as usize)).collect();
+        let shown = schedule.spells.iter().map(|spell| (spell.steps as usize, Spell { steps: 0, ..spell.clone() }));
+        let mut steps: Vec<Spell> = shown.flat_map(|(steps, shown)| std::iter::repeat_n(shown, steps)).collect();
         for start in (0..steps.len()).step_by(CYCLE_STEPS as usize) {
             if self.misses(start / CYCLE_STEPS as usize) {
-                let (before, end) = (steps[start - 1], steps.len().min(start + CYCLE_STEPS as usize));
+                let (before, end) = (steps[start - 1].clone(), steps.len().min(start + CYCLE_STEPS as usize));
                 steps[start..end].fill(before);
             }
         }
         let spells = steps.chunk_by(|a, b| a == b);
-        Schedule {
-            spells: spells.map(|same| nbc_base::model::Spell { pattern: same[0], steps: same.len() as u32 }).collect(),
-        }
+        Schedule { spells: spells.map(|same| Spell { steps: same.len() as u32, ..same[0].clone() }).collect() }
     }
 
     /// A body as it is in the world: its actuators and sensors move less, and some not at all.
@@ -118,8 +116,8 @@ fn weakened(material: &Material, weak: f64) -> Material {
         MaterialKind::Actuator(Drive { low, high, period, phase }) => {
             MaterialKind::Actuator(Drive { low: less(low), high: less(high), period, phase })
         }
-        MaterialKind::Sensor(Response { stimulus, absent, present }) => {
-            MaterialKind::Sensor(Response { stimulus, absent: less(absent), present: less(present) })
+        MaterialKind::Sensor(response @ Response { absent, present, .. }) => {
+            MaterialKind::Sensor(Response { absent: less(absent), present: less(present), ..response })
         }
         other => other,
     };
@@ -135,7 +133,7 @@ fn dead_material() -> Material {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nbc_base::model::Spell;
+    use nbc_base::model::Pattern;
 
     const NOISE: WorldNoise = WorldNoise { start: 0.5, missed: 0.5, weak: 0.5, dead: 0.5, seed: 7 };
 
@@ -156,7 +154,7 @@ mod tests {
     fn about_half_of_the_cycles_are_missed_and_keep_the_stimuli_before() {
         let missed = (1..1000).filter(|&cycle| robot(&NOISE, 0).misses(cycle)).count();
         assert!((450..550).contains(&missed), "{missed}");
-        let spell = |pair: usize| Spell { pattern: Pattern::PAIRS[pair], steps: CYCLE_STEPS };
+        let spell = |pair: usize| Spell::of(Pattern::PAIRS[pair], CYCLE_STEPS);
         let schedule = Schedule { spells: (0..100).map(|cycle| spell(cycle % 4)).collect() };
         let sensed = robot(&NOISE, 0).sensed(&schedule);
         assert_eq!(sensed.steps(), schedule.steps());

@@ -71,7 +71,7 @@ impl DrawRequest {
         match &self.schedule {
             Some(text) => Ok(read_schedule("--schedule", text, stimuli)?),
             None => {
-                let spell = |pattern| Spell { pattern, steps: CYCLES * CYCLE_STEPS };
+                let spell = |pattern| Spell::of(pattern, CYCLES * CYCLE_STEPS);
                 Ok(Schedule { spells: Pattern::all(stimuli).take(MOST_PATTERNS).map(spell).collect() })
             }
         }

@@ -7,7 +7,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use nbc::{Search, evaluate, evaluate_bodies};
 use nbc_base::model::{
-    Body, CYCLE_STEPS, Evolution, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial,
+    Body, CYCLE_STEPS, Evolution, FaultKind, Image, Material, MaterialKind, Palette, Pattern, Response, Schedule,
+    Setting, Spell, Trajectory, Trial,
 };
 use nbc_sim::{
     Constants, DeviceError, Flock, LaneBackend, Meter, Monitor, OpenClBackend, OpenClDevice, SelfTest, Simulator,
@@ -58,7 +59,7 @@ fn check(backend: &OpenClBackend, setting: &Setting, trials: &[Trial]) -> Vec<Tr
 }
 
 fn trial(body: Body, spells: &[(usize, u32)]) -> Trial {
-    let spell = |&(pattern, steps): &(usize, u32)| Spell { pattern: Pattern::PAIRS[pattern], steps };
+    let spell = |&(pattern, steps): &(usize, u32)| Spell::of(Pattern::PAIRS[pattern], steps);
     Trial { body, schedule: Schedule { spells: spells.iter().map(spell).collect() } }
 }
 
@@ -319,4 +320,28 @@ fn the_self_test_passes_and_detects_other_physics() {
     let mut other = LaneBackend::default();
     other.constants.gravity *= 1.0 + f64::EPSILON;
     assert!(SelfTest::QUICK.compare(&backend, &other).iter().all(|sentence| sentence.different > 0));
+}
+
+#[test]
+fn a_device_shows_images_as_the_lanes_do() {
+    let Some((device, _turn)) = self::device() else { return };
+    let sensor = |name: &str, absent, present| {
+        let response = Response { image: Some([3, 2]), ..Response::of(0, absent, present) };
+        Material { name: name.to_owned(), kind: MaterialKind::Sensor(response) }
+    };
+    let mut materials = Palette::paper().materials().to_vec();
+    materials.extend([sensor("dark", 1.6, 0.6), sensor("light", 0.6, 1.6)]);
+    let palette = Arc::new(Palette::new(materials));
+    let image = |turn: usize| {
+        let pixels = (0..6).map(|at| ((at * 5 + turn) % 6) as f64 / 5.0).collect();
+        Some(Arc::new(Image::new([3, 2], pixels).unwrap()))
+    };
+    let bodies = [&["94", "39", "3a"][..], &["aa9", "343", "999"], &["343", "454", "363"], &["94", "39", "3a"]];
+    let trial = |(n, rows): (usize, &&[&str])| {
+        let spell = |turn| Spell { image: image(turn), ..Spell::of(Pattern::PAIRS[1], 20) };
+        let schedule = Schedule { spells: vec![spell(n), Spell::of(Pattern::PAIRS[2], 10), spell(n + 1)] };
+        Trial { body: Body::parse(rows, &palette).unwrap(), schedule }
+    };
+    let trials: Vec<Trial> = bodies.iter().enumerate().map(trial).collect();
+    check(&backend(&device, GROUPS[0]), &Setting::default(), &trials);
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{MaterialError, MaterialNumber, Pattern};
+use super::{Image, MaterialError, MaterialNumber, Pattern};
 
 /// A declared material: a name and a response.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -23,7 +23,7 @@ pub enum MaterialKind {
     Soft,
     /// Swells and shrinks with time.
     Actuator(Drive),
-    /// Swells or shrinks with a stimulus.
+    /// Swells or shrinks with a stimulus, or with an image at its place.
     Sensor(Response),
 }
 
@@ -45,10 +45,25 @@ pub struct Drive {
 pub struct Response {
     /// The stimulus it senses, counted from 0.
     pub stimulus: usize,
+    /// The rows and columns of the image it senses, if its stimulus is one. Its width is then between those for absent
+    /// and present, by the value of the image at its place.
+    pub image: Option<[usize; 2]>,
     /// Width while the stimulus is absent, as a fraction of the rest width.
     pub absent: f64,
     /// Width while the stimulus is present, as a fraction of the rest width.
     pub present: f64,
+}
+
+impl Response {
+    /// The response to a stimulus that is present or absent everywhere.
+    pub fn of(stimulus: usize, absent: f64, present: f64) -> Self {
+        Self { stimulus, image: None, absent, present }
+    }
+
+    /// The width under a value of its stimulus, from 0 to 1.
+    pub fn width(&self, value: f64) -> f64 {
+        if value >= 1.0 { self.present } else { self.absent + value * (self.present - self.absent) }
+    }
 }
 
 impl MaterialKind {
@@ -60,8 +75,9 @@ impl MaterialKind {
             Self::Actuator(Drive { period, phase, low, high }) => {
                 (2, period.into(), [phase, low, high].map(f64::to_bits))
             }
-            Self::Sensor(Response { stimulus, absent, present }) => {
-                (3, stimulus as u64, [absent.to_bits(), present.to_bits(), 0])
+            Self::Sensor(Response { stimulus, image, absent, present }) => {
+                let image = image.map_or(0, |[rows, columns]| (rows as u64) << 32 | columns as u64);
+                (3, stimulus as u64, [absent.to_bits(), present.to_bits(), image])
             }
         }
     }
@@ -94,6 +110,8 @@ struct Record {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     stimulus: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
+    image: Option<[usize; 2]>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     absent: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     present: Option<f64>,
@@ -118,6 +136,7 @@ impl From<Material> for Record {
             phase: None,
             range: None,
             stimulus: None,
+            image: None,
             absent: None,
             present: None,
         };
@@ -128,9 +147,10 @@ impl From<Material> for Record {
                 record.kind = Word::Actuator;
                 (record.period, record.phase, record.range) = (Some(period), Some(phase), Some([low, high]));
             }
-            MaterialKind::Sensor(Response { stimulus, absent, present }) => {
+            MaterialKind::Sensor(Response { stimulus, image, absent, present }) => {
                 record.kind = Word::Sensor;
-                (record.stimulus, record.absent, record.present) = (Some(stimulus + 1), Some(absent), Some(present));
+                (record.stimulus, record.image) = (image.is_none().then_some(stimulus + 1), image);
+                (record.absent, record.present) = (Some(absent), Some(present));
             }
         }
         record
@@ -150,7 +170,11 @@ impl TryFrom<Record> for Material {
                 MaterialKind::Actuator(Drive { period, phase, low, high })
             }
             Word::Sensor => MaterialKind::Sensor(Response {
-                stimulus: record.need("stimulus", record.stimulus)?.wrapping_sub(1),
+                stimulus: match record.image {
+                    Some(_) => 0,
+                    None => record.need("stimulus", record.stimulus)?.wrapping_sub(1),
+                },
+                image: record.image,
                 absent: record.need("absent", record.absent)?,
                 present: record.need("present", record.present)?,
             }),
@@ -173,7 +197,8 @@ impl Record {
             ("period", self.period.is_some() && !drives),
             ("phase", self.phase.is_some() && !drives),
             ("range", self.range.is_some() && !drives),
-            ("stimulus", self.stimulus.is_some() && !senses),
+            ("stimulus", self.stimulus.is_some() && (!senses || self.image.is_some())),
+            ("image", self.image.is_some() && !senses),
             ("absent", self.absent.is_some() && !senses),
             ("present", self.present.is_some() && !senses),
         ];
@@ -200,6 +225,9 @@ impl Record {
         }
         if let Some(stimulus) = self.stimulus.filter(|stimulus| !(1..=Pattern::MAX_STIMULI).contains(stimulus)) {
             return bad("stimulus", stimulus.to_string(), MaterialNumber::Stimulus { most: Pattern::MAX_STIMULI });
+        }
+        if let Some([rows, columns]) = self.image.filter(|&size| !Image::is_size(size)) {
+            return bad("image", format!("[{rows}, {columns}]"), MaterialNumber::Image { most: Image::MAX_SIDE });
         }
         for (field, width) in [("absent", self.absent), ("present", self.present)] {
             if let Some(width) = width.filter(|width| !is_width(*width)) {

@@ -12,6 +12,7 @@ mod function;
 mod genotype;
 mod ground;
 mod ground_file;
+mod image;
 mod material;
 mod objective;
 mod palette;
@@ -42,6 +43,7 @@ pub use evolution::{Axis, Count, Evolution, Genome, MutationWeights, Niche, Samp
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use ground::{GroundProfile, GroundShape};
+pub use image::Image;
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use objective::SearchObjective;
 pub use palette::Palette;
@@ -59,8 +61,8 @@ pub use trial::{Fault, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
 pub use wording::{
-    BehaviorError, BodyError, DisplacementsError, FaultKind, GroundFileError, MaterialError, MaterialNumber,
-    PaletteError, PatternError, SettingError, VariationError,
+    BehaviorError, BodyError, DisplacementsError, FaultKind, GroundFileError, ImageError, MaterialError,
+    MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
 };
 pub use world::{NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
 

@@ -74,7 +74,7 @@ impl Palette {
     /// least the paper's two.
     pub fn stimuli(&self) -> usize {
         let sensed = self.materials.iter().filter_map(|material| match material.kind {
-            MaterialKind::Sensor(response) => Some(response.stimulus + 1),
+            MaterialKind::Sensor(response) if response.image.is_none() => Some(response.stimulus + 1),
             _ => None,
         });
         sensed.fold(2, usize::max)
@@ -115,7 +115,7 @@ fn paper_materials() -> Vec<Material> {
 }
 
 fn sensor(name: &str, stimulus: usize, absent: f64, present: f64) -> Material {
-    Material { name: name.to_owned(), kind: MaterialKind::Sensor(Response { stimulus, absent, present }) }
+    Material { name: name.to_owned(), kind: MaterialKind::Sensor(Response::of(stimulus, absent, present)) }
 }
 
 impl TryFrom<Vec<Material>> for Palette {
@@ -203,7 +203,7 @@ mod tests {
     #[test]
     #[should_panic(expected = "the numbers of materials are finite")]
     fn materials_need_finite_numbers() {
-        let kind = MaterialKind::Sensor(Response { stimulus: 0, absent: f64::NAN, present: 1.0 });
+        let kind = MaterialKind::Sensor(Response::of(0, f64::NAN, 1.0));
         Palette::new(vec![Material { name: "broken".to_owned(), kind }]);
     }
 }

@@ -1,17 +1,39 @@
 //! Schedules: which stimuli are present and for how long.
 
+use std::sync::Arc;
+
 use serde::{Deserialize, Serialize};
 
-use super::Pattern;
+use super::{Image, Pattern};
 
-/// One spell of a schedule: a pattern that stays for a number of env steps.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+/// One spell of a schedule: stimuli that stay for a number of env steps.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spell {
     /// The stimuli that are present.
     pub pattern: Pattern,
+    /// The image that is shown. Its pattern then says what it stands for: bodies that sense images sense no pattern.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub image: Option<Arc<Image>>,
     /// The duration in env steps.
     pub steps: u32,
+}
+
+impl Spell {
+    /// A pattern for that many env steps.
+    pub fn of(pattern: Pattern, steps: u32) -> Self {
+        Self { pattern, image: None, steps }
+    }
+
+    /// The value of a stimulus that is present or absent everywhere.
+    pub fn value(&self, stimulus: usize) -> f64 {
+        if self.pattern.has(stimulus) { 1.0 } else { 0.0 }
+    }
+
+    /// The value of the image over a place of a body's box: row and column, height and width. Without an image it is 0.
+    pub fn value_over(&self, place: [usize; 2], size: [usize; 2]) -> f64 {
+        self.image.as_ref().map_or(0.0, |image| image.over(place, size))
+    }
 }
 
 /// Spells one after another, without a reset between them.
@@ -25,7 +47,7 @@ pub struct Schedule {
 impl Schedule {
     /// A schedule of one spell: a pattern for that many env steps.
     pub fn constant(pattern: Pattern, steps: u32) -> Self {
-        Self { spells: vec![Spell { pattern, steps }] }
+        Self { spells: vec![Spell::of(pattern, steps)] }
     }
 
     /// The length of all spells together, in env steps.

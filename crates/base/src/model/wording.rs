@@ -142,6 +142,68 @@ impl fmt::Display for GroundFileError {
 
 impl Error for GroundFileError {}
 
+/// The reason why values are not an image.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ImageError {
+    /// Too many rows or columns, or none.
+    Size {
+        /// The number of rows.
+        rows: usize,
+        /// The number of columns.
+        columns: usize,
+        /// The most of each.
+        most: usize,
+    },
+    /// Rows of different length.
+    Ragged {
+        /// The row, from 1.
+        row: usize,
+        /// The number of its pixels.
+        found: usize,
+        /// The first row's number.
+        expected: usize,
+    },
+    /// Another number of pixels than rows and columns have.
+    Pixels {
+        /// The number of pixels.
+        found: usize,
+        /// The number of rows.
+        rows: usize,
+        /// The number of columns.
+        columns: usize,
+    },
+    /// A pixel that is not from 0 to 1.
+    Range {
+        /// The row, from 1.
+        row: usize,
+        /// The column, from 1.
+        column: usize,
+        /// The pixel.
+        found: String,
+    },
+}
+
+impl fmt::Display for ImageError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Size { rows, columns, most } => {
+                write!(f, "the image has {rows} rows and {columns} columns, expected 1 to {most} of each")
+            }
+            Self::Ragged { row, found, expected } => {
+                write!(f, "row {row} has {found} pixels, expected {expected} as in row 1")
+            }
+            Self::Pixels { found, rows, columns } => {
+                write!(f, "the image has {found} pixels, expected {} in {rows} rows and {columns} columns", rows * columns)
+            }
+            Self::Range { row, column, found } => {
+                write!(f, "row {row}, column {column}: the pixel is {found}, expected 0 to 1")
+            }
+        }
+    }
+}
+
+impl Error for ImageError {}
+
 /// The reason why materials are not a palette.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PaletteError {
@@ -221,6 +283,11 @@ pub enum MaterialNumber {
     },
     /// A width.
     Width,
+    /// The rows and the columns of an image.
+    Image {
+        /// The most of each.
+        most: usize,
+    },
 }
 
 impl fmt::Display for MaterialNumber {
@@ -231,6 +298,7 @@ impl fmt::Display for MaterialNumber {
             Self::Widths => f.write_str("widths from 0.6 to 1.6, the smallest first"),
             Self::Stimulus { most } => write!(f, "1 to {most}"),
             Self::Width => f.write_str("a width from 0.6 to 1.6"),
+            Self::Image { most } => write!(f, "1 to {most} rows and columns"),
         }
     }
 }

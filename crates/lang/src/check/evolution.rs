@@ -329,7 +329,7 @@ fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<u
     }
     let mut stimuli = found.stimuli.clone();
     stimuli.sort_unstable();
-    let own = |spell: &Spell| Spell { pattern: restricted(spell.pattern, &stimuli), ..*spell };
+    let own = |spell: &Spell| Spell { pattern: restricted(spell.pattern, &stimuli), ..spell.clone() };
     let schedule = Schedule { spells: found.schedule.spells.iter().map(own).collect() };
     Ok((stimuli, schedule))
 }

@@ -63,7 +63,7 @@ fn response(fields: &mut Fields<'_>, home: Home, stimuli: &NameTable) -> Option<
     });
     let absent = fields.need("absent", "absent: 0.6", width);
     let present = fields.need("present", "present: 1.6", width);
-    Some(Response { stimulus: stimulus?, absent: absent?, present: present? })
+    Some(Response::of(stimulus?, absent?, present?))
 }
 
 fn quantity_of(value: &ValueSyntax) -> Result<&Quantity, Diagnostic> {

@@ -32,7 +32,7 @@ pub(crate) fn schedule(
         let steps = quantity::steps(&spell.length).map_err(|fault| faults.push(fault)).ok();
         let bits = row_of_bits(&spell.cells, source.columns.len(), spell.span, faults);
         if let (Some(steps), Some(bits), true) = (steps, bits, columns.len() == source.columns.len()) {
-            schedule.spells.push(Spell { pattern: pattern(&columns, &bits), steps });
+            schedule.spells.push(Spell::of(pattern(&columns, &bits), steps));
         }
     }
     if source.spells.is_empty() {

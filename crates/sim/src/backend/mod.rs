@@ -11,7 +11,7 @@ use std::fmt::Debug;
 use crate::constants::Constants;
 use crate::lattice::Lattice;
 use crate::state::State;
-use nbc_base::model::{Body, Fault, Pattern, Setting, Trajectory, Trial};
+use nbc_base::model::{Body, Fault, Pattern, Setting, Spell, Trajectory, Trial};
 
 /// An implementation of the physics.
 pub trait Backend: Debug + Send + Sync {
@@ -36,12 +36,21 @@ pub trait Flock: Debug + Send {
         self.len() == 0
     }
 
-    /// Simulates `env_steps` more env steps, with robot `i` under `patterns[i]`. The actuation clock continues from
-    /// call to call. A robot with a fault stays in its state after its last complete env step.
+    /// Simulates robot `i` through `spells[i]`. The actuation clock continues from call to call. A robot with a fault
+    /// stays in its state after its last complete env step.
+    ///
+    /// # Panics
+    /// When there is not one spell for each robot.
+    fn advance_under(&mut self, spells: &[Spell]);
+
+    /// Simulates `env_steps` more env steps, with robot `i` under `patterns[i]`, as [`Flock::advance_under`].
     ///
     /// # Panics
     /// When there is not one pattern for each robot.
-    fn advance(&mut self, patterns: &[Pattern], env_steps: u32);
+    fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
+        let spell = |&pattern: &Pattern| Spell::of(pattern, env_steps);
+        self.advance_under(&patterns.iter().map(spell).collect::<Vec<_>>());
+    }
 
     /// Keeps robot `i` if `keep[i]` is true, in the same order, and drops the others.
     ///

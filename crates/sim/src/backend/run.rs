@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use crate::backend::Snapshot;
 use crate::constants::Constants;
+use crate::grid::Grid;
 use crate::lattice::Lattice;
 use crate::signal::Signals;
 use crate::state::State;
-use nbc_base::model::{Body, Fault, FaultKind, Palette, Pattern, Schedule, Setting};
+use nbc_base::model::{Body, Fault, FaultKind, Palette, Schedule, Setting, Spell};
 
 /// One simulation: a body, its state between env steps, and what is left of its schedule.
 #[derive(Clone, Debug)]
@@ -17,7 +18,7 @@ pub struct Run {
     pub lattice: Arc<Lattice>,
     /// The body's number: runs of one number share a body.
     pub body: usize,
-    /// The target widths of its materials.
+    /// The target widths of its channels.
     pub signals: Arc<Signals>,
     /// Its points. While the run is in a lane the batch has them, and these are outdated.
     pub state: State,
@@ -28,7 +29,7 @@ pub struct Run {
     /// The fault that ended it, if any.
     pub fault: Option<Fault>,
     /// Spells ahead, the next one last.
-    spells: Vec<(Pattern, u32)>,
+    spells: Vec<Spell>,
 }
 
 /// The data shared by runs of equal bodies.
@@ -52,7 +53,7 @@ impl Run {
     pub fn assign(&mut self, schedule: &Schedule) {
         let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
         self.spells.clear();
-        self.spells.extend(spells.map(|spell| (spell.pattern, spell.steps)));
+        self.spells.extend(spells.cloned());
     }
 
     /// Whether its schedule is done.
@@ -64,8 +65,8 @@ impl Run {
     ///
     /// # Panics
     /// When there is nothing left to do.
-    pub fn pattern(&self) -> Pattern {
-        self.spells.last().expect("a run that is not done has a spell").0
+    pub fn spell(&self) -> &Spell {
+        self.spells.last().expect("a run that is not done has a spell")
     }
 
     /// Records an env step: its center of mass, or its fault.
@@ -91,26 +92,26 @@ impl Run {
     /// Env steps left in the schedule.
     #[cfg(feature = "gpu")]
     pub fn remaining(&self) -> u32 {
-        if self.fault.is_some() { 0 } else { self.spells.iter().map(|&(_, steps)| steps).sum() }
+        if self.fault.is_some() { 0 } else { self.spells.iter().map(|spell| spell.steps).sum() }
     }
 
     /// The spells of at most `env_steps` env steps ahead, in order of time.
     #[cfg(feature = "gpu")]
-    pub fn spells_ahead(&self, env_steps: u32) -> Vec<(Pattern, u32)> {
+    pub fn spells_ahead(&self, env_steps: u32) -> Vec<Spell> {
         let mut left = env_steps;
-        let cut = |&(pattern, steps): &(Pattern, u32)| {
-            let steps = steps.min(left);
+        let cut = |spell: &Spell| {
+            let steps = spell.steps.min(left);
             left -= steps;
-            (pattern, steps)
+            Spell { steps, ..spell.clone() }
         };
-        self.spells.iter().rev().map(cut).take_while(|&(_, steps)| steps > 0).collect()
+        self.spells.iter().rev().map(cut).take_while(|spell| spell.steps > 0).collect()
     }
 
     fn count_down(&mut self) {
         self.clock += 1;
         let spell = self.spells.last_mut().expect("a run that is not done has a spell");
-        spell.1 -= 1;
-        if spell.1 == 0 {
+        spell.steps -= 1;
+        if spell.steps == 0 {
             self.spells.pop();
         }
     }
@@ -124,8 +125,8 @@ impl Run {
     }
 }
 
-/// A run for each body, at its start, without a schedule. Equal bodies share their lattice, equal palettes their
-/// signals.
+/// A run for each body, at its start, without a schedule. Equal bodies share their lattice, equal palettes the signals
+/// of bodies that sense no image.
 pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
     let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
     let mut builds: BTreeMap<&Body, Build> = BTreeMap::new();
@@ -134,8 +135,11 @@ pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoItera
         let build = builds.entry(body).or_insert_with(|| {
             let signals =
                 palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
-            let lattice = Arc::new(Lattice::new(body, constants));
-            Build { body: number, lattice, signals: Arc::clone(signals) }
+            let signals = match Grid::seeing(body).next() {
+                Some(_) => Arc::new(Signals::clone(signals).of(body, constants)),
+                None => Arc::clone(signals),
+            };
+            Build { body: number, lattice: Arc::new(Lattice::new(body, constants)), signals }
         });
         Run::new(build, setting.start(body.width()), constants)
     };

@@ -97,10 +97,12 @@ fn recoded_palette(palette: &Palette, order: &[usize], invert: &[bool]) -> Optio
         let stimulus = order[response.stimulus];
         let (absent, present) =
             if invert[stimulus] { (response.present, response.absent) } else { (response.absent, response.present) };
-        Response { stimulus, absent, present }
+        Response { stimulus, absent, present, ..response }
     };
     let sensor = |code: u8| match palette.kind(code) {
-        Some(MaterialKind::Sensor(response)) if response.stimulus < order.len() => Some(response),
+        Some(MaterialKind::Sensor(response)) if response.image.is_none() && response.stimulus < order.len() => {
+            Some(response)
+        },
         _ => None,
     };
     let alike = |response| (1..=palette.materials().len() as u8).filter(move |&code| sensor(code) == Some(response));
@@ -161,7 +163,7 @@ mod tests {
     fn three() -> Palette {
         let mut materials = Palette::paper().materials().to_vec();
         let sensor = |name: &str, absent, present| {
-            let kind = MaterialKind::Sensor(Response { stimulus: 2, absent, present });
+            let kind = MaterialKind::Sensor(Response::of(2, absent, present));
             Material { name: name.to_owned(), kind }
         };
         materials.extend([sensor("s3_shrink", 1.6, 0.6), sensor("s3_grow", 0.6, 1.6)]);

@@ -41,7 +41,7 @@ impl PictureKind for PagePicture {
 
 /// The page of a run with all its plots, and warnings of robots that fail on their way through them.
 pub(in crate::cli) fn run_page(results: &EvolutionResults, scheme: Scheme) -> (String, Vec<Diagnostic>) {
-    let spell = |pattern| Spell { pattern, steps: 10 * CYCLE_STEPS };
+    let spell = |pattern| Spell::of(pattern, 10 * CYCLE_STEPS);
     let schedule = Schedule { spells: Pattern::all(results.stimuli).map(spell).collect() };
     let figure = |heading: &str, drawing| PageFigure { heading: heading.to_owned(), drawing };
     let (paths, faults) = champions(&each_champion(results), &schedule);

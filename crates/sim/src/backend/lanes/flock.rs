@@ -7,7 +7,7 @@ use crate::backend::lanes::world::World;
 use crate::backend::run::{Run, runs};
 use crate::backend::{Flock, Snapshot};
 use crate::lattice::Lattice;
-use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting};
+use nbc_base::model::{Body, Fault, Schedule, Setting, Spell};
 
 /// Robots in the lanes of this processor.
 #[derive(Debug)]
@@ -76,10 +76,10 @@ impl Flock for LaneFlock {
         self.places.len()
     }
 
-    fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
-        assert_eq!(patterns.len(), self.len(), "each robot has a pattern");
-        for (i, &pattern) in patterns.iter().enumerate() {
-            self.run_mut(i).assign(&Schedule::constant(pattern, env_steps));
+    fn advance_under(&mut self, spells: &[Spell]) {
+        assert_eq!(spells.len(), self.len(), "each robot has a spell");
+        for (i, spell) in spells.iter().enumerate() {
+            self.run_mut(i).assign(&Schedule { spells: vec![spell.clone()] });
         }
         let world = &self.world;
         threads::for_each(&mut self.groups, |group| group.finish(world));

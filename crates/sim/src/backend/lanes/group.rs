@@ -16,7 +16,7 @@ pub struct LaneGroup {
     /// The run in each lane of the batch.
     lanes: Vec<usize>,
     batch: Option<Box<dyn LaneBatch>>,
-    /// Scratch: target widths of one run's materials.
+    /// Scratch: target widths of one run's channels.
     targets: Vec<f64>,
 }
 
@@ -71,7 +71,7 @@ impl LaneGroup {
             for (lane, &run) in self.lanes.iter().enumerate() {
                 let run = &self.runs[run];
                 self.targets.clear();
-                self.targets.extend(run.signals.targets(run.clock, run.pattern()));
+                self.targets.extend(run.signals.targets(run.clock, run.spell()));
                 batch.set_targets(lane, &self.targets);
             }
             batch.env_step();

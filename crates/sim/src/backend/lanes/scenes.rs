@@ -242,7 +242,10 @@ mod tests {
     use crate::grid::Grid;
     use crate::scene::SceneObject;
     use crate::signal::Signals;
-    use nbc_base::model::{Body, GroundProfile, Palette, Pattern, Setting};
+    use nbc_base::model::{
+        Body, GroundProfile, Image, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trial,
+    };
+    use std::sync::Arc;
 
     const WIDTH: usize = 60;
 
@@ -329,6 +332,7 @@ mod tests {
         let body = Body::parse(&["343", "434", "313"], &Palette::paper()).unwrap();
         let setting = Setting { world_width: WIDTH, ground, ..Setting::default() };
         let (constants, pattern) = (Constants::default(), Pattern::PAIRS[0]);
+        let spell = Spell::of(pattern, 1);
         let mut flock = LaneBackend::default().flock(&setting, std::slice::from_ref(&body));
         let still = SceneObject { grid: Grid::structure(WIDTH, rows, codes), at: [0, 0] };
         let at = setting.start(3).map(|axis| axis as usize);
@@ -338,11 +342,60 @@ mod tests {
         let driven: Vec<u8> = body.codes().iter().copied().filter(|&code| code > 2).collect();
         for env_step in 0..100 {
             flock.advance(&[pattern], 1);
-            let targets: Vec<f64> = driven.iter().map(|&code| signals.target(code, env_step, pattern)).collect();
+            let targets: Vec<f64> = driven.iter().map(|&code| signals.target(code.into(), env_step, &spell)).collect();
             scenes.set_targets(0, &targets);
             scenes.advance(1);
             let Snapshot { state, .. } = flock.snapshot(0);
             assert_eq!(scenes.state(0).state, state, "env step {env_step}");
+        }
+    }
+
+    /// A palette with two sensors of an image: 9 shrinks where it is bright, a swells there.
+    fn seeing() -> Arc<Palette> {
+        let mut materials = Palette::paper().materials().to_vec();
+        let sensor = |name: &str, absent, present| {
+            let response = Response { image: Some([3, 3]), ..Response::of(0, absent, present) };
+            Material { name: name.to_owned(), kind: MaterialKind::Sensor(response) }
+        };
+        materials.extend([sensor("dark", 1.6, 0.6), sensor("light", 0.6, 1.6)]);
+        Arc::new(Palette::new(materials))
+    }
+
+    #[test]
+    fn a_robot_that_sees_is_one_with_a_target_for_each_voxel() {
+        let image = |turn: usize| {
+            let pixels = (0..9).map(|at| ((at * 5 + turn) % 9) as f64 / 8.0).collect();
+            Some(Arc::new(Image::new([3, 3], pixels).unwrap()))
+        };
+        let spells = [0, 4].map(|turn| Spell { image: image(turn), ..Spell::of(Pattern::PAIRS[3], 30) });
+        let body = Body::parse(&["a49", "3a4", "393"], &seeing()).unwrap();
+        let (constants, setting) = (Constants::default(), Setting { world_width: WIDTH, ..Setting::default() });
+        let signals = Signals::new(body.palette(), &constants).of(&body, &constants);
+        // The targets of a scene are in reading order; those of image sensors follow those of the ten materials.
+        let channels = [11, 4, 12, 3, 13, 4, 3, 14, 3];
+        let at = setting.start(3).map(|axis| axis as usize);
+        let robot = SceneObject { grid: Grid::structure(3, 3, &[3; 9]), at };
+        let floor = SceneObject { grid: Grid::structure(WIDTH, 1, &[5; WIDTH]), at: [0, 0] };
+        let mut scenes = Scenes::new(vec![Scene::new(&[floor, robot], &constants)]);
+        for env_step in 0..60 {
+            let spell = &spells[env_step as usize / 30];
+            let targets: Vec<f64> = channels.iter().map(|&one| signals.target(one, env_step, spell)).collect();
+            scenes.set_targets(0, &targets);
+            scenes.advance(1);
+        }
+        let expected = scenes.state(0);
+        let others = [&["343", "454", "363"], &["999", "343", "aaa"]].map(|rows| Body::parse(rows, &seeing()).unwrap());
+        for set in InstructionSet::available() {
+            for lanes in Kernel::WIDTHS {
+                let kernel = Kernel::new(set, lanes).expect("an available set");
+                let backend = LaneBackend { kernel, ..LaneBackend::default() };
+                let mut flock = backend.flock(&setting, &[others[0].clone(), body.clone(), others[1].clone()]);
+                spells.each_ref().map(|spell| flock.advance_under(&vec![spell.clone(); 3]));
+                assert_eq!(flock.snapshot(1).state, expected.state, "{} with {lanes} lanes", set.name());
+                let schedule = Schedule { spells: spells.to_vec() };
+                let trials = [Trial { body: body.clone(), schedule }];
+                assert_eq!(backend.run_trials(&setting, &trials)[0].com_x[60], flock.center(1)[0]);
+            }
         }
     }
 

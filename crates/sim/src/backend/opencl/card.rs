@@ -121,10 +121,10 @@ pub struct Arguments<'a> {
     pub plan: &'a CardMemory<u16>,
     /// The stiffness of the springs of all bodies, in kilograms per substep squared.
     pub stiffness: &'a CardMemory<f64>,
-    /// The targets of each material in each env step.
+    /// The targets of each channel in each env step.
     pub targets: &'a CardMemory<f64>,
-    /// The number of materials in a row of targets.
-    pub codes: u32,
+    /// The number of channels in a row of targets.
+    pub channels: u32,
     /// Ground voxels in a row.
     pub world_width: u32,
     /// The most env steps of a robot.
@@ -354,7 +354,7 @@ impl CardQueue<'_> {
                 kernel.set_arg(2, plan.buffer())?;
                 kernel.set_arg(3, stiffness.buffer())?;
                 kernel.set_arg(4, targets.buffer())?;
-                kernel.set_arg(5, &arguments.codes)?;
+                kernel.set_arg(5, &arguments.channels)?;
                 kernel.set_arg(6, &arguments.world_width)?;
                 kernel.set_arg(7, &arguments.window)?;
                 kernel.set_arg(8, state[0].buffer())?;

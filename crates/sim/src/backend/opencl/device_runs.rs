@@ -12,7 +12,7 @@ use crate::backend::run::Run;
 use crate::constants::Constants;
 use crate::monitor::Monitor;
 use crate::signal::Signals;
-use nbc_base::model::Pattern;
+use nbc_base::model::Spell;
 
 /// The most env steps of a launch.
 const WINDOW: u32 = 840;
@@ -21,6 +21,9 @@ const FIRST_WINDOW: u32 = 4;
 /// The time that a launch should take, in nanoseconds. Drivers of cards that also show a screen stop programs after
 /// some seconds, and a simulation can be stopped only between launches.
 const PATIENCE: u64 = 200_000_000;
+
+/// The most robots at once if some of them sense images, because each of these has targets of its own.
+const MOST_SEEING: usize = 1024;
 
 /// Robots that a multiprocessor simulates side by side.
 pub const AT_ONCE: usize = 4;
@@ -96,7 +99,9 @@ impl DeviceWorld {
         }
         for (capacity, mut members) in self.side_by_side(groups) {
             members.sort_by_key(|member| (std::cmp::Reverse(runs[member.run].remaining()), member.run));
-            for members in members.chunks(self.most_robots(capacity)) {
+            let sees = members.iter().any(|member| runs[member.run].signals.is_of_body());
+            let most = if sees { MOST_SEEING } else { usize::MAX };
+            for members in members.chunks(self.most_robots(capacity).min(most)) {
                 self.finish_some(capacity, members, runs, record)?;
             }
         }
@@ -230,7 +235,7 @@ impl<'a> DeviceRuns<'a> {
             plan: &self.plan,
             stiffness: &self.stiffness,
             targets: &self.queue.upload(&signals.targets)?,
-            codes: signals.codes as u32,
+            channels: signals.channels as u32,
             world_width: self.world.width as u32,
             window: steps,
             state: self.state.each_ref(),
@@ -290,45 +295,45 @@ fn next_window(steps: u32, spent: u64) -> u32 {
     (fitting as u32).clamp(1, steps.saturating_mul(4))
 }
 
-/// What the targets of a run depend on: its palette, clock and spells.
-type SignalKey = (usize, u32, Vec<(Pattern, u32)>);
+/// What the targets of a run depend on: its signals, clock and spells.
+type SignalKey = (usize, u32, Vec<Spell>);
 
-/// The targets of the materials in the env steps of a launch. Runs with the same materials, clock and stimuli share
+/// The targets of the channels in the env steps of a launch. Runs with the same signals, clock and stimuli share
 /// them.
 struct SignalTable<'a> {
-    /// Rows of `codes` numbers, one for each env step.
+    /// Rows of `channels` numbers, one for each env step.
     targets: Vec<f64>,
-    codes: usize,
-    palettes: Vec<&'a Arc<Signals>>,
+    channels: usize,
+    signals: Vec<&'a Arc<Signals>>,
     /// The place of the targets of each kind of run.
     rows: BTreeMap<SignalKey, u32>,
 }
 
 impl<'a> SignalTable<'a> {
     fn new(runs: impl Iterator<Item = &'a Run>) -> Self {
-        let mut palettes: Vec<&Arc<Signals>> = Vec::new();
+        let mut different: Vec<&Arc<Signals>> = Vec::new();
         for run in runs {
-            if !palettes.iter().any(|known| Arc::ptr_eq(known, &run.signals)) {
-                palettes.push(&run.signals);
+            if !different.iter().any(|known| Arc::ptr_eq(known, &run.signals)) {
+                different.push(&run.signals);
             }
         }
-        let codes = palettes.iter().map(|signals| signals.codes()).max().unwrap_or(0);
-        Self { targets: Vec::new(), codes, palettes, rows: BTreeMap::new() }
+        let channels = different.iter().map(|signals| signals.channels()).max().unwrap_or(0);
+        Self { targets: Vec::new(), channels, signals: different, rows: BTreeMap::new() }
     }
 
     /// The place of the targets of a run in its next env steps.
     fn add(&mut self, run: &Run, steps: u32) -> u32 {
-        let palette = self.palettes.iter().position(|known| Arc::ptr_eq(known, &run.signals));
-        let palette = palette.expect("the palettes of all runs are listed");
+        let signals = self.signals.iter().position(|known| Arc::ptr_eq(known, &run.signals));
+        let signals = signals.expect("the signals of all runs are listed");
         let spells = run.spells_ahead(steps);
-        let (targets, codes) = (&mut self.targets, self.codes);
-        *self.rows.entry((palette, run.clock, spells)).or_insert_with_key(|(_, clock, spells)| {
+        let (targets, channels) = (&mut self.targets, self.channels);
+        *self.rows.entry((signals, run.clock, spells)).or_insert_with_key(|(_, clock, spells)| {
             let first = targets.len() as u32;
-            let patterns = spells.iter().flat_map(|&(pattern, steps)| std::iter::repeat_n(pattern, steps as usize));
-            for (env_step, pattern) in (*clock..).zip(patterns) {
+            let each = spells.iter().flat_map(|spell| std::iter::repeat_n(spell, spell.steps as usize));
+            for (env_step, spell) in (*clock..).zip(each) {
                 let row = targets.len();
-                targets.extend(run.signals.targets(env_step, pattern));
-                targets.resize(row + codes, 1.0);
+                targets.extend(run.signals.targets(env_step, spell));
+                targets.resize(row + channels, 1.0);
             }
             first
         })

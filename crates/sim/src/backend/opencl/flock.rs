@@ -5,7 +5,7 @@ use crate::backend::opencl::fallback_device::FallbackDevice;
 use crate::backend::run::{Run, runs};
 use crate::backend::{Backend, Flock, Snapshot};
 use crate::lattice::Lattice;
-use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting};
+use nbc_base::model::{Body, Fault, Schedule, Setting, Spell};
 
 /// Robots on a device.
 #[derive(Debug)]
@@ -24,13 +24,13 @@ impl DeviceFlock {
     }
 
     /// Advances some robots on this processor.
-    fn advance_here(&mut self, robots: &[usize], patterns: &[Pattern], env_steps: u32) {
+    fn advance_here(&mut self, robots: &[usize], spells: &[Spell]) {
         let bodies: Vec<Body> = robots.iter().map(|&robot| self.bodies[robot].clone()).collect();
         let mut flock = self.device.processor.flock(&self.setting, &bodies);
         for (place, &robot) in robots.iter().enumerate() {
             flock.restore(place, &self.snapshot(robot));
         }
-        flock.advance(&robots.iter().map(|&robot| patterns[robot]).collect::<Vec<_>>(), env_steps);
+        flock.advance_under(&robots.iter().map(|&robot| spells[robot].clone()).collect::<Vec<_>>());
         for (place, &robot) in robots.iter().enumerate() {
             self.runs[robot].restore(&flock.snapshot(place));
         }
@@ -42,18 +42,18 @@ impl Flock for DeviceFlock {
         self.runs.len()
     }
 
-    fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
-        assert_eq!(patterns.len(), self.len(), "each robot has a pattern");
+    fn advance_under(&mut self, spells: &[Spell]) {
+        assert_eq!(spells.len(), self.len(), "each robot has a spell");
         let mut ahead = self.runs.clone();
-        for (run, &pattern) in ahead.iter_mut().zip(patterns) {
-            run.assign(&Schedule::constant(pattern, env_steps));
+        for (run, spell) in ahead.iter_mut().zip(spells) {
+            run.assign(&Schedule { spells: vec![spell.clone()] });
         }
         match self.device.finish(&self.setting, &mut ahead, &mut |_, _| {}) {
             Some(too_large) => {
                 self.runs = ahead;
-                self.advance_here(&too_large, patterns, env_steps);
+                self.advance_here(&too_large, spells);
             }
-            None => self.advance_here(&(0..self.len()).collect::<Vec<_>>(), patterns, env_steps),
+            None => self.advance_here(&(0..self.len()).collect::<Vec<_>>(), spells),
         }
     }
 

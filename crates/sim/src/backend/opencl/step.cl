@@ -78,7 +78,7 @@ typedef struct {
     __global const ushort *around;
     // The mass of each point, in order of creation.
     __global const ushort *order;
-    // The codes of the owners of each driven spring.
+    // The channels of the owners of each driven spring.
     __global const ushort *owners;
     // The surface voxels.
     __global const ushort *surface;
@@ -1118,7 +1118,7 @@ PART void store_masses(const Robot *r, uint item, const Masses *masses, const St
 // robot; states are those after the last complete env step.
 __kernel __attribute__((reqd_work_group_size(GROUP, 1, 1)))
 void advance(__global const uint *robots, __global const uint *bodies, __global const ushort *plan,
-             __global const double *stiffness, __global const double *targets, const uint codes,
+             __global const double *stiffness, __global const double *targets, const uint channels,
              const uint world_width, const uint window, __global double2 *positions, __global double2 *previous,
              __global double2 *velocities, __global double2 *centers, __global uint2 *outcomes) {
     __local double2 at[MASSES], stage[MASSES], before[MASSES], reference[MASSES], scratch[SCRATCH];
@@ -1166,7 +1166,7 @@ void advance(__global const uint *robots, __global const uint *bodies, __global 
     SYNC();
     uint fault = SOUND, done = 0;
     do {
-        set_aims(r, item, &springs, targets + robot[ROBOT_TARGETS] + done * codes);
+        set_aims(r, item, &springs, targets + robot[ROBOT_TARGETS] + done * channels);
         for (uint n = 0; n < SUBSTEPS; n++) substep(r, item, world_width, &springs, &masses);
         EACH(axis, 2) mean[axis] = center(r, axis);
         SYNC();

@@ -323,7 +323,7 @@ pub(crate) mod tests {
 
     /// The paper's run in a 5 x 5 box.
     pub(crate) fn evolution() -> Evolution {
-        let spells = Pattern::PAIRS.map(|pattern| Spell { pattern, steps: 840 }).to_vec();
+        let spells = Pattern::PAIRS.map(|pattern| Spell::of(pattern, 840)).to_vec();
         let count = |of| Axis::Count { of, bins: 4 };
         Evolution {
             name: "gates".to_owned(),
