@@ -40,6 +40,7 @@ mod prove;
 mod robots;
 mod run;
 mod runs;
+mod see;
 mod simulate;
 mod source_path;
 mod standard_input;
@@ -107,6 +108,7 @@ commands! {
     Play(play::PlayArguments),
     Prove(prove::ProveArguments),
     Run(run::RunArguments),
+    See(see::SeeArguments),
     Simulate(simulate::SimulateArguments),
     Synth(synth::SynthArguments),
     Test(test::TestArguments),

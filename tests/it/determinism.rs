@@ -61,10 +61,7 @@ pub fn own_palette() -> Arc<Palette> {
 
 fn schedule(cycles: u32) -> impl Strategy<Value = Schedule> {
     (1..84 * cycles, 0usize..4, 0usize..4).prop_map(move |(first, a, b)| Schedule {
-        spells: vec![
-            Spell::of(Pattern::PAIRS[a], first),
-            Spell::of(Pattern::PAIRS[b], 84 * cycles - first),
-        ],
+        spells: vec![Spell::of(Pattern::PAIRS[a], first), Spell::of(Pattern::PAIRS[b], 84 * cycles - first)],
     })
 }
 
@@ -109,12 +106,7 @@ fn a_faulting_lane_does_not_change_its_neighbors() {
     let broken = Body::parse(&["349", "363", "507"], &palette).unwrap();
     let trial = |body: &Body, pattern: usize| Trial {
         body: body.clone(),
-        schedule: Schedule {
-            spells: vec![
-                Spell::of(Pattern::PAIRS[1], 40),
-                Spell::of(Pattern::PAIRS[pattern], 80),
-            ],
-        },
+        schedule: Schedule { spells: vec![Spell::of(Pattern::PAIRS[1], 40), Spell::of(Pattern::PAIRS[pattern], 80)] },
     };
     let trials: Vec<Trial> = (0..8).map(|i| trial(if i == 3 { &broken } else { &sound }, 2 + i % 2)).collect();
     let alone: Vec<_> =

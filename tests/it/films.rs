@@ -179,9 +179,7 @@ fn a_large_robot_has_a_film_too() {
 fn a_fault_stops_the_robot_and_not_the_film() {
     let body = Body::parse(&["57070", "73873", "00304", "00001", "00861"], &Palette::paper()).unwrap();
     let setting = Setting { world_width: 60, start_x: Some(28), ..Setting::default() };
-    let schedule = Schedule {
-        spells: vec![Spell::of(Pattern::PAIRS[3], 60), Spell::of(Pattern::PAIRS[0], 60)],
-    };
+    let schedule = Schedule { spells: vec![Spell::of(Pattern::PAIRS[3], 60), Spell::of(Pattern::PAIRS[0], 60)] };
     let moments: Vec<_> = Stage::of_trial(&setting, &body, &schedule, 7).collect();
     assert_eq!(moments.len(), 120 / 7 + 1);
     let broken = moments.iter().position(|moment| moment.faults[0]).unwrap();

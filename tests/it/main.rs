@@ -61,6 +61,7 @@ mod results;
 mod riscv;
 mod runs;
 mod schemas;
+mod seeing;
 mod settling;
 mod support;
 mod swarms;

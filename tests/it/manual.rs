@@ -124,6 +124,7 @@ fn every_example_of_the_manual_runs() {
             let file = sources.add("main.nb", example.text.as_str());
             let mut world = MemoryWorld::default();
             world.insert("adders.nb", read("circuits/full_adder.nb"));
+            world.insert("digits.csv", read("library/seeing/digits.csv"));
             world.insert("computer.nb", read("circuits/computer.nb"));
             world.insert("circuits/counter.nb", read("circuits/counter.nb"));
             world.insert("majority.blif", majority.as_str());

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use nbc_base::diag::{Code, Diagnostic, Severity, render};
-use nbc_base::source::{MemoryWorld, Sources};
+use nbc_base::source::{MemoryWorld, OverlayWorld, Sources};
 use nbc_lang::check;
 use nbc_session::store::DiskWorld;
 
@@ -87,8 +87,8 @@ fn every_fix_removes_its_error() {
             assert!(fault.fix.is_some() || !is_certain, "{}: `{}` has no fix", path.display(), fault.message);
             let Some(fix) = &fault.fix else { continue };
             let fixed = fix.apply(file, &sources.file(file).text);
-            let mut world = MemoryWorld::default();
-            world.insert(name(&path), fixed.as_str());
+            let mut world = OverlayWorld::new(DiskWorld);
+            world.insert(&name(&path), fixed.as_str());
             let mut sources = Sources::default();
             let file = check::open(&world, &name(&path), &mut sources).unwrap();
             let left = check::check(&world, &mut sources, file).diagnostics;

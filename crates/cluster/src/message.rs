@@ -5,7 +5,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 /// The version of the messages, which is also in their subjects.
-pub const VERSION: u8 = 6;
+pub const VERSION: u8 = 7;
 /// The most bytes of a message.
 pub const MOST_BYTES: usize = 256 * 1024;
 /// The most characters of a name.

@@ -1,7 +1,7 @@
 //! An identifier of a program's physics. All machines that work for a search must have the same.
 
 use nbc_base::fnv::Fnv;
-use nbc_base::model::{Body, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
+use nbc_base::model::{Body, ImageOrder, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Rivals;
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
@@ -37,6 +37,7 @@ impl PhysicsId {
             objective,
             behaviors,
             variable: schedule,
+            shown: ImageOrder::Apart,
             fixed_steps: STEPS,
             world,
             others: Vec::new(),

@@ -8,11 +8,11 @@ use serde::{Deserialize, Serialize};
 use crate::bits::{pack, unpack};
 use crate::message::{MessageFault, TaskKey, decode, encode};
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, Displacements, GroundProfile, Niche, Palette, Pattern, PhysicsWorld, SampledWorlds,
-    Schedule, SearchObjective, Spell, WorldFactors, WorldNoise,
+    Behavior, Body, CYCLE_STEPS, Displacements, GroundProfile, Image, ImageOrder, Niche, Palette, Pattern,
+    PhysicsWorld, SampledWorlds, Schedule, SearchObjective, Spell, WorldFactors, WorldNoise,
 };
 use nbc_swarm::evolve::{Rivals, validate};
-use nbc_swarm::{EvaluationProtocol, EvaluationTask, PlainMember, StimulusSource, SwarmTask, Task};
+use nbc_swarm::{EvaluationProtocol, EvaluationTask, ImageSets, PlainMember, StimulusSource, SwarmTask, Task};
 
 /// The most env steps of one simulation.
 const MOST_STEPS: u64 = 100_000_000;
@@ -67,6 +67,9 @@ struct EvaluationRecord {
     behaviors: Vec<BehaviorRecord>,
     /// Stimuli as bits, and env steps.
     variable: Vec<(u32, u32)>,
+    /// The image of each of them, or none at all.
+    images: Vec<ImageRecord>,
+    in_turn: bool,
     fixed_steps: u32,
     world: WorldRecord,
     others: Vec<WorldRecord>,
@@ -79,6 +82,10 @@ struct EvaluationRecord {
     /// The displacements of its parent.
     expected: Option<Vec<f64>>,
 }
+
+/// The rows and columns of an image, and its pixels.
+#[derive(Serialize, Deserialize)]
+struct ImageRecord(u16, u16, Vec<f64>);
 
 /// The stimuli of a behavior, and the bits of its function.
 #[derive(Clone, Copy, Serialize, Deserialize)]
@@ -207,6 +214,14 @@ impl EvaluationRecord {
             objective: protocol.objective,
             behaviors: protocol.behaviors.iter().map(|&behavior| BehaviorRecord::of(behavior)).collect(),
             variable: protocol.variable.spells.iter().map(spell).collect(),
+            images: protocol
+                .variable
+                .spells
+                .iter()
+                .filter_map(|spell| spell.image.as_deref())
+                .map(ImageRecord::of)
+                .collect(),
+            in_turn: protocol.shown == ImageOrder::InTurn,
             fixed_steps: protocol.fixed_steps,
             world: protocol.world.into(),
             others: protocol.others.iter().copied().map(Into::into).collect(),
@@ -236,16 +251,27 @@ impl EvaluationRecord {
         {
             return None;
         }
-        let spell = |(bits, steps): (u32, u32)| {
+        let images = self.images.into_iter().map(ImageRecord::check).collect::<Option<Vec<_>>>()?;
+        let is_shown = self.objective == SearchObjective::Images;
+        if images.len() != if is_shown { self.variable.len() } else { 0 } || is_shown && images.is_empty() {
+            return None;
+        }
+        let images = images.into_iter().map(Some).chain(std::iter::repeat(None));
+        let spell = |((bits, steps), image): ((u32, u32), Option<Image>)| {
             let present: Vec<bool> = (0..Pattern::MAX_STIMULI).map(|i| bits >> i & 1 == 1).collect();
-            Spell::of(Pattern::new(&present), steps)
+            Spell { image: image.map(Arc::new), ..Spell::of(Pattern::new(&present), steps) }
         };
         let niche = self.pareto.map_or(Niche::Dominance, |most| Niche::Pareto(most as usize));
-        let variable = Schedule { spells: self.variable.into_iter().map(spell).collect() };
+        let variable = Schedule { spells: self.variable.into_iter().zip(images).map(spell).collect() };
+        if is_shown && !ImageSets::of(&variable).can_be_told() {
+            return None;
+        }
+        let shown = if self.in_turn { ImageOrder::InTurn } else { ImageOrder::Apart };
         let Self { objective, behaviors, fixed_steps, .. } = self;
         let behavior = |record: BehaviorRecord| record.check().filter(|behavior| behavior.stimuli() == stimuli);
         let behaviors: Vec<Behavior> = behaviors.into_iter().map(behavior).collect::<Option<_>>()?;
-        let protocol = EvaluationProtocol { stimuli, objective, behaviors, variable, fixed_steps, world, others };
+        let protocol =
+            EvaluationProtocol { stimuli, objective, behaviors, variable, shown, fixed_steps, world, others };
         let front = |place: &u16| self.fronts.get(usize::from(*place)).cloned();
         let rivals = self.rivals.iter().map(|places| places.iter().map(front).collect());
         let rivals = Rivals::new(niche, rivals.collect::<Option<_>>()?);
@@ -275,6 +301,17 @@ impl BodyRecord {
         }
         let palette: Arc<Palette> = Arc::new(serde_json::from_str(&self.palette).ok()?);
         Body::from_codes(width, height, &self.codes, &palette).ok()
+    }
+}
+
+impl ImageRecord {
+    fn of(image: &Image) -> Self {
+        let [rows, columns] = image.size().map(|side| side as u16);
+        Self(rows, columns, image.pixels().to_vec())
+    }
+
+    fn check(self) -> Option<Image> {
+        Image::new([self.0.into(), self.1.into()], self.2).ok()
     }
 }
 
@@ -469,6 +506,37 @@ pub(super) mod tests {
             assert!(bytes.len() < MOST_BYTES / 16, "{} bytes", bytes.len());
             assert_eq!(&TaskMessage::decode(&bytes).unwrap(), task);
         }
+    }
+
+    #[test]
+    fn images_travel_and_one_set_of_them_is_a_fault() {
+        let mut world = MemoryWorld::default();
+        world.insert("a.csv", "0,1,0\n1,0.5,1\n");
+        let text = "stimulus spot[1][2]
+material eye { kind: sensor, stimulus: spot, absent: 0.6, present: 1.6 }
+images zeros { stimulus: spot, from: \"a.csv\", label: 0 }
+images ones { stimulus: spot, from: \"a.csv\", label: 1 }
+schedule both(spot) { zeros for 9 steps ones for 8 steps }
+evolution see { objective: images, variable: both, materials: [muscle, eye], genome: voxels, shown: in_turn }";
+        world.insert("a.nb", text);
+        let checked = Session::new(world).open("a.nb").unwrap();
+        let search = Search::new(checked.program.evolution("see").unwrap(), 1);
+        let protocol = EvaluationProtocol::of(search.evolution());
+        let candidate = &search.ask()[0];
+        let written = |protocol: &EvaluationProtocol| {
+            let task = Task::Evaluation(Arc::new(protocol.clone()), EvaluationTask::of(&search, candidate));
+            TaskMessage { key: TaskKey { run: 2, generation: 1, index: 0 }, together: 8, task }
+        };
+        let message = written(&protocol);
+        assert_eq!(TaskMessage::decode(&message.encode()), Ok(message));
+        let changed = |change: fn(&mut EvaluationProtocol)| {
+            let mut changed = protocol.clone();
+            change(&mut changed);
+            assert_eq!(TaskMessage::decode(&written(&changed).encode()), Err(MessageFault::Values));
+        };
+        changed(|protocol| protocol.variable.spells.truncate(1));
+        changed(|protocol| protocol.variable.spells[1].image = None);
+        changed(|protocol| protocol.objective = SearchObjective::Distance);
     }
 
     #[test]

@@ -12,7 +12,7 @@ pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {
     let declarations = files.checked.tree(file).into_iter().flat_map(|tree| &tree.declarations);
     let named = declarations.flat_map(|declaration| match &declaration.kind {
         DeclarationKind::Use(paths) => paths.iter().map(|path| (path.text.as_str(), path.span)).collect(),
-        DeclarationKind::Record(record) if record.keyword == RecordKeyword::Library => {
+        DeclarationKind::Record(record) if matches!(record.keyword, RecordKeyword::Images | RecordKeyword::Library) => {
             let from = record.record.field("from").map(|from| (&from.value.kind, from.value.span));
             match from {
                 Some((ValueKind::Text(folder), span)) => vec![(folder.as_str(), span)],

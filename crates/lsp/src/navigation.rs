@@ -46,7 +46,7 @@ pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbo
             NameKind::Circuit => SymbolKind::Function,
             NameKind::Stimulus => SymbolKind::Event,
             NameKind::Material => SymbolKind::Constant,
-            NameKind::Schedule => SymbolKind::Array,
+            NameKind::Images | NameKind::Schedule => SymbolKind::Array,
             NameKind::Evolution => SymbolKind::Class,
             NameKind::Library => SymbolKind::Package,
             NameKind::Swarm => SymbolKind::Object,

@@ -16,13 +16,15 @@ fn symbols_of(declaration: &Declaration, lines: &Lines<'_>) -> Vec<DocumentSymbo
     let one = |name: &NameSyntax, kind, detail: &str| vec![symbol(name, kind, detail, span, lines)];
     match &declaration.kind {
         DeclarationKind::Use(_) => Vec::new(),
-        DeclarationKind::Stimulus(names) => {
-            names.iter().map(|name| symbol(name, SymbolKind::Event, "stimulus", name.span, lines)).collect()
+        DeclarationKind::Stimulus(stimuli) => {
+            let names = stimuli.iter().map(|stimulus| &stimulus.name);
+            names.map(|name| symbol(name, SymbolKind::Event, "stimulus", name.span, lines)).collect()
         }
         DeclarationKind::Record(record) => {
             let kind = match record.keyword {
                 RecordKeyword::Material => SymbolKind::Constant,
                 RecordKeyword::Evolution => SymbolKind::Class,
+                RecordKeyword::Images => SymbolKind::Array,
                 RecordKeyword::Library => SymbolKind::Package,
                 RecordKeyword::Swarm => SymbolKind::Object,
                 RecordKeyword::World => SymbolKind::Namespace,

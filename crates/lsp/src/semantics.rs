@@ -110,6 +110,7 @@ fn of_name(files: &Files<'_>, found: NameUse) -> (&'static str, u32) {
         NameKind::Material | NameKind::Member => "enumMember",
         NameKind::Enumeration
         | NameKind::File
+        | NameKind::Images
         | NameKind::Schedule
         | NameKind::Evolution
         | NameKind::Library

@@ -54,6 +54,7 @@ schemas! {
     Robots = "robots", 1: "The robots of a library in full.";
     Robustness = "robustness", 1: "Tests in many worlds.";
     Run = "run", 1: "The results of the tests and simulations of a file.";
+    See = "see", 1: "How well bodies tell images apart.";
     Simulate = "simulate", 1: "The path of one robot.";
     Synth = "synth", 1: "A circuit made of cells.";
     Test = "test", 1: "The results of tests, row by row.";

@@ -33,6 +33,44 @@ impl From<LearningError> for Diagnostic {
     }
 }
 
+/// Bodies and images that do not fit each other. These errors have no place.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum RecognitionError {
+    /// A name that the program does not have.
+    Unknown { kind: &'static str, name: String, meant: Suggestion },
+    /// An evolution with another objective.
+    NoImages { evolution: String },
+    /// A schedule of another number of sets than the evolution's.
+    Sets { schedule: String, found: usize, expected: usize },
+    /// Bodies of other materials than the evolution declares.
+    OtherMaterials { evolution: String },
+}
+
+impl From<RecognitionError> for Diagnostic {
+    fn from(error: RecognitionError) -> Self {
+        match error {
+            RecognitionError::Unknown { kind, name, meant } => {
+                Self::without_place(Code::Unknown, format!("no {kind} is called `{name}`"))
+                    .with_suggestion(None, &meant)
+            }
+            RecognitionError::NoImages { evolution } => {
+                let message = format!("the bodies of `{evolution}` see no images");
+                Self::without_place(Code::BadValue, message).with_help("expected an evolution with `objective: images`")
+            }
+            RecognitionError::Sets { schedule, found, expected } => {
+                let (found, sets) = (counted(found, "set"), counted(expected, "set"));
+                let message = format!("the schedule `{schedule}` shows {found} of images, expected {sets}");
+                Self::without_place(Code::BadValue, message)
+                    .with_help("its sets are those of the evolution's schedule, in the same order")
+            }
+            RecognitionError::OtherMaterials { evolution } => {
+                let message = format!("the bodies have other materials than `{evolution}` declares");
+                Self::without_place(Code::Checkpoint, message)
+            }
+        }
+    }
+}
+
 /// An invalid choice of a circuit, swarm or library. These errors have no place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum ChoiceError {

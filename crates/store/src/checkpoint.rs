@@ -162,8 +162,8 @@ fn read_record(text: &[u8]) -> Result<Checkpoint, StateError> {
 mod tests {
     use super::*;
     use nbc_base::model::{
-        Axis, Behavior, Count, Genome, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule, SearchObjective,
-        Symmetry,
+        Axis, Behavior, Count, Genome, ImageOrder, MutationWeights, Niche, Palette, PhysicsWorld, Rules, Schedule,
+        SearchObjective, Symmetry,
     };
     use nbc_swarm::evolve::{CandidateOutcome, Scores};
 
@@ -177,6 +177,7 @@ mod tests {
             start: None,
             mutation: MutationWeights::default(),
             variable: Schedule::default(),
+            shown: ImageOrder::Apart,
             fixed_steps: 84,
             descriptors: vec![Axis::Count { of: Count::Voxels, bins: 4 }, Axis::Behavior],
             batch: 8,

@@ -72,9 +72,11 @@ fn declaration_text(evolution: &Evolution) -> String {
     let spells = &evolution.variable.spells;
     let Evolution { width, height, palette, mutation, fixed_steps, descriptors, batch, newcomers, .. } = evolution;
     let Evolution { rules, objective, symmetry, niche, .. } = evolution;
-    format!(
+    let text = format!(
         "{width} x {height}; {palette:?}; {mutation:?}; {spells:?}; {fixed_steps}; {descriptors:?}; {batch} + \
          {newcomers}; {rules:?}; \
          {objective:?}; {symmetry:?}; {niche:?}"
-    )
+    );
+    // Runs of format 1 knew no images.
+    text.replace("image: None, ", "")
 }

@@ -5,7 +5,7 @@ use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::gate::GateObjective;
 use crate::walks::WalkMemory;
-use crate::{Work, distance, gate};
+use crate::{Work, distance, gate, seeing};
 use nbc_base::model::{Body, Evolution, SearchObjective};
 use nbc_sim::Simulator;
 
@@ -45,6 +45,7 @@ pub(crate) fn evaluate_remembering(
         SearchObjective::Distance => distance::evaluate(simulator, memory, protocol, tasks),
         SearchObjective::Gate => gate::evaluate(simulator, GateObjective::Settled, protocol, tasks),
         SearchObjective::Wave => gate::evaluate(simulator, GateObjective::Wave, protocol, tasks),
+        SearchObjective::Images => seeing::evaluate(simulator, protocol, tasks),
     }
 }
 
@@ -54,6 +55,7 @@ pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
         SearchObjective::Distance => protocol.distance_steps(),
         SearchObjective::Gate => gate::steps(GateObjective::Settled, protocol),
         SearchObjective::Wave => gate::steps(GateObjective::Wave, protocol),
+        SearchObjective::Images => u64::from(protocol.variable.steps()),
     }
 }
 

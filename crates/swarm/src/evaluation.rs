@@ -3,7 +3,9 @@
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, WorldSample};
-use nbc_base::model::{Behavior, Body, Displacements, Evolution, PhysicsWorld, Schedule, SearchObjective, Setting};
+use nbc_base::model::{
+    Behavior, Body, Displacements, Evolution, ImageOrder, PhysicsWorld, Schedule, SearchObjective, Setting,
+};
 
 /// The simulations of an evaluation.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,8 +16,10 @@ pub struct EvaluationProtocol {
     pub objective: SearchObjective,
     /// The behaviors as which gates are scored, the nearest of them; if there are none, what the body does.
     pub behaviors: Vec<Behavior>,
-    /// The stimuli of the long simulation.
+    /// The stimuli of the long simulation, or the images.
     pub variable: Schedule,
+    /// How images follow each other.
+    pub shown: ImageOrder,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
     /// The world of all simulations but those in `others`.
@@ -70,6 +74,7 @@ impl EvaluationProtocol {
             objective: *objective,
             behaviors,
             variable: variable.clone(),
+            shown: evolution.shown,
             fixed_steps: *fixed_steps,
             world: *world,
             others,

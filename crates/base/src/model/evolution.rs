@@ -26,8 +26,12 @@ pub struct Evolution {
     pub start: Option<StartBodies>,
     /// The weights of the mutation operators of networks.
     pub mutation: MutationWeights,
-    /// The stimuli of the long simulation, in which they change (paper, Methods).
+    /// The stimuli of the long simulation, in which they change (paper, Methods); or the images that are told apart,
+    /// each with the number of its set as its pattern.
     pub variable: Schedule,
+    /// How images follow each other.
+    #[serde(default, skip_serializing_if = "ImageOrder::is_apart")]
+    pub shown: ImageOrder,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
     /// The axes of the archive; a niche is one bin of each.
@@ -95,6 +99,27 @@ impl Genome {
     /// Whether it is the paper's.
     pub fn is_cppn(&self) -> bool {
         *self == Self::Cppn
+    }
+}
+
+/// How the images of an evolution follow each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ImageOrder {
+    /// Each of them from a fresh start.
+    #[default]
+    Apart,
+    /// One after another, without a reset between them.
+    InTurn,
+}
+
+impl ImageOrder {
+    /// Both, with their names in a declaration.
+    pub const ALL: [(&str, Self); 2] = [("apart", Self::Apart), ("in_turn", Self::InTurn)];
+
+    /// Whether each image has a fresh start.
+    pub fn is_apart(&self) -> bool {
+        *self == Self::Apart
     }
 }
 

@@ -163,7 +163,7 @@ mod tests {
         assert_eq!(over([1, 3]), [0.5, 0.5, 0.5]);
         assert_eq!(over([2, 1]), [0.5, 0.5]);
         // Two columns of one and a half pixels each.
-        assert_eq!(over([2, 2]), [0.5 / 1.5, 1.0 / 1.5, 1.0 / 1.5, 0.25 / 1.5].map(|value: f64| value));
+        assert_eq!(over([2, 2]), [0.5 / 1.5, 1.0 / 1.5, 1.0 / 1.5, 0.5 / 1.5]);
         // A larger body: each pixel covers four voxels.
         assert_eq!(over([4, 6])[..6], [0.0, 0.0, 1.0, 1.0, 0.5, 0.5]);
     }

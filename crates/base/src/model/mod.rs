@@ -13,6 +13,7 @@ mod genotype;
 mod ground;
 mod ground_file;
 mod image;
+mod image_file;
 mod material;
 mod objective;
 mod palette;
@@ -39,17 +40,20 @@ pub use circuit::{
 pub use claim::{Claim, Property, PropertyKind};
 pub use column::{Column, bit_parts};
 pub use enumeration::{Enumeration, EnumerationMember, MemberEncoding};
-pub use evolution::{Axis, Count, Evolution, Genome, MutationWeights, Niche, SampledWorlds, StartBodies, Symmetry};
+pub use evolution::{
+    Axis, Count, Evolution, Genome, ImageOrder, MutationWeights, Niche, SampledWorlds, StartBodies, Symmetry,
+};
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use ground::{GroundProfile, GroundShape};
 pub use image::Image;
+pub use image_file::{ImageFile, LabeledImage};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use objective::SearchObjective;
 pub use palette::Palette;
 pub use program::{
-    Hold, InputSpell, LibrarySource, NamedFile, NamedSchedule, Origin, Program, RegisterStyle, Simulation, Swarm,
-    WaveTimes,
+    Hold, InputSpell, LibrarySource, NamedFile, NamedImages, NamedSchedule, Origin, Program, RegisterStyle, Simulation,
+    Swarm, WaveTimes,
 };
 pub use robot::{Character, Library, Provenance, Robot, SafeRadius, Transition};
 pub use rules::{Matter, Rules};
@@ -61,8 +65,8 @@ pub use trial::{Fault, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
 pub use wording::{
-    BehaviorError, BodyError, DisplacementsError, FaultKind, GroundFileError, ImageError, MaterialError,
-    MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
+    BehaviorError, BodyError, DisplacementsError, FaultKind, GroundFileError, ImageError, ImageFileError,
+    MaterialError, MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
 };
 pub use world::{NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
 

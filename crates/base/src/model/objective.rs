@@ -13,11 +13,14 @@ pub enum SearchObjective {
     Gate,
     /// Correct output in the cycle of the stimuli themselves, while they may change in every cycle.
     Wave,
+    /// The least distance over images, walked one way before those of some sets and the other way before the others.
+    Images,
 }
 
 impl SearchObjective {
     /// All of them, with their names in a declaration.
-    pub const ALL: [(&str, Self); 3] = [("distance", Self::Distance), ("gate", Self::Gate), ("wave", Self::Wave)];
+    pub const ALL: [(&str, Self); 4] =
+        [("distance", Self::Distance), ("gate", Self::Gate), ("wave", Self::Wave), ("images", Self::Images)];
 
     /// Short words for the two fitnesses.
     pub fn columns(self) -> [&'static str; 2] {
@@ -25,13 +28,15 @@ impl SearchObjective {
             Self::Distance => ["variable", "fixed"],
             Self::Gate => ["settled", "unchanged"],
             Self::Wave => ["steps", "worst"],
+            // One number counts, which is both.
+            Self::Images => ["least", "least"],
         }
     }
 
     /// The meaning of the first fitness, with its unit.
     pub fn meaning(self) -> &'static str {
         match self {
-            Self::Distance => "distance (voxels)",
+            Self::Distance | Self::Images => "distance (voxels)",
             Self::Gate | Self::Wave => "correct output (share)",
         }
     }

@@ -1,7 +1,10 @@
 //! A checked program: every declaration as plain data, in order of declaration, those of the prelude first.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use super::{
-    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Instance, Material,
+    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Image, Instance, Material,
     NamedWorld, Schedule,
 };
 use crate::source::Span;
@@ -11,6 +14,10 @@ use crate::source::Span;
 pub struct Program {
     /// The stimuli, in the order that numbers them.
     pub stimuli: Vec<String>,
+    /// The rows and columns of those stimuli that are images, by their numbers.
+    pub image_sizes: BTreeMap<usize, [usize; 2]>,
+    /// The sets of images.
+    pub images: Vec<NamedImages>,
     /// The materials, in the order of their numbers in bodies.
     pub materials: Vec<Material>,
     /// Declared worlds, those of the prelude first.
@@ -52,6 +59,19 @@ pub struct NamedSchedule {
     pub stimuli: Vec<usize>,
     /// The stimuli over time.
     pub schedule: Schedule,
+    /// The names of the sets whose images it shows, in the order that numbers them; none for other stimuli.
+    pub sets: Vec<String>,
+}
+
+/// Images of a file with a name.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NamedImages {
+    /// What schedules call them.
+    pub name: String,
+    /// The stimulus that shows them, as an index of [`Program::stimuli`].
+    pub stimulus: usize,
+    /// The images in the order of their file.
+    pub images: Vec<Arc<Image>>,
 }
 
 /// A file with a name, which memories begin with.

@@ -193,7 +193,11 @@ impl fmt::Display for ImageError {
                 write!(f, "row {row} has {found} pixels, expected {expected} as in row 1")
             }
             Self::Pixels { found, rows, columns } => {
-                write!(f, "the image has {found} pixels, expected {} in {rows} rows and {columns} columns", rows * columns)
+                write!(
+                    f,
+                    "the image has {found} pixels, expected {} in {rows} rows and {columns} columns",
+                    rows * columns
+                )
             }
             Self::Range { row, column, found } => {
                 write!(f, "row {row}, column {column}: the pixel is {found}, expected 0 to 1")
@@ -203,6 +207,86 @@ impl fmt::Display for ImageError {
 }
 
 impl Error for ImageError {}
+
+/// The reason why a file is not one of images.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum ImageFileError {
+    /// A name of another ending.
+    Format,
+    /// No images.
+    Empty,
+    /// A file of rows that is not text.
+    NotText,
+    /// A row of another number of values.
+    Row {
+        /// The line, from 1.
+        line: usize,
+        /// The number of values.
+        found: usize,
+        /// The number of pixels.
+        expected: usize,
+    },
+    /// A value that is not a number.
+    Value {
+        /// The line, from 1.
+        line: usize,
+        /// The value.
+        text: String,
+    },
+    /// A number that is below 0, or above that which stands for 1.
+    Range {
+        /// The line, from 1, in a file of rows.
+        line: Option<usize>,
+        /// The number.
+        found: String,
+        /// The number that stands for 1.
+        white: String,
+    },
+    /// Images of another size.
+    Size {
+        /// Their rows and columns.
+        found: [usize; 2],
+        /// Those of the stimulus.
+        expected: [usize; 2],
+    },
+    /// A file that ends too early, or does not begin as its format does.
+    Damaged {
+        /// The name of the format.
+        format: &'static str,
+        /// The part that is missing.
+        what: &'static str,
+    },
+    /// Values that are not an image.
+    Image(ImageError),
+}
+
+impl fmt::Display for ImageFileError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Format => f.write_str("it has none of the formats of images"),
+            Self::Empty => f.write_str("it has no images"),
+            Self::NotText => f.write_str("it is not valid UTF-8"),
+            Self::Row { line, found, expected } => {
+                write!(f, "line {line}: {found} values, expected {expected} and perhaps a label")
+            }
+            Self::Value { line, text } => write!(f, "line {line}: `{text}` is not a number"),
+            Self::Range { line, found, white } => {
+                let place = line.map_or(String::new(), |line| format!("line {line}: "));
+                write!(f, "{place}the pixel is {found}, expected 0 to {white}")
+            }
+            Self::Size { found: [rows, columns], expected: [high, wide] } => {
+                write!(f, "its images have {rows} rows and {columns} columns, expected {high} and {wide}")
+            }
+            Self::Damaged { format, what } => {
+                let verb = if what.ends_with('s') { "are" } else { "is" };
+                write!(f, "it is a damaged {format} file: {what} {verb} not complete")
+            }
+            Self::Image(error) => error.fmt(f),
+        }
+    }
+}
+
+impl Error for ImageFileError {}
 
 /// The reason why materials are not a palette.
 #[derive(Clone, Debug, PartialEq, Eq)]

@@ -50,12 +50,16 @@ fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &Evaluatio
     let CandidateOutcome::Measured(scores) = &evaluated.outcome else { return is_complete };
     let could_enter = match protocol.objective {
         SearchObjective::Distance => task.rivals.admit(scores.behavior, &[f64::INFINITY, scores.fitness[1]]),
-        SearchObjective::Gate | SearchObjective::Wave => task.rivals.admit(scores.behavior, &scores.fitness),
+        SearchObjective::Gate | SearchObjective::Wave | SearchObjective::Images => {
+            task.rivals.admit(scores.behavior, &scores.fitness)
+        }
     };
     let unit = match protocol.objective {
         // Patterns that a body does not tell apart are simulated once.
         SearchObjective::Distance => u64::from(protocol.fixed_steps),
         // A gate that is wrong in a world is not tried in those that follow.
+        // A body that enters has seen every image.
+        SearchObjective::Images => full_steps(protocol),
         SearchObjective::Gate | SearchObjective::Wave => full_steps(protocol) / (1 + protocol.others.len() as u64),
     };
     let is_whole = evaluated.work.left_out.is_multiple_of(unit) && evaluated.work.env_steps > 0;
@@ -67,6 +71,8 @@ fn is_sound(protocol: &EvaluationProtocol, scores: &Scores) -> bool {
     let fits = scores.behavior.stimuli() == protocol.stimuli && scores.displacement.len() == 1 << protocol.stimuli;
     let finite = scores.fitness.iter().chain(&*scores.displacement).all(|number| number.is_finite());
     let is_asked = match protocol.behaviors.as_slice() {
+        // The body may walk the wrong way before some images.
+        [] if protocol.objective == SearchObjective::Images => true,
         [] => scores.displacement.behavior() == scores.behavior,
         asked => asked.contains(&scores.behavior),
     };

@@ -18,11 +18,14 @@ const WAVES: &[Fact] = &[("registers", "waves")];
 const NETWORKS: &[Fact] = &[("genome", "cppn")];
 const VOXELS: &[Fact] = &[("genome", "voxels")];
 const DISTANCE: &[Fact] = &[("objective", "distance")];
+const IMAGES: &[Fact] = &[("objective", "images")];
+/// What stimuli are exchanged and inverted for.
+const STIMULI: &[Fact] = &[("objective", "distance"), ("objective", "gate"), ("objective", "wave")];
 const GATES: &[Fact] = &[("objective", "gate"), ("objective", "wave")];
 const VARIED: &[Fact] = &[("vary", "")];
 
 /// The fields of each kind of record.
-const RULES: [(&str, &[Group]); 7] = [
+const RULES: [(&str, &[Group]); 8] = [
     (
         "material",
         &[
@@ -39,6 +42,7 @@ const RULES: [(&str, &[Group]); 7] = [
             (&["seed"], DRAWN),
         ],
     ),
+    ("images", &[(&["stimulus", "from", "white", "label", "take"], ALWAYS)]),
     ("library", &[(&["from", "behaviors", "without"], ALWAYS)]),
     (
         "swarm",
@@ -52,7 +56,9 @@ const RULES: [(&str, &[Group]); 7] = [
         "evolution",
         &[
             (&["from", "box", "materials", "genome", "variable", "descriptors", "batch", "newcomers"], ALWAYS),
-            (&["generations", "seed", "as", "objective", "symmetry", "niche", "world"], ALWAYS),
+            (&["generations", "seed", "as", "objective", "niche", "world"], ALWAYS),
+            (&["symmetry"], STIMULI),
+            (&["shown"], IMAGES),
             (&["mutation"], NETWORKS),
             (&["crossover", "start"], VOXELS),
             (&["fixed"], DISTANCE),
@@ -97,7 +103,16 @@ schedule slow(s1, s2) { 0 0 for 20 cycles 0 1 for 9 cycles 1 0 for 9 cycles 1 1 
 library few { from: shipped, behaviors: [nand] }
 world rough { friction: 2 }
 evolution other { box: 3 x 3, seed: 9 }
+stimulus spot[1][2], stripe[1][2]
+material other_eye { kind: sensor, stimulus: stripe, absent: 0.6, present: 1.6 }
+material eye { kind: sensor, stimulus: spot, absent: 0.6, present: 1.6 }
+images left { stimulus: spot, from: \"spots.csv\", label: 0 }
+images right { stimulus: spot, from: \"spots.csv\", label: 1 }
+schedule spots(spot) { left for 9 steps right for 9 steps }
 ";
+
+    /// A file of images that the programs name.
+    const SPOTS: &str = "1,0,0\n0,1,1\n0,0.5,1\n";
 
     /// Two values of a field.
     fn values(record: &str, field: &str) -> [&'static str; 2] {
@@ -108,6 +123,10 @@ evolution other { box: 3 x 3, seed: 9 }
             ("material", "phase") => ["0 deg", "90 deg"],
             ("material", "range") => ["0.6..1.6", "0.8..1.4"],
             ("material", "stimulus") => ["s1", "s2"],
+            ("images", "stimulus") => ["spot", "stripe"],
+            ("images", "from") => ["\"spots.csv\"", "\"other.csv\""],
+            ("images", "label") => ["0", "1"],
+            ("images", "take") => ["1", "2..3"],
             ("material", "absent" | "present") => ["0.7", "0.8"],
             ("world", "from") => ["paper", "rough"],
             ("world", "seed") => ["2", "3"],
@@ -128,6 +147,7 @@ evolution other { box: 3 x 3, seed: 9 }
             ("evolution", "descriptors") => ["[behavior]", "[class]"],
             ("evolution", "as") => ["paper", "code"],
             ("evolution", "objective") => ["distance", "gate"],
+            ("evolution", "shown") => ["apart", "in_turn"],
             ("evolution", "symmetry") => ["none", "npn"],
             ("evolution", "niche") => ["dominance", "pareto(2)"],
             ("evolution", "mutation") => ["{ add_node: 2 }", "{ add_node: 3 }"],
@@ -148,6 +168,8 @@ evolution other { box: 3 x 3, seed: 9 }
             ("material", "kind", _) => &[][..],
             ("material", _, Some("kind: actuator")) => &["period: 84 steps", "range: 0.6..1.6"][..],
             ("material", _, Some("kind: sensor")) => &["stimulus: s1", "absent: 0.6", "present: 1.6"],
+            ("images", ..) => &["stimulus: spot", "from: \"spots.csv\""],
+            ("evolution", _, Some("objective: images")) => &["variable: spots", "materials: [muscle, eye]"],
             ("library", ..) => &["from: shipped"],
             ("swarm", ..) => &["circuit: f"],
             ("evolution", "worlds", _) => &["objective: gate"],
@@ -162,7 +184,10 @@ evolution other { box: 3 x 3, seed: 9 }
         };
         let mut sources = Sources::default();
         let file = sources.add("a.nb", format!("{CONTEXT}{text}"));
-        let found = check::check(&MemoryWorld::default(), &mut sources, file);
+        let mut world = MemoryWorld::default();
+        world.insert("spots.csv", SPOTS);
+        world.insert("other.csv", "1,1,0\n");
+        let found = check::check(&world, &mut sources, file);
         (found.program, found.diagnostics)
     }
 

@@ -8,15 +8,15 @@ use crate::check::fields::{self, Fields};
 use crate::check::library;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::check::wording::{EvolutionError, Expected, NameError};
+use crate::check::wording::{EvolutionError, Expected, ImagesError, NameError};
 use crate::check::world::{self, Worlds};
 use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::LEAST_ACTUATORS;
 use nbc_base::model::{
-    Axis, Behavior, Count, Evolution, Function, Genome, Material, MaterialKind, Matter, MutationWeights, NamedSchedule,
-    Niche, Palette, Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule, SearchObjective, Spell,
-    StartBodies, Symmetry, Variation,
+    Axis, Behavior, Count, Evolution, Function, Genome, ImageOrder, Material, MaterialKind, Matter, MutationWeights,
+    NamedSchedule, Niche, Palette, Pattern, PhysicsWorld, Program, Response, Rules, SampledWorlds, Schedule,
+    SearchObjective, Spell, StartBodies, Symmetry, Variation,
 };
 use nbc_base::source::Span;
 
@@ -100,6 +100,8 @@ pub(crate) fn evolution(
     let variable = fields.read("variable", None, |value| schedule(value, home, known).map(Some));
     let (stimuli, variable) = variable.unwrap_or((stimuli, base.variable));
     let objective = fields.choose("objective", base.objective, &SearchObjective::ALL);
+    let shows = objective == SearchObjective::Images;
+    let shown = fields.read("shown", base.shown, |value| fields::choice(value, &ImageOrder::ALL));
     let world = fields.read("world", world, |value| known.worlds.of(value, home).map(|named| Some(named.world)));
     let evolution = Evolution {
         name: source.name.text.clone(),
@@ -110,6 +112,7 @@ pub(crate) fn evolution(
         start,
         mutation: fields.read("mutation", base.mutation, mutation),
         variable,
+        shown: if shows { shown } else { ImageOrder::Apart },
         fixed_steps: fields.read("fixed", base.fixed_steps, steps),
         descriptors: fields.read_list("descriptors", axis).unwrap_or(base.descriptors),
         batch: fields.read("batch", base.batch as u32, |value| quantity::count(value, 1..=1_000_000)) as usize,
@@ -120,9 +123,7 @@ pub(crate) fn evolution(
         rules: rules(&mut fields, base.rules, genome),
         objective,
         behaviors: behaviors(&mut fields, base.behaviors, objective),
-        symmetry: fields.read("symmetry", base.symmetry, |value| {
-            fields::choice(value, &[("none", Symmetry::None), ("npn", Symmetry::Npn)])
-        }),
+        symmetry: symmetry(&mut fields, base.symmetry, objective),
         niche: fields.read("niche", base.niche, niche),
         world: world.unwrap_or_else(|| known.worlds.default(home).world),
         sample: sample(&mut fields, base.sample, objective),
@@ -139,9 +140,18 @@ pub(crate) fn evolution(
 
 /// The error of a schedule, materials or behaviors that do not belong together.
 fn misfit(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
-    deaf_sensor(source, checked, program)
+    other_objective(source, checked)
+        .or_else(|| deaf_sensor(source, checked, program))
         .or_else(|| unsensed(source, checked, program))
         .or_else(|| foreign_behavior(source, checked))
+}
+
+/// The error of images without their objective, and of the objective without images.
+fn other_objective(source: &RecordDeclaration, checked: &NamedEvolution) -> Option<Diagnostic> {
+    let Evolution { variable, objective, .. } = &checked.evolution;
+    let shows = variable.spells.iter().any(|spell| spell.image.is_some());
+    let fits = shows == (*objective == SearchObjective::Images);
+    (!fits).then(|| ImagesError::Objective { shows }.at(chosen(source, &["variable", "objective"])))
 }
 
 /// The error of a third stimulus that no material senses, at the field that chose the schedule or the materials. The
@@ -152,8 +162,9 @@ fn unsensed(source: &RecordDeclaration, checked: &NamedEvolution, program: &Prog
         kinds.into_iter().any(|kind| matches!(kind, MaterialKind::Sensor(response) if response.stimulus == stimulus))
     };
     let unsensed = checked.stimuli.iter().copied().find(|&stimulus| !is_sensed(stimulus));
-    let stimulus = unsensed.filter(|_| checked.stimuli.len() > 2)?;
-    let error = EvolutionError::Unsensed { stimulus: program.stimuli.get(stimulus)?.clone() };
+    let shows = checked.evolution.objective == SearchObjective::Images;
+    let stimulus = unsensed.filter(|_| checked.stimuli.len() > 2 || shows)?;
+    let error = EvolutionError::Unsensed { stimulus: program.stimuli.get(stimulus)?.clone(), shows };
     Some(error.at(chosen(source, &["materials", "variable"])))
 }
 
@@ -191,6 +202,7 @@ fn paper() -> Evolution {
         start: None,
         mutation: MutationWeights::default(),
         variable: Schedule::default(),
+        shown: ImageOrder::default(),
         fixed_steps: 10 * nbc_base::model::CYCLE_STEPS,
         descriptors: Vec::new(),
         batch: 16,
@@ -207,12 +219,24 @@ fn paper() -> Evolution {
     }
 }
 
+/// The niches that one evaluation may enter. What a body does before one image says nothing about others.
+fn symmetry(fields: &mut Fields<'_>, base: Symmetry, objective: SearchObjective) -> Symmetry {
+    let words = [("none", Symmetry::None), ("npn", Symmetry::Npn)];
+    let symmetry = fields.read("symmetry", base, |value| fields::choice(value, &words));
+    if objective == SearchObjective::Images { Symmetry::None } else { symmetry }
+}
+
+/// Whether an objective is about gates.
+fn is_of_gates(objective: SearchObjective) -> bool {
+    matches!(objective, SearchObjective::Gate | SearchObjective::Wave)
+}
+
 /// The behaviors that gates are searched for.
 fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObjective) -> Vec<Behavior> {
     let mut behaviors = fields.read_list("behaviors", library::behavior).unwrap_or(base);
     behaviors.sort_unstable_by_key(|behavior| behavior.function());
     behaviors.dedup();
-    if objective == SearchObjective::Distance { Vec::new() } else { behaviors }
+    if is_of_gates(objective) { behaviors } else { Vec::new() }
 }
 
 /// What a run follows where the paper's text and its code differ: a word or several.
@@ -243,7 +267,7 @@ fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: Searc
     }
     let usual = base.map_or(SampledWorlds::USUAL, |base| base.worlds);
     let worlds = fields.read("worlds", usual, |value| quantity::count(value, 1..=SampledWorlds::MOST));
-    let is_used = vary != Variation::default() && objective != SearchObjective::Distance;
+    let is_used = vary != Variation::default() && is_of_gates(objective);
     is_used.then_some(SampledWorlds { worlds, vary })
 }
 
@@ -314,12 +338,21 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
     Ok(Arc::new(Palette::new(materials)))
 }
 
-/// A schedule of two or three stimuli: which ones, and the schedule as one of the first two or three.
+/// A schedule of two or three stimuli: which ones, and the schedule as one of the first two or three. Or one of images,
+/// as it is.
 fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
     let name = fields::word(value, Expected::Name("schedule"))?;
     let Some(found) = known.names.schedules.resolve(name, home)?.map(|at| &known.program.schedules[at]) else {
         return Ok(Default::default());
     };
+    if !found.sets.is_empty() {
+        let one = ImagesError::OneSet { schedule: name.text.clone() };
+        return if found.sets.len() > 1 {
+            Ok((found.stimuli.clone(), found.schedule.clone()))
+        } else {
+            Err(one.at(name.span))
+        };
+    }
     if !(2..=Function::MOST_INPUTS).contains(&found.stimuli.len()) {
         let error = EvolutionError::WrongStimuli { schedule: name.text.clone(), stimuli: found.stimuli.len() };
         return Err(error.at(name.span));

@@ -1,7 +1,8 @@
 //! Materials of voxels.
 
 use crate::check::fields::{self, Fields};
-use crate::check::names::{Home, NameTable};
+use crate::check::images::Stimuli;
+use crate::check::names::Home;
 use crate::check::quantity::{self, Measure};
 use crate::check::wording::{Expected, ValueError};
 use crate::syntax::tree::{Quantity, RecordDeclaration, ValueKind, ValueSyntax};
@@ -24,7 +25,7 @@ enum Kind {
 pub(crate) fn material(
     source: &RecordDeclaration,
     home: Home,
-    stimuli: &NameTable,
+    stimuli: Stimuli<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Material> {
     let mut fields = Fields::new("material", source);
@@ -57,13 +58,14 @@ fn drive(fields: &mut Fields<'_>) -> Option<Drive> {
     Some(Drive { period, phase, low, high })
 }
 
-fn response(fields: &mut Fields<'_>, home: Home, stimuli: &NameTable) -> Option<Response> {
+fn response(fields: &mut Fields<'_>, home: Home, stimuli: Stimuli<'_>) -> Option<Response> {
     let stimulus = fields.need("stimulus", "stimulus: s1", |value| {
         stimuli.resolve(fields::word(value, Expected::Name("stimulus"))?, home)
     });
     let absent = fields.need("absent", "absent: 0.6", width);
     let present = fields.need("present", "present: 1.6", width);
-    Some(Response::of(stimulus?, absent?, present?))
+    let (stimulus, image) = stimulus?;
+    Some(Response { image, ..Response::of(stimulus, absent?, present?) })
 }
 
 fn quantity_of(value: &ValueSyntax) -> Result<&Quantity, Diagnostic> {

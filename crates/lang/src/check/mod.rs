@@ -16,6 +16,7 @@ mod evolution;
 mod expression;
 mod fields;
 mod foreign;
+mod images;
 mod instance;
 mod library;
 mod limit;

@@ -131,10 +131,12 @@ impl<T: Copy> NameTable<T> {
     }
 }
 
-/// The names of all declarations. A material, schedule or swarm with errors has a name, but no position in the program.
+/// The names of all declarations. A material, set of images, schedule or swarm with errors has a name, but no position
+/// in the program.
 pub(crate) struct Names {
     pub(crate) stimuli: NameTable,
     pub(crate) materials: NameTable<Option<usize>>,
+    pub(crate) images: NameTable<Option<usize>>,
     pub(crate) schedules: NameTable<Option<usize>>,
     /// With positions among the declarations.
     pub(crate) evolutions: NameTable,
@@ -157,6 +159,7 @@ impl Names {
         Self {
             stimuli: NameTable::new(NameKind::Stimulus),
             materials: NameTable::new(NameKind::Material),
+            images: NameTable::new(NameKind::Images),
             schedules: NameTable::new(NameKind::Schedule),
             evolutions: NameTable::new(NameKind::Evolution),
             libraries: NameTable::new(NameKind::Library),
@@ -175,7 +178,7 @@ impl Names {
         let positions =
             [&self.stimuli, &self.evolutions, &self.circuits, &self.worlds, &self.enumerations, &self.files];
         let positions = positions.map(NameTable::take_uses);
-        let optional = [&self.materials, &self.schedules, &self.swarms].map(NameTable::take_uses);
+        let optional = [&self.materials, &self.images, &self.schedules, &self.swarms].map(NameTable::take_uses);
         let others = [self.libraries.take_uses(), self.members.take_uses(), self.integers.take_uses()];
         [positions.concat(), optional.concat(), others.concat()].concat()
     }

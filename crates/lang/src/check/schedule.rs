@@ -1,24 +1,42 @@
 //! Schedules of stimuli, and rows of bits in general.
 
+use crate::check::images::Stimuli;
 use crate::check::names::{Home, NameTable, duplicate};
 use crate::check::quantity;
-use crate::check::wording::{CellError, RowError};
+use crate::check::wording::{CellError, ImagesError, RowError};
 use crate::syntax::tree;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{NamedSchedule, Pattern, Schedule, Spell};
+use nbc_base::model::{NamedImages, NamedSchedule, Pattern, Schedule, Spell};
 use nbc_base::source::Span;
+
+/// The most sets of images of a schedule: as many as two stimuli have patterns.
+const MOST_SETS: usize = Pattern::PAIRS.len();
+
+/// The sets of images of a program.
+#[derive(Clone, Copy)]
+pub(crate) struct DeclaredImages<'a> {
+    /// The position of each name in `declared`.
+    pub(crate) names: &'a NameTable<Option<usize>>,
+    pub(crate) declared: &'a [NamedImages],
+}
 
 /// Checks a schedule.
 pub(crate) fn schedule(
     source: &tree::ScheduleSyntax,
     home: Home,
-    stimuli: &NameTable,
+    stimuli: Stimuli<'_>,
+    images: DeclaredImages<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<NamedSchedule> {
     let before = faults.len();
     let mut columns = Vec::new();
+    let mut shown = None;
     for name in &source.columns {
-        match stimuli.resolve(name, home) {
+        let found = stimuli.resolve(name, home).map(|(stimulus, size)| {
+            shown = shown.or(size.map(|_| (name, stimulus)));
+            stimulus
+        });
+        match found {
             Ok(stimulus) if columns.contains(&stimulus) => {
                 let first = source.columns.iter().find(|first| first.text == name.text).expect("it was there before");
                 faults.push(duplicate("stimulus", name, first.span));
@@ -26,6 +44,13 @@ pub(crate) fn schedule(
             Ok(stimulus) => columns.push(stimulus),
             Err(fault) => faults.push(fault),
         }
+    }
+    if let Some((name, stimulus)) = shown {
+        if source.columns.len() > 1 {
+            faults.push(ImagesError::Beside { stimulus: name.text.clone() }.at(name.span));
+            return None;
+        }
+        return of_images(source, (name, stimulus), home, images, faults).filter(|_| faults.len() == before);
     }
     let mut schedule = Schedule::default();
     for spell in &source.spells {
@@ -35,11 +60,56 @@ pub(crate) fn schedule(
             schedule.spells.push(Spell::of(pattern(&columns, &bits), steps));
         }
     }
+    check_rows(source, faults);
+    let name = source.name.text.clone();
+    (faults.len() == before).then_some(NamedSchedule { name, stimuli: columns, schedule, sets: Vec::new() })
+}
+
+/// Notes a schedule without rows.
+fn check_rows(source: &tree::ScheduleSyntax, faults: &mut Vec<Diagnostic>) {
     if source.spells.is_empty() {
         faults.push(RowError::EmptySchedule { schedule: source.name.text.clone() }.at(source.name.span));
     }
-    let name = source.name.text.clone();
-    (faults.len() == before).then_some(NamedSchedule { name, stimuli: columns, schedule })
+}
+
+/// A schedule of images: each row shows those of a set one after another, each for its time. The pattern of an image is
+/// the number of its set, the least significant bit first.
+fn of_images(
+    source: &tree::ScheduleSyntax,
+    (column, stimulus): (&tree::NameSyntax, usize),
+    home: Home,
+    images: DeclaredImages<'_>,
+    faults: &mut Vec<Diagnostic>,
+) -> Option<NamedSchedule> {
+    check_rows(source, faults);
+    let (mut schedule, mut sets) = (Schedule::default(), Vec::<String>::new());
+    for spell in &source.spells {
+        let steps = quantity::steps(&spell.length).map_err(|fault| faults.push(fault)).ok();
+        let [cell] = &spell.cells[..] else {
+            faults.push(RowError::Width { values: spell.cells.len(), columns: 1 }.at(spell.span));
+            continue;
+        };
+        let found = images.names.resolve(cell, home).map_err(|fault| faults.push(fault)).ok().flatten();
+        // The error of a set that has one is already reported.
+        let Some(set) = found.map(|at| &images.declared[at]) else { continue };
+        if set.stimulus != stimulus {
+            let stimulus = column.text.clone();
+            faults.push(ImagesError::OtherStimulus { set: cell.text.clone(), stimulus }.at(cell.span));
+            continue;
+        }
+        if !sets.contains(&set.name) {
+            sets.push(set.name.clone());
+            if sets.len() == MOST_SETS + 1 {
+                faults.push(ImagesError::TooManySets { most: MOST_SETS }.at(cell.span));
+            }
+        }
+        let number = sets.iter().position(|name| *name == set.name).unwrap_or_default();
+        let pattern = Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1]);
+        let spells = set.images.iter().zip(steps.into_iter().cycle());
+        let spells = spells.map(|(image, steps)| Spell { image: Some(image.clone()), ..Spell::of(pattern, steps) });
+        schedule.spells.extend(spells);
+    }
+    Some(NamedSchedule { name: source.name.text.clone(), stimuli: vec![stimulus], schedule, sets })
 }
 
 fn pattern(stimuli: &[usize], bits: &[bool]) -> Pattern {

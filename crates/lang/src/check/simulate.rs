@@ -3,7 +3,7 @@
 use crate::check::cell::{RowCell, input_cell};
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::{CellError, NameError, RowError};
+use crate::check::wording::{CellError, ImagesError, NameError, RowError};
 use crate::syntax::tree::{NameSyntax, SpellSyntax, With};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Base, CYCLE_STEPS, Column, InputSpell, NamedSchedule};
@@ -53,6 +53,10 @@ fn named(
     sources: &Sources,
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<InputSpell> {
+    if !schedule.sets.is_empty() {
+        faults.push(ImagesError::Inputs { schedule: schedule.name.clone() }.at(span));
+        return Vec::new();
+    }
     let bits: usize = inputs.iter().map(|column| column.width).sum();
     if bits != schedule.stimuli.len() {
         faults.push(RowError::Width { values: schedule.stimuli.len(), columns: bits }.at(span));

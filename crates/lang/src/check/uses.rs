@@ -13,6 +13,8 @@ pub enum NameKind {
     Schedule,
     /// A run of evolution.
     Evolution,
+    /// A set of images.
+    Images,
     /// A library of robots.
     Library,
     /// A swarm: a circuit made of the robots of a library.
@@ -41,6 +43,7 @@ impl NameKind {
             Self::Material => "material",
             Self::Schedule => "schedule",
             Self::Evolution => "evolution",
+            Self::Images => "set of images",
             Self::Library => "library",
             Self::Swarm => "swarm",
             Self::World => "world",

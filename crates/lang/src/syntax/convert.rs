@@ -10,7 +10,7 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::lexer::is_word;
 use crate::syntax::tree::{
     CircuitSyntax, Declaration, DeclarationKind, EnumerationSyntax, FileSyntax, LetSyntax, MemberSyntax, NameSyntax,
-    Number, Quantity, RecordDeclaration, RecordKeyword, Text,
+    Number, Quantity, RecordDeclaration, RecordKeyword, StimulusSyntax, Text,
 };
 use crate::syntax::wording::Slip;
 use nbc_base::diag::Diagnostic;
@@ -43,8 +43,9 @@ impl Converter<'_> {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::use_file => DeclarationKind::Use(parts(pair).map(|path| self.quoted(path)).collect()),
-            Rule::stimulus => DeclarationKind::Stimulus(parts(pair).map(|name| self.name(&name)).collect()),
+            Rule::stimulus => DeclarationKind::Stimulus(parts(pair).map(|sensed| self.sensed(sensed)).collect()),
             Rule::material => self.record_declaration(RecordKeyword::Material, pair),
+            Rule::images => self.record_declaration(RecordKeyword::Images, pair),
             Rule::evolution => self.record_declaration(RecordKeyword::Evolution, pair),
             Rule::library => self.record_declaration(RecordKeyword::Library, pair),
             Rule::swarm => self.record_declaration(RecordKeyword::Swarm, pair),
@@ -82,6 +83,13 @@ impl Converter<'_> {
         let start = self.span(&pair).start as usize;
         let span = Span::new(self.file, start, start + word.len());
         self.slip(Slip::CircuitKeyword { word, is_circuit: false }, span);
+    }
+
+    fn sensed(&mut self, pair: Pair<Rule>) -> StimulusSyntax {
+        let mut parts = parts(pair);
+        let name = self.name(&parts.next().expect("a name"));
+        let image = parts.next().zip(parts.next()).map(|(rows, columns)| [self.number(&rows), self.number(&columns)]);
+        StimulusSyntax { name, image }
     }
 
     fn record_declaration(&mut self, keyword: RecordKeyword, pair: Pair<Rule>) -> DeclarationKind {
@@ -192,6 +200,7 @@ fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
                 | Rule::library_word
                 | Rule::swarm_word
                 | Rule::world_word
+                | Rule::images_word
                 | Rule::with_word
                 | Rule::times_word
                 | Rule::in_word

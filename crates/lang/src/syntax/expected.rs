@@ -86,7 +86,7 @@ fn expected(error: &Error<Rule>) -> String {
 /// The name of a rule in messages; `None` if the message should not suggest it.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
-        Rule::name => "a name",
+        Rule::name | Rule::sensed => "a name",
         Rule::text => "a string in quotes",
         Rule::number | Rule::digits | Rule::number_without_width => "a number",
         Rule::unit => "a unit",

@@ -144,7 +144,9 @@ impl Recovery<'_> {
             (PartKind::Declaration, "test") => Some(PartKind::Row),
             (PartKind::Declaration, "prove") => Some(PartKind::Property),
             (PartKind::Declaration, "schedule" | "simulate") => Some(PartKind::Spell),
-            (PartKind::Declaration, "material" | "evolution" | "library" | "swarm" | "world") => Some(PartKind::Field),
+            (PartKind::Declaration, "material" | "evolution" | "images" | "library" | "swarm" | "world") => {
+                Some(PartKind::Field)
+            }
             (PartKind::Statement, "for") => Some(PartKind::Statement),
             (PartKind::Row, "repeat") => Some(PartKind::Row),
             (PartKind::Field, _) => Some(PartKind::Field),

@@ -8,12 +8,13 @@ use std::ops::Range;
 use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens};
 
 /// The keywords that begin declarations.
-pub const KEYWORDS: [&str; 16] = [
+pub const KEYWORDS: [&str; 17] = [
     "circuit",
     "enum",
     "environment",
     "evolution",
     "file",
+    "images",
     "let",
     "library",
     "material",

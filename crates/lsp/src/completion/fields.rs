@@ -21,6 +21,7 @@ pub(super) fn of(keyword: &str) -> &'static [(&'static str, Holds)] {
     match keyword {
         "material" => &MATERIAL,
         "evolution" => &EVOLUTION,
+        "images" => &IMAGES,
         "library" => &LIBRARY,
         "swarm" => &SWARM,
         "world" => &WORLD,
@@ -48,7 +49,7 @@ const MATERIAL: [(&str, Holds); 8] = [
     ("present", Holds::Words(&[])),
 ];
 
-const EVOLUTION: [(&str, Holds); 22] = [
+const EVOLUTION: [(&str, Holds); 23] = [
     ("from", Holds::Name(NameKind::Evolution, &[])),
     ("box", Holds::Words(&[])),
     ("materials", Holds::Name(NameKind::Material, &[])),
@@ -56,6 +57,7 @@ const EVOLUTION: [(&str, Holds); 22] = [
     ("crossover", Holds::Words(&[])),
     ("start", Holds::Name(NameKind::Library, &[])),
     ("variable", Holds::Name(NameKind::Schedule, &[])),
+    ("shown", Holds::Words(&["apart", "in_turn"])),
     ("fixed", Holds::Words(&[])),
     ("descriptors", Holds::Words(&["active in", "behavior", "class", "sensory in", "voxels in"])),
     ("batch", Holds::Words(&[])),
@@ -64,13 +66,21 @@ const EVOLUTION: [(&str, Holds); 22] = [
     ("seed", Holds::Words(&[])),
     ("mutation", Holds::Words(&[])),
     ("as", Holds::Words(&["code", "paper"])),
-    ("objective", Holds::Words(&["distance", "gate", "wave"])),
+    ("objective", Holds::Words(&["distance", "gate", "images", "wave"])),
     ("behaviors", Holds::Function),
     ("symmetry", Holds::Words(&["none", "npn"])),
     ("niche", Holds::Words(&["dominance", "pareto"])),
     ("world", Holds::Name(NameKind::World, &[])),
     ("vary", Holds::Words(&[])),
     ("worlds", Holds::Words(&[])),
+];
+
+const IMAGES: [(&str, Holds); 5] = [
+    ("stimulus", Holds::Name(NameKind::Stimulus, &[])),
+    ("from", Holds::Words(&[])),
+    ("white", Holds::Words(&[])),
+    ("label", Holds::Words(&[])),
+    ("take", Holds::Words(&[])),
 ];
 
 const LIBRARY: [(&str, Holds); 3] = [
@@ -122,9 +132,10 @@ mod tests {
     #[test]
     fn the_fields_are_those_of_the_checker() {
         let kinds = ["actuator", "sensor"].map(|kind| format!("material x {{ kind: {kind}, qqqqq: 1 }}"));
-        let others = ["evolution", "library", "swarm", "world"].map(|keyword| format!("{keyword} x {{ qqqqq: 1 }}"));
+        let others =
+            ["evolution", "images", "library", "swarm", "world"].map(|keyword| format!("{keyword} x {{ qqqqq: 1 }}"));
         let known: String = kinds.iter().chain(&others).map(|text| messages(text)).collect();
-        for keyword in ["material", "evolution", "library", "swarm", "world"] {
+        for keyword in ["material", "evolution", "images", "library", "swarm", "world"] {
             let own = known.lines().filter(|line| line.starts_with(&format!("the {keyword} ")));
             let own: Vec<&str> =
                 own.filter_map(|line| line.split_once("its fields are ")).map(|(_, list)| list).collect();
@@ -145,7 +156,9 @@ mod tests {
 
     #[test]
     fn the_words_are_those_of_the_checker() {
-        for (keyword, start) in [("material", ""), ("evolution", ""), ("library", ""), ("swarm", ""), ("world", "")] {
+        for (keyword, start) in
+            [("material", ""), ("evolution", ""), ("images", ""), ("library", ""), ("swarm", ""), ("world", "")]
+        {
             for (field, holds) in of(keyword) {
                 let (Holds::Words(words) | Holds::Name(_, words)) = holds else { continue };
                 for word in words.iter().filter(|word| !word.ends_with(" in") && **word != "pareto") {

@@ -110,7 +110,7 @@ impl<'t> Before<'t> {
                 "{" => Place::Row,
                 _ => Place::NewName,
             },
-            "material" | "evolution" | "library" | "swarm" | "world" => self.in_record(is_number),
+            "material" | "evolution" | "images" | "library" | "swarm" | "world" => self.in_record(is_number),
             _ => Place::NewName,
         }
     }

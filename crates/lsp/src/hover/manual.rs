@@ -5,7 +5,7 @@ use nbc_lang::syntax::tree::RecordKeyword;
 const MANUAL: &str = include_str!("../../language.md");
 
 /// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 50] = [
+const KEYWORDS: [(&str, &str); 51] = [
     ("against", "Tests"),
     ("all", "Tests"),
     ("always", "Properties"),
@@ -23,6 +23,7 @@ const KEYWORDS: [(&str, &str); 50] = [
     ("for", "Parameters and `for`"),
     ("from", "Tests"),
     ("if", "Expressions"),
+    ("images", "Images"),
     ("in", "Parameters and `for`"),
     ("init", "Memory"),
     ("inputs", "Tests"),
@@ -69,6 +70,7 @@ pub(super) fn field(of: RecordKeyword, word: &str) -> Option<String> {
     let heading = match of {
         RecordKeyword::Material => "Stimuli and materials",
         RecordKeyword::Evolution => "Evolutions",
+        RecordKeyword::Images => "Images",
         RecordKeyword::World => "Worlds",
         RecordKeyword::Library | RecordKeyword::Swarm => "Libraries, swarms and simulations",
     };

@@ -15,7 +15,7 @@ pub(super) fn material(files: &Files<'_>, name: &str, pictures: bool) -> Option<
 /// The stimuli of a schedule.
 pub(super) fn schedule(files: &Files<'_>, name: &str, pictures: bool) -> Option<String> {
     let program = &files.checked.program;
-    let found = program.schedule(name).filter(|_| pictures)?;
+    let found = program.schedule(name).filter(|found| pictures && found.sets.is_empty())?;
     let stimuli: Vec<_> = found.stimuli.iter().map(|&at| (at, program.stimuli[at].as_str())).collect();
     Some(image(name, &report::draw_schedule(name, &found.schedule, &stimuli)))
 }

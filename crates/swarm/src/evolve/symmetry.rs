@@ -102,7 +102,7 @@ fn recoded_palette(palette: &Palette, order: &[usize], invert: &[bool]) -> Optio
     let sensor = |code: u8| match palette.kind(code) {
         Some(MaterialKind::Sensor(response)) if response.image.is_none() && response.stimulus < order.len() => {
             Some(response)
-        },
+        }
         _ => None,
     };
     let alike = |response| (1..=palette.materials().len() as u8).filter(move |&code| sensor(code) == Some(response));

@@ -11,21 +11,25 @@ use crate::check::declarations::Declarations;
 use crate::check::derived::{CheckState, order};
 use crate::check::enumeration;
 use crate::check::evolution::{self, evolution};
+use crate::check::images::{Stimuli, images};
 use crate::check::library::library;
 use crate::check::load::{Loaded, beside};
 use crate::check::material::material;
 use crate::check::names::{Home, Names};
 use crate::check::recursion;
-use crate::check::schedule::schedule;
+use crate::check::schedule::{DeclaredImages, schedule};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::uses::{NameUse, NameUses};
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::{CircuitError, EvolutionError};
+use crate::check::wording::{CircuitError, EvolutionError, ImagesError};
 use crate::check::world::{ProgramFiles, Worlds, world};
-use crate::syntax::tree::{self, DeclarationKind, NameSyntax, RecordKeyword};
+use crate::syntax::tree::{self, DeclarationKind, NameSyntax, Number, RecordKeyword, StimulusSyntax};
 use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{CircuitId, Column, Evolution, Instance, NamedFile, NamedWorld, Pattern, Program, Stimulation};
+use nbc_base::model::{
+    CircuitId, Column, Evolution, Image, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern, Program,
+    SearchObjective, Stimulation,
+};
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
@@ -34,8 +38,10 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
     let mut assembly = Assembly::new(loaded, sources);
     assembly.stimuli();
     assembly.materials();
+    let beside = ProgramFiles { world: files, sources };
+    assembly.images(beside);
     assembly.schedules();
-    assembly.worlds(ProgramFiles { world: files, sources });
+    assembly.worlds(beside);
     assembly.library_names();
     assembly.evolutions();
     assembly.libraries();
@@ -50,6 +56,17 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
     let uses = assembly.uses();
     let (program, diagnostics) = (assembly.program, assembly.faults);
     Analysis { program, diagnostics, uses, widths, instances, is_cancelled, ..Analysis::default() }
+}
+
+/// The rows and columns of an image.
+fn image_size(sides: &[Number; 2]) -> Result<[usize; 2], Diagnostic> {
+    let most = Image::MAX_SIDE;
+    let mut size = [0; 2];
+    for (side, number) in size.iter_mut().zip(sides) {
+        let found = number.text.parse::<usize>().ok().filter(|found| (1..=most).contains(found));
+        *side = found.ok_or_else(|| ImagesError::Size { most }.at(number.span))?;
+    }
+    Ok(size)
 }
 
 /// A program under construction.
@@ -112,21 +129,28 @@ impl<'a> Assembly<'a> {
 
     fn stimuli(&mut self) {
         for (home, declaration) in self.declarations.all() {
-            let DeclarationKind::Stimulus(names) = &declaration.kind else { continue };
-            for name in names {
-                self.stimulus(name, home);
+            let DeclarationKind::Stimulus(stimuli) = &declaration.kind else { continue };
+            for stimulus in stimuli {
+                self.stimulus(stimulus, home);
             }
         }
     }
 
-    fn stimulus(&mut self, name: &NameSyntax, home: Home) {
+    fn stimulus(&mut self, source: &StimulusSyntax, home: Home) {
+        let StimulusSyntax { name, image } = source;
+        let size = image.as_ref().map(image_size).transpose();
+        let size = size.map_err(|fault| self.faults.push(fault)).ok().flatten();
         // A redeclared stimulus of the prelude is the same signal.
         let known = self.names.stimuli.find(&name.text, home);
         let index = known.unwrap_or(self.program.stimuli.len());
         let declared = self.names.stimuli.declare(name, index, home);
+        if known.is_some_and(|known| self.program.image_sizes.get(&known).copied() != size) {
+            self.faults.push(ImagesError::OtherSize { stimulus: name.text.clone() }.at(name.span));
+        }
         if !self.note(declared) || known.is_some() {
             return;
         }
+        self.program.image_sizes.extend(size.map(|size| (index, size)));
         self.program.stimuli.push(name.text.clone());
         if self.program.stimuli.len() == Pattern::MAX_STIMULI + 1 {
             self.faults.push(EvolutionError::TooManyStimuli { most: Pattern::MAX_STIMULI }.at(name.span));
@@ -135,7 +159,8 @@ impl<'a> Assembly<'a> {
 
     fn materials(&mut self) {
         for (home, source) in self.declarations.records(RecordKeyword::Material) {
-            let checked = material(source, home, &self.names.stimuli, &mut self.faults);
+            let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
+            let checked = material(source, home, stimuli, &mut self.faults);
             let position = checked.as_ref().map(|_| self.program.materials.len());
             let declared = self.names.materials.declare(&source.name, position, home);
             self.note(declared);
@@ -143,10 +168,23 @@ impl<'a> Assembly<'a> {
         }
     }
 
+    fn images(&mut self, files: ProgramFiles) {
+        for (home, source) in self.declarations.records(RecordKeyword::Images) {
+            let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
+            let checked = images(source, home, stimuli, files, &mut self.faults);
+            let position = checked.as_ref().map(|_| self.program.images.len());
+            let declared = self.names.images.declare(&source.name, position, home);
+            self.note(declared);
+            self.program.images.extend(checked);
+        }
+    }
+
     fn schedules(&mut self) {
         for (home, declaration) in self.declarations.all() {
             let DeclarationKind::Schedule(source) = &declaration.kind else { continue };
-            let checked = schedule(source, home, &self.names.stimuli, &mut self.faults);
+            let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
+            let sets = DeclaredImages { names: &self.names.images, declared: &self.program.images };
+            let checked = schedule(source, home, stimuli, sets, &mut self.faults);
             let checked = checked.filter(|_| !self.declarations.is_broken(source.name.span));
             let position = checked.as_ref().map(|_| self.program.schedules.len());
             let declared = self.names.schedules.declare(&source.name, position, home);
@@ -218,6 +256,12 @@ impl<'a> Assembly<'a> {
     fn libraries(&mut self) {
         for (home, source) in self.declarations.records(RecordKeyword::Library) {
             let checked = library(source, home, &self.names.evolutions, self.declarations.sources, &mut self.faults);
+            if let Some(LibrarySource { from: Origin::Evolution(name), .. }) = &checked
+                && self.program.evolution(name).is_some_and(|found| found.objective == SearchObjective::Images)
+                && let Some(from) = source.record.field("from")
+            {
+                self.faults.push(ImagesError::NotGates { evolution: name.clone() }.at(from.value.span));
+            }
             self.program.libraries.extend(checked);
         }
     }
@@ -331,6 +375,7 @@ impl<'a> Assembly<'a> {
             all.retain(|_| last.next().unwrap_or(true));
         }
         keep_last(&mut self.program.materials, |material| &material.name);
+        keep_last(&mut self.program.images, |images| &images.name);
         keep_last(&mut self.program.schedules, |schedule| &schedule.name);
         keep_last(&mut self.program.evolutions, |evolution| &evolution.name);
         keep_last(&mut self.program.libraries, |library| &library.name);
@@ -379,7 +424,7 @@ impl<'a> Assembly<'a> {
             return;
         }
         let names = self.declarations.own().filter_map(|declaration| match &declaration.kind {
-            DeclarationKind::Stimulus(names) => Some(names),
+            DeclarationKind::Stimulus(stimuli) => Some(stimuli.iter().map(|stimulus| &stimulus.name)),
             _ => None,
         });
         let stimuli = &self.names.stimuli;

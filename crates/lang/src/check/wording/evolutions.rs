@@ -17,7 +17,7 @@ pub(crate) enum EvolutionError {
     /// A sensor of a stimulus that the schedule never gives; it gives others.
     DeafSensor { material: String, stimulus: String, given: Vec<String> },
     /// A stimulus of the schedule that no material senses.
-    Unsensed { stimulus: String },
+    Unsensed { stimulus: String, shows: bool },
     /// A behavior of another number of stimuli than the schedule has.
     ForeignBehavior { behavior: String, found: usize, stimuli: usize },
     /// A schedule that leaves out patterns of its stimuli.
@@ -62,7 +62,16 @@ impl EvolutionError {
                 let help = format!("name a schedule with `{stimulus}` in `variable`, or materials that sense {given}");
                 Diagnostic::new(Code::Value, message, span, label).with_help(help)
             }
-            Self::Unsensed { stimulus } => {
+            Self::Unsensed { stimulus, shows: true } => {
+                let message = format!("no material senses `{stimulus}`, which the schedule shows");
+                Diagnostic::new(Code::Value, message, span, "expected materials that sense the image").with_help(
+                    format!(
+                        "add a sensor, for example `material light {{ kind: sensor, stimulus: {stimulus}, absent: 0.6, \
+                     present: 1.6 }}`"
+                    ),
+                )
+            }
+            Self::Unsensed { stimulus, shows: false } => {
                 let message = format!("no material senses `{stimulus}`, which the schedule gives");
                 let label = "expected materials that sense all three stimuli";
                 Diagnostic::new(Code::Value, message, span, label)

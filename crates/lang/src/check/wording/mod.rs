@@ -3,6 +3,7 @@
 mod circuits;
 mod evolutions;
 mod files;
+mod images;
 mod names;
 mod properties;
 mod rows;
@@ -11,6 +12,7 @@ mod values;
 pub(crate) use circuits::{ArrayError, CircuitError, EnumerationError, OperandError, StartEdit};
 pub(crate) use evolutions::EvolutionError;
 pub(crate) use files::{LoadError, at_use};
+pub(crate) use images::ImagesError;
 pub(crate) use names::NameError;
 pub(crate) use properties::PropertyError;
 pub(crate) use rows::{CellError, EnvironmentError, RowError};

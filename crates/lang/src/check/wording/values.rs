@@ -106,6 +106,10 @@ pub(crate) enum Expected {
     Changes,
     /// The ground of a world.
     Ground,
+    /// A file.
+    Path,
+    /// What images are.
+    Label,
 }
 
 impl fmt::Display for Expected {
@@ -129,6 +133,8 @@ impl fmt::Display for Expected {
             Self::Weight => "a weight",
             Self::Changes => "changes such as `{ friction: 10%, gravity: 5% }`",
             Self::Ground => "heights such as `[0, 1, 2]`, or a file in quotes",
+            Self::Path => "a file in quotes such as `\"digits.csv\"`",
+            Self::Label => "a label such as `0` or `zero`",
             Self::Weights => "weights such as `{ add_node: 1, change_weight: 2 }`",
         })
     }

@@ -52,7 +52,7 @@ impl Printer<'_> {
     fn declaration(&mut self, declaration: &Declaration) {
         match &declaration.kind {
             DeclarationKind::Use(paths) => self.used(paths),
-            DeclarationKind::Stimulus(names) => self.write(&format!("stimulus {}", rows::names(names))),
+            DeclarationKind::Stimulus(stimuli) => self.write(&format!("stimulus {}", rows::stimuli(stimuli))),
             DeclarationKind::Record(record) => self.record_declaration(record),
             DeclarationKind::Schedule(schedule) => self.schedule(schedule, declaration.span),
             DeclarationKind::Simulate(simulate) => self.simulate(simulate, declaration.span),

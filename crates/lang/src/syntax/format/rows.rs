@@ -3,7 +3,8 @@
 use crate::syntax::format::printer::Printer;
 use crate::syntax::format::record::{instance, quantity};
 use crate::syntax::tree::{
-    NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, Test, TestItem, TestKind, TestRowSyntax, TestTable, With,
+    NameSyntax, ScheduleSyntax, Simulate, SpellSyntax, StimulusSyntax, Test, TestItem, TestKind, TestRowSyntax,
+    TestTable, With,
 };
 use nbc_base::source::Span;
 
@@ -127,6 +128,15 @@ fn even_rows<'t>(items: &'t [TestItem], rows: &mut Vec<&'t TestRowSyntax>) {
 /// `in slippery `
 fn in_world(world: Option<&NameSyntax>) -> String {
     world.map_or(String::new(), |world| format!("in {} ", world.text))
+}
+
+/// `light, digit[8][8]`
+pub(super) fn stimuli(stimuli: &[StimulusSyntax]) -> String {
+    let one = |stimulus: &StimulusSyntax| match &stimulus.image {
+        Some([rows, columns]) => format!("{}[{}][{}]", stimulus.name.text, rows.text, columns.text),
+        None => stimulus.name.text.clone(),
+    };
+    stimuli.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
 /// `a, b`

@@ -17,7 +17,7 @@ pub use expression::{ExpressionSyntax, ExpressionSyntaxKind, Infix, OperandSynta
 pub use prove::{PropertySyntax, Prove};
 pub use record::{
     Field, InstanceSyntax, Number, Quantity, RecordDeclaration, RecordKeyword, RecordSyntax, ScheduleSyntax,
-    SpellSyntax, ValueKind, ValueSyntax,
+    SpellSyntax, StimulusSyntax, ValueKind, ValueSyntax,
 };
 pub use size::{Argument, ExpressionSyntaxId, Index, IndexKind, SizeSyntax, SizeSyntaxId, SizeSyntaxKind};
 pub use test::{Simulate, Test, TestItem, TestKind, TestRowSyntax, TestTable, UntilSyntax, With};
@@ -57,7 +57,7 @@ pub enum DeclarationKind {
     /// `use "file.nb"`, or several files
     Use(Vec<Text>),
     /// `stimulus s1, s2`
-    Stimulus(Vec<NameSyntax>),
+    Stimulus(Vec<StimulusSyntax>),
     /// `material`, `evolution`, `library`, `swarm`, `world`: a name and a record.
     Record(RecordDeclaration),
     /// `schedule`

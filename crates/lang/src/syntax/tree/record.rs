@@ -11,6 +11,8 @@ pub enum RecordKeyword {
     Material,
     /// `evolution`
     Evolution,
+    /// `images`
+    Images,
     /// `library`
     Library,
     /// `swarm`
@@ -25,11 +27,21 @@ impl RecordKeyword {
         match self {
             Self::Material => "material",
             Self::Evolution => "evolution",
+            Self::Images => "images",
             Self::Library => "library",
             Self::Swarm => "swarm",
             Self::World => "world",
         }
     }
+}
+
+/// A stimulus that is declared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StimulusSyntax {
+    /// Its name.
+    pub name: NameSyntax,
+    /// The rows and columns of an image.
+    pub image: Option<[Number; 2]>,
 }
 
 /// A declaration that is a name and a record.

@@ -390,7 +390,7 @@ mod tests {
                 let kernel = Kernel::new(set, lanes).expect("an available set");
                 let backend = LaneBackend { kernel, ..LaneBackend::default() };
                 let mut flock = backend.flock(&setting, &[others[0].clone(), body.clone(), others[1].clone()]);
-                spells.each_ref().map(|spell| flock.advance_under(&vec![spell.clone(); 3]));
+                spells.iter().for_each(|spell| flock.advance_under(&vec![spell.clone(); 3]));
                 assert_eq!(flock.snapshot(1).state, expected.state, "{} with {lanes} lanes", set.name());
                 let schedule = Schedule { spells: spells.to_vec() };
                 let trials = [Trial { body: body.clone(), schedule }];

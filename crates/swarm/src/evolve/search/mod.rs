@@ -318,7 +318,8 @@ pub(crate) mod tests {
     use super::*;
     use crate::evolve::phenotype;
     use nbc_base::model::{
-        Axis, Count, MutationWeights, Niche, Palette, Pattern, PhysicsWorld, Rules, Schedule, SearchObjective, Spell,
+        Axis, Count, ImageOrder, MutationWeights, Niche, Palette, Pattern, PhysicsWorld, Rules, Schedule,
+        SearchObjective, Spell,
     };
 
     /// The paper's run in a 5 x 5 box.
@@ -334,6 +335,7 @@ pub(crate) mod tests {
             start: None,
             mutation: MutationWeights::default(),
             variable: Schedule { spells },
+            shown: ImageOrder::Apart,
             fixed_steps: 840,
             descriptors: vec![count(Count::Voxels), count(Count::Active), count(Count::Sensory), Axis::Behavior],
             batch: 16,

@@ -1,0 +1,115 @@
+//! What a body needs of the images of a schedule: each pixel is covered in turn.
+
+use std::sync::Arc;
+
+use crate::recognition::Recognition;
+use crate::report::{OcclusionMap, Scheme, Svg, draw_occlusion};
+use nbc_base::model::{Body, Direction, Image, ImageOrder, MaterialKind, Pattern, Schedule, Spell};
+use nbc_swarm::image_displacements;
+
+/// The images with each pixel covered, before the first body of a recognition. It is advanced pixel by pixel.
+#[derive(Debug)]
+pub struct Occlusion {
+    recognition: Recognition,
+    size: [usize; 2],
+    /// The mean of each pixel over all images, which covers it.
+    mean: Vec<f64>,
+    /// The distance in the right way before each image as it is.
+    plain: Vec<f64>,
+    losses: Vec<Option<f64>>,
+}
+
+impl Occlusion {
+    /// The occlusion of a recognition's first body; `None` if it has none, or no images.
+    pub fn of(recognition: Recognition) -> Option<Self> {
+        let images: Vec<&Image> =
+            recognition.schedule.schedule.spells.iter().filter_map(|spell| spell.image.as_deref()).collect();
+        let size = images.first()?.size();
+        let mean = mean(images.iter().copied(), size[0] * size[1]);
+        recognition.elites.first()?;
+        let mut occlusion = Self { recognition, size, mean, plain: Vec::new(), losses: Vec::new() };
+        occlusion.plain = occlusion.distances(None);
+        Some(occlusion)
+    }
+
+    /// The pixels that were covered so far, and all of them.
+    pub fn progress(&self) -> (u64, u64) {
+        (self.losses.len() as u64, self.mean.len() as u64)
+    }
+
+    /// Covers the next pixel; returns whether there are more.
+    pub fn advance(&mut self) -> bool {
+        let pixel = self.losses.len();
+        let body = &self.recognition.elites[0].1.body;
+        let loss = senses(body, self.size, pixel).then(|| {
+            let covered = self.distances(Some(pixel));
+            let lost = self.plain.iter().zip(&covered).map(|(plain, covered)| plain - covered);
+            lost.sum::<f64>() / self.plain.len() as f64
+        });
+        self.losses.push(loss);
+        self.losses.len() < self.mean.len()
+    }
+
+    /// The distances in the right way, with a pixel covered. A simulation that failed counts as none.
+    fn distances(&self, covered: Option<usize>) -> Vec<f64> {
+        let Recognition { simulator, evolution, schedule, elites, .. } = &self.recognition;
+        let (_, elite) = &elites[0];
+        let cover = |spell: &Spell| {
+            let image = spell.image.as_deref().expect("a schedule with sets shows images");
+            let mut pixels = image.pixels().to_vec();
+            if let Some(pixel) = covered {
+                pixels[pixel] = self.mean[pixel];
+            }
+            let image = Image::new(self.size, pixels).expect("means of pixels are pixels");
+            Spell { image: Some(Arc::new(image)), ..spell.clone() }
+        };
+        let spells: Vec<Spell> = schedule.schedule.spells.iter().map(cover).collect();
+        let sign = |pattern: Pattern| match elite.behavior.direction(pattern) {
+            Direction::Right => 1.0,
+            Direction::Left => -1.0,
+        };
+        let signs: Vec<f64> = spells.iter().map(|spell| sign(spell.pattern)).collect();
+        let (shown, body) = (Schedule { spells }, std::slice::from_ref(&elite.body));
+        let walked = image_displacements(simulator, &evolution.world, ImageOrder::Apart, &shown, body);
+        walked.into_iter().flatten().zip(signs).map(|(moved, sign)| moved.unwrap_or(0.0) * sign).collect()
+    }
+
+    /// The map as a picture.
+    pub fn draw(&self, scheme: Scheme) -> Svg {
+        let Recognition { evolution, schedule, elites, .. } = &self.recognition;
+        let set = |(number, name): (usize, &String)| {
+            let pattern = Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1]);
+            let own = schedule.schedule.spells.iter().filter(|spell| spell.pattern == pattern);
+            (name.clone(), mean(own.filter_map(|spell| spell.image.as_deref()), self.mean.len()))
+        };
+        let sets: Vec<(String, Vec<f64>)> = schedule.sets.iter().enumerate().map(set).collect();
+        let title = format!("{}: what its best body needs of {}", evolution.name, schedule.name);
+        let body = &elites[0].1.body;
+        let map = OcclusionMap { title: &title, body, size: self.size, losses: &self.losses, sets: &sets };
+        draw_occlusion(&map, scheme)
+    }
+}
+
+/// The mean of each pixel over images.
+fn mean<'a>(images: impl Iterator<Item = &'a Image>, pixels: usize) -> Vec<f64> {
+    let (mut sum, mut count) = (vec![0.0; pixels], 0.0);
+    for image in images {
+        count += 1.0;
+        sum.iter_mut().zip(image.pixels()).for_each(|(sum, pixel)| *sum += pixel);
+    }
+    sum.into_iter().map(|sum: f64| if count > 0.0 { (sum / count).clamp(0.0, 1.0) } else { 0.0 }).collect()
+}
+
+/// Whether a voxel of a body senses a pixel.
+fn senses(body: &Body, size: [usize; 2], pixel: usize) -> bool {
+    let mut pixels = vec![0.0; size[0] * size[1]];
+    pixels[pixel] = 1.0;
+    let image = Image::new(size, pixels).expect("one pixel is an image");
+    let sees = |code: u8| match body.palette().kind(code) {
+        Some(MaterialKind::Sensor(response)) => response.image.is_some(),
+        _ => false,
+    };
+    let (width, height) = (body.width(), body.height());
+    let place = |at: usize| image.over([at / width, at % width], [height, width]);
+    body.codes().iter().enumerate().any(|(at, &code)| sees(code) && place(at) > 0.0)
+}

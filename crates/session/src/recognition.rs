@@ -1,0 +1,193 @@
+//! How well bodies of an evolution tell images apart that they need not have seen.
+
+use serde::Serialize;
+
+use crate::report::{Align, TextTable};
+use crate::wording::RecognitionError;
+use nbc_base::diag::{Diagnostic, Suggestion, counted};
+use nbc_base::model::{Direction, Evolution, ImageOrder, NamedSchedule, Pattern, Program, Schedule, SearchObjective};
+use nbc_sim::Simulator;
+use nbc_swarm::evolve::Elite;
+use nbc_swarm::image_displacements;
+
+/// The images that are shown at once.
+const PORTION: usize = 64;
+
+/// Bodies that are shown the images of a schedule, each from a fresh start. It is advanced in portions.
+#[derive(Clone, Debug)]
+pub struct Recognition {
+    pub(super) simulator: Simulator,
+    pub(super) evolution: Evolution,
+    pub(super) schedule: NamedSchedule,
+    /// The bodies with their seeds.
+    pub(super) elites: Vec<(u64, Elite)>,
+    /// The displacement of each body before each image so far, in voxels; none after a fault.
+    walked: Vec<Vec<Option<f64>>>,
+}
+
+/// How well bodies tell images apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RecognitionReport {
+    /// The evolution that made the bodies.
+    pub evolution: String,
+    /// The schedule that was shown.
+    pub schedule: String,
+    /// The bodies in the order in which they were given.
+    pub bodies: Vec<RecognizingBody>,
+}
+
+/// How well a body tells images apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RecognizingBody {
+    /// The seed of its run.
+    pub seed: u64,
+    /// Its voxels.
+    pub body: Vec<String>,
+    /// The least distance before the images of its search, in voxels.
+    pub least: f64,
+    /// The number of images before which it walked the right way.
+    pub correct: usize,
+    /// The number of images.
+    pub images: usize,
+    /// The share of `correct` in `images`.
+    pub accuracy: f64,
+    /// The images by their sets.
+    pub sets: Vec<RecognizedSet>,
+}
+
+/// The images of a set.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RecognizedSet {
+    /// Its name.
+    pub set: String,
+    /// The way in which the body should walk: `left` or `right`.
+    pub way: &'static str,
+    /// The number of images before which it walked so.
+    pub correct: usize,
+    /// The number of images.
+    pub images: usize,
+    /// The least distance in that way, in voxels; none if a simulation failed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub least: Option<f64>,
+}
+
+impl Recognition {
+    /// The recognition of a schedule's images by bodies of an evolution. Its sets are those of the evolution's schedule
+    /// in the same order.
+    ///
+    /// # Errors
+    /// When the program has no such evolution or schedule, or the two do not fit each other or the bodies.
+    pub fn new(
+        program: &Program,
+        evolution: &str,
+        schedule: &str,
+        elites: Vec<(u64, Elite)>,
+        simulator: Simulator,
+    ) -> Result<Self, Diagnostic> {
+        let unknown = |kind, name: &str, all: Vec<&str>| {
+            let meant = Suggestion::of(name, all);
+            RecognitionError::Unknown { kind, name: name.to_owned(), meant }
+        };
+        let evolutions = || program.evolutions.iter().map(|one| one.name.as_str()).collect();
+        let found = program.evolution(evolution).ok_or_else(|| unknown("evolution", evolution, evolutions()))?;
+        let schedules = || program.schedules.iter().map(|one| one.name.as_str()).collect();
+        let shown = program.schedule(schedule).ok_or_else(|| unknown("schedule", schedule, schedules()))?;
+        if found.objective != SearchObjective::Images {
+            return Err(RecognitionError::NoImages { evolution: evolution.to_owned() }.into());
+        }
+        let known = sets(&found.variable);
+        if shown.sets.len() != known {
+            let (schedule, sets) = (schedule.to_owned(), shown.sets.len());
+            return Err(RecognitionError::Sets { schedule, found: sets, expected: known }.into());
+        }
+        if elites.iter().any(|(_, elite)| elite.body.palette() != &found.palette) {
+            return Err(RecognitionError::OtherMaterials { evolution: evolution.to_owned() }.into());
+        }
+        let walked = vec![Vec::new(); elites.len()];
+        Ok(Self { simulator, evolution: found.clone(), schedule: shown.clone(), elites, walked })
+    }
+
+    /// The number of images that all bodies have seen together, and that they will have seen.
+    pub fn progress(&self) -> (u64, u64) {
+        let done = self.walked.iter().map(|walked| walked.len() as u64).sum();
+        (done, (self.elites.len() * self.schedule.schedule.spells.len()) as u64)
+    }
+
+    /// Shows some more images to a body; returns whether there are more.
+    pub fn advance(&mut self) -> bool {
+        let spells = &self.schedule.schedule.spells;
+        let Some(place) = self.walked.iter().position(|walked| walked.len() < spells.len()) else { return false };
+        let seen = self.walked[place].len();
+        let portion = Schedule { spells: spells[seen..spells.len().min(seen + PORTION)].to_vec() };
+        let body = std::slice::from_ref(&self.elites[place].1.body);
+        let walked = image_displacements(&self.simulator, &self.evolution.world, ImageOrder::Apart, &portion, body);
+        self.walked[place].extend(walked.into_iter().flatten().map(Result::ok));
+        self.progress().0 < self.progress().1
+    }
+
+    /// The result of the images that were shown.
+    pub fn finish(self) -> RecognitionReport {
+        let Self { evolution, schedule, elites, walked, .. } = self;
+        let body = |((seed, elite), walked): (&(u64, Elite), &Vec<Option<f64>>)| {
+            let sets: Vec<RecognizedSet> =
+                (0..schedule.sets.len()).map(|number| recognized(&schedule, number, elite, walked)).collect();
+            let (correct, images) = sets.iter().fold((0, 0), |sum, set| (sum.0 + set.correct, sum.1 + set.images));
+            RecognizingBody {
+                seed: *seed,
+                body: elite.body.rows(),
+                least: elite.fitness[0],
+                correct,
+                images,
+                accuracy: correct as f64 / images.max(1) as f64,
+                sets,
+            }
+        };
+        let bodies = elites.iter().zip(&walked).map(body).collect();
+        RecognitionReport { evolution: evolution.name, schedule: schedule.name, bodies }
+    }
+}
+
+/// The number of sets of a schedule of images.
+fn sets(schedule: &Schedule) -> usize {
+    let mut patterns: Vec<Pattern> = schedule.spells.iter().map(|spell| spell.pattern).collect();
+    patterns.sort_unstable();
+    patterns.dedup();
+    patterns.len()
+}
+
+/// The images of the set of that number.
+fn recognized(schedule: &NamedSchedule, number: usize, elite: &Elite, walked: &[Option<f64>]) -> RecognizedSet {
+    let pattern = Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1]);
+    let direction = elite.behavior.direction(pattern);
+    let sign = if direction == Direction::Right { 1.0 } else { -1.0 };
+    let own = schedule.schedule.spells.iter().zip(walked).filter(|(spell, _)| spell.pattern == pattern);
+    let own: Vec<Option<f64>> = own.map(|(_, walked)| *walked).collect();
+    let is_correct = |walked: &&Option<f64>| walked.is_some_and(|moved| Direction::of(moved) == direction);
+    let whole: Option<Vec<f64>> = own.iter().copied().collect();
+    RecognizedSet {
+        set: schedule.sets[number].clone(),
+        way: if direction == Direction::Right { "right" } else { "left" },
+        correct: own.iter().filter(is_correct).count(),
+        images: own.len(),
+        least: whole.map(|walked| walked.iter().map(|moved| moved * sign).fold(f64::INFINITY, f64::min)),
+    }
+}
+
+impl RecognitionReport {
+    /// The report for people.
+    pub fn text(&self) -> String {
+        let Self { evolution, schedule, bodies } = self;
+        let count = counted(bodies.len(), "body");
+        let columns = [("seed", Align::Right), ("least", Align::Right), ("correct", Align::Right), ("", Align::Left)];
+        let mut table = TextTable::new(&columns);
+        for RecognizingBody { seed, least, correct, images, accuracy, sets, .. } in bodies {
+            let each: Vec<String> = sets
+                .iter()
+                .map(|RecognizedSet { set, way, correct, images, .. }| format!("{set}: {correct} of {images} {way}"))
+                .collect();
+            let correct = format!("{correct} of {images} ({:.1} %)", 100.0 * accuracy);
+            table.push(vec![seed.to_string(), format!("{least:.2}"), correct, each.join(", ")]);
+        }
+        format!("{count} of {evolution} before the images of {schedule}\n{table}")
+    }
+}

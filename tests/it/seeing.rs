@@ -1,0 +1,142 @@
+//! Bodies that see, from the text of a program to the images that they tell apart.
+
+use std::fs;
+
+use nbc_base::model::{Evolution, ImageOrder, Pattern, Program, SearchObjective};
+use nbc_base::source::MemoryWorld;
+use nbc_session::Session;
+
+use crate::support::bench::Bench;
+use crate::support::root;
+use crate::support::schema::validate;
+
+/// Images of two rows and columns: those with ink on top, and those with ink below.
+const SPOTS: &str = "a,b,c,d,label\n4,4,0,0,top\n3,4,1,0,top\n0,0,4,4,bottom\n0,1,4,3,bottom\n1,0,3,4,bottom\n";
+
+const PROGRAM: &str = "\
+stimulus spot[2][2]
+
+material dark  { kind: sensor, stimulus: spot, absent: 1.6, present: 0.6 }
+material light { kind: sensor, stimulus: spot, absent: 0.6, present: 1.6 }
+
+images tops    { stimulus: spot, from: \"spots.csv\", white: 4, label: top }
+images bottoms { stimulus: spot, from: \"spots.csv\", white: 4, label: bottom, take: 2..3 }
+
+schedule spots(spot) {
+    tops    for 20 steps
+    bottoms for 30 steps
+}
+
+evolution tell {
+    box:         3 x 3
+    materials:   [muscle, antimuscle, dark, light]
+    genome:      voxels
+    objective:   images
+    variable:    spots
+    descriptors: [voxels in 3 bins, sensory in 3 bins]
+    batch:       6
+    generations: 4
+    seed:        5
+}
+
+evolution tell_in_turn { from: tell, shown: in_turn }
+";
+
+fn program() -> Program {
+    let mut world = MemoryWorld::default();
+    world.insert("spots.csv", SPOTS);
+    world.insert("tell.nb", PROGRAM);
+    let checked = Session::new(world).checked("tell.nb").clone();
+    assert!(checked.diagnostics.is_empty(), "{:?}", checked.diagnostics);
+    checked.program.clone()
+}
+
+#[test]
+fn a_schedule_shows_each_image_of_its_sets_and_numbers_the_sets() {
+    let program = program();
+    let spells = &program.schedule("spots").unwrap().schedule.spells;
+    let shown: Vec<(Pattern, u32, &[f64])> =
+        spells.iter().map(|spell| (spell.pattern, spell.steps, spell.image.as_ref().unwrap().pixels())).collect();
+    let [top, bottom] = [false, true].map(|second| Pattern::new(&[second]));
+    let expected: [(Pattern, u32, &[f64]); 4] = [
+        (top, 20, &[1.0, 1.0, 0.0, 0.0]),
+        (top, 20, &[0.75, 1.0, 0.25, 0.0]),
+        (bottom, 30, &[0.0, 0.25, 1.0, 0.75]),
+        (bottom, 30, &[0.25, 0.0, 0.75, 1.0]),
+    ];
+    assert_eq!(shown, expected);
+    let Evolution { objective, shown, variable, .. } = program.evolution("tell").unwrap();
+    assert_eq!((*objective, *shown, &variable.spells), (SearchObjective::Images, ImageOrder::Apart, spells));
+    assert_eq!(program.evolution("tell_in_turn").unwrap().shown, ImageOrder::InTurn);
+}
+
+#[test]
+fn a_program_with_images_is_in_canonical_form() {
+    let bench = Bench::new();
+    bench.file("spots.csv", SPOTS);
+    bench.file("tell.nb", PROGRAM.replace("stimulus spot[2][2]", "stimulus   spot [ 2 ] [2]"));
+    assert_eq!(bench.run(&["fmt", "tell.nb"]).status, 0);
+    assert_eq!(fs::read_to_string(bench.path().join("tell.nb")).unwrap(), PROGRAM);
+}
+
+#[test]
+fn bodies_are_evolved_and_tell_the_images_that_they_were_evolved_with_apart_as_the_archive_says() {
+    let bench = Bench::new();
+    bench.file("spots.csv", SPOTS);
+    bench.file("tell.nb", PROGRAM);
+    for run in ["tell", "tell_in_turn"] {
+        let ran = bench.run(&["evolve", "tell.nb", "--run", run]);
+        assert_eq!(ran.status, 0, "{}", ran.err);
+    }
+    let seen = bench.run(&["see", "tell.nb", "spots", "out/tell", "--best", "3", "--format", "json"]);
+    assert_eq!(seen.status, 0, "{}", seen.err);
+    let found = validate("see", &seen.out);
+    let bodies = found["bodies"].as_array().unwrap();
+    assert!((1..=3).contains(&bodies.len()), "{found}");
+    for body in bodies {
+        let sets = body["sets"].as_array().unwrap();
+        let least = sets.iter().map(|set| set["least"].as_f64().unwrap()).fold(f64::INFINITY, f64::min);
+        assert_eq!(body["least"].as_f64(), Some(least), "the archive has what the body does");
+        assert_eq!((&sets[0]["set"], &sets[1]["set"], &body["images"]), (&"tops".into(), &"bottoms".into(), &4.into()));
+        assert_ne!(sets[0]["way"], sets[1]["way"]);
+        assert!(least <= 0.0 || body["accuracy"] == 1.0, "{body}");
+    }
+    let text = bench.run(&["see", "tell.nb", "spots", "out/tell/seed-5"]);
+    assert!(text.out.starts_with("1 body of tell before the images of spots\n"), "{}", text.out);
+    let map = bench.run(&["see", "tell.nb", "spots", "out/tell", "--map", "needed.svg"]);
+    assert_eq!((map.status, &map.out), (0, &bench.run(&["see", "tell.nb", "spots", "out/tell"]).out), "{}", map.err);
+    let picture = fs::read_to_string(bench.path().join("needed.svg")).unwrap();
+    assert!(["losses", "mean-tops", "mean-bottoms"].iter().all(|part| picture.contains(&format!("id=\"{part}\""))));
+    // The same seed again, with an interruption, gives the same bits.
+    let checkpoint = |folder: &str| fs::read(bench.path().join(folder).join("tell/seed-5/checkpoint.nbc")).unwrap();
+    for generations in [&["--generations", "2"][..], &["--resume"]] {
+        let again = ["evolve", "tell.nb", "--run", "tell", "--out", "again"];
+        let ran = bench.run(&[&again[..], generations].concat());
+        assert_eq!(ran.status, 0, "{}", ran.err);
+    }
+    assert_eq!(checkpoint("out"), checkpoint("again"));
+}
+
+#[test]
+fn images_and_bodies_that_do_not_fit_are_refused() {
+    let bench = Bench::new();
+    bench.file("spots.csv", SPOTS);
+    let other = "\nschedule one(spot) {\n    tops for 9 steps\n}\n";
+    bench.file("tell.nb", format!("{PROGRAM}{other}"));
+    assert_eq!(bench.run(&["evolve", "tell.nb", "--run", "tell", "--generations", "1"]).status, 0);
+    let see = |file: &str, schedule: &str| bench.run(&["see", file, schedule, "out/tell"]);
+    see("tell.nb", "spot").expect_fault(&["no schedule is called `spot`", "`spots`"]);
+    see("tell.nb", "one").expect_fault(&["the schedule `one` shows 1 set of images, expected 2 sets"]);
+    bench.file("dark.nb", PROGRAM.replace("[muscle, antimuscle, dark, light]", "[muscle, dark, light]"));
+    see("dark.nb", "spots").expect_fault(&["the bodies have other materials than `tell` declares"]);
+    bench.file("gates.nb", "evolution tell { from: gates }\n\nschedule spots(s1, s2) {\n    0 0 for 9 steps\n}\n");
+    see("gates.nb", "spots").expect_fault(&["the bodies of `tell` see no images"]);
+}
+
+#[test]
+fn the_program_of_the_library_reads_its_images() {
+    let bench = Bench::new();
+    let path = root().join("library/seeing.nb");
+    let ran = bench.run(&["check", path.to_str().unwrap()]);
+    assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{}", ran.out);
+}
