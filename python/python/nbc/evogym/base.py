@@ -192,8 +192,8 @@ class EvoGymBase(gym.Env):
         return self._depths(object_name, terrain_list, sight_dist, sight_range, above=True)
 
     def _depths(self, name: str, terrain: List[str], sight: int, reach: float, above: bool) -> _Floats:
-        found: _Floats = self._sim.scenes.surface([0], name, terrain, sight, reach, above)
-        return found[0].copy()
+        found: _Floats = self._sim.scenes.surface([0], name, terrain, sight, reach, above)[0].copy()
+        return found
 
 
 class BenchmarkBase(EvoGymBase):
