@@ -91,7 +91,7 @@ fn a_number_of_few_values_may_be_learned_as_a_code() {
         let tried = found["bits"][0]["tried"].as_array().unwrap();
         tried.iter().any(|tried| tried["method"].as_str().unwrap().contains(word))
     };
-    assert!(tried("a code of 7 bits, 15 votes of tables each") && tried("a decision tree"), "{found}");
+    assert!(tried("a code of 8 bits, 15 votes of tables each") && tried("a decision tree"), "{found}");
     assert!(found["held_out"]["accuracy"].as_f64().unwrap() > 0.9, "{}", found["held_out"]);
     let counts = found["confusion"]["counts"].as_array().unwrap();
     let sum: u64 = counts.iter().flat_map(|row| row.as_array().unwrap()).map(|count| count.as_u64().unwrap()).sum();

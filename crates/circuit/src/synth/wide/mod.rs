@@ -13,7 +13,7 @@ use crate::network::{Gate, Network, Signal};
 use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::candidates::below;
 use crate::synth::prices::{Prices, complete};
-use crate::synth::reduce::{alternative, reduce};
+use crate::synth::reduce::{alternative, cover, reduce};
 use nbc_base::model::Function;
 
 pub use cover::Coverer;
@@ -95,6 +95,13 @@ pub fn widen(
         now = reduced.clone();
     }
     let prices = Prices::of(&gates);
+    // What was written in functions of three inputs has them as cuts still, and a reduction takes some of them apart.
+    if let Ok(given) = cover(network, &prices, stages) {
+        let other = coverer.cover(&given);
+        if weight(&other) < weight(&best) {
+            (best, now) = (other, given);
+        }
+    }
     let size = now.gates.len();
     let rounds = match options.effort {
         _ if size > MOST_GATES || size == 0 => 0,
