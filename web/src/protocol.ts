@@ -702,7 +702,9 @@ export type TestEntry = {
   line: number,
   inputs: Array<PortEntry>,
   outputs: Array<PortEntry>,
-  /** None for a test over all inputs until it has run. */
+  /** What it gives to its circuit, in words: `all inputs`, or the number of rows. */
+  extent: string,
+  /** The first rows. None if they are found only when the test runs. */
   rows: Array<TestRowEntry>,
 };
 

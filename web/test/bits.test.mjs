@@ -17,7 +17,7 @@ const skip = (SITE === undefined || process.env.NBC === undefined) && "NBC and N
 const CIRCUITS = new URL("../../circuits/", import.meta.url);
 const source = name => readFileSync(new URL(`${name}.nb`, CIRCUITS), "utf8");
 /** Programs that take long at the level of logic, or need files of others. */
-const LEFT_OUT = ["computer", "riscv"];
+const LEFT_OUT = ["computer", "digits", "riscv"];
 
 /** Requests without their numbers, and how many cycles the swarm has done before one is sent. */
 function conversations() {

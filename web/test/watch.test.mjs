@@ -33,6 +33,7 @@ test two "reads words" with desk {
 const here = opened({ "two.nb": TWO, "two.csv": "72, 107\n" }, "two.nb", async page => {
   await page.locator(".speed").selectOption("max");
   await page.locator("#tab-tests").click();
+  await page.locator(".test .count", { hasText: /^3 rows$/ }).waitFor();
   await page.locator(".test [data-do=watch]").click();
   await page.locator("#tab-swarm[aria-selected=true]").waitFor();
 });

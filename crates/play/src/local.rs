@@ -286,6 +286,7 @@ mod tests {
         let folder = MemoryFolder::default();
         let words = folder.world().read("riscv/sum.hex").unwrap();
         assert!(words.lines().count() > 3);
+        assert!(folder.world().read("digits/read.nb").unwrap().contains("circuit read("));
         assert_eq!(folder.world().read("latch.nb"), Err(FileError::NotFound), "a program is opened by its user");
         folder.insert("riscv/sum.hex", "0");
         assert_eq!(folder.world().read("riscv/sum.hex").unwrap(), "0");

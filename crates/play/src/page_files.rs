@@ -15,9 +15,9 @@ use nbc_session::Session;
 
 const EXAMPLES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/circuits");
 
-/// A file that an example needs beside it, such as the words of a memory.
+/// A file that an example needs in a folder beside it, such as the words of a memory.
 pub(super) fn beside_example(path: &str) -> Option<&'static str> {
-    let file = EXAMPLES.get_file(path).filter(|_| !path.ends_with(".nb"))?;
+    let file = EXAMPLES.get_file(path).filter(|_| path.contains('/'))?;
     file.contents_utf8()
 }
 

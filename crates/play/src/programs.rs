@@ -48,12 +48,15 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
 }
 
 fn test(index: usize, test: &CircuitTest) -> TestEntry {
-    let rows = match &test.stimulation {
+    let counted = |rows| if rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
+    let (extent, rows) = match &test.stimulation {
         Stimulation::Rows(rows) => {
             let whole = rows.iter().filter(|row| !row.is_half);
-            whole.take(listed(&test.inputs, &test.outputs)).map(|one| row(test, one)).collect()
+            let first = whole.clone().take(listed(&test.inputs, &test.outputs)).map(|one| row(test, one));
+            (counted(whole.count()), first.collect())
         }
-        Stimulation::Script(_) | Stimulation::All { .. } => Vec::new(),
+        Stimulation::Script(script) => (counted(script.steps.len()), Vec::new()),
+        Stimulation::All { .. } => ("all inputs".to_owned(), Vec::new()),
     };
     TestEntry {
         index,
@@ -62,6 +65,7 @@ fn test(index: usize, test: &CircuitTest) -> TestEntry {
         line: test.line,
         inputs: PortEntry::of(&test.inputs),
         outputs: PortEntry::of(&test.outputs),
+        extent,
         rows,
     }
 }

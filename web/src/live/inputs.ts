@@ -1,10 +1,11 @@
-// The inputs: a switch for each bit, a number with steps for each bus.
+// The inputs: a switch for each bit, a number with steps for each bus, a picture for a bus that may be one.
 
 import { element, fill, iconButton } from "../element";
 import { bitsOf, offsetOf, toBits, toNumber, type PortBit } from "../ports";
 import type { PortEntry } from "../protocol";
 import type { View } from "./animation";
 import { numberFormat, numberText, typedNumber } from "./numbers";
+import { pictureInput, pictureSide } from "./picture_input";
 import type { LiveSwarm } from "./swarm";
 
 /** Buses up to this width have a switch for each bit, too. */
@@ -69,8 +70,18 @@ export class InputPanel implements View {
     if (port.width === 1) {
       return this.#switch(bits[0] as PortBit, port.name);
     }
+    if (pictureSide(port) > 0) {
+      return element("div", { class: "bus" }, this.#number(port), this.#picture(port, bits));
+    }
     const switches = port.width > SWITCHED ? [] : bits.map(bit => this.#switch(bit, String(bit.place), true));
     return element("div", { class: "bus" }, this.#number(port), element("div", { class: "bits" }, ...switches));
+  }
+
+  #picture(port: PortEntry, bits: PortBit[]): HTMLElement {
+    const shown = (index: number) => this.#shown(index);
+    const { host, update } = pictureInput(port, bits, shown, (index, bit) => this.swarm.setBit(index, bit));
+    this.#updates.push(update);
+    return host;
   }
 
   #switch(bit: PortBit, label: string, small = false): HTMLElement {

@@ -15,11 +15,6 @@ export type TestState =
   | { state: "done"; level: TestLevel; results: TestResult[] }
   | { state: "failed"; message: string };
 
-/** How many rows a test has; one over all inputs has none of its own. */
-function rowCount({ rows }: TestEntry): string {
-  return rows.length === 0 ? "all inputs" : `${rows.length} ${rows.length === 1 ? "row" : "rows"}`;
-}
-
 export class TestsPanel {
   readonly host = element("div", { class: "tests" });
   /** The results by the number of the test, for the present text. */
@@ -174,7 +169,7 @@ export class TestsPanel {
           button(test.circuit, () => this.reveal(test.line), { class: "link", title: `Line ${test.line}` }),
         ),
         element("span", { class: "title" }, test.title),
-        element("span", { class: "count" }, rowCount(test)),
+        element("span", { class: "count" }, test.extent),
       ),
       element(
         "div",

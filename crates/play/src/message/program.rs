@@ -39,7 +39,9 @@ pub(crate) struct TestEntry {
     pub(crate) line: usize,
     pub(crate) inputs: Vec<PortEntry>,
     pub(crate) outputs: Vec<PortEntry>,
-    /// None for a test over all inputs until it has run.
+    /// What it gives to its circuit, in words: `all inputs`, or the number of rows.
+    pub(crate) extent: String,
+    /// The first rows. None if they are found only when the test runs.
     pub(crate) rows: Vec<TestRowEntry>,
 }
 
