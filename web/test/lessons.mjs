@@ -140,6 +140,16 @@ const DEEDS = {
     await show(page, "tests");
     await page.locator(`[data-do=all-${level}]`).click();
   },
+  prove: async page => {
+    await show(page, "tests");
+    for (const button of await page.locator("[data-claim] [data-do=prove]").all()) {
+      await button.click();
+    }
+  },
+  watch: async page => {
+    await show(page, "tests");
+    await page.locator("[data-verdict=refuted] [data-do=watch]").first().click();
+  },
   design: async (page, [robot]) => {
     await show(page, "robots");
     await page.locator(`[data-robot="${robot}"] [data-do=design]`).click();

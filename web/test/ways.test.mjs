@@ -120,9 +120,9 @@ test("every control of the lessons has a role and a name", async () => {
   // A browser tab has no class.
   const course = ["heading: This is a class", "textbox: Your name in the class", "button: Join the class"];
   course.forEach(control => assert.equal(lessons.includes(control), SITE === undefined, lessons.join("\n")));
-  assert.equal(lessons.filter(name => name.startsWith("button: Begin: ")).length, 22);
+  assert.equal(lessons.filter(name => name.startsWith("button: Begin: ")).length, 23);
   assert.ok(lessons.includes("heading: A robot is a gate"));
-  assert.equal(new Set(lessons.filter(name => name.startsWith("button: Begin: "))).size, 22);
+  assert.equal(new Set(lessons.filter(name => name.startsWith("button: Begin: "))).size, 23);
   await page.locator("[data-lesson=stimuli] [data-do=begin]").click();
   await page.waitForFunction(() => document.querySelector(".file").textContent === "lesson_stimuli.nb");
   await page.locator(".strip [data-do=hint]").click();
@@ -133,7 +133,7 @@ test("every control of the lessons has a role and a name", async () => {
     "button: Leave the lesson",
     "button: Start again",
     "button: What is missing?",
-    "heading: Two stimuli 2 of 22",
+    "heading: Two stimuli 2 of 23",
     "link: Step 1, to do",
     "link: Step 2, to do",
   ]);

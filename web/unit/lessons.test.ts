@@ -23,6 +23,9 @@ function situation(cycles: Values[], given: Partial<Situation> = {}): Situation 
     tests: 0,
     passed: 0,
     failed: 0,
+    claims: 0,
+    proved: 0,
+    refuted: 0,
     circuit: null,
     robots: [],
     threads: 0,
@@ -198,7 +201,7 @@ test("a step says what it still needs as soon as a part of it is done, or a test
   const needs = (given: Partial<Situation>): string[] => missing(one, 0, situation([], given));
   assert.deepEqual(needs({ text: program, tests: 1, passed: 1 }), []);
   assert.deepEqual(needs({ text: program, tests: 1, failed: 1 }), ["all tests have been run and pass – 1 of 1 fail"]);
-  const kept = "every line of the lesson’s tests is still there – missing: 0 | 1";
+  const kept = "every line of the lesson’s tests and claims is still there – missing: 0 | 1";
   assert.deepEqual(needs({ text: program.replace("0 | 1", "0 | 0"), tests: 1, passed: 1 }), [kept]);
   assert.deepEqual(needs({ text: program, tests: 1 }), [], "the task says enough");
   const robots = lesson([{ is: "robots-only", gates: ["nand"] }]);
@@ -223,4 +226,17 @@ test("a lesson is open under its own path and that of a learner of a class", () 
 test("gates of the text are not taken for robots", () => {
   assert.equal(sizeText(1, "gates"), "1 gate in the text");
   assert.equal(sizeText(4, "robots"), "4 robots");
+});
+
+test("all claims must be proved, and a refuted one counts at once", () => {
+  const is = (check: LessonCheck["is"], given: Partial<Situation>): boolean =>
+    holds({ is: check } as LessonCheck, situation([], given), lesson([]));
+  assert.equal(is("claims-proved", {}), false);
+  assert.equal(is("claims-proved", { claims: 2, proved: 1 }), false);
+  assert.equal(is("claims-proved", { claims: 2, proved: 2 }), true);
+  assert.equal(is("claims-refuted", { claims: 2, proved: 1 }), false);
+  assert.equal(is("claims-refuted", { claims: 2, refuted: 1 }), true);
+  const open = missing(lesson([{ is: "claims-proved" }]), 0, situation([], { claims: 1, refuted: 1 }), true);
+  assert.deepEqual(open, ["all that is claimed is proved – a property is refuted"]);
+  assert.ok(testLines("prove f {\n    never q\n}").has("never q"));
 });

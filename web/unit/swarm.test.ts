@@ -134,7 +134,7 @@ test("a lesson learns nothing from the swarm of another program", () => {
         stage: { value: { state } },
       },
       swarm,
-      tests: { states: { value: new Map() } },
+      tests: { states: { value: new Map() }, claims: { states: { value: new Map() } } },
       robots: { designer: { design: { value: design } }, evolution: { search: { value: search } } },
     }) as unknown as Parameters<typeof situationOf>[0];
   assert.equal(situationOf(parts("lesson.nb")).port("a", 4), 1);

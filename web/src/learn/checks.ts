@@ -11,7 +11,7 @@ const LATELY = 400;
 
 /** Whether a condition of a lesson holds. */
 export function holds(check: LessonCheck, situation: Situation, lesson: LessonEntry): boolean {
-  const { now, text, tests, passed, failed, search, design } = situation;
+  const { now, text, tests, passed, failed, claims, proved, refuted, search, design } = situation;
   switch (check.is) {
     case "shows":
       return has(situation, check.values, now);
@@ -40,6 +40,10 @@ export function holds(check: LessonCheck, situation: Situation, lesson: LessonEn
       return tests > 0 && passed === tests;
     case "tests-fail":
       return failed > 0;
+    case "claims-proved":
+      return claims > 0 && proved === claims;
+    case "claims-refuted":
+      return refuted > 0;
     case "tests-kept": {
       const kept = testLines(text);
       return [...testLines(lesson.program ?? "")].every(line => kept.has(line));

@@ -52,8 +52,12 @@ export function wordsOf(check: LessonCheck): string {
       return "all tests have been run and pass";
     case "tests-fail":
       return "a test has been run and fails";
+    case "claims-proved":
+      return "all that is claimed is proved";
+    case "claims-refuted":
+      return "a property is refuted";
     case "tests-kept":
-      return "every line of the lesson’s tests is still there";
+      return "every line of the lesson’s tests and claims is still there";
     case "program-changed":
       return "the program is another one, without errors, with a circuit and a test";
     case "outputs-lit":
@@ -96,6 +100,13 @@ function reason(check: LessonCheck, situation: Situation, lesson: LessonEntry): 
       return tests === 0 ? notCompiled(situation) || "there is none" : testsText(tests, passed, failed);
     case "tests-fail":
       return passed === 0 ? "none has been run" : "those that were run pass";
+    case "claims-proved":
+      if (situation.claims === 0) {
+        return notCompiled(situation) || "nothing is claimed";
+      }
+      return situation.refuted > 0 ? "a property is refuted" : "it has not been decided";
+    case "claims-refuted":
+      return situation.proved > 0 ? "all that was decided is proved" : "nothing has been decided";
     case "tests-kept": {
       const kept = testLines(text);
       return `missing: ${[...testLines(lesson.program ?? "")].find(line => !kept.has(line)) ?? ""}`;

@@ -74,6 +74,7 @@ export class LearnPanel {
     parts.swarm.frame.on(check);
     parts.swarm.definition.on(check);
     parts.tests.states.on(check);
+    parts.tests.claims.states.on(check);
     parts.program.checked.on(check);
     parts.program.stage.on(check);
     parts.program.saved.on(saved => saved !== null && this.#noteFile(saved.from, saved.path));

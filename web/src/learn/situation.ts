@@ -6,6 +6,7 @@ import { toNumber } from "../ports";
 import type { PortEntry } from "../protocol";
 import type { Design } from "../robots/designer";
 import type { Search } from "../robots/evolution";
+import type { ClaimState } from "../tests/claims";
 import type { TestState } from "../tests/panel";
 
 export interface Situation {
@@ -18,6 +19,10 @@ export interface Situation {
   tests: number;
   passed: number;
   failed: number;
+  /** The claims of the program, those of which all is proved, and those of which a property is refuted. */
+  claims: number;
+  proved: number;
+  refuted: number;
   /** The circuit whose swarm is shown, and the gates that its robots are; none while they are not those of the text. */
   circuit: string | null;
   robots: string[];
@@ -36,7 +41,7 @@ export interface Situation {
 interface Parts {
   program: Program;
   swarm: LiveSwarm;
-  tests: { states: { value: Map<number, TestState> } };
+  tests: { states: { value: Map<number, TestState> }; claims: { states: { value: Map<number, ClaimState> } } };
   robots: { designer: { design: { value: Design } }; evolution: { search: { value: Search } } };
 }
 
@@ -49,6 +54,9 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
   const definition = isCurrent ? swarm.definition.value : null;
   const done = [...tests.states.value.values()].filter(state => state.state === "done");
   const passed = done.filter(state => state.results.every(verdict => verdict.passed)).length;
+  const decided = [...tests.claims.states.value.values()].filter(state => state.state === "done");
+  const proved = decided.filter(({ properties }) => properties.every(({ verdict }) => verdict === "proved"));
+  const refuted = decided.filter(({ properties }) => properties.some(({ verdict }) => verdict === "refuted"));
   return {
     path: program.path.value,
     text: program.text,
@@ -58,6 +66,9 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
     tests: checked?.tests.length ?? 0,
     passed,
     failed: checked === null ? 0 : done.length - passed,
+    claims: checked?.claims.length ?? 0,
+    proved: checked === null ? 0 : proved.length,
+    refuted: checked === null ? 0 : refuted.length,
     circuit: definition?.circuit ?? null,
     robots: definition?.robots.map(robot => robot.function) ?? [],
     threads: definition?.waves?.threads ?? 0,

@@ -52,9 +52,9 @@ export function circuitsHave(text: string, word: string): boolean {
   return /^\w+$/.test(word) ? new RegExp(`\\b${word}\\b`).test(circuits) : circuits.includes(word);
 }
 
-/** The lines of the tests of a program, with the same space between their words. */
+/** The lines of the tests and claims of a program, with the same space between their words. */
 export function testLines(text: string): Set<string> {
-  const lines = textOf(text, "test").split("\n");
+  const lines = `${textOf(text, "test")}\n${textOf(text, "prove")}`.split("\n");
   return new Set(lines.map(line => line.trim().replace(/\s+/g, " ")).filter(line => line !== ""));
 }
 

@@ -6,7 +6,7 @@ use crate::message::{LessonCheck, LessonComparison, LessonCount, PortValues};
 use nbc_base::model::Function;
 
 /// The words with which checks begin.
-pub(super) const CHECKS: [&str; 16] = [
+pub(super) const CHECKS: [&str; 17] = [
     "shows",
     "hides",
     "keeps",
@@ -19,6 +19,7 @@ pub(super) const CHECKS: [&str; 16] = [
     "without",
     "circuit",
     "tests",
+    "claims",
     "program",
     "outputs",
     "evolving",
@@ -62,6 +63,10 @@ pub(super) fn check<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<L
             "pass" => Ok(LessonCheck::TestsPass),
             "fail" => Ok(LessonCheck::TestsFail),
             _ => Ok(LessonCheck::TestsKept),
+        },
+        "claims" => match one_of(single(first, rest)?, &["proved", "refuted"])?.as_str() {
+            "proved" => Ok(LessonCheck::ClaimsProved),
+            _ => Ok(LessonCheck::ClaimsRefuted),
         },
         "program" => one_of(single(first, rest)?, &["changed"]).map(|_| LessonCheck::ProgramChanged),
         "outputs" => one_of(single(first, rest)?, &["lit"]).map(|_| LessonCheck::OutputsLit),

@@ -5,9 +5,9 @@ use super::mistake::{LessonMistake, Mistaken};
 use super::piece::Piece;
 
 /// The words with which the lines of a solution begin.
-const DEEDS: [&str; 14] = [
-    "set", "await", "wait", "pulse", "clock", "rewind", "circuit", "type", "test", "design", "mirror", "random",
-    "evolve", "choose",
+const DEEDS: [&str; 16] = [
+    "set", "await", "wait", "pulse", "clock", "rewind", "circuit", "type", "test", "prove", "watch", "design",
+    "mirror", "random", "evolve", "choose",
 ];
 
 /// Checks a line of a solution. The ports that it names are added to `ports`.

@@ -107,7 +107,11 @@ pub(crate) enum LessonCheck {
     TestsPass,
     /// A test has run, and does not pass.
     TestsFail,
-    /// The program still has all lines of the lesson's tests.
+    /// The program claims something, and all that it claims is proved.
+    ClaimsProved,
+    /// A property of a claim is refuted.
+    ClaimsRefuted,
+    /// The program still has all lines of the lesson's tests and claims.
     TestsKept,
     /// The program has no errors, a circuit and a test, and is another than that of the lesson.
     ProgramChanged,
