@@ -53,7 +53,7 @@ fn kind(robot: &Robot) -> CellKind {
 fn rows(test: &CircuitTest) -> Vec<Vec<bool>> {
     match &test.stimulation {
         Stimulation::Rows(rows) => rows.iter().map(|row| row.inputs.clone()).collect(),
-        Stimulation::Script(_) => Vec::new(),
+        Stimulation::Script(_) | Stimulation::Ever { .. } => Vec::new(),
         Stimulation::All { .. } => {
             let bits: usize = test.inputs.iter().map(|port| port.width).sum();
             (0..1usize << bits).map(|row| (0..bits).rev().map(|bit| row >> bit & 1 == 1).collect()).collect()

@@ -329,6 +329,31 @@ pub use {
     nbc_session::{RunningTest, TestOptions, TestRun},
 };
 
+/// Properties of all steps of a circuit, decided. A door ends the search with the flag, for example after some time.
+///
+/// ```
+/// use nbc::{CancelFlag, Claim, ClaimReport, ClaimSearch, DecidedClaim, PropertyReport, SearchBudget};
+/// # let mut session = nbc::Session::new(nbc::MemoryWorld::default());
+/// session.update("a.nb", 1, "circuit f(a) -> (q) { q = not a }\nprove f {\n    never a and q\n    never q\n}");
+/// let checked = session.open("a.nb")?;
+/// let claim: &Claim = &checked.program.claims[0];
+/// let budget = SearchBudget { work: 100_000, ..SearchBudget::default() };
+/// let mut search: ClaimSearch = session.prove(&checked, claim, budget, CancelFlag::default())?;
+/// while search.advance(&mut ()) {}
+/// let decided: DecidedClaim = search.finish();
+/// let report = ClaimReport::of(&decided);
+/// let found: &[PropertyReport] = report.properties();
+/// assert_eq!((found[0].verdict, found[1].verdict), ("proved", "refuted"));
+/// let (property, test) = decided.refuted().next().unwrap();
+/// assert!(property == 1 && session.test(&checked, test, &nbc::TestOptions::default(), &mut ())?[0].verdict.passed);
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+pub use {
+    nbc_base::model::Claim,
+    nbc_circuit::properties::SearchBudget,
+    nbc_session::{ClaimReport, ClaimSearch, DecidedClaim, PropertyReport},
+};
+
 /// Tests in samples of worlds. A door makes the runs on its threads; here they follow each other.
 ///
 /// ```

@@ -21,7 +21,7 @@ use nbc_circuit::formats::{AigerModel, CircuitSource};
 use nbc_circuit::properties::{PropertySearch, SearchBudget};
 use nbc_session::report::Schema;
 use nbc_session::store;
-use nbc_session::{Checked, ClaimReport, DecidedClaim, ModelSearch, RunEnd, Session, TestOptions};
+use nbc_session::{Checked, ClaimReport, DecidedClaim, ModelSearch, Session, TestOptions};
 use nbc_swarm::Level;
 
 /// How often the time is looked at while the solver works.
@@ -211,16 +211,14 @@ fn in_physics(
     interrupt: &Interrupt,
 ) -> Result<(), Failure> {
     let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
-    for (property, test) in decided.tests.iter().enumerate() {
-        let Some(test) = test else { continue };
-        let mut is_same = true;
+    for (property, test) in decided.refuted() {
+        let mut runs = Vec::new();
         for case in session.cases(file, test, &options)? {
             let bar = Progress::new("simulating", case.work());
-            let run = session.run_case(case, &mut interrupt.observe(bar.whole()));
-            is_same &= run.verdict.passed && run.end == RunEnd::Complete;
+            runs.push(session.run_case(case, &mut interrupt.observe(bar.whole())));
         }
         if !interrupt.is_raised() {
-            report.note_physics(property, is_same);
+            report.note_runs(property, &runs);
         }
     }
     Ok(())

@@ -12,7 +12,7 @@ use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::timings::{TimedStage, Timings};
 use crate::cli::runs::wording::RunChoiceError;
-use crate::cli::runs::{CompleteRun, chosen_runs, run_list, unknown_run};
+use crate::cli::runs::{CompleteRun, chosen_runs, in_physics, run_list, unknown_run};
 use crate::cli::source_path::{result_path, source_path};
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_session::report::{
@@ -111,7 +111,7 @@ impl RunArguments {
     /// The requested tests and simulations.
     fn chosen<'f>(&'f self, file: &'f Checked) -> Result<RunList<'f>, Failure> {
         let choice = self.making.choice();
-        let list = chosen_runs(file, self.only.as_deref(), &choice)?;
+        let list = in_physics(chosen_runs(file, self.only.as_deref(), &choice)?);
         if !list.is_empty() {
             return Ok(list);
         }

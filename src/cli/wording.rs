@@ -53,6 +53,8 @@ pub(in crate::cli) enum UsageError {
     NoWord { file: String },
     /// Witnesses that are asked for where there is not one model.
     WitnessOfSource,
+    /// Worlds for tests that run in none.
+    NoWorlds,
     /// A ground that a body cannot stand on.
     Setting(SettingError),
 }
@@ -121,6 +123,8 @@ impl From<UsageError> for Diagnostic {
             ),
             UsageError::WitnessOfSource => bad("`--witness` is for one model in AIGER's format".to_owned())
                 .with_help("leave it out: a property of a program is refuted by a test"),
+            UsageError::NoWorlds => bad("none of these tests runs in a world".to_owned())
+                .with_help("leave out `--vary`: a test for ever is decided at the level of logic"),
             UsageError::Exists { file } => Self::without_place(Code::Unwritable, format!("`{file}` exists already"))
                 .with_help("choose another name, or remove the file"),
             UsageError::NoWord { file } => {

@@ -87,6 +87,7 @@ fn verdict(trace: &SwarmTrace) -> TestVerdict {
         is_world_named: false,
         level: Level::Physics,
         printed: None,
+        proof: None,
         rows_from: None,
         passed: rows.iter().all(|row| row.passed),
         inputs: test.inputs,

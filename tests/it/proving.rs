@@ -80,6 +80,19 @@ fn robots_do_what_refutes_a_property() {
     assert!(refuted.iter().all(|found| found["physics"] == true), "{refuted:?}");
 }
 
+/// The runs that docs/always.md lists.
+#[test]
+fn robots_show_what_refutes_the_properties_of_mutants() {
+    for (file, part, other, property) in MUTANTS {
+        let bench = Bench::new();
+        let file = mutant(&bench, file, part, other);
+        let found = verdicts(&bench, &[&file, "--physics"], 1);
+        let refuted: Vec<&Value> = found.iter().filter(|found| found["verdict"] == "refuted").collect();
+        assert!(refuted.iter().any(|found| found["property"].as_str().unwrap().contains(property)), "{found:?}");
+        assert!(refuted.iter().all(|found| found["physics"] == true), "{refuted:?}");
+    }
+}
+
 #[test]
 fn a_search_that_ends_is_undecided_and_the_same_again() {
     let bench = Bench::new();
@@ -133,4 +146,93 @@ fn models_are_decided_with_witnesses() {
     let latch = root().join("circuits/latch.nb");
     let refused = bench.run(&["prove", latch.to_str().unwrap(), "--witness", "latch.wit"]);
     refused.expect_fault(&["`--witness` is for one model"]);
+}
+
+const COUNTERS: &str = "circuit up(go, clk) -> (n[3]) {
+    n = register(n + {2'd0, go}, clk)
+}
+
+circuit toggled(go, clk) -> (n[3]) {
+    low  = register(low xor go, clk)
+    mid  = register(mid xor (go and low), clk)
+    high = register(high xor (go and low and mid), clk)
+    n    = {high, mid, low}
+}
+
+circuit other(go, clk) -> (n[3]) {
+    n = register[start = 1](n + {2'd0, go}, not clk)
+}
+
+test up \"is three toggles\" against toggled for ever
+";
+
+#[test]
+fn two_circuits_are_equal_for_ever_or_a_run_shows_where_they_differ() {
+    let bench = Bench::new();
+    bench.file("counters.nb", COUNTERS);
+    let test = |level: &str| -> Value {
+        let ran = bench.run(&["test", "counters.nb", level, "--format", "json"]);
+        serde_json::from_str(&ran.out).unwrap_or_else(|_| panic!("{}", ran.err))
+    };
+    // It is at the level of logic, whatever is asked for.
+    for level in ["--logic", "--physics"] {
+        let found = &test(level)["tests"][0];
+        assert_eq!((&found["passed"], &found["level"]), (&true.into(), &"logic".into()), "{found}");
+        assert_eq!(found["proof"], "proved by induction over 1 step");
+        assert_eq!(found["rows"], Value::Array(Vec::new()));
+    }
+    bench.run(&["run", "counters.nb"]).expect_fault(&["there is nothing to run"]);
+    bench.run(&["test", "counters.nb", "--vary", "10%"]).expect_fault(&["none of these tests runs in a world"]);
+    bench.file("counters.nb", COUNTERS.replace("(go and low and mid)", "(low and mid)"));
+    let found = &test("--logic")["tests"][0];
+    assert_eq!((&found["passed"], &found["proof"]), (&false.into(), &"refuted after 5 steps".into()), "{found}");
+    let last = found["rows"].as_array().unwrap().last().unwrap();
+    assert!(last["passed"] == false && last["expected"] != last["observed"], "{last}");
+    let text = bench.run(&["test", "counters.nb"]);
+    assert!(text.out.contains("FAIL  up \"is three toggles\" (refuted after 5 steps, logic)"), "{}", text.out);
+    bench.file("counters.nb", COUNTERS.replace("against toggled", "against other"));
+    bench.run(&["test", "counters.nb"]).expect_fault(&["`other` cannot be compared with this circuit for ever"]);
+}
+
+#[test]
+fn a_register_that_stores_when_its_clock_falls_has_steps() {
+    let bench = Bench::new();
+    bench.file(
+        "falls.nb",
+        "circuit toggle(go, clk) -> (q) {\n    q = register(q xor go, not clk)\n}\n\n\
+         prove toggle {\n    never before(go or not go) and q != before(q) xor go\n    never q and before(q)\n}\n",
+    );
+    let found = verdicts(&bench, &["falls.nb"], 1);
+    assert_eq!((&found[0]["verdict"], &found[1]["steps"]), (&"proved".into(), &3.into()), "{found:?}");
+    let test = found[1]["test"].as_str().unwrap();
+    let text = fs::read_to_string(bench.path().join("falls.nb")).unwrap();
+    bench.file("shown.nb", format!("{text}\n{test}"));
+    assert_eq!(bench.run(&["test", "shown.nb"]).status, 0, "{test}");
+    assert_eq!(bench.run(&["fmt", "--check", "shown.nb"]).status, 0, "{test}");
+}
+
+#[test]
+fn properties_read_nets_inside_their_circuit() {
+    let bench = Bench::new();
+    let text = "circuit shift[n = 3](d, clk) -> (q) {
+    net inside[n]
+    inside = register({d, inside[n - 1..1]}, clk)
+    q      = inside[0]
+}
+
+prove shift[4] {
+    always q == inside[0]
+    always before(d) => before(inside[3]) or not inside[2]
+    never  inside == 4'd9
+}
+";
+    bench.file("shift.nb", text);
+    let found = verdicts(&bench, &["shift.nb"], 1);
+    let said: Vec<&str> = found.iter().map(|found| found["verdict"].as_str().unwrap()).collect();
+    assert_eq!(said[0], "proved", "{found:?}");
+    assert_eq!((said[2], &found[2]["steps"]), ("refuted", &5.into()), "{found:?}");
+    // Its test has the ports alone.
+    assert!(found[2]["test"].as_str().unwrap().contains("d clk | q\n"), "{found:?}");
+    bench.file("shift.nb", text.replace("inside == 4'd9", "beside == 4'd9"));
+    bench.run(&["prove", "shift.nb"]).expect_fault(&["`beside`"]);
 }

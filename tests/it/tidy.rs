@@ -163,6 +163,7 @@ fn each_verb_has_two_doors() {
         ("check", vec![".checked(", "session.open("]),
         ("compile", vec![".compile("]),
         ("test", vec![".test(", ".cases(", ".run_list("]),
+        ("prove", vec![".prove("]),
         ("simulate", vec![".simulate(", ".run_list("]),
         ("evolve", vec!["EvolutionRun", "BodySearch"]),
         ("yields", vec!["Yields"]),

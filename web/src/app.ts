@@ -61,8 +61,13 @@ export class App {
     const take = new TakeAway(this.#connection, ways, this.#program, this.#swarm, () => this.#layout.tab.value);
     const swarm = new SwarmPanel(this.#program, this.#swarm, take.host);
     const reveal = (line: number): void => this.#edit.editor.reveal(line);
-    const tests = new TestsPanel(this.#connection, this.#program, this.#swarm, reveal, () =>
-      this.#layout.show("swarm"),
+    const tests = new TestsPanel(
+      this.#connection,
+      this.#program,
+      this.#swarm,
+      reveal,
+      () => this.#layout.show("swarm"),
+      text => this.#edit.editor.append(text),
     );
     this.#paper = paper(this.#program, this.#swarm, tests);
     const robots = new RobotsPanel(this.#connection, this.#program, {

@@ -189,11 +189,11 @@ export class Program {
     this.choice.set(choice);
   }
 
-  /** The circuits that can be compiled, with those of tests, which give parameters. */
+  /** The circuits that can be compiled, with those of tests and claims, which give parameters. */
   circuits(): CircuitEntry[] {
     const checked = this.checked.value;
     const entries = [...(checked?.circuits ?? [])];
-    for (const { circuit, line } of checked?.tests ?? []) {
+    for (const { circuit, line } of [...(checked?.tests ?? []), ...(checked?.claims ?? [])]) {
       if (!entries.some(entry => entry.circuit === circuit)) {
         entries.push({ name: circuit, circuit, swarms: [], line });
       }

@@ -29,6 +29,9 @@ export type CharacterSketch = {
   topples: boolean,
 };
 
+/** A test by its number in the program, or the text of one that is not in it, such as one that refutes a property. */
+export type ChosenTest = number | string;
+
 /** A circuit whose parameters are known. */
 export type CircuitEntry = {
   name: string,
@@ -36,6 +39,20 @@ export type CircuitEntry = {
   circuit: string,
   swarms: Array<string>,
   line: number,
+};
+
+/** The answer to `prove`: what is known of each property, in order. */
+export type ClaimAnswer = {
+  properties: Array<PropertyAnswer>,
+};
+
+/** A `prove` declaration. */
+export type ClaimEntry = {
+  index: number,
+  circuit: string,
+  title: string,
+  line: number,
+  properties: Array<PropertyEntry>,
 };
 
 /** The answer to `lessons` of the teacher's page. */
@@ -272,6 +289,8 @@ export type LessonCheck = { "is": "shows", values: { [key in string]: number }, 
   | { "is": "circuit", name: string, }
   | { "is": "tests-pass" }
   | { "is": "tests-fail" }
+  | { "is": "claims-proved" }
+  | { "is": "claims-refuted" }
   | { "is": "tests-kept" }
   | { "is": "program-changed" }
   | { "is": "outputs-lit" }
@@ -408,6 +427,22 @@ export type ProgramReport = {
   diagnostics: Array<Finding>,
   circuits: Array<CircuitEntry>,
   tests: Array<TestEntry>,
+  claims: Array<ClaimEntry>,
+};
+
+/** What is known of a property. */
+export type PropertyAnswer = {
+  verdict: "proved" | "refuted" | "undecided",
+  /** What the verdict is based on, in words. */
+  how: string,
+  /** The test that refutes it, as text. */
+  test: string | null,
+};
+
+/** A property that is to be proved. */
+export type PropertyEntry = {
+  property: string,
+  line: number,
 };
 
 /** The answer to a refused request. */
@@ -430,7 +465,8 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "program", path: string, text: string, }
   | { "do": "compile", path: string, circuit: string, swarm: string | null, }
   | { "do": "test", path: string, test: number, level: TestLevel, }
-  | { "do": "replay", path: string, test: number, swarm: string | null, world?: string, row: number, }
+  | { "do": "prove", path: string, claim: number, }
+  | { "do": "replay", path: string, test: ChosenTest, swarm: string | null, world?: string, row: number, }
   | { "do": "inputs", bits: string, }
   | { "do": "clock", bit: number, half: number | null, }
   | { "do": "run", speed: number | null, }
@@ -513,6 +549,7 @@ export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { "to": "compile", "ok": SwarmAnswer }
   | { "to": "replay", "ok": SwarmAnswer }
   | { "to": "test", "ok": TestAnswer }
+  | { "to": "prove", "ok": ClaimAnswer }
   | { "to": "robots", "ok": RobotCards }
   | { "to": "probe", "ok": ProbeReport }
   | { "to": "keep", "ok": KeptRobot }
@@ -700,9 +737,11 @@ export type TestEntry = {
   circuit: string,
   title: string,
   line: number,
+  /** Whether it is decided for ever, at the level of logic alone. */
+  ever: boolean,
   inputs: Array<PortEntry>,
   outputs: Array<PortEntry>,
-  /** What it gives to its circuit, in words: `all inputs`, or the number of rows. */
+  /** What it gives to its circuit, in words: `all inputs`, `for ever`, or the number of rows. */
   extent: string,
   /** The first rows. None if they are found only when the test runs. */
   rows: Array<TestRowEntry>,
@@ -728,6 +767,8 @@ export type TestResult = {
   rows: Array<RowResult>,
   /** What the environment wrote as text. */
   printed: string | null,
+  /** How a test for ever was decided, in words. */
+  proof: string | null,
 };
 
 /** A row of a test. */

@@ -45,7 +45,8 @@ pub use blocks::{BlockId, Blocks, keeps_state};
 pub use cells::{CellKind, CellLibrary};
 pub use delayed::Delayed;
 pub use elaborate::{
-    Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, is_same_instance,
+    Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, elaborate_watched,
+    is_same_instance,
 };
 pub use environment::{Environment, EnvironmentFault, MemoryAccess};
 pub use guarded::{Guarded, Role};

@@ -9,7 +9,7 @@ use crate::runs;
 use nbc_base::model::Instance;
 use nbc_base::source::{FileId, Span};
 
-/// The lenses of the tests and simulations of a file.
+/// The lenses of the tests, simulations and claims of a file.
 pub(super) fn of_runs(files: &Files<'_>, file: FileId) -> Vec<CodeLens> {
     let program = &files.checked.program;
     let mut lenses = Vec::new();
@@ -21,6 +21,9 @@ pub(super) fn of_runs(files: &Files<'_>, file: FileId) -> Vec<CodeLens> {
     for (at, simulation) in program.simulations.iter().enumerate().filter(|(_, run)| run.span.file == file) {
         let order = json!({ "uri": files.own(), "simulation": at });
         lenses.push(lens(files, simulation.span, "run in physics", runs::RUN, order));
+    }
+    for (at, claim) in program.claims.iter().enumerate().filter(|(_, claim)| claim.span.file == file) {
+        lenses.push(lens(files, claim.span, "prove", runs::PROVE, json!({ "uri": files.own(), "claim": at })));
     }
     lenses
 }

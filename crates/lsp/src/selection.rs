@@ -89,7 +89,7 @@ fn of_test(test: &Test, spans: &mut Vec<Span>) {
             spans.push(table.header);
             of_rows(&table.rows, spans);
         }
-        TestKind::Against(_) | TestKind::FromFile { .. } => {}
+        TestKind::Against(_) | TestKind::Ever(_) | TestKind::FromFile { .. } => {}
         TestKind::Reference(body) => of_body(body, spans),
     }
 }

@@ -30,9 +30,9 @@ const TYPES: [&str; 13] = [
 const MODIFIERS: [&str; 2] = ["declaration", "defaultLibrary"];
 
 /// Words that are keywords where they have no other meaning.
-const WORDS: [&str; 20] = [
-    "against", "all", "always", "assume", "at", "bins", "cycles", "deg", "from", "inputs", "least", "match", "most",
-    "never", "repeat", "rows", "steps", "until", "with", "within",
+const WORDS: [&str; 21] = [
+    "against", "all", "always", "assume", "at", "bins", "cycles", "deg", "ever", "from", "inputs", "least", "match",
+    "most", "never", "repeat", "rows", "steps", "until", "with", "within",
 ];
 
 pub(super) fn legend() -> SemanticTokensLegend {

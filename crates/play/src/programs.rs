@@ -7,8 +7,8 @@ use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::finding::findings;
 use crate::message::{
-    CircuitEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, TestAnswer,
-    TestEntry, TestResult, TestRowEntry, listed, looks,
+    CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
+    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
@@ -19,10 +19,11 @@ use crate::site::SCHEME;
 use crate::state;
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
+use nbc_circuit::properties::SearchBudget;
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{NetId, Netlist};
 use nbc_session::report::{self, Looks};
-use nbc_session::{Checked, Choice, CompileOptions, Compiled, Session, TestOptions};
+use nbc_session::{Checked, Choice, ClaimReport, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace};
 
 /// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
@@ -44,6 +45,7 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
         diagnostics: findings(&checked.diagnostics, &checked.sources),
         circuits: circuits.collect(),
         tests: checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect(),
+        claims: checked.program.claims.iter().enumerate().map(|(i, one)| ClaimEntry::of(i, one)).collect(),
     }
 }
 
@@ -57,12 +59,14 @@ fn test(index: usize, test: &CircuitTest) -> TestEntry {
         }
         Stimulation::Script(script) => (counted(script.steps.len()), Vec::new()),
         Stimulation::All { .. } => ("all inputs".to_owned(), Vec::new()),
+        Stimulation::Ever { .. } => ("for ever".to_owned(), Vec::new()),
     };
     TestEntry {
         index,
         circuit: test.circuit.to_string(),
         title: test.title.clone(),
         line: test.line,
+        ever: matches!(test.stimulation, Stimulation::Ever { .. }),
         inputs: PortEntry::of(&test.inputs),
         outputs: PortEntry::of(&test.outputs),
         extent,
@@ -230,5 +234,28 @@ pub(super) fn testing(
         let runs = running.take().expect("it runs").into_runs();
         let results = runs.iter().map(|run| TestResult::from(&run.verdict)).collect();
         Ok(PortionEnd::Done(Some(RequestResult::Test(TestAnswer { results }))))
+    })
+}
+
+/// The work of deciding a claim of the program that `open` opens.
+pub(super) fn proving(
+    session: Session,
+    open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
+    claim: usize,
+) -> JobWork {
+    let (mut open, mut searching) = (Some(open), None);
+    Box::new(move |job| {
+        let Some(search) = &mut searching else {
+            let checked = open.take().expect("it is opened once")(job)?;
+            let claim = checked.program.claims.get(claim).ok_or(Refused::NoClaim)?;
+            searching = Some(session.prove(&checked, claim, SearchBudget::SHORT, job.stop.clone())?);
+            return Ok(PortionEnd::More);
+        };
+        if search.advance(job) {
+            return Ok(PortionEnd::More);
+        }
+        job.check()?;
+        let decided = searching.take().expect("it searches").finish();
+        Ok(PortionEnd::Done(Some(RequestResult::Prove(ClaimAnswer::from(&ClaimReport::of(&decided))))))
     })
 }

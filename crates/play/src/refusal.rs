@@ -23,6 +23,8 @@ pub(super) enum Refused {
     Cycle { first: u32, last: u32 },
     /// A test or a row that the program does not have.
     NoTest,
+    /// A claim that the program does not have.
+    NoClaim,
     /// A circuit with more robots than one page may simulate.
     TooManyRobots { robots: usize, most: usize },
     /// A request whose number a running one has.
@@ -104,6 +106,7 @@ impl Refused {
             Self::Bits { expected } => format!("expected {expected} input bits, such as `{}`", "0".repeat(*expected)),
             Self::Cycle { first, last } => format!("the log goes from cycle {first} to {last}"),
             Self::NoTest => "the program has no such test or row".to_owned(),
+            Self::NoClaim => "the program claims nothing of that number".to_owned(),
             Self::TooManyRobots { robots, most } => {
                 format!("the circuit needs {robots} robots; the page runs at most {most}")
             }

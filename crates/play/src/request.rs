@@ -50,9 +50,13 @@ pub(super) enum Verb {
         test: usize,
         level: TestLevel,
     },
+    Prove {
+        path: String,
+        claim: usize,
+    },
     Replay {
         path: String,
-        test: usize,
+        test: ChosenTest,
         swarm: Option<String>,
         #[cfg_attr(test, ts(optional))]
         world: Option<String>,
@@ -115,6 +119,15 @@ pub(super) enum Verb {
     Cancel {
         of: u64,
     },
+}
+
+/// A test by its number in the program, or the text of one that is not in it, such as one that refutes a property.
+#[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
+#[cfg_attr(test, derive(TS))]
+#[serde(untagged)]
+pub(super) enum ChosenTest {
+    Declared(usize),
+    Shown(String),
 }
 
 /// A level of a test.

@@ -20,10 +20,10 @@ pub(super) struct GivenInputs {
     pub(super) shown: Option<ShownScript>,
 }
 
-/// What a page asks for: a test by its index, in a swarm and a world, up to the end of a row.
-/// Rows count from 1, and 0 is the start.
+/// What a page asks for: a test by its index, or the last one, in a swarm and a world, up to the end of a row. Rows
+/// count from 1, and 0 is the start.
 pub(super) struct TestMoment<'a> {
-    pub(super) test: usize,
+    pub(super) test: Option<usize>,
     pub(super) swarm: Option<&'a str>,
     pub(super) world: Option<&'a str>,
     pub(super) row: usize,
@@ -39,7 +39,8 @@ pub(super) fn begin(
     TestMoment { test, swarm, world, row }: TestMoment<'_>,
     job: &Job,
 ) -> Result<(Compiled, GivenInputs), Refused> {
-    let test = checked.program.tests.get(test).ok_or(Refused::NoTest)?;
+    let tests = &checked.program.tests;
+    let test = test.map_or_else(|| tests.last(), |test| tests.get(test)).ok_or(Refused::NoTest)?;
     let options = TestOptions { level: Some(Level::Physics), compile: job.options() };
     let cases = session.cases(checked, test, &options)?;
     let is_meant =

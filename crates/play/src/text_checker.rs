@@ -84,4 +84,22 @@ impl TextChecker {
         let checked = self.checked(path, job)?;
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
     }
+
+    /// The source at `path` with `more` at its end, without errors.
+    ///
+    /// # Errors
+    /// As [`TextChecker::open`].
+    pub(super) fn open_with(&self, path: &str, more: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
+        let checked = self.open(path, job)?;
+        let own = checked.file.map_or("", |file| &checked.sources.file(file).text);
+        // Beside the source, so that it finds the same files, at a path that no page can have.
+        let beside = format!("{path}\0");
+        let checked = self.with(job, |session| {
+            session.update(&beside, 0, format!("{own}\n{more}"));
+            let checked = session.checked(&beside);
+            session.close(&beside);
+            checked
+        })?;
+        if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
+    }
 }

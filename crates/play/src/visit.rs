@@ -16,7 +16,7 @@ use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult,
 use crate::outbox::{Line, Outbox};
 use crate::page_files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::refusal::Refused;
-use crate::request::{Request, TakeKind, Verb};
+use crate::request::{ChosenTest, Request, TakeKind, Verb};
 use crate::runner::{LoadingSwarm, Runner};
 use crate::script::{GivenInputs, TestMoment};
 use crate::shell::WorkKind;
@@ -192,13 +192,17 @@ impl Visit {
         let work = match verb {
             Verb::Compile { path, circuit, swarm } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
-                self.swarm(path, RequestResult::Compile, move |session, checked, job| {
+                self.swarm(path, None, RequestResult::Compile, move |session, checked, job| {
                     let (circuit, options) = programs::chosen(checked, &choice, job)?;
                     Ok((session.compile(checked, &circuit, &options)?, GivenInputs::default()))
                 })
             }
             Verb::Replay { path, test, swarm, world, row } => {
-                self.swarm(path, RequestResult::Replay, move |session, checked, job| {
+                let (test, shown) = match test {
+                    ChosenTest::Declared(test) => (Some(test), None),
+                    ChosenTest::Shown(text) => (None, Some(text)),
+                };
+                self.swarm(path, shown, RequestResult::Replay, move |session, checked, job| {
                     let moment = TestMoment { test, swarm: swarm.as_deref(), world: world.as_deref(), row };
                     script::begin(session, checked, moment, job)
                 })
@@ -217,6 +221,10 @@ impl Visit {
                 let checker = self.checker.clone();
                 let open = move |job: &Job| checker.open(&path, job);
                 programs::testing(self.fresh(), open, (test, level.into()), site.shell.clone())
+            }
+            Verb::Prove { path, claim } => {
+                let checker = self.checker.clone();
+                programs::proving(self.fresh(), move |job: &Job| checker.open(&path, job), claim)
             }
             Verb::Robots { path } => {
                 let (checker, session) = (self.checker.clone(), self.fresh());
@@ -290,11 +298,12 @@ impl Visit {
         }
     }
 
-    /// Compiles a circuit, runs its swarm through cycles of its script, and hands it over to be shown, which is the
-    /// answer.
+    /// Compiles a circuit of a program, perhaps with one test more, runs its swarm through cycles of its script, and
+    /// hands it over to be shown, which is the answer.
     fn swarm(
         &mut self,
         path: String,
+        more: Option<String>,
         answer: fn(SwarmAnswer) -> RequestResult,
         compile: impl FnOnce(&Session, &Checked, &Job) -> Result<(Compiled, GivenInputs), Refused> + Send + 'static,
     ) -> JobWork {
@@ -305,7 +314,10 @@ impl Visit {
         Box::new(move |job| {
             let Some(swarm) = &mut loading else {
                 let compile = compile.take().expect("it is compiled once");
-                let checked = checker.open(&path, job)?;
+                let checked = match &more {
+                    None => checker.open(&path, job)?,
+                    Some(test) => checker.open_with(&path, test, job)?,
+                };
                 let (compiled, script) = compile(&session, &checked, job)?;
                 loading = Some(programs::loading(
                     (&session, &checked),
@@ -543,6 +555,41 @@ mod tests {
             let results = &answer.last().unwrap()["ok"]["results"];
             assert_eq!(results[0]["passed"], true, "{answer:?}");
         }
+    }
+
+    const LIGHTS: &str = "circuit lights(car, clk) -> (main, side) {
+            turn = register(turn xor car, clk)
+            main = not turn
+            side = turn
+        }
+        prove lights {
+            never main and side
+            always car and before(main or side) => side
+        }";
+
+    #[test]
+    fn what_refutes_a_property_is_watched_like_a_test() {
+        let mut tab = Tab::new();
+        let program = tab.ask(&json!({ "id": 1, "do": "program", "path": "lights.nb", "text": LIGHTS }));
+        let claims = &program[0]["ok"]["claims"];
+        assert_eq!(claims[0]["properties"][0], json!({ "property": "never main and side", "line": 7 }), "{program:?}");
+        let answer = tab.ask(&json!({ "id": 2, "do": "prove", "path": "lights.nb", "claim": 0 })).pop().unwrap();
+        let found = &answer["ok"]["properties"];
+        let proved = json!({ "verdict": "proved", "how": "by induction over 1 step", "test": null });
+        assert_eq!((&found[0], &found[1]["verdict"]), (&proved, &"refuted".into()), "{answer}");
+        let replay = json!({ "id": 3, "do": "replay", "path": "lights.nb", "test": found[1]["test"], "swarm": null,
+            "row": 3 });
+        let shown = tab.ask(&replay).pop().unwrap();
+        let script = &shown["ok"]["swarm"]["script"];
+        assert_eq!(script["title"], "always car and before(main or side) => side", "{shown}");
+        // The program itself is as it was.
+        let other = json!({ "id": 4, "do": "replay", "path": "lights.nb", "test": 0, "swarm": null, "row": 0 });
+        assert_eq!(tab.ask(&other)[0]["error"]["message"], "the program has no such test or row");
+        let other = tab.ask(&json!({ "id": 5, "do": "prove", "path": "lights.nb", "claim": 1 }));
+        assert_eq!(other[0]["error"]["message"], "the program claims nothing of that number");
+        let broken = json!({ "id": 6, "do": "replay", "path": "lights.nb", "test": "test lights {", "swarm": null,
+            "row": 0 });
+        assert!(tab.ask(&broken)[0]["error"]["message"].is_string());
     }
 
     #[test]

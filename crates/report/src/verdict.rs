@@ -33,7 +33,11 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
     }
     let threads = verdict.rows.iter().filter_map(|row| row.thread).max().map_or(0, |last| last + 1);
     let threads = if threads > 1 { format!(" in {threads} threads") } else { String::new() };
-    let heading = format!("test {}{threads}: {}\n", name_test(verdict), pass_word(verdict.passed));
+    let proof = verdict.proof.as_ref().map_or(String::new(), |proof| format!(", {proof}"));
+    let heading = format!("test {}{threads}: {}{proof}\n", name_test(verdict), pass_word(verdict.passed));
+    if verdict.proof.is_some() && verdict.rows.is_empty() {
+        return heading;
+    }
     let robots = describe_weak_robots(verdict);
     let printed = describe_printed(verdict);
     format!("{heading}{printed}{robots}{}{}", indented(&table), describe_rows(verdict))
@@ -67,8 +71,11 @@ pub fn describe_verdict(verdict: &TestVerdict) -> String {
     format!("{}  {name} ({rows}, {level})\n{printed}{failures}", pass_word(verdict.passed))
 }
 
-/// `360 rows`, or of a test that permits failures `342 of 360 rows, at least 93 %`.
+/// `360 rows`, of a test that permits failures `342 of 360 rows, at least 93 %`, or how a test for ever was decided.
 fn counted_rows(verdict: &TestVerdict) -> String {
+    if let Some(proof) = &verdict.proof {
+        return proof.clone();
+    }
     let rows = counted(verdict.row_count(), "row");
     let passed = || verdict.rows.iter().filter(|row| row.passed).count();
     verdict.at_least().map_or_else(|| rows.clone(), |percent| format!("{} of {rows}, at least {percent} %", passed()))
@@ -274,6 +281,7 @@ mod tests {
             outputs: vec![port("q", 1), port("nq", 1)],
             weak_robots: Vec::new(),
             printed: None,
+            proof: None,
             rows_from: None,
             rows: vec![RowVerdict {
                 row: 2,

@@ -172,7 +172,7 @@ impl Look<'_> {
                     let rows = script.steps.iter().flat_map(|step| &step.rows);
                     rows.map(|row| TestRow { expected: Vec::new(), ..row.clone() }).collect()
                 }
-                Stimulation::All { .. } => continue,
+                Stimulation::All { .. } | Stimulation::Ever { .. } => continue,
             };
             self.note(waves::steps(test, &rows, clock, swarm.waves.step).map(drop));
         }

@@ -5,11 +5,13 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use crate::claims::DecidedClaim;
-use nbc_base::diag::counted;
+use crate::property_report::PropertyReport;
+use crate::swarm_run::RunEnd;
+use crate::test::TestRun;
 use nbc_base::model::{CircuitTest, Stimulation, TestRow};
 use nbc_base::source::Sources;
 use nbc_circuit::formats::AigerModel;
-use nbc_circuit::properties::{InductiveProof, PropertyVerdict, TransitionSystem};
+use nbc_circuit::properties::PropertyVerdict;
 use nbc_lang::syntax;
 
 /// A claim, or the properties of a model.
@@ -28,95 +30,6 @@ pub struct ClaimReport {
     properties: Vec<PropertyReport>,
     /// Calls of the solver, and clauses that it learned.
     work: u64,
-}
-
-/// A property and what is known of it.
-#[derive(Clone, Debug, Serialize)]
-struct PropertyReport {
-    property: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<usize>,
-    /// `proved`, `refuted` or `undecided`.
-    verdict: &'static str,
-    /// `induction` or `invariant`.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    method: Option<&'static str>,
-    /// The steps of an induction or of a run, or the first steps in which it is known to hold.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    steps: Option<usize>,
-    /// The clauses of the invariant.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    invariant: Option<Vec<String>>,
-    /// The properties without which this proof does not hold, as their numbers, counted from 0.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    with: Vec<usize>,
-    /// A test that shows it, as text.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    test: Option<String>,
-    /// A witness in AIGER's format.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    witness: Option<String>,
-    /// Whether robots do the same.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    physics: Option<bool>,
-}
-
-impl PropertyReport {
-    fn of(system: &TransitionSystem, number: usize, property: String, verdict: &PropertyVerdict) -> Self {
-        let mut report = Self {
-            property,
-            line: None,
-            verdict: "proved",
-            method: None,
-            steps: None,
-            invariant: None,
-            with: Vec::new(),
-            test: None,
-            witness: None,
-            physics: None,
-        };
-        match verdict {
-            PropertyVerdict::Proved(InductiveProof::Steps { steps, together }) => {
-                (report.method, report.steps) = (Some("induction"), Some(*steps));
-                report.with = together.iter().copied().filter(|&other| other != number).collect();
-            }
-            PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }) => {
-                let clause = |clause: &Vec<(usize, bool)>| {
-                    let literal = |&(at, value): &(usize, bool)| {
-                        let name = &system.registers[at].name;
-                        if value { name.clone() } else { format!("not {name}") }
-                    };
-                    clause.iter().map(literal).collect::<Vec<_>>().join(" or ")
-                };
-                (report.method, report.invariant) = (Some("invariant"), Some(clauses.iter().map(clause).collect()));
-                report.with = given.iter().copied().collect();
-            }
-            PropertyVerdict::Refuted(run) => {
-                (report.verdict, report.steps) = ("refuted", Some(run.inputs.len()));
-            }
-            PropertyVerdict::Undecided { steps } => (report.verdict, report.steps) = ("undecided", Some(*steps)),
-        }
-        report
-    }
-
-    fn text(&self) -> String {
-        let steps = counted(self.steps.unwrap_or(0), "step");
-        let how = match (self.verdict, &self.invariant) {
-            ("refuted", _) => format!("after {steps}"),
-            ("undecided", _) => format!("it holds in the first {steps}"),
-            (_, Some(clauses)) => format!("by an invariant of {}", counted(clauses.len(), "clause")),
-            _ => format!("by induction over {steps}"),
-        };
-        let mut text = format!("    {:<9}  {}  ({how})\n", self.verdict, self.property);
-        for shown in self.test.iter().flat_map(|test| test.lines()) {
-            let _ = if shown.is_empty() { writeln!(text) } else { writeln!(text, "        {shown}") };
-        }
-        if let Some(physics) = self.physics {
-            let words = if physics { "robots do the same" } else { "robots do something else" };
-            let _ = writeln!(text, "        // in physics: {words}");
-        }
-        text
-    }
 }
 
 impl ClaimReport {
@@ -150,9 +63,15 @@ impl ClaimReport {
         Self { file: file.to_owned(), line, circuit, title, properties: properties.collect(), work }
     }
 
-    /// Notes whether robots do what the test of a property shows.
-    pub fn note_physics(&mut self, property: usize, is_same: bool) {
+    /// Notes runs in physics of the test that refutes a property.
+    pub fn note_runs(&mut self, property: usize, runs: &[TestRun]) {
+        let is_same = runs.iter().all(|run| run.verdict.passed && run.end == RunEnd::Complete);
         self.properties[property].physics = Some(is_same);
+    }
+
+    /// What is known of each property, in order.
+    pub fn properties(&self) -> &[PropertyReport] {
+        &self.properties
     }
 
     /// The number of properties with this verdict.

@@ -1,19 +1,19 @@
 //! Claims of a program, decided: a search in portions, and the rows of a test that show what refutes a property.
 
+use crate::observer::Observer;
+use crate::run_rows::RunPorts;
 use crate::wording::ClaimError;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Base, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation, TestRow};
+use nbc_base::model::{Base, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation};
+use nbc_base::source::Span;
 use nbc_circuit::properties::{Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem};
-use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate, elaborate_reference};
+use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate_reference, elaborate_watched};
 
 /// A claim that is being decided. It can be dropped between any two portions.
 pub struct ClaimSearch {
     claim: Claim,
     search: PropertySearch,
-    /// For each input of the search, the input bit of the circuit.
-    ports: Vec<usize>,
-    /// The input bit that is the clock.
-    clock: Option<usize>,
+    ports: RunPorts,
     circuit: Netlist,
     monitor: Netlist,
 }
@@ -33,6 +33,13 @@ pub struct DecidedClaim {
     pub work: u64,
 }
 
+impl DecidedClaim {
+    /// The tests that refute properties, with the numbers of these.
+    pub fn refuted(&self) -> impl Iterator<Item = (usize, &CircuitTest)> {
+        self.tests.iter().enumerate().filter_map(|(property, test)| Some((property, test.as_ref()?)))
+    }
+}
+
 impl ClaimSearch {
     /// A search that has done nothing yet.
     ///
@@ -44,7 +51,8 @@ impl ClaimSearch {
         budget: SearchBudget,
         cancel: CancelFlag,
     ) -> Result<Self, Vec<Diagnostic>> {
-        let circuit = elaborate(program, &claim.circuit)?;
+        let inner: Vec<Span> = claim.inner.iter().map(|net| net.declared).collect();
+        let circuit = elaborate_watched(program, &claim.circuit, &inner)?;
         let monitor = elaborate_reference(program, &claim.monitor)?;
         let fault = |why| {
             let circuit = claim.circuit.to_string();
@@ -53,12 +61,19 @@ impl ClaimSearch {
         let monitored = Monitored::of(&circuit, &monitor, &claim.properties, &cancel).map_err(fault)?;
         let Monitored { system, ports, clock } = monitored;
         let search = PropertySearch::new(system, budget, cancel);
-        Ok(Self { claim: claim.clone(), search, ports, clock, circuit, monitor })
+        Ok(Self { claim: claim.clone(), search, ports: RunPorts { ports, clock }, circuit, monitor })
     }
 
     /// The search, to be advanced.
     pub fn search(&mut self) -> &mut PropertySearch {
         &mut self.search
+    }
+
+    /// Does a portion of the search, and reports how many properties are decided. Whether there is more to do.
+    pub fn advance(&mut self, observer: &mut dyn Observer) -> bool {
+        self.search.advance();
+        observer.progress(self.search.decided() as u64, self.search.system().bad.len() as u64);
+        !self.search.is_done()
     }
 
     /// What is known now.
@@ -80,28 +95,17 @@ impl ClaimSearch {
     /// The test that a run is: its outputs are those of the cells, one time step after the other.
     fn test(&self, property: &Property, run: &SystemRun) -> CircuitTest {
         let Claim { circuit, span, file, line, inputs, outputs, .. } = self.claim.clone();
-        let mut logic = Logic::new(&self.circuit);
         let mut watcher = Watcher { logic: Logic::new(&self.monitor), said: Vec::new() };
         let bases: Vec<Base> = inputs.iter().chain(&outputs).map(Base::of_port).collect();
-        let mut rows = Vec::new();
-        for (step, values) in run.inputs.iter().enumerate() {
-            let mut row = vec![false; self.circuit.inputs().len()];
-            self.ports.iter().zip(values).for_each(|(&port, &value)| row[port] = value);
-            let halves = if step > 0 && self.clock.is_some() { 2 } else { 1 };
-            for half in 0..halves {
-                if let Some(clock) = self.clock {
-                    row[clock] = half == 1;
-                }
-                let shown = logic.settle(&row).expect("a circuit that has steps settles");
-                let is_half = half + 1 < halves;
-                let expected = shown.iter().map(|&value| (!is_half).then_some(value)).collect();
-                let (inputs, bases) = (row.clone(), bases.clone());
-                let (hold, given_up) = (None, None);
-                rows.push(TestRow { inputs, expected, bases, hold, span, line, row: step + 1, is_half, given_up });
-                if !is_half {
-                    watcher.see(&row, &shown);
-                }
+        let mut rows = self.ports.rows(&self.circuit, run, &bases, (span, line));
+        let bits = outputs.iter().map(|port| port.width).sum();
+        for row in &mut rows {
+            // Only the rows of steps check something.
+            if let Some(shown) = row.expected.iter().copied().collect::<Option<Vec<bool>>>() {
+                watcher.see(&row.inputs, &shown);
             }
+            // A test has no columns of nets inside.
+            row.expected.truncate(bits);
         }
         assert!(watcher.shows(&self.claim.properties, property), "the cells violate `{}` in this run", property.text);
         let (title, stimulation) = (property.text.clone(), Stimulation::Rows(rows));

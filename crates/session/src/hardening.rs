@@ -9,7 +9,7 @@ use serde::Serialize;
 use crate::wording::HardenError;
 use crate::{Checked, CompileOptions, Session, TestCase, TestOptions, Yields};
 use nbc_base::diag::{Diagnostic, Diagnostics, counted};
-use nbc_base::model::{CircuitTest, Instance, Variation};
+use nbc_base::model::{CircuitTest, Instance, Stimulation, Variation};
 use nbc_circuit::is_same_instance;
 use nbc_swarm::{Level, Proportion, Robustness};
 
@@ -69,6 +69,8 @@ impl Session {
     ) -> Result<Option<Hardened>, E> {
         let tests =
             checked.program.tests.iter().filter(|test| is_same_instance(&checked.program, &test.circuit, circuit));
+        // What holds for ever holds in every world.
+        let tests = tests.filter(|test| !matches!(test.stimulation, Stimulation::Ever { .. }));
         let tests: Vec<&CircuitTest> = tests.collect();
         if tests.is_empty() {
             let fault = Diagnostic::from(HardenError::NoTest { circuit: circuit.to_string() });

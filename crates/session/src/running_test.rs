@@ -11,6 +11,7 @@ use crate::test::{TestCase, TestRun, TestSubject, judged, verdict};
 use crate::test_timing::TestTiming;
 use nbc_base::diag::Diagnostic;
 use nbc_circuit::Settled;
+use nbc_circuit::properties::PropertySearch;
 use nbc_swarm::{Level, RowVerdict, SwarmTrace};
 
 /// A test that runs: its cases one after the other. It can be dropped between any two portions.
@@ -79,6 +80,8 @@ enum Running {
     Gates(Box<Settled>),
     /// The script of the case.
     Script,
+    /// A search that decides a test for ever.
+    Search(Box<PropertySearch>),
     /// A swarm. If the test ends with the first row that fails, the rows that end with each cycle.
     Robots(Box<DrivenSwarm>, BTreeMap<usize, Vec<(usize, usize)>>),
 }
@@ -95,6 +98,7 @@ impl RunningCase {
                 Running::Robots(Box::new(swarm), ends)
             }
             (None, TestSubject::Gates(netlist)) => Running::Gates(Box::new(Settled::new(netlist))),
+            (None, TestSubject::Ever(equivalence)) => Running::Search(Box::new(equivalence.search())),
             (None, _) => Running::Script,
         };
         Self { case, subject, rows: Vec::new(), warnings: Vec::new() }
@@ -116,6 +120,14 @@ impl RunningCase {
                 (self.rows.len(), self.case.rows.len())
             }
             Running::Script => self.perform(),
+            Running::Search(search) => {
+                search.advance();
+                let TestSubject::Ever(equivalence) = &self.case.subject else { unreachable!("the subject is a pair") };
+                if equivalence.is_stopped() {
+                    return Some(RunEnd::Cancelled);
+                }
+                (usize::from(search.is_done()), 1)
+            }
         };
         observer.progress(done as u64, all as u64);
         match done < all && self.warnings.is_empty() {
@@ -147,7 +159,12 @@ impl RunningCase {
 
     /// The result of a run that ended so.
     pub(super) fn finish(self, end: RunEnd) -> TestRun {
-        let Self { case, subject, rows, warnings } = self;
+        let Self { case, subject, mut rows, warnings } = self;
+        let mut decided = None;
+        if let (Running::Search(search), TestSubject::Ever(equivalence)) = (&subject, &case.subject) {
+            let (proof, is_equal, found) = equivalence.judge(&case.test, search);
+            (decided, rows) = (Some((proof, is_equal)), found);
+        }
         if let Running::Robots(swarm, _) = subject {
             let timed = case.timed().expect("a test in physics");
             let trace = swarm.into_trace();
@@ -161,6 +178,9 @@ impl RunningCase {
             return TestRun { verdict, end, swarm, hold: Some(hold), warnings };
         }
         let mut verdict = verdict(&case.test, Level::Logic, None, rows);
+        if let Some((proof, is_equal)) = decided {
+            (verdict.proof, verdict.passed) = (Some(proof), is_equal);
+        }
         verdict.passed &= end == RunEnd::Complete && warnings.is_empty();
         if let TestSubject::Script(performance) = case.subject {
             verdict.printed = Some(performance.printed).filter(|printed| !printed.is_empty());

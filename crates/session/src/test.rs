@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use crate::compile::{Compiled, compile};
 use crate::contents::declared_file;
+use crate::equivalence::Equivalence;
 use crate::hold;
 use crate::options::CompileOptions;
 use crate::plan::plans;
@@ -83,11 +84,13 @@ pub(super) enum TestSubject {
     Gates(Netlist),
     /// Gates whose rows depend on what they do.
     Script(Box<Performance>),
+    /// Gates that are compared with others for ever.
+    Ever(Box<Equivalence>),
     Robots(Box<Compiled>, TestTiming),
 }
 
 /// The cases of a test: one for each swarm that is declared for its circuit in each world that the test names, or one
-/// at the level of logic, which has no worlds.
+/// at the level of logic, which has no worlds. A test for ever is always at the level of logic.
 ///
 /// # Errors
 /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
@@ -101,6 +104,12 @@ pub(super) fn cases(
         declared_file(program, name).map_err(|fault| vec![fault])?;
     }
     let netlist = elaborate(program, &test.circuit)?;
+    if let Stimulation::Ever { other, reference } = &test.stimulation {
+        let cancel = options.compile.cancel.clone();
+        let subject = Equivalence::new(program, test, netlist, (other, reference), cancel)?;
+        let (test, subject) = (Arc::new(test.clone()), TestSubject::Ever(Box::new(subject)));
+        return Ok(vec![TestCase { test, rows: [].into(), subject, ends_at_failure: false, printed: String::new() }]);
+    }
     let level = options.level;
     let performance = performance(sources, program, test, &netlist, &options.compile)?;
     let own = Arc::new(test.clone());
@@ -246,7 +255,7 @@ fn short_holds(
 ) -> Vec<Diagnostic> {
     let sufficient = || {
         let others = program.tests.iter().filter(|other| other.circuit == test.circuit && *other != test);
-        let others = others.filter(|other| !matches!(other.stimulation, Stimulation::Script(_)));
+        let others = others.filter(|other| matches!(other.stimulation, Stimulation::Rows(_) | Stimulation::All { .. }));
         let others = others.filter_map(|other| rows(program, other).ok());
         let cycles = others.map(|rows| hold::sufficient(&rows, compiled));
         cycles.fold(hold::sufficient(own, compiled), usize::max)
@@ -267,7 +276,7 @@ impl TestCase {
     /// The test with its swarm and its timing; `None` at the level of logic.
     pub(super) fn timed(&self) -> Option<TimedTest<'_>> {
         match &self.subject {
-            TestSubject::Gates(_) | TestSubject::Script(_) => None,
+            TestSubject::Gates(_) | TestSubject::Script(_) | TestSubject::Ever(_) => None,
             TestSubject::Robots(compiled, timing) => {
                 Some(TimedTest { test: &self.test, rows: &self.rows, compiled, timing })
             }
@@ -278,6 +287,7 @@ impl TestCase {
     pub fn work(&self) -> u64 {
         match &self.subject {
             TestSubject::Script(performance) => performance.progress().1 as u64,
+            TestSubject::Ever(_) => 1,
             _ => self.timed().map_or(self.rows.len(), |timed| timed.cycles(self.rows.len())) as u64,
         }
     }
@@ -286,7 +296,10 @@ impl TestCase {
     pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
             TestSubject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
-            TestSubject::Robots(_, TestTiming::Waves) | TestSubject::Gates(_) | TestSubject::Script(_) => &[],
+            TestSubject::Robots(_, TestTiming::Waves)
+            | TestSubject::Gates(_)
+            | TestSubject::Script(_)
+            | TestSubject::Ever(_) => &[],
         }
     }
 
@@ -310,7 +323,7 @@ impl TestCase {
         let timed = self.timed()?;
         let (inputs, ends) = (timed.inputs(rows), timed.ends(rows));
         match self.subject {
-            TestSubject::Gates(_) | TestSubject::Script(_) => None,
+            TestSubject::Gates(_) | TestSubject::Script(_) | TestSubject::Ever(_) => None,
             TestSubject::Robots(compiled, _) => Some(PhysicalTest { compiled: *compiled, inputs, ends }),
         }
     }
@@ -403,6 +416,7 @@ pub(super) fn verdict(
         weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
         rows,
         printed: None,
+        proof: None,
     }
 }
 
@@ -423,7 +437,7 @@ fn enough(test: &CircuitTest, rows: &[RowVerdict]) -> bool {
 fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let reference = match &test.stimulation {
         Stimulation::Rows(rows) => return Ok(rows.clone()),
-        Stimulation::Script(_) => unreachable!("scripts are performed"),
+        Stimulation::Script(_) | Stimulation::Ever { .. } => unreachable!("it has no rows before it runs"),
         Stimulation::All { reference } => reference,
     };
     let bits: usize = test.inputs.iter().map(|port| port.width).sum();

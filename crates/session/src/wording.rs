@@ -195,10 +195,14 @@ impl ClaimError {
     pub(super) fn at(self, span: Span) -> Diagnostic {
         let Self::NoSteps { circuit, why } = self;
         let (message, help) = match &why {
-            NoSteps::ClockHasNoValue { .. } => (why.to_string(), "leave it out: it is 1 after each rise"),
+            NoSteps::ClockHasNoValue { .. } => (why.to_string(), "leave it out: after each edge it has the same value"),
+            NoSteps::OtherSteps => (
+                format!("`{circuit}` cannot be compared with this circuit for ever: {why}"),
+                "give both the same clock, at the same port",
+            ),
             _ => (
                 format!("`{circuit}` has no steps: {why}"),
-                "a step is a rise of the one clock of all registers, or a row of inputs after which all settles",
+                "a step is an edge of the one clock of all registers, or a row of inputs after which all settles",
             ),
         };
         Diagnostic::new(Code::NoSteps, message, span, "claimed here").with_help(help)

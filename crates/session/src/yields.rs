@@ -42,10 +42,11 @@ pub struct WorldResult {
 }
 
 impl<'c> Yields<'c> {
-    /// Each case under each variation, times each of the numbers.
+    /// Each case under each variation, times each of the numbers. A case without robots is the same in every world, and
+    /// left out.
     pub fn of(cases: &'c [TestCase], vary: &[Variation], times: &[f64], worlds: usize, seed: u64) -> Self {
         let mut experiments = Vec::new();
-        for case in cases {
+        for case in cases.iter().filter(|case| case.world_name().is_some()) {
             for variation in vary {
                 let scaled = |&scale: &f64| Experiment { case, variation: variation.times(scale), scale };
                 experiments.extend(times.iter().map(scaled));

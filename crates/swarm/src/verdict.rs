@@ -61,6 +61,9 @@ pub struct TestVerdict {
     /// What the environment wrote as text, if it wrote any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<String>,
+    /// How a test for ever was decided, in words: `proved by induction over 1 step`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub proof: Option<String>,
 }
 
 impl TestVerdict {

@@ -67,6 +67,7 @@ test read "held-out" from "a.csv" at least 92.5%
 test read in [paper] from "b.csv"
 test a "last" for all inputs {
 }
+test mine "y" against other[2] for ever
 `;
   assert.deepEqual(declaredTests(source), [
     {
@@ -97,6 +98,7 @@ test a "last" for all inputs {
     { circuit: "read", title: "held-out", line: 25, endLine: 25, rows: [] },
     { circuit: "read", title: "", line: 26, endLine: 26, rows: [] },
     { circuit: "a", title: "last", line: 27, endLine: 28, rows: [] },
+    { circuit: "mine", title: "y", line: 29, endLine: 29, rows: [] },
   ]);
 });
 

@@ -25,6 +25,11 @@ test("a page, a picture and a text are shown under the name of their subject", (
     title: "walkers",
     text: "hold 4",
   });
+  assert.deepEqual(shownOf("nbc.prove", { ...LATCH, claim: 0 }, { passed: true, text: "d_latch" }), {
+    kind: "text",
+    title: "latch.nb",
+    text: "d_latch",
+  });
 });
 
 test("other answers show nothing", () => {

@@ -2,7 +2,7 @@
 
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording::DrawError;
-use crate::cli::runs::{CompleteRun, chosen_runs, names_of_tests, run_list};
+use crate::cli::runs::{CompleteRun, chosen_runs, in_physics, names_of_tests, run_list};
 use crate::cli::{Failure, Interrupt};
 use nbc_base::model::CircuitTest;
 use nbc_session::store::DiskWorld;
@@ -33,7 +33,7 @@ impl DrawRequest {
         let file = session.open(&self.what)?;
         self.named.check(std::slice::from_ref(&file)).map_err(Failure::plain)?;
         let choice = self.making.choice();
-        let chosen = chosen_runs(&file, None, &choice)?;
+        let chosen = in_physics(chosen_runs(&file, None, &choice)?);
         let test = match &self.test {
             Some(name) => Some(test_called(&file, name)?),
             None => chosen.tests.first().copied(),
@@ -72,5 +72,6 @@ fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, 
         name: name.to_owned(),
         known: names_of_tests(file).into_iter().collect(),
     };
-    file.tests(name).next().ok_or_else(|| unknown().into())
+    let called = in_physics(RunList { tests: file.tests(name).collect(), ..RunList::default() });
+    called.tests.into_iter().next().ok_or_else(|| unknown().into())
 }

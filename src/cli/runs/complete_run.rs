@@ -2,6 +2,7 @@
 
 use crate::cli::{Failure, Interrupt, Progress};
 use nbc_base::diag::Diagnostic;
+use nbc_base::model::Stimulation;
 use nbc_session::report::{Scheme, SwarmOutcome};
 use nbc_session::{
     Checked, CompileOptions, RunEnd, RunList, RunReport, Session, SimulationRun, SwarmRun, TestOptions, TestRun,
@@ -50,6 +51,12 @@ impl CompleteRun {
             Self::Simulation(run) => &run.warnings,
         }
     }
+}
+
+/// What robots can do of a list: tests for ever are decided at the level of logic alone.
+pub(in crate::cli) fn in_physics(mut list: RunList<'_>) -> RunList<'_> {
+    list.tests.retain(|test| !matches!(test.stimulation, Stimulation::Ever { .. }));
+    list
 }
 
 /// Runs tests and simulations in physics, with a bar.

@@ -28,7 +28,7 @@ impl From<RunChoiceError> for Diagnostic {
             RunChoiceError::NothingToRun { file } => {
                 let message = format!("`{file}` declares no test and no simulation, so there is nothing to run");
                 let help = "declare a test: `test my_circuit { a b | q` and a row for each input pattern; \
-                            `nbc check` only checks";
+                            `nbc check` only checks, and `nbc test` decides tests for ever";
                 fault(Code::Empty, message).with_help(help)
             }
             RunChoiceError::NoClaim { file } => fault(Code::Empty, format!("`{file}` claims nothing"))

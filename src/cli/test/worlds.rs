@@ -7,6 +7,7 @@ use clap::Args;
 use crate::cli::draw::wording::DrawError;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::number::number;
+use crate::cli::wording::UsageError;
 use crate::cli::world_runs::world_runs;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
@@ -63,6 +64,9 @@ impl WorldsArguments {
         self.check_picture()?;
         let times = if self.times.is_empty() { &[1.0][..] } else { &self.times };
         let yields = Yields::of(cases, &self.vary, times, self.count(), self.seed);
+        if yields.experiments.is_empty() {
+            return Err(UsageError::NoWorlds.into());
+        }
         let found = world_runs(session, &yields, interrupt, |robustness| {
             if context.format == OutputFormat::Text {
                 context.print(report::describe_robustness(robustness))?;

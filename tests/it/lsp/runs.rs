@@ -62,6 +62,23 @@ fn lenses_run_tests_and_simulations_and_give_their_pages() {
 }
 
 #[test]
+fn a_lens_proves_what_is_claimed() {
+    let claimed = "circuit f(a) -> (q) {\n    q = not a\n}\n\nprove f \"one of both\" {\n    never a and q\n}\n\n\
+                   prove f {\n    never q\n}\n";
+    let (_bench, mut client, uri, _) = opened("a.nb", claimed);
+    let found = lenses(&mut client, &uri);
+    let ran = execute(&mut client, titled(&found, "prove", 4)).unwrap();
+    let said = "f \"one of both\"\n    proved     never a and q  (by induction over 1 step)\n";
+    assert_eq!((&ran["passed"], &ran["text"]), (&json!(true), &json!(said)));
+    let ran = execute(&mut client, titled(&found, "prove", 8)).unwrap();
+    assert!(ran["passed"] == false && ran["text"].as_str().unwrap().contains("test f \"never q\" {"), "{ran}");
+    let all = json!({ "command": "nbc.prove", "arguments": [{ "uri": uri }] });
+    let ran = execute(&mut client, &all).unwrap();
+    assert!(ran["passed"] == false && ran["text"].as_str().unwrap().starts_with(said), "{ran}");
+    client.goodbye();
+}
+
+#[test]
 fn a_lens_tells_the_robots_and_the_clock() {
     let bench = Bench::new();
     let (uri, text) = file(&bench, "a.nb", TESTED);

@@ -52,7 +52,7 @@ pub fn passes(program: &Program, test: &CircuitTest) {
                 );
             }
         }
-        Stimulation::Script(_) => unreachable!("it depends on its circuit"),
+        Stimulation::Script(_) | Stimulation::Ever { .. } => unreachable!("it depends on its circuit"),
         Stimulation::All { reference } => {
             let mut expected = Logic::new(&elaborate_reference(program, reference).unwrap());
             let bits = test.inputs.iter().map(|column| column.width).sum::<usize>();
@@ -72,7 +72,7 @@ pub fn passes(program: &Program, test: &CircuitTest) {
 
 /// Whether more than the rows of a test decides: what its circuit does, or how many rows may fail.
 fn depends(test: &CircuitTest) -> bool {
-    matches!(test.stimulation, Stimulation::Script(_))
+    matches!(test.stimulation, Stimulation::Script(_) | Stimulation::Ever { .. })
         || test.rows_from.as_ref().is_some_and(|from| from.at_least.is_some())
 }
 

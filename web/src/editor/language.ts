@@ -11,7 +11,7 @@ import { tags } from "@lezer/highlight";
 
 const DECLARATIONS =
   /^(circuit|environment|enum|let|file|prove|test|material|evolution|library|swarm|world|schedule|simulate|stimulus)\b/;
-const WORDS = /^(if|then|else|for|in|init|net|table|match|repeat|until|log2|use|with|all|inputs|against|once)\b/;
+const WORDS = /^(if|then|else|for|in|init|net|table|match|repeat|until|log2|use|with|all|inputs|against|ever|once)\b/;
 const OPERATORS = /^(and|or|xor|nand|nor|xnor|not)\b(?!\()/;
 const UNITS = /^(steps?|cycles?|seconds?|ms|milliseconds|deg|degrees?|bins)\b/;
 

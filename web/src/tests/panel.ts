@@ -7,6 +7,7 @@ import { Observable } from "../observable";
 import type { Program } from "../program";
 import type { TestEntry, TestLevel, TestResult } from "../protocol";
 import { RequestError } from "../request";
+import { ClaimCards } from "./claims";
 import { verdictTable } from "./verdict";
 
 /** What is known of a test. */
@@ -19,6 +20,7 @@ export class TestsPanel {
   readonly host = element("div", { class: "tests" });
   /** The results by the number of the test, for the present text. */
   readonly states = new Observable(new Map<number, TestState>());
+  readonly claims: ClaimCards;
   readonly #list = element("div", { class: "list" });
   readonly #status = element("p", { class: "status", role: "status", "aria-live": "polite" });
 
@@ -28,7 +30,14 @@ export class TestsPanel {
     private readonly swarm: LiveSwarm,
     private readonly reveal: (line: number) => void,
     private readonly showSwarm: () => void,
+    append: (text: string) => void,
   ) {
+    this.claims = new ClaimCards(connection, program, {
+      line: reveal,
+      settle: () => this.#settle(),
+      watch: (circuit, test) => void this.#watch(circuit, test),
+      append,
+    });
     this.host.append(
       element(
         "div",
@@ -41,6 +50,7 @@ export class TestsPanel {
         this.#status,
       ),
       this.#list,
+      this.claims.host,
     );
     program.checked.on(() => {
       this.#stopAll();
@@ -114,26 +124,37 @@ export class TestsPanel {
     }
   }
 
-  /** Shows the swarm while the test gives its inputs, from the start. */
-  async #watch(test: TestEntry): Promise<void> {
+  async #watchDeclared(test: TestEntry): Promise<void> {
     await this.#settle();
     const index = this.#placeOf(test);
-    if (index !== undefined && (await this.#replay({ ...test, index }, { swarm: null, world: null }, 0))) {
+    if (index !== undefined) {
+      await this.#watch(test.circuit, index);
+    }
+  }
+
+  /** Shows the swarm while the test gives its inputs, from the start. */
+  async #watch(circuit: string, test: number | string): Promise<void> {
+    if (await this.#replay(circuit, test, { swarm: null, world: null }, 0)) {
       this.swarm.play();
     }
   }
 
-  /** Shows the swarm at the end of a row, if that is possible. */
-  async #replay(test: TestEntry, verdict: Pick<TestResult, "swarm" | "world">, row: number): Promise<boolean> {
+  /** Shows the swarm of a test at the end of a row, if that is possible. */
+  async #replay(
+    circuit: string,
+    test: number | string,
+    verdict: Pick<TestResult, "swarm" | "world">,
+    row: number,
+  ): Promise<boolean> {
     this.#status.textContent = row === 0 ? "compiling the circuit …" : "running the test up to this row …";
     const world = verdict.world === null ? {} : { world: verdict.world };
     try {
       const { swarm } = await this.connection.request(
         "replay",
-        { path: this.program.path.value, test: test.index, swarm: verdict.swarm, ...world, row },
+        { path: this.program.path.value, test, swarm: verdict.swarm, ...world, row },
         { progress: (done, all) => (this.#status.textContent = `running the test up to this row: ${done} of ${all}`) },
       );
-      this.program.forgetCompiled({ circuit: test.circuit, swarm: swarm.swarm });
+      this.program.forgetCompiled({ circuit, swarm: swarm.swarm });
       this.swarm.begin(swarm, true);
       this.showSwarm();
       this.#status.textContent = "";
@@ -146,7 +167,8 @@ export class TestsPanel {
 
   #build(): void {
     const tests = this.#tests();
-    if (tests.length === 0) {
+    const claims = this.program.checked.value?.claims ?? [];
+    if (tests.length === 0 && claims.length === 0) {
       const text = this.program.checked.value?.errors ? "The program has errors." : "This program has no tests.";
       fill(this.#list, element("p", { class: "empty" }, text));
       return;
@@ -174,18 +196,20 @@ export class TestsPanel {
       element(
         "div",
         { class: "bar" },
-        button("Run in physics", () => void this.#run(test, "physics"), {
-          "data-do": "physics",
-          disabled: state?.state === "running",
-        }),
+        !test.ever &&
+          button("Run in physics", () => void this.#run(test, "physics"), {
+            "data-do": "physics",
+            disabled: state?.state === "running",
+          }),
         button("Run as logic", () => void this.#run(test, "logic"), {
           "data-do": "logic",
           disabled: state?.state === "running",
         }),
-        button("Watch", () => void this.#watch(test), {
-          "data-do": "watch",
-          title: "Shows the robots while the test gives their inputs",
-        }),
+        !test.ever &&
+          button("Watch", () => void this.#watchDeclared(test), {
+            "data-do": "watch",
+            title: "Shows the robots while the test gives their inputs",
+          }),
         this.#result(state),
       ),
       ...this.#tables(test, state),
@@ -212,6 +236,10 @@ export class TestsPanel {
       );
     }
     const passed = state.results.every(verdict => verdict.passed);
+    const proof = state.results[0]?.proof ?? null;
+    if (proof !== null) {
+      return element("span", { class: `verdict ${passed ? "pass" : "fail"}` }, `${passed ? "✓" : "✗"} ${proof}`);
+    }
     const level = state.level === "physics" ? "in physics" : "as logic";
     return element(
       "span",
@@ -224,10 +252,11 @@ export class TestsPanel {
     if (state?.state !== "done") {
       return [];
     }
-    return state.results.map(verdict =>
+    const withRows = state.results.filter(verdict => verdict.proof === null || verdict.rows.length > 0);
+    return withRows.map(verdict =>
       verdictTable(verdict, {
         line: line => this.reveal(line),
-        moment: verdict.level === "physics" ? row => void this.#replay(test, verdict, row) : null,
+        moment: verdict.level === "physics" ? row => void this.#replay(test.circuit, test.index, verdict, row) : null,
       }),
     );
   }

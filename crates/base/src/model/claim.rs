@@ -20,11 +20,22 @@ pub struct Claim {
     pub inputs: Vec<Column>,
     /// The output ports of the circuit in order of declaration.
     pub outputs: Vec<Column>,
+    /// The nets inside the circuit that properties read.
+    pub inner: Vec<InnerNet>,
     /// The properties, in order of declaration.
     pub properties: Vec<Property>,
-    /// What the properties say, as a circuit: its inputs are the ports of the circuit and a clock that rises between
-    /// two steps, its outputs those of [`Property::outputs`].
+    /// What the properties say, as a circuit: its inputs are the ports of the circuit, the nets inside it,
+    /// and a clock that rises between two steps, its outputs those of [`Property::outputs`].
     pub monitor: Box<Circuit>,
+}
+
+/// A net inside a circuit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InnerNet {
+    /// Its name and its width in bits.
+    pub column: Column,
+    /// The place of its declaration.
+    pub declared: Span,
 }
 
 /// A property of the steps of a circuit.

@@ -37,7 +37,7 @@ pub use circuit::{
     MemoryRead, MemoryWrite, Net, NetSlot, Operator, Parameter, Relation, Size, SizeId, SizeKind, SizeOperator,
     Statement, Target,
 };
-pub use claim::{Claim, Property, PropertyKind};
+pub use claim::{Claim, InnerNet, Property, PropertyKind};
 pub use column::{Column, bit_parts};
 pub use enumeration::{Enumeration, EnumerationMember, MemberEncoding};
 pub use evolution::{

@@ -53,6 +53,13 @@ pub enum Stimulation {
         /// else can name it.
         reference: Box<Circuit>,
     },
+    /// Against a circuit with the same ports: no output ever differs, whatever the inputs. A search decides it.
+    Ever {
+        /// The other circuit.
+        other: Instance,
+        /// A circuit with the ports of the tested one that calls the other. It is not part of the program.
+        reference: Box<Circuit>,
+    },
 }
 
 /// Rows that depend on what the circuit does: an environment gives it inputs, or a row is repeated until an output has

@@ -185,6 +185,18 @@ impl<'a> Builder<'a> {
         (inputs, outputs)
     }
 
+    /// The net of that name which is no port and no array, and where it is declared; `None` if there are several, as of
+    /// a loop.
+    pub(super) fn inner_net(&self, id: ModuleId, name: &str) -> Option<(Column, Span)> {
+        let module = self.module(id);
+        let ports = module.inputs.len() + module.outputs.len();
+        let mut named = (ports..module.nets.len()).filter(|&net| module.nets[net].name == name);
+        let net = named.next().filter(|_| named.next().is_none())?;
+        let found = &module.nets[net];
+        let is_plain = found.width.is_some() && found.words.is_none();
+        is_plain.then(|| (self.column(module.circuit, &module.port(net)), found.span))
+    }
+
     fn column(&self, circuit: CircuitId, port: &ModulePort) -> Column {
         let circuit = self.circuit(circuit);
         let net = circuit.nets[..circuit.inputs + circuit.outputs].get(port.net as usize);

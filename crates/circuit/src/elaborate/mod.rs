@@ -63,6 +63,19 @@ pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Resul
     finish(builder, module, &instance.to_string())
 }
 
+/// The netlist of a circuit whose outputs are followed by nets inside it, which are declared at these places.
+///
+/// # Errors
+/// As [`elaborate`].
+pub fn elaborate_watched(program: &Program, instance: &Instance, nets: &[Span]) -> Result<Netlist, Vec<Diagnostic>> {
+    let mut builder = Builder::new(program);
+    let module = builder.instance(instance);
+    if let Some(ModuleId(at)) = module {
+        nets.iter().for_each(|&net| builder.modules[at as usize].watch(net));
+    }
+    finish(builder, module, &instance.to_string())
+}
+
 /// The netlist of an environment, whose ports also have the accesses to its memories, and those of each memory.
 ///
 /// # Errors
@@ -151,6 +164,13 @@ impl<'a> Inspector<'a> {
         let module = module?;
         self.0.look_for_loops(module);
         Some(self.0.columns(module))
+    }
+
+    /// A net inside a circuit with numbers for its first parameters, and the place of its declaration, if one has that
+    /// name.
+    pub fn net(&mut self, circuit: CircuitId, arguments: &[u64], place: Span, name: &str) -> Option<(Column, Span)> {
+        let module = self.0.with_arguments(circuit, arguments, place)?;
+        self.0.inner_net(module, name)
     }
 
     /// Whether a circuit with numbers for its first parameters has memory, if it can be built.

@@ -106,6 +106,15 @@ impl Module {
         ModulePort { net: net as u32, name: name.clone(), first: *first, width: width.expect("a port has a width") }
     }
 
+    /// Makes the net declared at a place an output more.
+    pub(super) fn watch(&mut self, declared: Span) {
+        for net in (0..self.nets.len()).filter(|&net| self.nets[net].span == declared).collect::<Vec<_>>() {
+            let port = self.port(net);
+            self.output_bits.extend(port.first..port.first + port.width);
+            self.outputs.push(port);
+        }
+    }
+
     /// Makes the nets declared at a place its output.
     pub(super) fn show(&mut self, declared: Span) {
         let shown: Vec<usize> = (0..self.nets.len()).filter(|&net| self.nets[net].span == declared).collect();

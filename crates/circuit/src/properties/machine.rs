@@ -1,9 +1,10 @@
 //! The steps of a circuit, as and-gates.
 //!
-//! The steps are the rows of a test. A circuit whose registers have one clock makes a step when it rises: the first
-//! step is before the first rise and shows the start values, and each later one shows the outputs after a rise, with
-//! the inputs that were there when the clock rose. A circuit without a clock makes a step whenever its inputs change
-//! and everything has settled, at the level of logic: all cells take the same time. It must settle for all inputs.
+//! The steps are the rows of a test. A circuit whose registers have one clock makes a step when it rises, or when it
+//! falls, as they store: the first step is before the first edge and shows the start values, and each later one shows
+//! the outputs after an edge, with the inputs that were there at the edge. A circuit without a clock makes a step
+//! whenever its inputs change and everything has settled, at the level of logic: all cells take the same time. It must
+//! settle for all inputs.
 
 use crate::and_graph::{AndGraph, AndLiteral};
 use crate::network::{Network, View};
@@ -20,13 +21,22 @@ const MOST_CELLS: usize = 400;
 /// The most time steps after which such a circuit must have settled.
 const MOST_TIME: usize = 64;
 
+/// The clock whose edges are the steps of a circuit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StepClock {
+    /// The clock, as an index of the input ports.
+    pub input: usize,
+    /// Whether the registers store when it rises. If not, they do when it falls.
+    pub rises: bool,
+}
+
 /// A circuit as a machine that makes steps.
 #[derive(Clone, Debug)]
 pub(super) struct Machine {
     /// The number of input ports, the clock included.
     pub(super) inputs: usize,
-    /// The clock, as an index of the inputs.
-    pub(super) clock: Option<usize>,
+    /// The clock, if it has registers.
+    pub(super) clock: Option<StepClock>,
     /// The bits of its state.
     pub(super) state: Vec<StateBit>,
     kind: MachineKind,
@@ -53,17 +63,14 @@ impl Machine {
     /// When the netlist is not well formed.
     pub(super) fn of(netlist: &Netlist, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {
         match ClockStep::of(netlist) {
-            Ok(step) if step.rises => Ok(Self::clocked(step)),
-            Ok(step) => {
-                let clock = step.clock.map(|at| step.inputs[at].clone());
-                Err(NoSteps::Falls { clock: clock.expect("what falls is a clock") })
-            }
+            Ok(step) => Ok(Self::clocked(step)),
             Err(why) => Self::settling(netlist, why, allowed, cancel),
         }
     }
 
     fn clocked(step: ClockStep) -> Self {
-        let ClockStep { inputs, clock, state, logic, .. } = step;
+        let ClockStep { inputs, clock, rises, state, logic, .. } = step;
+        let clock = clock.map(|input| StepClock { input, rises });
         Self { inputs: inputs.len(), clock, state, kind: MachineKind::Clocked(logic) }
     }
 
@@ -85,9 +92,18 @@ impl Machine {
         Ok(Self { inputs, clock: None, state, kind: MachineKind::Settling(step, time) })
     }
 
-    /// Whether it makes a step when its clock rises.
+    /// Whether its steps are the edges of a clock.
     pub(super) fn is_clocked(&self) -> bool {
         self.clock.is_some()
+    }
+
+    /// Whether it can make its steps with the edges of another's clock, one of its inputs: it has no state, and does
+    /// not read it.
+    pub(super) fn ignores(&self, clock: usize) -> bool {
+        match &self.kind {
+            MachineKind::Clocked(logic) => self.state.is_empty() && !reads(logic, clock),
+            MachineKind::Settling(..) => false,
+        }
     }
 
     /// What the outputs show in a step, and the state after it. `first` is 1 in the first step.
@@ -116,6 +132,16 @@ impl Machine {
             }
         }
     }
+}
+
+/// Whether an output of a network depends on an input.
+pub(super) fn reads(network: &Network, input: usize) -> bool {
+    let mut used: Vec<bool> = (0..network.signals()).map(|signal| signal == 2 + input).collect();
+    for (at, gate) in network.gates.iter().enumerate() {
+        used[2 + network.inputs + at] =
+            (0..2).any(|pin| gate.function.depends_on(pin) && used[gate.pins[pin] as usize]);
+    }
+    network.outputs.iter().any(|&output| used[output as usize])
 }
 
 /// The outputs of a network of ports and a state.

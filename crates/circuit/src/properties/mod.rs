@@ -1,9 +1,10 @@
 //! Properties of all steps of a machine: a search proves them, or finds the shortest run that violates one
 //! (docs/always.md).
 //!
-//! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), as a file of
-//! AIGER is one already. The search looks at one number of steps after the other (`bounded.rs`), tries induction, and
-//! looks for an invariant (`frames.rs`). Proofs are checked by other code (`certificate.rs`), and runs are simulated.
+//! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), and so do two
+//! circuits that are to be equal (`pair.rs`); a file of AIGER is one already. The search looks at one number of steps
+//! after the other (`bounded.rs`), tries induction, and looks for an invariant (`frames.rs`). Proofs are checked by other
+//! code (`certificate.rs`), and runs are simulated.
 
 mod bounded;
 mod certificate;
@@ -11,6 +12,7 @@ mod cubes;
 mod frames;
 mod machine;
 mod monitor;
+mod pair;
 mod search;
 mod solver;
 mod system;
@@ -21,6 +23,7 @@ mod wording;
 
 pub use crate::and_graph::AndLiteral;
 pub use certificate::InductiveProof;
+pub use machine::StepClock;
 pub use monitor::Monitored;
 pub use search::{PropertySearch, PropertyVerdict, SearchBudget};
 pub use system::{SystemRegister, SystemRun, TransitionSystem};

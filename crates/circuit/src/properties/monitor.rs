@@ -5,7 +5,7 @@
 use crate::Netlist;
 use crate::and_graph::{AndGraph, AndLiteral};
 use crate::network::{Network, Signal};
-use crate::properties::machine::Machine;
+use crate::properties::machine::{Machine, StepClock, reads};
 use crate::properties::system::{SystemRegister, TransitionSystem};
 use crate::properties::wording::NoSteps;
 use crate::waves::{ClockStep, StateBit};
@@ -19,8 +19,8 @@ pub struct Monitored {
     pub system: TransitionSystem,
     /// For each input of the system, the input port of the circuit.
     pub ports: Vec<usize>,
-    /// The input port that is the clock.
-    pub clock: Option<usize>,
+    /// The clock whose edges are the steps, if there is one.
+    pub clock: Option<StepClock>,
 }
 
 impl Monitored {
@@ -40,8 +40,8 @@ impl Monitored {
     ) -> Result<Self, NoSteps> {
         let monitor = ClockStep::of(monitor).expect("a monitor has registers of one clock");
         let machine = &Machine::of(circuit, &allowed(&monitor, properties, circuit.inputs().len()), cancel)?;
-        if let Some(clock) = machine.clock.filter(|&clock| reads(&monitor.logic, clock)) {
-            return Err(NoSteps::ClockHasNoValue { clock: monitor.inputs[clock].clone() });
+        if let Some(clock) = machine.clock.filter(|clock| reads(&monitor.logic, clock.input)) {
+            return Err(NoSteps::ClockHasNoValue { clock: monitor.inputs[clock.input].clone() });
         }
         Ok(Assembly::of(machine, &monitor, properties))
     }
@@ -71,16 +71,6 @@ fn allowed(monitor: &ClockStep, properties: &[Property], ports: usize) -> Networ
     made
 }
 
-/// Whether an output of a network depends on an input.
-fn reads(network: &Network, input: usize) -> bool {
-    let mut used: Vec<bool> = (0..network.signals()).map(|signal| signal == 2 + input).collect();
-    for (at, gate) in network.gates.iter().enumerate() {
-        used[2 + network.inputs + at] =
-            (0..2).any(|pin| gate.function.depends_on(pin) && used[gate.pins[pin] as usize]);
-    }
-    network.outputs.iter().any(|&output| used[output as usize])
-}
-
 /// Registers that are added to a machine.
 struct Assembly {
     graph: AndGraph,
@@ -91,7 +81,8 @@ struct Assembly {
 
 impl Assembly {
     fn of(machine: &Machine, monitor: &ClockStep, properties: &[Property]) -> Monitored {
-        let ports: Vec<usize> = (0..machine.inputs).filter(|&port| Some(port) != machine.clock).collect();
+        let clock = machine.clock.map(|clock| clock.input);
+        let ports: Vec<usize> = (0..machine.inputs).filter(|&port| Some(port) != clock).collect();
         let depth = properties.iter().map(|property| property.before).max().unwrap_or(0);
         let waits: usize = properties.iter().filter_map(|property| property.within).sum();
         let own = usize::from(machine.is_clocked());

@@ -45,6 +45,11 @@ pub struct SearchBudget {
     pub work: u64,
 }
 
+impl SearchBudget {
+    /// A budget for those who wait for the answer and see no time pass, such as the user of a page or of an editor.
+    pub const SHORT: Self = Self { steps: 10_000, work: 300_000 };
+}
+
 impl Default for SearchBudget {
     fn default() -> Self {
         Self { steps: 10_000, work: 50_000_000 }

@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::and_graph::AndGraph;
+use crate::passes::DissolveWires;
 use crate::properties::bounded::{Bounded, Induction};
 use crate::properties::frames::{Found, Frames};
 use crate::properties::system::is_on;
@@ -273,7 +274,7 @@ fn steps_of_a_clocked_circuit_are_rows_of_a_test() {
     let kinds = [(PropertyKind::Never, 1), (PropertyKind::Never, 1), (PropertyKind::Never, 0)];
     let properties = kinds.map(|(kind, before)| property(kind, false, None, before));
     let made = monitored(&stored(), &same, &properties);
-    assert_eq!((&made.ports[..], made.clock), (&[0][..], Some(1)));
+    assert_eq!((&made.ports[..], made.clock), (&[0][..], Some(StepClock { input: 1, rises: true })));
     let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
     assert!(matches!(found[0], PropertyVerdict::Proved(_)), "{found:?}");
     let PropertyVerdict::Refuted(run) = &found[1] else { panic!("the output follows at once") };
@@ -419,4 +420,78 @@ fn circuits_without_memory_have_no_state() {
     let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
     let PropertyVerdict::Refuted(run) = &found[0] else { panic!("three is both") };
     assert_eq!(run.inputs, [[true, true, true]]);
+}
+
+/// What is known of the equality of two circuits.
+fn compared(one: &Netlist, two: &Netlist) -> PropertyVerdict {
+    let made = Monitored::of_two([one, two], &CancelFlag::default()).unwrap();
+    PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish().remove(0)
+}
+
+/// Whether two circuits show the same in random steps.
+fn agree(one: &Netlist, two: &Netlist, random: &mut ChaCha8Rng) -> bool {
+    let inputs = one.inputs().len();
+    let [mut one, mut two] = [one, two].map(Logic::new);
+    (0..300).all(|_| {
+        let mut row: Vec<bool> = (0..inputs).map(|_| random.random()).collect();
+        [false, true].into_iter().all(|clock| {
+            // The clock is the last input of a random machine.
+            row[inputs - 1] = clock;
+            one.settle(&row) == two.settle(&row)
+        })
+    })
+}
+
+#[test]
+fn random_circuits_are_equal_to_themselves_without_wires_and_rarely_to_others() {
+    let mut random = ChaCha8Rng::seed_from_u64(64);
+    let mut different = 0;
+    for _ in 0..150 {
+        let source = crate::example::random_machine(&mut random);
+        let mut plain = source.clone();
+        DissolveWires.run_on(&mut plain).unwrap();
+        assert!(matches!(compared(&source, &plain), PropertyVerdict::Proved(_)), "{source}");
+        let other = crate::example::random_machine(&mut random);
+        if other.inputs().len() != source.inputs().len() || other.outputs().len() != source.outputs().len() {
+            continue;
+        }
+        match compared(&source, &other) {
+            PropertyVerdict::Proved(_) => assert!(agree(&source, &other, &mut random), "{source}{other}"),
+            PropertyVerdict::Refuted(_) => different += 1,
+            verdict @ PropertyVerdict::Undecided { .. } => panic!("{verdict:?}: {source}{other}"),
+        }
+    }
+    assert!(different > 10, "{different} are different");
+}
+
+#[test]
+fn circuits_of_different_steps_are_not_compared() {
+    let inverted = |rises: bool| {
+        let mut netlist = Netlist::new("one");
+        let [d, clock] = ["d", "clk"].map(|name| netlist.add_input(name));
+        let edge = if rises { clock } else { netlist.add_gate(Function::NOT, &[clock]) };
+        let q = flip_flop(&mut netlist, "q", d, edge, false);
+        netlist.add_output("q", q);
+        netlist
+    };
+    let reads = {
+        let mut netlist = Netlist::new("and");
+        let [d, clock] = ["d", "clk"].map(|name| netlist.add_input(name));
+        let q = netlist.add_gate(Function::AND, &[d, clock]);
+        netlist.add_output("q", q);
+        netlist
+    };
+    let compare = |one: &Netlist, two: &Netlist| Monitored::of_two([one, two], &CancelFlag::default());
+    for two in [inverted(false), reads] {
+        assert_eq!(compare(&inverted(true), &two).unwrap_err(), (1, NoSteps::OtherSteps));
+    }
+    // A circuit that stores when its clock falls is compared with another one of that kind.
+    let falls = compare(&inverted(false), &inverted(false)).unwrap();
+    assert_eq!(falls.clock, Some(StepClock { input: 1, rises: false }));
+    let mut constant = Netlist::new("zero");
+    let _ = ["d", "clk"].map(|name| constant.add_input(name));
+    let zero = constant.add_constant(false);
+    constant.add_output("q", zero);
+    let PropertyVerdict::Refuted(run) = compared(&stored(), &constant) else { panic!("it stores a 1") };
+    assert_eq!(run.inputs, [[false], [true]]);
 }

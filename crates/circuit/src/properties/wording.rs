@@ -7,11 +7,6 @@ use crate::waves::WaveError;
 /// Why a circuit has no steps in which a property could hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSteps {
-    /// Its registers take their values when the clock falls.
-    Falls {
-        /// The clock.
-        clock: String,
-    },
     /// It has memory that is no register of one clock, and is too large for other steps.
     Memory(WaveError),
     /// It has feedback that does not settle for some inputs.
@@ -19,6 +14,9 @@ pub enum NoSteps {
         /// The time that was tried.
         most: usize,
     },
+    /// Its registers have another clock than those of the circuit that it is compared with, or it has none and reads
+    /// that clock.
+    OtherSteps,
     /// A property reads the clock.
     ClockHasNoValue {
         /// The clock.
@@ -31,13 +29,13 @@ pub enum NoSteps {
 impl fmt::Display for NoSteps {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Falls { clock } => write!(f, "its registers store when `{clock}` falls, and a step is a rise"),
             Self::Memory(why) => why.fmt(f),
             Self::Unsettled { most } => {
                 write!(f, "from some settled state and for some inputs, it does not settle within {most} time steps")
             }
+            Self::OtherSteps => f.write_str("its steps are not the edges of the same clock"),
             Self::ClockHasNoValue { clock } => {
-                write!(f, "a property cannot read the clock `{clock}`: each step after the first is a rise of it")
+                write!(f, "a property cannot read the clock `{clock}`: each step after the first is an edge of it")
             }
             Self::Cancelled => f.write_str("the check was cancelled"),
         }

@@ -209,6 +209,7 @@ fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
                 | Rule::all_word
                 | Rule::inputs_word
                 | Rule::against_word
+                | Rule::ever_word
                 | Rule::init_word
                 | Rule::net_word
                 | Rule::if_word

@@ -61,10 +61,11 @@ impl Converter<'_> {
         let environment =
             environment.and_then(|named| super::convert::parts(named).next()).map(|name| self.name(&name));
         let worlds = parts.next_if(|part| part.as_rule() == Rule::in_worlds).map_or(Vec::new(), |all| self.names(all));
-        let what = parts.next().expect("a table, a file or `for all inputs`");
+        let what = parts.next().expect("what the circuit must do");
         let kind = match what.as_rule() {
             Rule::test_table => TestKind::Table(self.test_table(what)),
             Rule::from_file => self.rows_from_file(what),
+            Rule::for_ever => TestKind::Ever(self.instance(super::convert::parts(what).next().expect("a circuit"))),
             _ => self.for_all(what),
         };
         Test { circuit, title, environment, worlds, kind }

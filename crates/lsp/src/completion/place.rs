@@ -264,7 +264,10 @@ mod tests {
     fn places_of_other_declarations() {
         assert_eq!([place("$"), place("use \"a\"\n$"), place("circuit f(a) -> (q) { q = a }\n\n$")], ["Outside"; 3]);
         assert_eq!([place("use $"), place("use \"a\",\n    $")], ["UsedFile"; 2]);
-        assert_eq!([place("test $"), place("test f for all inputs against $")], ["Circuit"; 2]);
+        assert_eq!(
+            [place("test $"), place("test f for all inputs against $"), place("test f \"as\" against $")],
+            ["Circuit"; 3]
+        );
         assert_eq!(place("test f {\n    a $"), "Columns(\"f\")");
         assert_eq!(place("test f {\n    a | q\n    0 $"), "Row");
         assert_eq!(place("test f {\n    a | q\n    0 | 1 for 3 $"), "Unit");

@@ -5,7 +5,7 @@ use nbc_lang::syntax::tree::RecordKeyword;
 const MANUAL: &str = include_str!("../../language.md");
 
 /// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 51] = [
+const KEYWORDS: [(&str, &str); 52] = [
     ("against", "Tests"),
     ("all", "Tests"),
     ("always", "Properties"),
@@ -18,6 +18,7 @@ const KEYWORDS: [(&str, &str); 51] = [
     ("else", "Expressions"),
     ("enum", "Enumerations"),
     ("environment", "Environments"),
+    ("ever", "Tests"),
     ("evolution", "Evolutions"),
     ("file", "Environments"),
     ("for", "Parameters and `for`"),

@@ -18,7 +18,7 @@ use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::Checked;
 
-pub(super) use command::{COMMANDS, RUN, SCHEMATIC, TEST, TIMING};
+pub(super) use command::{COMMANDS, PROVE, RUN, SCHEMATIC, TEST, TIMING};
 pub(super) use order::{OrderError, RunOrder};
 pub(super) use outcome::RunOutcome;
 pub(super) use watcher::RunEvent;

@@ -3,7 +3,7 @@
 use gen_lsp_types::{ExecuteCommandParams, Uri};
 use serde_json::Value;
 
-use crate::runs::command::{RUN, SCHEMATIC, TEST, TIMING};
+use crate::runs::command::{PROVE, RUN, SCHEMATIC, TEST, TIMING};
 use nbc_session::{Checked, Choice};
 use nbc_swarm::Level;
 
@@ -20,6 +20,8 @@ pub(crate) struct RunOrder {
 pub(super) enum RunTask {
     /// Tests and simulations of these numbers; all tests, and in physics all simulations, if there are none.
     Run { level: Level, test: Option<usize>, simulation: Option<usize> },
+    /// The claim of this number; all if there is none.
+    Prove(Option<usize>),
     /// The picture of a circuit made of robots.
     Schematic(Choice),
     /// The times of a circuit's robots.
@@ -48,6 +50,7 @@ impl RunOrder {
         let task = match asked.command.as_str() {
             RUN => run(Level::Physics),
             TEST => run(Level::Logic),
+            PROVE => RunTask::Prove(number("claim")),
             SCHEMATIC => RunTask::Schematic(choice),
             TIMING => RunTask::Timing(choice),
             other => return Err(OrderError::Command(other.to_owned())),
@@ -61,6 +64,7 @@ impl RunOrder {
         match &self.task {
             RunTask::Run { level: Level::Physics, .. } => format!("simulating {file}"),
             RunTask::Run { .. } => format!("testing {file}"),
+            RunTask::Prove(_) => format!("proving {file}"),
             RunTask::Schematic(_) | RunTask::Timing(_) => format!("compiling {file}"),
         }
     }

@@ -6,9 +6,13 @@ use crate::runs::outcome::RunOutcome;
 use crate::runs::watcher::Watcher;
 use crate::shell::LanguageShell;
 use nbc_base::diag::Diagnostics;
+use nbc_base::model::Claim;
 use nbc_base::source::SharedWorld;
+use nbc_circuit::properties::SearchBudget;
 use nbc_session::report::{self, Scheme};
-use nbc_session::{Checked, Choice, CompileOptions, Compiled, RunList, RunReport, Session, TestOptions};
+use nbc_session::{
+    Checked, Choice, ClaimReport, CompileOptions, Compiled, Observer, RunList, RunReport, Session, TestOptions,
+};
 use nbc_swarm::{Level, Room};
 
 /// Does the work of a command.
@@ -28,6 +32,7 @@ pub(super) fn perform(
             let report = run(&session, checked, *level, (*test, *simulation), watcher)?;
             finish(checked, *level, &report, shell, &world)
         }
+        RunTask::Prove(claim) => prove(&session, checked, *claim, watcher, &world),
         RunTask::Schematic(choice) => {
             let compiled = compile(&session, checked, choice, watcher)?;
             let picture = compiled.schematic(Scheme::default()).top();
@@ -73,6 +78,34 @@ fn run(
     let options = TestOptions { level: Some(level), compile: options(watcher) };
     let report = session.run_list(checked, &list, &options, watcher).map_err(|faults| said(&faults))?;
     going(watcher).map(|()| report)
+}
+
+/// Decides the chosen claim, or all. The report has the tests that refute properties.
+fn prove(
+    session: &Session,
+    checked: &Checked,
+    claim: Option<usize>,
+    watcher: &mut Watcher,
+    world: &SharedWorld,
+) -> Result<RunOutcome, RequestError> {
+    let claims = checked.program.claims.iter().enumerate().filter(|(at, _)| claim.is_none_or(|claim| claim == *at));
+    let claims: Vec<&Claim> = claims.map(|(_, claim)| claim).collect();
+    let (mut proved, mut text) = (!claims.is_empty(), String::new());
+    for (part, claim) in claims.iter().enumerate() {
+        watcher.begin(part, claims.len());
+        let search = session.prove(checked, claim, SearchBudget::SHORT, watcher.stop.clone());
+        let mut search = search.map_err(|faults| said(&faults))?;
+        while search.advance(watcher) {}
+        going(watcher)?;
+        let report = ClaimReport::of(&search.finish());
+        proved &= report.count("proved") == report.properties().len();
+        text += &report.text();
+    }
+    if claims.is_empty() {
+        Err(RequestError::NothingToRun)
+    } else {
+        Ok(RunOutcome::new(Some(proved), text, None, world))
+    }
 }
 
 /// The default options; compiling ends early when the run is stopped.

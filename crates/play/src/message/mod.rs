@@ -2,6 +2,7 @@
 //! and from those of the requests (`typescript.rs`); docs/play-protocol.md describes them.
 
 mod bodies;
+mod claim;
 mod class;
 mod evolution;
 mod export;
@@ -19,6 +20,7 @@ use ts_rs::TS;
 pub(super) use bodies::{
     CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
 };
+pub(super) use claim::{ClaimAnswer, ClaimEntry};
 pub(super) use class::ClassName;
 pub use class::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
 pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
@@ -77,6 +79,7 @@ pub(super) enum RequestResult {
     Compile(SwarmAnswer),
     Replay(SwarmAnswer),
     Test(TestAnswer),
+    Prove(ClaimAnswer),
     Robots(RobotCards),
     Probe(ProbeReport),
     Keep(KeptRobot),

@@ -4,6 +4,7 @@ use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
+use super::claim::ClaimEntry;
 use super::finding::Finding;
 use nbc_base::model::Column;
 
@@ -16,6 +17,7 @@ pub(crate) struct ProgramReport {
     pub(crate) diagnostics: Vec<Finding>,
     pub(crate) circuits: Vec<CircuitEntry>,
     pub(crate) tests: Vec<TestEntry>,
+    pub(crate) claims: Vec<ClaimEntry>,
 }
 
 /// A circuit whose parameters are known.
@@ -37,9 +39,11 @@ pub(crate) struct TestEntry {
     pub(crate) circuit: String,
     pub(crate) title: String,
     pub(crate) line: usize,
+    /// Whether it is decided for ever, at the level of logic alone.
+    pub(crate) ever: bool,
     pub(crate) inputs: Vec<PortEntry>,
     pub(crate) outputs: Vec<PortEntry>,
-    /// What it gives to its circuit, in words: `all inputs`, or the number of rows.
+    /// What it gives to its circuit, in words: `all inputs`, `for ever`, or the number of rows.
     pub(crate) extent: String,
     /// The first rows. None if they are found only when the test runs.
     pub(crate) rows: Vec<TestRowEntry>,

@@ -36,6 +36,8 @@ pub(crate) struct TestResult {
     rows: Vec<RowResult>,
     /// What the environment wrote as text.
     printed: Option<String>,
+    /// How a test for ever was decided, in words.
+    proof: Option<String>,
 }
 
 /// The verdict of a row.
@@ -86,6 +88,7 @@ impl From<&TestVerdict> for TestResult {
             outputs: PortEntry::of(&verdict.outputs),
             rows: verdict.rows.iter().take(listed(&verdict.inputs, &verdict.outputs)).map(RowResult::from).collect(),
             printed: verdict.printed.clone(),
+            proof: verdict.proof.clone(),
         }
     }
 }

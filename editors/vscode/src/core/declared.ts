@@ -8,7 +8,7 @@ export interface DeclaredTest {
   title: string;
   line: number;
   endLine: number;
-  /** The rows that are written; a test of all inputs has none. */
+  /** The rows that are written; a test of all inputs or for ever has none. */
   rows: DeclaredRow[];
 }
 
@@ -80,17 +80,17 @@ function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: n
   const at = afterClauses(tokens, name + (titled ? 2 : 1));
   const allInputs = is(tokens[at], "for");
   const body = allInputs ? at + 3 : at;
-  const against = allInputs && is(tokens[body], "against");
+  const against = is(tokens[body], "against");
   const fromFile = is(tokens[body], "from") && tokens[body + 1]?.kind === "text";
   if (!against && !fromFile && !is(tokens[body], "{")) {
     return undefined;
   }
   const last = against
-    ? afterInstance(tokens, body + 1)
+    ? afterEver(tokens, afterInstance(tokens, body + 1))
     : fromFile
       ? afterShare(tokens, body + 1)
       : closing(tokens, body, "{", "}");
-  const rows = allInputs || fromFile ? [] : rowsOf(tokens.slice(body + 1, last));
+  const rows = against || allInputs || fromFile ? [] : rowsOf(tokens.slice(body + 1, last));
   const endLine = tokens[last]!.line;
   return { test: { circuit, title, line: tokens[start]!.line, endLine, rows }, last };
 }
@@ -104,6 +104,11 @@ function afterClauses(tokens: Token[], at: number): number {
     return (is(tokens[at + 1], "[") ? closing(tokens, at + 1, "[", "]") : at + 1) + 1;
   }
   return at;
+}
+
+/** The last token of the words `for ever` after `at`, if they are there. */
+function afterEver(tokens: Token[], at: number): number {
+  return is(tokens[at + 1], "for") && is(tokens[at + 2], "ever") ? at + 2 : at;
 }
 
 /** The last token of a file at `at` and of the share of its rows that must hold: `at least 93%`. */

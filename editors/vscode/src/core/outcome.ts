@@ -3,7 +3,7 @@
 import * as path from "node:path";
 
 /** The commands of the server. Their argument is an object with the `uri` of an open text, and what to run of it. */
-export type Order = "nbc.run" | "nbc.test" | "nbc.schematic" | "nbc.timing";
+export type Order = "nbc.run" | "nbc.test" | "nbc.prove" | "nbc.schematic" | "nbc.timing";
 
 /** What the panel shows. */
 export type Shown =
@@ -23,7 +23,9 @@ export function shownOf(order: string, argument: unknown, answer: unknown): Show
   if (typeof file === "string") {
     return { kind: file.endsWith(".svg") ? "drawing" : "report", title, file };
   }
-  return typeof text === "string" && order === "nbc.timing" ? { kind: "text", title, text } : undefined;
+  return typeof text === "string" && ["nbc.prove", "nbc.timing"].includes(order)
+    ? { kind: "text", title, text }
+    : undefined;
 }
 
 /** The swarm, the circuit or the file that a command is about. */

@@ -49,6 +49,8 @@ export interface TestResult {
   inputs: Port[];
   outputs: Port[];
   rows: RowResult[];
+  /** How a test for ever was decided, in words. */
+  proof?: string;
 }
 
 /** A failed row, in words. */

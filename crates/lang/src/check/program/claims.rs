@@ -4,12 +4,13 @@ use crate::check::against::PortLists;
 use crate::check::circuit::monitor;
 use crate::check::expression::{BEFORE, first_leaf};
 use crate::check::program::Assembly;
+use crate::check::uses::{NameKind, NameUse};
 use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::PropertyError;
 use crate::syntax::tree::{self, ExpressionSyntaxId, ExpressionSyntaxKind, NameSyntax, PropertySyntax};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Claim, Program, Property, PropertyKind};
+use nbc_base::model::{Claim, InnerNet, Instance, Program, Property, PropertyKind};
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
 
@@ -34,13 +35,14 @@ impl<'a> Assembly<'a> {
             self.faults.push(error.at(source.circuit.name.span));
         }
         let properties = source.properties.iter().map(|property| self.property(property, source)).collect();
-        let monitor = self.monitor(source, (&inputs, &outputs), program)?;
+        let inner = self.inner_nets(source, &circuit, (&inputs, &outputs), inspector);
+        let monitor = self.monitor(source, (&inputs, &outputs), &inner, program)?;
         if self.faults[before..].iter().any(Diagnostic::is_error) || is_broken {
             return None;
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
-        Some(Claim { circuit, title, span, file, line, inputs, outputs, properties, monitor: Box::new(monitor) })
+        Some(Claim { circuit, title, span, file, line, inputs, outputs, inner, properties, monitor: Box::new(monitor) })
     }
 
     fn property(&mut self, source: &PropertySyntax, claim: &tree::Prove) -> Property {
@@ -77,11 +79,40 @@ impl<'a> Assembly<'a> {
         property
     }
 
-    /// The circuit that watches the ports: each expression drives an output of its own.
+    /// The nets inside a circuit that properties read.
+    fn inner_nets(
+        &mut self,
+        source: &tree::Prove,
+        circuit: &Instance,
+        (inputs, outputs): PortLists<'_>,
+        inspector: &mut Inspector<'_>,
+    ) -> Vec<InnerNet> {
+        let mut found: Vec<InnerNet> = Vec::new();
+        let Some(place) = self.circuits.place(&circuit.circuit) else { return found };
+        for expression in &source.body.expressions {
+            let ExpressionSyntaxKind::Net { name, .. } = &expression.kind else { continue };
+            if inputs.iter().chain(outputs).any(|port| port.name == name.text) {
+                continue;
+            }
+            let known = found.iter().find(|net| net.column.name == name.text).map(|net| net.declared);
+            let declared = known.or_else(|| {
+                let net = inspector.net(place, &circuit.arguments, source.circuit.name.span, &name.text);
+                let (column, declared) = net?;
+                found.push(InnerNet { column, declared });
+                Some(declared)
+            });
+            let kind = NameKind::Net;
+            self.inner.extend(declared.map(|declared| NameUse { place: name.span, declared, kind }));
+        }
+        found
+    }
+
+    /// The circuit that watches the ports and nets inside: each expression drives an output of its own.
     fn monitor(
         &mut self,
         source: &'a tree::Prove,
         (inputs, outputs): PortLists<'_>,
+        inner: &[InnerNet],
         program: &Program,
     ) -> Option<nbc_base::model::Circuit> {
         let mut body = source.body.clone();
@@ -92,7 +123,8 @@ impl<'a> Assembly<'a> {
             body.sizes.push(tree::SizeSyntax { kind, span: place });
             tree::Port::new(name(text, place), Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)))
         };
-        let seen = inputs.iter().chain(outputs).map(|column| (column.name.clone(), column.width));
+        let seen = inputs.iter().chain(outputs).chain(inner.iter().map(|net| &net.column));
+        let seen = seen.map(|column| (column.name.clone(), column.width));
         let seen = seen.chain([(CLOCK.to_owned(), 1)]).map(|(text, width)| port(text, width)).collect();
         let mut said = Vec::new();
         for (at, property) in source.properties.iter().enumerate() {

@@ -457,7 +457,7 @@ impl<'a> Assembly<'a> {
             tests.extend(self.test(span, test, &program, &mut inspector));
         }
         for test in &tests {
-            if let Stimulation::All { reference } = &test.stimulation {
+            if let Stimulation::All { reference } | Stimulation::Ever { reference, .. } = &test.stimulation {
                 inspector.inspect_body(reference);
             }
         }

@@ -19,7 +19,7 @@ use crate::syntax::tree::{self, DeclarationKind, NameSyntax, TestItem, TestTable
 use nbc_base::budget::{CYCLE_BITS, Limit};
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::{
-    CircuitId, CircuitTest, Column, Instance, Program, RowSource, Script, Simulation, Stimulation, TestRow,
+    Circuit, CircuitId, CircuitTest, Column, Instance, Program, RowSource, Script, Simulation, Stimulation, TestRow,
 };
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
@@ -110,7 +110,14 @@ impl<'a> Assembly<'a> {
                 self.permit_cycles(rows.len() as u64, &inputs, path.span);
                 Stimulation::Rows(rows)
             }
-            tree::TestKind::Against(other) => self.against(&source.circuit, other, program, inspector, ports)?,
+            tree::TestKind::Against(other) => {
+                let (_, reference) = self.against(&source.circuit, other, program, inspector, ports)?;
+                Stimulation::All { reference }
+            }
+            tree::TestKind::Ever(other) => {
+                let (other, reference) = self.against(&source.circuit, other, program, inspector, ports)?;
+                Stimulation::Ever { other, reference }
+            }
             tree::TestKind::Reference(body) => {
                 let reference = Box::new(self.reference(&tested, &source.circuit.name, body, ports, program)?);
                 Stimulation::All { reference }
@@ -272,6 +279,7 @@ impl<'a> Assembly<'a> {
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
+    /// The circuit against which another one is tested, and a circuit with the ports of that one that calls it.
     fn against(
         &mut self,
         tested: &tree::InstanceSyntax,
@@ -279,16 +287,16 @@ impl<'a> Assembly<'a> {
         program: &Program,
         inspector: &mut Inspector<'_>,
         ports: (&[Column], &[Column]),
-    ) -> Option<Stimulation> {
-        let reference = self.instance(other, program)?;
-        let (inputs, outputs) = self.ports(&reference, other.name.span, inspector)?;
-        let circuit = self.circuits.place(&reference.circuit)?;
+    ) -> Option<(Instance, Box<Circuit>)> {
         let names = [&tested.name, &other.name];
-        let mut arguments: Vec<Option<u64>> = reference.arguments.into_iter().map(Some).collect();
+        let other = self.instance(other, program)?;
+        let (inputs, outputs) = self.ports(&other, names[1].span, inspector)?;
+        let circuit = self.circuits.place(&other.circuit)?;
+        let mut arguments: Vec<Option<u64>> = other.arguments.iter().copied().map(Some).collect();
         arguments.resize(program.circuits[circuit.0 as usize].parameters.len(), None);
         let reference = against::reference(names, ports, (circuit, &arguments), (&inputs, &outputs));
         let reference = Box::new(reference.map_err(|fault| self.faults.push(fault)).ok()?);
-        Some(Stimulation::All { reference })
+        Some((other, reference))
     }
 
     /// The body of a test as a circuit with the ports of the tested one.
@@ -299,7 +307,7 @@ impl<'a> Assembly<'a> {
         body: &tree::BodySyntax,
         ports: (&[Column], &[Column]),
         program: &Program,
-    ) -> Option<nbc_base::model::Circuit> {
+    ) -> Option<Circuit> {
         let mut body = body.clone();
         let mut port = |column: &Column| {
             let kind = tree::SizeSyntaxKind::Literal(column.width.to_string());
@@ -321,7 +329,7 @@ impl<'a> Assembly<'a> {
         checked: CheckedCircuit,
         tested: &NameSyntax,
         circuit: &str,
-    ) -> Option<nbc_base::model::Circuit> {
+    ) -> Option<Circuit> {
         let sound = !self.declarations.is_broken(tested.span) && !checked.diagnostics.iter().any(Diagnostic::is_error);
         let called = checked.calls.iter().all(|&(callee, _)| self.circuits.is_sound(callee));
         // Its ports are those of the tested circuit.

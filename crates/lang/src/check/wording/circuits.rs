@@ -124,7 +124,10 @@ impl CircuitError {
             Self::AllInputsOfMemory { circuit } => {
                 let message = format!("`{circuit}` has memory, so this test does not try all that it can do");
                 Diagnostic::new(Code::AllInputs, message, span, "every pattern is applied once, in one order")
-                    .with_help("list rows in the order that matters, with `^` for a rising edge of a clock")
+                    .with_help(
+                        "list rows in the order that matters, with `^` for a rising edge of a clock; or compare it \
+                         with another circuit: `test this against other for ever`",
+                    )
             }
             Self::SameTitle { circuit, title, first } => {
                 let message = format!("two tests of `{circuit}` have the title \"{title}\"");

@@ -94,7 +94,7 @@ fn head_end(declaration: &Declaration) -> u32 {
         DeclarationKind::Prove(prove) => first(prove.properties.iter().map(|one| one.span.start).collect()),
         DeclarationKind::Test(test) => match &test.kind {
             TestKind::Table(table) => table.header.start,
-            TestKind::Against(_) | TestKind::FromFile { .. } => declaration.span.end,
+            TestKind::Against(_) | TestKind::Ever(_) | TestKind::FromFile { .. } => declaration.span.end,
             TestKind::Reference(body) => first(body.statements.iter().map(|one| one.span.start).collect()),
         },
         _ => declaration.span.end,

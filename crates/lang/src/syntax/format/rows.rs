@@ -56,6 +56,7 @@ impl Printer<'_> {
                 self.write(&format!("from \"{}\"{share}", path.text));
             }
             TestKind::Against(other) => self.write(&format!("for all inputs against {}", instance(other))),
+            TestKind::Ever(other) => self.write(&format!("against {} for ever", instance(other))),
             TestKind::Reference(body) => {
                 self.write("for all inputs ");
                 self.block(span.end, |printer| printer.statements(body, &body.statements));

@@ -58,6 +58,8 @@ pub enum TestKind {
     },
     /// `for all inputs against other`
     Against(InstanceSyntax),
+    /// `against other for ever`
+    Ever(InstanceSyntax),
     /// `for all inputs { … }`
     Reference(Box<BodySyntax>),
 }

@@ -1,0 +1,104 @@
+//! What is known of a property, as text and as data.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use nbc_base::diag::counted;
+use nbc_circuit::properties::{InductiveProof, PropertyVerdict, TransitionSystem};
+
+/// A property and what is known of it.
+#[derive(Clone, Debug, Serialize)]
+pub struct PropertyReport {
+    /// The property as it is written, or the name of a bad state of a model.
+    pub property: String,
+    /// Its line in the file; none for a model.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub line: Option<usize>,
+    /// `proved`, `refuted` or `undecided`.
+    pub verdict: &'static str,
+    /// `induction` or `invariant`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub method: Option<&'static str>,
+    /// The steps of an induction or of a run, or the first steps in which it is known to hold.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub steps: Option<usize>,
+    /// The clauses of the invariant.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub invariant: Option<Vec<String>>,
+    /// The properties without which this proof does not hold, as their numbers, counted from 0.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub with: Vec<usize>,
+    /// A test that shows what refutes it, as text.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub test: Option<String>,
+    /// A witness in AIGER's format.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub witness: Option<String>,
+    /// Whether robots do the same as the test.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub physics: Option<bool>,
+}
+
+impl PropertyReport {
+    pub(super) fn of(system: &TransitionSystem, number: usize, property: String, verdict: &PropertyVerdict) -> Self {
+        let mut report = Self {
+            property,
+            line: None,
+            verdict: "proved",
+            method: None,
+            steps: None,
+            invariant: None,
+            with: Vec::new(),
+            test: None,
+            witness: None,
+            physics: None,
+        };
+        match verdict {
+            PropertyVerdict::Proved(InductiveProof::Steps { steps, together }) => {
+                (report.method, report.steps) = (Some("induction"), Some(*steps));
+                report.with = together.iter().copied().filter(|&other| other != number).collect();
+            }
+            PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }) => {
+                let clause = |clause: &Vec<(usize, bool)>| {
+                    let literal = |&(at, value): &(usize, bool)| {
+                        let name = &system.registers[at].name;
+                        if value { name.clone() } else { format!("not {name}") }
+                    };
+                    clause.iter().map(literal).collect::<Vec<_>>().join(" or ")
+                };
+                (report.method, report.invariant) = (Some("invariant"), Some(clauses.iter().map(clause).collect()));
+                report.with = given.iter().copied().collect();
+            }
+            PropertyVerdict::Refuted(run) => {
+                (report.verdict, report.steps) = ("refuted", Some(run.inputs.len()));
+            }
+            PropertyVerdict::Undecided { steps } => (report.verdict, report.steps) = ("undecided", Some(*steps)),
+        }
+        report
+    }
+
+    /// What the verdict is based on, in words.
+    pub fn how(&self) -> String {
+        let steps = counted(self.steps.unwrap_or(0), "step");
+        match (self.verdict, &self.invariant) {
+            ("refuted", _) => format!("after {steps}"),
+            ("undecided", _) => format!("it holds in the first {steps}"),
+            (_, Some(clauses)) => format!("by an invariant of {}", counted(clauses.len(), "clause")),
+            _ => format!("by induction over {steps}"),
+        }
+    }
+
+    /// The report for people.
+    pub fn text(&self) -> String {
+        let mut text = format!("    {:<9}  {}  ({})\n", self.verdict, self.property, self.how());
+        for shown in self.test.iter().flat_map(|test| test.lines()) {
+            let _ = if shown.is_empty() { writeln!(text) } else { writeln!(text, "        {shown}") };
+        }
+        if let Some(physics) = self.physics {
+            let words = if physics { "robots do the same" } else { "robots do something else" };
+            let _ = writeln!(text, "        // in physics: {words}");
+        }
+        text
+    }
+}
