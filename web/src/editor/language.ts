@@ -10,7 +10,7 @@ import {
 import { tags } from "@lezer/highlight";
 
 const DECLARATIONS =
-  /^(circuit|environment|enum|let|file|prove|test|material|evolution|library|swarm|world|schedule|simulate|stimulus)\b/;
+  /^(circuit|environment|enum|let|file|prove|test|images|material|evolution|library|swarm|world|schedule|simulate|stimulus)\b/;
 const WORDS = /^(if|then|else|for|in|init|net|table|match|repeat|until|log2|use|with|all|inputs|against|ever|once)\b/;
 const OPERATORS = /^(and|or|xor|nand|nor|xnor|not)\b(?!\()/;
 const UNITS = /^(steps?|cycles?|seconds?|ms|milliseconds|deg|degrees?|bins)\b/;

@@ -6,7 +6,8 @@ interface Declaration {
 }
 
 const KINDS =
-  "circuit|environment|prove|test|swarm|library|enum|let|use|world|simulate|schedule|stimulus|material|evolution|file";
+  "circuit|environment|prove|test|swarm|library|enum|let|use|world|simulate|schedule|stimulus|images|material|" +
+  "evolution|file";
 const BEGINNING = new RegExp(`^\\s*(${KINDS})\\b`);
 const GATES = /\b(?:not|and|or|xor|nand|nor|xnor)\b/g;
 
