@@ -221,8 +221,7 @@ impl CodeFitting {
     /// The output bits, the highest first, with their graph.
     pub fn finish(mut self, classes: &Classes) -> (GateGraph, Vec<Literal>) {
         let bits: Vec<Literal> = self.votes.iter().map(|votes| votes.build(&mut self.graph, &self.features)).collect();
-        // Every word that is a code word, or one bit from a single one; what comes of the others is of no account, which
-        // makes the logic smaller and costs nothing on rows that were not seen.
+        // Every word that is nearest to one code word; what comes of those farther away is of no account.
         let mut words: Vec<(u64, u64, f64)> = Vec::new();
         let word = |class: usize| (0..self.code.len()).fold(0, |word, at| word | (self.code[at] >> class & 1) << at);
         for seen in 0..1u64 << self.code.len() {
@@ -253,7 +252,7 @@ impl CodeFitting {
 }
 
 /// The weights of words by the bits in which they differ from the nearest code word.
-const WEIGHTS: [f64; 2] = [100.0, 1.0];
+const WEIGHTS: [f64; 3] = [100.0, 1.0, 0.01];
 
 /// The stream of random numbers for a part of the work.
 fn stream(seed: u64, port: usize, part: u64) -> ChaCha8Rng {
