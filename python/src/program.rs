@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use nbc::{Checked, Choice, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening, Level};
-use nbc::{MappingObjective, Room, RunReport, Session, TestOptions, TestRun, Yields};
+use nbc::{Checked, Choice, ClaimReport, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening};
+use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, Yields};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
@@ -33,15 +33,15 @@ pub struct Compiling {
 }
 
 impl Compiling {
-    fn options(self, py: Python<'_>, session: &Session, watch: &Watch) -> PyResult<CompileOptions> {
+    fn options(&self, py: Python<'_>, session: &Session, watch: &Watch) -> PyResult<CompileOptions> {
         let robots = match self.library.as_deref() {
             None => None,
             Some(folder) => Some(session.library(folder).map_err(|found| diagnosed(py, &found))?),
         };
         let (objective, effort) = (read_objective(&self.objective)?, read_effort(&self.effort)?);
         let cancel = watch.cancel.clone();
-        let runs = self.runs;
-        Ok(CompileOptions { swarm: self.swarm, robots, objective, effort, runs, cancel, ..CompileOptions::default() })
+        let (swarm, runs) = (self.swarm.clone(), self.runs.clone());
+        Ok(CompileOptions { swarm, robots, objective, effort, runs, cancel, ..CompileOptions::default() })
     }
 }
 
@@ -90,6 +90,16 @@ impl Program {
         self.checked.program.tests.iter().map(record).collect::<Value>().to_string()
     }
 
+    /// Its claims, as JSON.
+    fn claims(&self) -> String {
+        let record = |claim: &nbc::Claim| {
+            let nbc::Claim { title, circuit, file, line, .. } = claim;
+            let properties: Vec<&str> = claim.wanted().map(|property| property.text.as_str()).collect();
+            json!({ "title": title, "circuit": circuit.to_string(), "file": file, "line": line, "properties": properties })
+        };
+        self.checked.program.claims.iter().map(record).collect::<Value>().to_string()
+    }
+
     /// Its evolutions.
     fn evolutions(&self, py: Python<'_>) -> PyResult<Vec<(String, Evolution)>> {
         let started = |evolution: &nbc::Evolution| {
@@ -129,6 +139,44 @@ impl Program {
         })?;
         let runs = ran.finished()?.map_err(|found| diagnosed(py, &found))?;
         runs.iter().map(|run| self.record(py, run)).collect::<PyResult<Value>>().map(|records| records.to_string())
+    }
+
+    /// Decides a claim: the report as JSON, and the text of each property. In physics, the tests that refute properties
+    /// are run with robots, too.
+    fn prove(
+        &self,
+        py: Python<'_>,
+        claim: usize,
+        limits: (usize, u64, f64),
+        physics: bool,
+        compiling: Compiling,
+        progress: Option<Bound<'_, PyAny>>,
+    ) -> PyResult<String> {
+        let (steps, work, seconds) = limits;
+        let watch = Watch::until(seconds);
+        let (session, checked) = (self.session.clone(), self.checked.clone());
+        let found = work::run(py, &watch, progress.as_ref(), move |watch| {
+            let budget = SearchBudget { steps, work };
+            let claim = &checked.program.claims[claim];
+            let mut search = session.prove(&checked, claim, budget, watch.cancel.clone())?;
+            while search.advance(&mut watch.observer()) {}
+            Ok(search.finish())
+        })?;
+        let decided = found.finished()?.map_err(|found: Diagnostics| diagnosed(py, &found))?;
+        let mut report = ClaimReport::of(&decided);
+        for (property, test) in decided.refuted().filter(|_| physics) {
+            let watch = Watch::over(0);
+            let compile = compiling.options(py, &self.session, &watch)?;
+            let options = TestOptions { level: Some(Level::Physics), compile };
+            let (session, checked, test) = (self.session.clone(), self.checked.clone(), test.clone());
+            let ran = work::run(py, &watch, progress.as_ref(), move |watch| {
+                session.test(&checked, &test, &options, &mut watch.observer())
+            })?;
+            report.note_runs(property, &ran.finished()?.map_err(|found| diagnosed(py, &found))?);
+        }
+        let data = serde_json::to_value(&report).map_err(|error| internal(py, &error.to_string()))?;
+        let texts: Vec<String> = report.properties().iter().map(nbc::PropertyReport::text).collect();
+        Ok(json!({ "data": data, "texts": texts }).to_string())
     }
 
     /// Runs tests in samples of worlds: their yields as JSON, each with its text.

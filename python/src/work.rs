@@ -6,7 +6,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use nbc::{CancelFlag, Monitor, Observer, Simulator};
 use pyo3::IntoPyObjectExt;
@@ -28,6 +28,8 @@ pub struct Watch {
     pub cancel: CancelFlag,
     done: AtomicU64,
     all: AtomicU64,
+    /// When a search ends that has not found everything.
+    deadline: Option<Instant>,
     /// Whether work is measured in parts that are added, and not in env steps.
     has_parts: bool,
 }
@@ -36,6 +38,12 @@ impl Watch {
     /// A watch over that much work.
     pub fn over(all: u64) -> Arc<Self> {
         Arc::new(Self { all: AtomicU64::new(all), ..Self::default() })
+    }
+
+    /// A watch over a search that ends after so many seconds with what it has found.
+    pub fn until(seconds: f64) -> Arc<Self> {
+        let time = Duration::try_from_secs_f64(seconds).ok();
+        Arc::new(Self { deadline: time.and_then(|time| Instant::now().checked_add(time)), ..Self::default() })
     }
 
     /// A watch over work of that many parts, of which each is added when it is done.
@@ -220,6 +228,9 @@ fn wait<T: Send>(py: Python<'_>, receiver: Receiver<T>, time: Duration) -> (Rece
 /// Looks for Ctrl-C, and reports progress if there is any.
 fn attend(py: Python<'_>, watch: &Watch, progress: Option<&Bound<'_, PyAny>>, shown: &mut (u64, u64)) -> PyResult<()> {
     py.check_signals()?;
+    if watch.deadline.is_some_and(|end| Instant::now() >= end) {
+        watch.cancel.raise();
+    }
     let now = watch.progress();
     if let Some(progress) = progress.filter(|_| now != *shown) {
         *shown = now;

@@ -205,3 +205,45 @@ def test_a_robot_that_fails_has_no_output():
         with pytest.raises(nbc.RobotFault, match="became unstable in cycle"):
             live.step(a=1, cycles=50)
         assert live.cycles == len(live.outputs) < 50
+
+
+LIGHTS = """
+circuit lights(car, clk) -> (main, side) {
+    turn = register(turn xor car, clk)
+    main = not turn
+    side = turn
+}
+prove lights "one is green" { never main and side  always main or side }
+prove lights { always car and before(main) => side  never side }
+"""
+
+
+def test_properties_are_proved_or_refuted():
+    program = nbc.loads(LIGHTS)
+    assert [claim["properties"] for claim in program.claims][0] == ["never main and side", "always main or side"]
+    calls = []
+    found = program.prove(progress=lambda done, all: calls.append((done, all)))
+    assert [one.verdict for one in found] == ["proved", "proved", "proved", "refuted"]
+    assert found[0].proved and found[0].method == "induction" and found[0].title == "one is green"
+    never = found[3]
+    assert (never.statement, never.steps, never.physics, never.line) == ("never side", 2, None, 8)
+    assert never.test in never.text.replace("        ", "", 1).replace("\n        ", "\n") and "refuted" in str(never)
+    assert program.prove("one is green", seconds=10)[1].proved
+    # The circuit passes the test that refutes the property, as logic and with robots.
+    (shown,) = nbc.loads(LIGHTS + never.test).test(never.statement, level="logic")
+    assert shown.passed
+    assert program.circuits["lights"].prove(physics=True)[3].physics is True
+    with pytest.raises(KeyError, match="no claim of a circuit or title called `light`; did you mean `lights`"):
+        program.prove("light")
+
+
+def test_a_search_ends_with_its_budget():
+    wide = nbc.loads("circuit wide(clk) -> (n[24]) { n = register(n + 1, clk) }\nprove wide { never n == 9000000 }")
+    for budget in (dict(work=2000), dict(steps=3, work=100), dict(seconds=0)):
+        (found,) = wide.prove(**budget)
+        assert found.verdict == "undecided" and found.test is None and not found.proved
+    with pytest.raises(ValueError, match="seconds is -1.0"):
+        wide.prove(seconds=-1)
+    with pytest.raises(nbc.NbcError) as caught:
+        nbc.loads("circuit ring(a) -> (q) { q = not q }\nprove ring { never q }").prove()
+    assert caught.value.diagnostics[0].code == "no-steps"

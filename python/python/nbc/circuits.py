@@ -17,6 +17,7 @@ from .errors import Diagnostic, Interrupted, diagnostics_of
 from .evolution import Evolution
 from .names import Effort, Level, Objective, unknown
 from .numbers import array_of, count, is_array
+from .numbers import seconds as seconds_of
 from .progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ __all__ = [
     "Hardened",
     "Port",
     "Program",
+    "Property",
     "Report",
     "Swarm",
     "TestResult",
@@ -50,6 +52,14 @@ class _Compiling(TypedDict, total=False):
 
 class _Testing(_Compiling, total=False):
     level: Optional[Level]
+    progress: Progress
+
+
+class _Proving(_Compiling, total=False):
+    steps: int
+    work: int
+    seconds: float
+    physics: bool
     progress: Progress
 
 
@@ -94,6 +104,44 @@ class TestResult:
 
     def _repr_html_(self) -> str:
         color = "#1a7f37" if self.passed else "#b42318"
+        return f'<pre style="border-left:4px solid {color};padding-left:1em">{html.escape(self.text)}</pre>'
+
+
+@dataclass(frozen=True)
+class Property:
+    """A property of all steps of a circuit, and what is known of it."""
+
+    circuit: str
+    title: str
+    statement: str
+    """As it is written."""
+    verdict: str
+    """``proved``, ``refuted`` or ``undecided``."""
+    method: Optional[str]
+    """What proves it: ``induction`` or ``invariant``."""
+    steps: Optional[int]
+    """The steps of the induction or of the run that refutes it, or the first steps in which it is known to hold."""
+    invariant: Tuple[str, ...] = field(repr=False)
+    """The clauses that hold in every step, if an invariant proves it."""
+    test: Optional[str] = field(repr=False)
+    """The test whose last row violates it, as text."""
+    physics: Optional[bool]
+    """Whether robots do what the test shows, if they were asked."""
+    file: str
+    line: int
+    text: str = field(repr=False)
+    """All this in lines, as ``nbc prove`` prints it."""
+
+    @property
+    def proved(self) -> bool:
+        """Whether it holds in every step."""
+        return self.verdict == "proved"
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        color = "#1a7f37" if self.proved else "#b42318"
         return f'<pre style="border-left:4px solid {color};padding-left:1em">{html.escape(self.text)}</pre>'
 
 
@@ -199,6 +247,12 @@ class Program:
         """The declared tests: ``circuit``, ``title``, ``file`` and ``line`` of each."""
         return tuple(json.loads(self._native.tests()))
 
+    @property
+    def claims(self) -> Tuple[Mapping[str, Any], ...]:
+        """What is claimed of its circuits: ``circuit``, ``title``, ``file``, ``line`` and ``properties`` of each
+        ``prove`` declaration."""
+        return tuple(json.loads(self._native.claims()))
+
     def compile(
         self,
         circuit: Optional[str] = None,
@@ -257,6 +311,52 @@ class Program:
         try:
             for number in chosen:
                 results += self._test(number, level, progress, options)
+        except KeyboardInterrupt:
+            raise Interrupted(results) from None
+        return results
+
+    def prove(
+        self,
+        name: Optional[str] = None,
+        *,
+        steps: int = 10_000,
+        work: int = 50_000_000,
+        seconds: float = 60.0,
+        physics: bool = False,
+        library: Optional[Path] = None,
+        swarm: Optional[str] = None,
+        objective: Objective = "area",
+        effort: Effort = "normal",
+        runs: Path = "out",
+        progress: Progress = False,
+    ) -> List[Property]:
+        """Decides the properties that the file claims of its circuits, for all inputs and for ever, as ``nbc prove``
+        does.
+
+        Args:
+            name: only what is claimed of this circuit, or under this title.
+            steps: the most steps that are looked at one after the other.
+            work: the most work for each claim, in calls of the solver and clauses that it learns.
+            seconds: the most time for each claim.
+            physics: whether to run each test that refutes a property with robots.
+            progress: whether to show a tqdm bar, or a function of the properties that are decided and all properties.
+
+        The other arguments are those of `compile`, for the robots. A property that is refuted is a result, not an
+        exception.
+
+        Raises:
+            KeyError: when nothing is claimed under that name.
+            NbcError: when a circuit has no steps.
+            Interrupted: on Ctrl-C, with the properties of the claims before.
+        """
+        options = _options(library, swarm, objective, effort, runs)
+        budget = (count(steps, "steps"), count(work, "work", most=2**64 - 1), seconds_of(seconds, "seconds"))
+        results: List[Property] = []
+        try:
+            for number in _numbers_of("claim", self.claims, name):
+                with reporting(progress, " properties") as report:
+                    found = json.loads(self._native.prove(number, budget, physics, options, report))
+                results += _properties(found["data"], found["texts"])
         except KeyboardInterrupt:
             raise Interrupted(results) from None
         return results
@@ -381,12 +481,7 @@ class Program:
 
     def _chosen(self, name: Optional[str]) -> List[int]:
         """The numbers of the tests of that name."""
-        known = [(test["circuit"], test["title"]) for test in self.tests]
-        chosen = [number for number, names in enumerate(known) if name is None or name in names]
-        if name is not None and not chosen:
-            words = [word for names in known for word in names if word]
-            raise KeyError(unknown("test of a circuit or title", name, dict.fromkeys(words)))
-        return chosen
+        return _numbers_of("test", self.tests, name)
 
     def _names(self) -> List[str]:
         return [circuit["name"] for circuit in json.loads(self._native.circuits())]
@@ -436,6 +531,10 @@ class Circuit:
     def test(self, **options: Unpack[_Testing]) -> List[TestResult]:
         """Runs its tests; see `Program.test`."""
         return self.program.test(self.name, **options)
+
+    def prove(self, **options: Unpack[_Proving]) -> List[Property]:
+        """Decides what is claimed of it; see `Program.prove`."""
+        return self.program.prove(self.name, **options)
 
     def __repr__(self) -> str:
         return f"<Circuit {self.name} of {self.program.path}>"
@@ -705,6 +804,37 @@ def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: in
         "worlds": count(worlds, "worlds", least=1),
         "seed": count(seed, "seed", most=2**64 - 1),
     }
+
+
+def _numbers_of(what: str, declared: Sequence[Mapping[str, Any]], name: Optional[str]) -> List[int]:
+    """The numbers of the declarations of that circuit or title."""
+    known = [(one["circuit"], one["title"]) for one in declared]
+    chosen = [number for number, names in enumerate(known) if name is None or name in names]
+    if name is not None and not chosen:
+        words = [word for names in known for word in names if word]
+        raise KeyError(unknown(f"{what} of a circuit or title", name, dict.fromkeys(words)))
+    return chosen
+
+
+def _properties(claim: Mapping[str, Any], texts: Sequence[str]) -> List[Property]:
+    """The properties of a claim."""
+    return [
+        Property(
+            circuit=claim["circuit"],
+            title=claim.get("title", ""),
+            statement=known["property"],
+            verdict=known["verdict"],
+            method=known.get("method"),
+            steps=known.get("steps"),
+            invariant=tuple(known.get("invariant", ())),
+            test=known.get("test"),
+            physics=known.get("physics"),
+            file=claim["file"],
+            line=known["line"],
+            text=text,
+        )
+        for known, text in zip(claim["properties"], texts)
+    ]
 
 
 def _yields(records: str) -> List[Yield]:

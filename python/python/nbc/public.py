@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from ._nbc import __version__
 from .bodies import PAPER_MATERIALS, THREE_MATERIALS, Robot, invalid, library, rows, verify
-from .circuits import Circuit, Compiled, Hardened, Port, Program, Report, Swarm, TestResult, Yield, load, loads
+from .circuits import Circuit, Compiled, Hardened, Port, Program, Property, Report, Swarm, TestResult, Yield, load
+from .circuits import loads
 from .errors import (
     Diagnostic,
     InternalError,
@@ -40,6 +41,7 @@ __all__ = [
     "NbcError",
     "Port",
     "Program",
+    "Property",
     "Report",
     "Robot",
     "RobotFault",
