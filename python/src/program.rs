@@ -3,7 +3,9 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use nbc::{Checked, Choice, ClaimReport, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening};
+use nbc::{
+    Checked, Choice, ClaimReport, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
+};
 use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, Yields};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
@@ -93,9 +95,10 @@ impl Program {
     /// Its claims, as JSON.
     fn claims(&self) -> String {
         let record = |claim: &nbc::Claim| {
-            let nbc::Claim { title, circuit, file, line, .. } = claim;
+            let nbc::Claim { title, file, line, .. } = claim;
             let properties: Vec<&str> = claim.wanted().map(|property| property.text.as_str()).collect();
-            json!({ "title": title, "circuit": circuit.to_string(), "file": file, "line": line, "properties": properties })
+            let circuit = claim.circuit.to_string();
+            json!({ "title": title, "circuit": circuit, "file": file, "line": line, "properties": properties })
         };
         self.checked.program.claims.iter().map(record).collect::<Value>().to_string()
     }

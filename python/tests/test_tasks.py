@@ -21,8 +21,8 @@ BODY = np.array([[3, 3, 3], [4, 1, 4], [3, 0, 3]])
 # Rounding grows in some walks (docs/physics.md 12), in none within so many env steps. The package of Catcher-v0 falls
 # onto the line between two voxels of a peg, so last bits decide from then on.
 SOUND, TOUCHES = 100, 14
-# What is seen before the first difference of more than 1e-6, where that is less. The package of Catcher-v0 has turned by
-# 0 or by 2 pi, depending on the sign of a sum that is 0 but for rounding; after the first env step of one body in
+# What is seen before the first difference of more than 1e-6, where that is less. The package of Catcher-v0 has turned
+# by 0 or by 2 pi, depending on the sign of a sum that is 0 but for rounding; after the first env step of one body in
 # ObstacleTraverser-v1, last bits decide which of two columns of terrain is in sight.
 SEEN = {"Catcher-v0": 0, "ObstacleTraverser-v1": 0}
 

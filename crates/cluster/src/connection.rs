@@ -266,7 +266,7 @@ mod tests {
     #[test]
     fn the_subject_of_a_task_names_its_search() {
         let subject = task_subject("0_2_0-00ff", "abcd", TaskKey { run: 1, generation: 2, index: 3 });
-        assert_eq!(subject, "nbc.v6.task.0_2_0-00ff.abcd.1.2.3");
+        assert_eq!(subject, "nbc.v7.task.0_2_0-00ff.abcd.1.2.3");
         assert_eq!(search_of(&subject), Some("abcd"));
     }
 

@@ -65,8 +65,8 @@ fn issue_credentials(folder: &Path) {
     let granted = token(&operator, &account.public(), "account", jetstream);
     let rights = json!({
         "type": "user", "version": 2, "subs": -1, "data": -1, "payload": -1,
-        "pub": { "allow": ["nbc.v6.>", "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
-        "sub": { "allow": ["nbc.v6.>", "_INBOX.>"] },
+        "pub": { "allow": ["nbc.v7.>", "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
+        "sub": { "allow": ["nbc.v7.>", "_INBOX.>"] },
     });
     let user_token = token(&account, &user.public(), "user", rights);
     let accounts = format!("{}: {granted}\n{}: {watching}", account.public(), system.public());

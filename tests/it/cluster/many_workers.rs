@@ -11,6 +11,6 @@ fn a_thousand_idle_workers_wait_and_work() {
     let mut wire = Wire::open(&server);
     let _workers =
         Running::start(&bench, &["worker", "--nats", &server.url(), "--threads", "1000", "--name", "many_workers"]);
-    wire.wait_for(|message| message.subject == "nbc.v6.worker");
+    wire.wait_for(|message| message.subject == "nbc.v7.worker");
     assert_same(&bench, &evolve(&bench, &server, &[]).end());
 }
