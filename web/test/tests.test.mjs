@@ -61,14 +61,18 @@ test("a test that is started right after an edit runs after its check", async ()
 });
 
 test("what refutes a property is watched, and becomes a test", async () => {
-  const claimed = LATCH.replace(/\nprove[^]*$/, "\n").concat("prove d_latch {\n    never q and nq\n    never q\n}\n");
+  const claimed = LATCH.replace(/\nprove[^]*$/, "\n").concat(
+    'prove d_latch "new" {\n    never q and nq\n    never q\n}\n',
+  );
   await typeProgram(here.page, claimed);
-  await here.page.locator("[data-claim] [data-do=prove]").click();
+  // The card before has another title.
+  const claim = here.page.locator("[data-claim]", { hasText: "new" });
+  await claim.locator("[data-do=prove]").click();
   await here.page.locator("[data-verdict=proved]").waitFor();
   const refuted = here.page.locator("[data-verdict=refuted]");
   await refuted.locator("[data-do=append]").click();
   await here.page.locator(".test h3", { hasText: "d_latch" }).nth(2).waitFor();
-  await here.page.locator("[data-claim] [data-do=prove]").click();
+  await claim.locator("[data-do=prove]").click();
   await refuted.locator("[data-do=watch]").click();
   await here.page.locator("#tab-swarm[aria-selected=true]").waitFor();
   await here.page.locator('[data-lamp="q"][data-value="1"]').waitFor();
