@@ -31,7 +31,7 @@ NAMES = sorted(evogym.BASELINE_ENV_NAMES, key=lambda name: (name == LAST, name))
 
 
 def main() -> None:
-    """Records all tasks, each episode in a process of its own: a second world of Traverser-v0 ends the first."""
+    """Records all tasks, each episode in a process of its own: a second world of Traverser-v0 ends the process."""
     path = Path(__file__).parent.parent / "tests/data/tasks.npz"
     keys = [(name, n) for name in NAMES for n in range(BODIES)]
     found = {}

@@ -82,7 +82,7 @@ fn draw_map(
     interrupt: &Interrupt,
     context: &mut Context,
 ) -> Result<bool, Failure> {
-    let Some(mut occlusion) = Occlusion::of(recognition.clone()) else { return Ok(true) };
+    let mut occlusion = Occlusion::of(recognition.clone());
     let bar = Progress::new("covering", occlusion.progress().1);
     while occlusion.advance() {
         if interrupt.is_raised() {

@@ -21,7 +21,7 @@ pub struct CodeShape {
 }
 
 impl CodeShape {
-    /// The sizes that are tried.
+    /// The sizes that are tried: on images of digits, fewer bits or votes read fewer of them (docs/learning.md).
     pub const ALL: [Self; 2] = [Self { bits: 8, votes: 15 }, Self { bits: 9, votes: 15 }];
 }
 

@@ -18,6 +18,7 @@ use crate::shell::Shell;
 use crate::site::SCHEME;
 use crate::state;
 use nbc_base::budget::Limit;
+use nbc_base::diag::counted;
 use nbc_base::model::{CircuitTest, GroundProfile, Instance, Stimulation, TestRow, Value as PortValue};
 use nbc_circuit::properties::SearchBudget;
 use nbc_circuit::waves::WaveMachine;
@@ -50,14 +51,13 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
 }
 
 fn test(index: usize, test: &CircuitTest) -> TestEntry {
-    let counted = |rows| if rows == 1 { "1 row".to_owned() } else { format!("{rows} rows") };
     let (extent, rows) = match &test.stimulation {
         Stimulation::Rows(rows) => {
             let whole = rows.iter().filter(|row| !row.is_half);
             let first = whole.clone().take(listed(&test.inputs, &test.outputs)).map(|one| row(test, one));
-            (counted(whole.count()), first.collect())
+            (counted(whole.count(), "row"), first.collect())
         }
-        Stimulation::Script(script) => (counted(script.steps.len()), Vec::new()),
+        Stimulation::Script(script) => (counted(script.steps.len(), "row"), Vec::new()),
         Stimulation::All { .. } => ("all inputs".to_owned(), Vec::new()),
         Stimulation::Ever { .. } => ("for ever".to_owned(), Vec::new()),
     };

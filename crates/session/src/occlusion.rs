@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::recognition::Recognition;
 use crate::report::{OcclusionMap, Scheme, Svg, draw_occlusion};
-use nbc_base::model::{Body, Direction, Image, ImageOrder, MaterialKind, Pattern, Schedule, Spell};
+use nbc_base::model::{Body, Image, ImageOrder, MaterialKind, Schedule, Spell};
 use nbc_swarm::image_displacements;
 
 /// The images with each pixel covered, before the first body of a recognition. It is advanced pixel by pixel.
@@ -20,16 +20,15 @@ pub struct Occlusion {
 }
 
 impl Occlusion {
-    /// The occlusion of a recognition's first body; `None` if it has none, or no images.
-    pub fn of(recognition: Recognition) -> Option<Self> {
+    /// The occlusion of a recognition's first body.
+    pub fn of(recognition: Recognition) -> Self {
         let images: Vec<&Image> =
             recognition.schedule.schedule.spells.iter().filter_map(|spell| spell.image.as_deref()).collect();
-        let size = images.first()?.size();
+        let size = images.first().expect("a set has images").size();
         let mean = mean(images.iter().copied(), size[0] * size[1]);
-        recognition.elites.first()?;
         let mut occlusion = Self { recognition, size, mean, plain: Vec::new(), losses: Vec::new() };
         occlusion.plain = occlusion.distances(None);
-        Some(occlusion)
+        occlusion
     }
 
     /// The pixels that were covered so far, and all of them.
@@ -50,7 +49,7 @@ impl Occlusion {
         self.losses.len() < self.mean.len()
     }
 
-    /// The distances in the right way, with a pixel covered. A simulation that failed counts as none.
+    /// The distances in the right way, with a pixel covered. One that was not simulated to its end counts as 0.
     fn distances(&self, covered: Option<usize>) -> Vec<f64> {
         let Recognition { simulator, evolution, schedule, elites, .. } = &self.recognition;
         let (_, elite) = &elites[0];
@@ -64,11 +63,7 @@ impl Occlusion {
             Spell { image: Some(Arc::new(image)), ..spell.clone() }
         };
         let spells: Vec<Spell> = schedule.schedule.spells.iter().map(cover).collect();
-        let sign = |pattern: Pattern| match elite.behavior.direction(pattern) {
-            Direction::Right => 1.0,
-            Direction::Left => -1.0,
-        };
-        let signs: Vec<f64> = spells.iter().map(|spell| sign(spell.pattern)).collect();
+        let signs: Vec<f64> = spells.iter().map(|spell| elite.behavior.direction(spell.pattern).sign()).collect();
         let (shown, body) = (Schedule { spells }, std::slice::from_ref(&elite.body));
         let walked = image_displacements(simulator, &evolution.world, ImageOrder::Apart, &shown, body);
         walked.into_iter().flatten().zip(signs).map(|(moved, sign)| moved.unwrap_or(0.0) * sign).collect()
@@ -78,7 +73,7 @@ impl Occlusion {
     pub fn draw(&self, scheme: Scheme) -> Svg {
         let Recognition { evolution, schedule, elites, .. } = &self.recognition;
         let set = |(number, name): (usize, &String)| {
-            let pattern = Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1]);
+            let pattern = Schedule::of_set(number);
             let own = schedule.schedule.spells.iter().filter(|spell| spell.pattern == pattern);
             (name.clone(), mean(own.filter_map(|spell| spell.image.as_deref()), self.mean.len()))
         };

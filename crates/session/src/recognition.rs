@@ -5,10 +5,10 @@ use serde::Serialize;
 use crate::report::{Align, TextTable};
 use crate::wording::RecognitionError;
 use nbc_base::diag::{Diagnostic, Suggestion, counted};
-use nbc_base::model::{Direction, Evolution, ImageOrder, NamedSchedule, Pattern, Program, Schedule, SearchObjective};
+use nbc_base::model::{Direction, Evolution, ImageOrder, NamedSchedule, Program, Schedule, SearchObjective};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
-use nbc_swarm::image_displacements;
+use nbc_swarm::{ImageSets, image_displacements};
 
 /// The images that are shown at once.
 const PORTION: usize = 64;
@@ -76,7 +76,8 @@ impl Recognition {
     /// in the same order.
     ///
     /// # Errors
-    /// When the program has no such evolution or schedule, or the two do not fit each other or the bodies.
+    /// When there are no bodies, the program has no such evolution or schedule, or the two do not fit each other or the
+    /// bodies.
     pub fn new(
         program: &Program,
         evolution: &str,
@@ -95,10 +96,13 @@ impl Recognition {
         if found.objective != SearchObjective::Images {
             return Err(RecognitionError::NoImages { evolution: evolution.to_owned() }.into());
         }
-        let known = sets(&found.variable);
+        let known = ImageSets::of(&found.variable).count();
         if shown.sets.len() != known {
             let (schedule, sets) = (schedule.to_owned(), shown.sets.len());
             return Err(RecognitionError::Sets { schedule, found: sets, expected: known }.into());
+        }
+        if elites.is_empty() {
+            return Err(RecognitionError::NoBodies { evolution: evolution.to_owned() }.into());
         }
         if elites.iter().any(|(_, elite)| elite.body.palette() != &found.palette) {
             return Err(RecognitionError::OtherMaterials { evolution: evolution.to_owned() }.into());
@@ -147,19 +151,10 @@ impl Recognition {
     }
 }
 
-/// The number of sets of a schedule of images.
-fn sets(schedule: &Schedule) -> usize {
-    let mut patterns: Vec<Pattern> = schedule.spells.iter().map(|spell| spell.pattern).collect();
-    patterns.sort_unstable();
-    patterns.dedup();
-    patterns.len()
-}
-
 /// The images of the set of that number.
 fn recognized(schedule: &NamedSchedule, number: usize, elite: &Elite, walked: &[Option<f64>]) -> RecognizedSet {
-    let pattern = Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1]);
+    let pattern = Schedule::of_set(number);
     let direction = elite.behavior.direction(pattern);
-    let sign = if direction == Direction::Right { 1.0 } else { -1.0 };
     let own = schedule.schedule.spells.iter().zip(walked).filter(|(spell, _)| spell.pattern == pattern);
     let own: Vec<Option<f64>> = own.map(|(_, walked)| *walked).collect();
     let is_correct = |walked: &&Option<f64>| walked.is_some_and(|moved| Direction::of(moved) == direction);
@@ -169,7 +164,7 @@ fn recognized(schedule: &NamedSchedule, number: usize, elite: &Elite, walked: &[
         way: if direction == Direction::Right { "right" } else { "left" },
         correct: own.iter().filter(is_correct).count(),
         images: own.len(),
-        least: whole.map(|walked| walked.iter().map(|moved| moved * sign).fold(f64::INFINITY, f64::min)),
+        least: whole.map(|walked| walked.iter().map(|moved| moved * direction.sign()).fold(f64::INFINITY, f64::min)),
     }
 }
 

@@ -42,6 +42,8 @@ pub(super) enum RecognitionError {
     NoImages { evolution: String },
     /// A schedule of another number of sets than the evolution's.
     Sets { schedule: String, found: usize, expected: usize },
+    /// A run without bodies so far.
+    NoBodies { evolution: String },
     /// Bodies of other materials than the evolution declares.
     OtherMaterials { evolution: String },
 }
@@ -62,6 +64,10 @@ impl From<RecognitionError> for Diagnostic {
                 let message = format!("the schedule `{schedule}` shows {found} of images, expected {sets}");
                 Self::without_place(Code::BadValue, message)
                     .with_help("its sets are those of the evolution's schedule, in the same order")
+            }
+            RecognitionError::NoBodies { evolution } => {
+                Self::without_place(Code::Empty, format!("the run of `{evolution}` has no bodies"))
+                    .with_help("go on with it: `nbc evolve FILE --run NAME --resume`")
             }
             RecognitionError::OtherMaterials { evolution } => {
                 let message = format!("the bodies have other materials than `{evolution}` declares");

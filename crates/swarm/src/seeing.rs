@@ -6,8 +6,7 @@ use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{CandidateOutcome, Scores};
 use crate::noise::RobotNoise;
 use nbc_base::model::{
-    Behavior, Body, Direction, Displacements, Fault, ImageOrder, Pattern, PhysicsWorld, Schedule, Spell, Trajectory,
-    Trial,
+    Behavior, Body, Displacements, Fault, ImageOrder, Pattern, PhysicsWorld, Schedule, Spell, Trajectory, Trial,
 };
 use nbc_sim::Simulator;
 
@@ -41,7 +40,7 @@ impl ImageDistance {
         let displacement = Displacements::under(STIMULI, |pattern| {
             let set = sets.of_pattern(pattern);
             let own = walked.iter().copied().filter(|(of, _)| *of == set);
-            least(behavior, own) * sign(behavior, set)
+            least(behavior, own) * behavior.direction(set).sign()
         });
         Self { behavior, least: distance, displacement }
     }
@@ -49,11 +48,7 @@ impl ImageDistance {
 
 /// The least of these distances in the direction of a behavior.
 fn least(behavior: Behavior, walked: impl Iterator<Item = (Pattern, f64)>) -> f64 {
-    walked.map(|(set, moved)| moved * sign(behavior, set)).fold(f64::INFINITY, f64::min)
-}
-
-fn sign(behavior: Behavior, set: Pattern) -> f64 {
-    if behavior.direction(set) == Direction::Right { 1.0 } else { -1.0 }
+    walked.map(|(set, moved)| moved * behavior.direction(set).sign()).fold(f64::INFINITY, f64::min)
 }
 
 /// The sets of images that a schedule shows, as the patterns that number them.
@@ -70,6 +65,11 @@ impl ImageSets {
         sets.sort_unstable();
         sets.dedup();
         Self(sets)
+    }
+
+    /// The number of sets.
+    pub fn count(&self) -> usize {
+        self.0.len()
     }
 
     /// Whether they are sets that a behavior can tell apart, numbered from 0.
@@ -208,7 +208,7 @@ mod tests {
     const B: usize = 1;
 
     fn number(set: usize) -> Pattern {
-        Pattern::new(&[set & 1 == 1, set >> 1 & 1 == 1])
+        Schedule::of_set(set)
     }
 
     /// Images of two sets, a few steps each.

@@ -22,6 +22,11 @@ impl Direction {
     pub fn of(displacement: f64) -> Self {
         if displacement > 0.0 { Self::Right } else { Self::Left }
     }
+
+    /// 1 to the right, -1 to the left: a displacement times it is a distance in this direction.
+    pub fn sign(self) -> f64 {
+        if self == Self::Right { 1.0 } else { -1.0 }
+    }
 }
 
 /// The directions under each pattern of two or three stimuli, counted as binary numbers with stimulus 1 first, written

@@ -45,6 +45,11 @@ pub struct Schedule {
 }
 
 impl Schedule {
+    /// The pattern that numbers a set of images, of which there are at most four.
+    pub fn of_set(number: usize) -> Pattern {
+        Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1])
+    }
+
     /// A schedule of one spell: a pattern for that many env steps.
     pub fn constant(pattern: Pattern, steps: u32) -> Self {
         Self { spells: vec![Spell::of(pattern, steps)] }

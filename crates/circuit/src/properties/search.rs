@@ -46,7 +46,7 @@ pub struct SearchBudget {
 }
 
 impl SearchBudget {
-    /// A budget for those who wait for the answer and see no time pass, such as the user of a page or of an editor.
+    /// The budget of those who cannot end a search after some time: tests, pages and editors.
     pub const SHORT: Self = Self { steps: 10_000, work: 300_000 };
 }
 

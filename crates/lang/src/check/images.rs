@@ -12,7 +12,7 @@ use crate::check::world::ProgramFiles;
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{ImageFile, LabeledImage, NamedImages};
-use nbc_base::source::Span;
+use nbc_base::source::{FileError, Span};
 
 /// The most images of a set.
 const MOST_IMAGES: u32 = 100_000;
@@ -92,7 +92,10 @@ fn read(
     let name = beside(&files.sources.file(span.file).name, path);
     let unreadable = |file: String, error| ImagesError::Unreadable { file, error }.at(span);
     let bytes = files.world.read_bytes(&name).map_err(|error| unreadable(name.clone(), error))?;
-    let labels = ImageFile::labels_beside(&name).and_then(|path| files.world.read_bytes(&path).ok());
+    let labels = match ImageFile::labels_beside(&name).map(|path| (files.world.read_bytes(&path), path)) {
+        None | Some((Err(FileError::NotFound), _)) => None,
+        Some((read, path)) => Some(read.map_err(|error| unreadable(path, error))?),
+    };
     let file = ImageFile { name: &name, bytes: &bytes, labels: labels.as_deref(), size, white };
     file.read().map_err(|error| ImagesError::File { file: name.clone(), error }.at(span))
 }

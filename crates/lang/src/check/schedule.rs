@@ -104,7 +104,7 @@ fn of_images(
             }
         }
         let number = sets.iter().position(|name| *name == set.name).unwrap_or_default();
-        let pattern = Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1]);
+        let pattern = Schedule::of_set(number);
         let spells = set.images.iter().zip(steps.into_iter().cycle());
         let spells = spells.map(|(image, steps)| Spell { image: Some(image.clone()), ..Spell::of(pattern, steps) });
         schedule.spells.extend(spells);

@@ -95,7 +95,7 @@ pub fn widen(
         now = reduced.clone();
     }
     let prices = Prices::of(&gates);
-    // What was written in functions of three inputs has them as cuts still, and a reduction takes some of them apart.
+    // A circuit that was written in functions of three inputs still has them as cuts. A reduction takes some apart.
     if let Ok(given) = cover(network, &prices, stages) {
         let other = coverer.cover(&given);
         if weight(&other) < weight(&best) {

@@ -144,10 +144,13 @@ impl<'a> Assembly<'a> {
         let known = self.names.stimuli.find(&name.text, home);
         let index = known.unwrap_or(self.program.stimuli.len());
         let declared = self.names.stimuli.declare(name, index, home);
-        if known.is_some_and(|known| self.program.image_sizes.get(&known).copied() != size) {
-            self.faults.push(ImagesError::OtherSize { stimulus: name.text.clone() }.at(name.span));
+        if !self.note(declared) {
+            return;
         }
-        if !self.note(declared) || known.is_some() {
+        if let Some(known) = known {
+            if self.program.image_sizes.get(&known).copied() != size {
+                self.faults.push(ImagesError::OtherSize { stimulus: name.text.clone() }.at(name.span));
+            }
             return;
         }
         self.program.image_sizes.extend(size.map(|size| (index, size)));

@@ -56,9 +56,9 @@ pub struct Declaration {
 pub enum DeclarationKind {
     /// `use "file.nb"`, or several files
     Use(Vec<Text>),
-    /// `stimulus s1, s2`
+    /// `stimulus s1, s2`, or of an image `stimulus digit[8][8]`
     Stimulus(Vec<StimulusSyntax>),
-    /// `material`, `evolution`, `library`, `swarm`, `world`: a name and a record.
+    /// `material`, `images`, `evolution`, `library`, `swarm`, `world`: a name and a record.
     Record(RecordDeclaration),
     /// `schedule`
     Schedule(ScheduleSyntax),
