@@ -10,6 +10,7 @@ use serde_json::{Map, Value, json};
 
 use crate::cluster::keys::{Key, Owner};
 use crate::cluster::server::Server;
+use crate::cluster::wire::subject_of;
 use crate::cluster::{Running, assert_same, bench};
 use crate::support::limits::InTime;
 use crate::support::schema::validate;
@@ -63,10 +64,11 @@ fn issue_credentials(folder: &Path) {
     let watching = token(&operator, &system.public(), "system", unlimited(&[]));
     let jetstream = unlimited(&["mem_storage", "disk_storage", "streams", "consumer"]);
     let granted = token(&operator, &account.public(), "account", jetstream);
+    let ours = subject_of(">");
     let rights = json!({
         "type": "user", "version": 2, "subs": -1, "data": -1, "payload": -1,
-        "pub": { "allow": ["nbc.v7.>", "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
-        "sub": { "allow": ["nbc.v7.>", "_INBOX.>"] },
+        "pub": { "allow": [&ours, "_INBOX.>", "$JS.API.>", "$JS.ACK.>"] },
+        "sub": { "allow": [&ours, "_INBOX.>"] },
     });
     let user_token = token(&account, &user.public(), "user", rights);
     let accounts = format!("{}: {granted}\n{}: {watching}", account.public(), system.public());

@@ -3,13 +3,13 @@
 use std::collections::BTreeMap;
 
 use crate::cluster::server::Server;
-use crate::cluster::wire::{Seen, VERSION, Wire, varint};
+use crate::cluster::wire::{Seen, VERSION, Wire, subject_of, varint};
 use crate::cluster::{SMALL_STEPS, assert_same, bench, evolve, worker};
 
 /// The subject for an answer of a worker to the search that a task belongs to.
 fn answer_subject(task: &Seen, worker: &str) -> String {
     let search = task.subject.split('.').nth(4).unwrap();
-    format!("nbc.v7.answer.{search}.{worker}")
+    subject_of(&format!("answer.{search}.{worker}"))
 }
 
 /// An answer to a task that could be right, but is not: the simulation of the body becomes unstable in env step 1.
@@ -19,7 +19,7 @@ fn unstable(task: &Seen) -> Vec<u8> {
 }
 
 fn is_task(message: &Seen, run: u32, generation: u32) -> bool {
-    message.subject.starts_with("nbc.v7.task.") && message.subject.contains(&format!(".{run}.{generation}."))
+    message.subject.starts_with(&subject_of("task.")) && message.subject.contains(&format!(".{run}.{generation}."))
 }
 
 #[test]
@@ -38,7 +38,7 @@ fn garbage_repeated_late_and_oversized_answers_change_nothing() {
     // An answer to the first task that has too few env steps: Surpassed, 3 and 0.
     wire.publish(&answer("impossible"), &[VERSION, 0, 0, 0, 0, 1, 3, 0]);
     let note = |name: &str| [&[VERSION, name.len() as u8], name.as_bytes(), &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
-    wire.publish("nbc.v7.worker", &note("foreign"));
+    wire.publish(&subject_of("worker"), &note("foreign"));
     let good = worker(&bench, &server, "good");
     // Every answer is sent again at once, and the first is sent again much later.
     let first = wire.wait_for(|message| message.is_answer_of("good"));
@@ -77,7 +77,7 @@ fn junk_in_the_name_of_a_worker_is_dropped_and_the_worker_stays() {
     }
     // Answers that can be read, but are wrong, one of them with a reply to somebody else.
     wire.publish(&subject, &[VERSION, 0, 0, 0, 0, 1, 3, 0]);
-    wire.publish(&format!("{subject} nbc.v7.reply.wire"), &unstable(&task));
+    wire.publish(&format!("{subject} {}", subject_of("reply.wire")), &unstable(&task));
     let good = worker(&bench, &server, "good");
     // More junk between the answers of the worker, each from another connection.
     for number in 0..20 {
@@ -107,12 +107,12 @@ fn a_forged_message_in_the_name_of_a_worker_does_not_remove_it() {
     (0..20).for_each(|_| _ = wire.wait_for(is_first_answer));
     // A wrong result of a task, which claims to come from the connection of the worker.
     let answer = wire.wait_for(is_first_answer);
-    let task = wire.wait_for(|message| message.subject.starts_with("nbc.v7.task."));
+    let task = wire.wait_for(|message| message.subject.starts_with(&subject_of("task.")));
     let (connection, _) = answer.reply.rsplit_once('.').expect("the worker waits for a reply");
     wire.publish(&format!("{} {connection}.forged", answer_subject(&task, "good")), &unstable(&task));
     // A report of other physics, and a reply that says that a result is wrong.
     let note = [&[VERSION, 4], &b"good"[..], &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
-    wire.publish("nbc.v7.worker", &note);
+    wire.publish(&subject_of("worker"), &note);
     let answer = wire.wait_for(|message| message.is_answer_of("good"));
     wire.publish(&answer.reply, &[VERSION, 3]);
     let ran = search.end();

@@ -4,7 +4,7 @@
 use std::fs;
 
 use crate::cluster::server::Server;
-use crate::cluster::wire::Wire;
+use crate::cluster::wire::{Wire, subject_of};
 use crate::cluster::{Running, files, worker};
 use crate::support::bench::{Bench, Ran};
 
@@ -44,9 +44,9 @@ fn compare(bench: &Bench, command: &[&str], status: i32) -> Ran {
     assert_eq!(alone.status, status, "{}{}", alone.out, alone.err);
     let mut wire = Wire::open(&server);
     let working = Running::start(bench, &[command, &["--nats", &server.url()]].concat());
-    wire.wait_for(|message| message.subject.starts_with("nbc.v7.task."));
+    wire.wait_for(|message| message.subject.starts_with(&subject_of("task.")));
     let first = worker(bench, &server, "first");
-    wire.wait_for(|message| message.subject == "nbc.v7.worker");
+    wire.wait_for(|message| message.subject == subject_of("worker"));
     first.kill();
     let second = worker(bench, &server, "second");
     let together = working.end();
@@ -100,7 +100,7 @@ fn a_signal_stops_what_workers_do() {
         let Some(server) = Server::start(&[]) else { return };
         let mut wire = Wire::open(&server);
         let working = Running::start(&bench, &[command, &["--nats", &server.url()]].concat());
-        wire.wait_for(|message| message.subject.starts_with("nbc.v7.task."));
+        wire.wait_for(|message| message.subject.starts_with(&subject_of("task.")));
         working.signal("TERM");
         let ran = working.end();
         assert_eq!((ran.status, &*ran.out), (4, out), "{}", ran.err);

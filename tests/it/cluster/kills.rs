@@ -7,7 +7,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::cluster::server::Server;
-use crate::cluster::wire::Wire;
+use crate::cluster::wire::{Wire, subject_of};
 use crate::cluster::{Running, assert_equal, assert_same, bench, evolve, files, worker};
 use crate::support::bench::Bench;
 use crate::support::root;
@@ -48,7 +48,7 @@ fn workers_that_are_killed_twenty_times_at_random_lose_nothing() {
         let name = format!("worker-{number}");
         let victim = worker(&bench, &server, &name);
         wire.wait_for(|message| {
-            message.subject == "nbc.v7.worker" && message.payload[2..].starts_with(name.as_bytes())
+            message.subject == subject_of("worker") && message.payload[2..].starts_with(name.as_bytes())
         });
         let answers = random.random_range(0..3);
         (0..answers).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of(&name)));

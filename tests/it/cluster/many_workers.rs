@@ -1,7 +1,7 @@
 //! Many workers.
 
 use crate::cluster::server::Server;
-use crate::cluster::wire::Wire;
+use crate::cluster::wire::{Wire, subject_of};
 use crate::cluster::{Running, assert_same, bench, evolve};
 
 #[test]
@@ -11,6 +11,6 @@ fn a_thousand_idle_workers_wait_and_work() {
     let mut wire = Wire::open(&server);
     let _workers =
         Running::start(&bench, &["worker", "--nats", &server.url(), "--threads", "1000", "--name", "many_workers"]);
-    wire.wait_for(|message| message.subject == "nbc.v7.worker");
+    wire.wait_for(|message| message.subject == subject_of("worker"));
     assert_same(&bench, &evolve(&bench, &server, &[]).end());
 }

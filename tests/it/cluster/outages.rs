@@ -7,7 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use crate::cluster::server::Server;
-use crate::cluster::wire::Wire;
+use crate::cluster::wire::{Wire, subject_of};
 use crate::cluster::{Running, assert_same, bench, evolve, worker};
 use crate::support::bench::Bench;
 use crate::support::limits;
@@ -189,9 +189,9 @@ fn a_queue_that_gives_out_no_task_is_made_again() {
     let bench = bench();
     let mut wire = Wire::open(&server);
     let search = evolve(&bench, &server, &[]);
-    let task = wire.wait_for(|message| message.subject.starts_with("nbc.v7.task."));
+    let task = wire.wait_for(|message| message.subject.starts_with(&subject_of("task.")));
     let token = task.subject.split('.').nth(3).unwrap();
-    let (name, filter) = (format!("workers-{token}"), format!("nbc.v7.task.{token}.>"));
+    let (name, filter) = (format!("workers-{token}"), subject_of(&format!("task.{token}.>")));
     // A queue of the same name that gives out one task, which nobody does.
     let config = format!(
         r#"{{"stream_name":"nbc-tasks","config":{{"durable_name":"{name}","ack_policy":"explicit",
@@ -199,7 +199,7 @@ fn a_queue_that_gives_out_no_task_is_made_again() {
     );
     wire.request(&format!("$JS.API.CONSUMER.DELETE.nbc-tasks.{name}"), "");
     wire.request(&format!("$JS.API.CONSUMER.DURABLE.CREATE.nbc-tasks.{name}"), &config);
-    wire.publish(&format!("$JS.API.CONSUMER.MSG.NEXT.nbc-tasks.{name} nbc.v7.reply.wire"), b"1");
+    wire.publish(&format!("$JS.API.CONSUMER.MSG.NEXT.nbc-tasks.{name} {}", subject_of("reply.wire")), b"1");
     wire.wait_for(|message| message.reply.starts_with("$JS.ACK.nbc-tasks."));
     let good = worker(&bench, &server, "good");
     search.wait_for("tasks, though workers ask; it is made again\n");
@@ -214,7 +214,8 @@ fn a_queue_is_opened_as_soon_as_its_subjects_are_free() {
     let Some(server) = Server::start(&[]) else { return };
     let (bench, mut wire) = (bench(), Wire::open(&server));
     // What a program is told while another one makes the queue.
-    wire.request("$JS.API.STREAM.CREATE.other", r#"{"name":"other","subjects":["nbc.v7.task.>"]}"#);
+    let other = serde_json::json!({ "name": "other", "subjects": [subject_of("task.>")] });
+    wire.request("$JS.API.STREAM.CREATE.other", &other.to_string());
     wire.subscribe("$JS.API.STREAM.CREATE.>");
     let worker = worker(&bench, &server, "early");
     (0..2).for_each(|_| _ = wire.wait_for(|message| message.subject.ends_with(".nbc-tasks")));

@@ -10,6 +10,11 @@ use crate::support::limits::PATIENCE;
 /// The first byte of each message.
 pub const VERSION: u8 = 7;
 
+/// A subject of these messages.
+pub fn subject_of(rest: &str) -> String {
+    format!("nbc.v{VERSION}.{rest}")
+}
+
 /// A connection that receives every message of the program.
 pub struct Wire {
     reader: BufReader<TcpStream>,
@@ -25,7 +30,7 @@ pub struct Seen {
 
 impl Seen {
     pub fn is_answer_of(&self, worker: &str) -> bool {
-        self.subject.starts_with("nbc.v7.answer.") && self.subject.ends_with(&format!(".{worker}"))
+        self.subject.starts_with(&subject_of("answer.")) && self.subject.ends_with(&format!(".{worker}"))
     }
 }
 
@@ -36,7 +41,7 @@ impl Wire {
         stream.set_read_timeout(Some(Duration::from_secs(120))).unwrap();
         let mut wire = Self { reader: BufReader::new(stream) };
         wire.say(b"CONNECT {\"verbose\":false,\"pedantic\":false}\r\n");
-        wire.subscribe("nbc.v7.>");
+        wire.subscribe(&subject_of(">"));
         wire
     }
 
@@ -58,7 +63,7 @@ impl Wire {
 
     /// Asks the server itself and waits for its answer, which is not an error.
     pub fn request(&mut self, subject: &str, payload: &str) {
-        let reply = "nbc.v7.reply.wire";
+        let reply = subject_of("reply.wire");
         self.publish(&format!("{subject} {reply}"), payload.as_bytes());
         let answer = String::from_utf8(self.wait_for(|message| message.subject == reply).payload).unwrap();
         assert!(!answer.contains("error"), "{answer}");
