@@ -533,6 +533,31 @@ pub use {
     nbc_session::{Synthesis, SynthesisOptions, SynthesisReport, cell_library, named_functions, robot_cells},
 };
 
+/// A circuit that is learned from the rows of a file.
+///
+/// ```
+/// use nbc::{CircuitFormat, LearnOptions, Learning, LearningReport, LearningRequest, Sources};
+/// let mut sources = Sources::default();
+/// let rows = sources.add("votes.csv", "votes,q\n0,0\n1,0\n2,0\n3,1\n4,0\n5,1\n6,1\n7,1\n");
+/// let options = LearnOptions { hold_out: 0.0, ..LearnOptions::default() };
+/// let request = LearningRequest { circuit: "majority", rows: sources.file(rows), outputs: &[], options };
+/// let (command, mut learning) = (request.command(), Learning::new(&request).unwrap());
+/// while learning.advance() {}
+/// let learned = learning.finish();
+/// let report = LearningReport::of(&learned, 0.1);
+/// assert!(report.text().contains("training: 100.00 % (8 of 8 rows)"));
+/// let program = nbc::encode_circuit(&learned.design, CircuitFormat::Nb)?;
+/// let program = nbc::with_comment(program, CircuitFormat::Nb, &report.provenance(&command));
+/// assert!(program.starts_with(b"//! Learned by nbc"));
+/// # Ok::<(), nbc::Diagnostics>(())
+/// ```
+#[cfg(feature = "disk")]
+pub use {
+    nbc_base::source::Sources,
+    nbc_session::store::{read_rows, with_comment},
+    nbc_session::{LearnOptions, Learning, LearningReport, LearningRequest},
+};
+
 /// ```no_run
 /// use std::path::Path;
 /// let checkpoint = nbc::Checkpoint::open(Path::new("out/gates/seed-1/checkpoint.nbc")).unwrap().unwrap();

@@ -8,6 +8,7 @@ mod errors;
 mod evaluation;
 mod evolution;
 mod flock;
+mod learning;
 mod memory;
 mod physics;
 mod program;
@@ -45,6 +46,7 @@ fn _nbc(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(command::program, module)?)?;
     module.add_function(wrap_pyfunction!(errors::nearest, module)?)?;
     module.add_function(wrap_pyfunction!(evaluation::evaluate, module)?)?;
+    module.add_function(wrap_pyfunction!(learning::learn, module)?)?;
     module.add_function(wrap_pyfunction!(program::write_file, module)?)?;
     module.add_function(wrap_pyfunction!(physics::read_schedule, module)?)?;
     module.add_function(wrap_pyfunction!(physics::simulate, module)?)?;

@@ -15,7 +15,7 @@ use nbc_base::diag::suggest::alternatives;
 use nbc_base::diag::{Diagnostic, Diagnostics, is_hidden, render, visible};
 use nbc_base::source::{ForeignCircuit, ProofOrigin, Sources};
 use nbc_session::Checked;
-use nbc_session::report::{Document, Schema};
+use nbc_session::report::{Document, Schema, Svg, png};
 use nbc_session::store;
 
 /// The format of the output.
@@ -219,6 +219,15 @@ impl Context {
         store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))?;
         self.wrote(path);
         Ok(())
+    }
+
+    /// Writes a drawing, as PNG if the path ends so and else as SVG, and says so.
+    ///
+    /// # Errors
+    /// When it cannot be written.
+    pub fn write_picture(&self, path: &Path, svg: &Svg) -> Result<(), Failure> {
+        let is_png = path.extension().is_some_and(|extension| extension == "png");
+        self.write(path, &if is_png { png(svg) } else { svg.finish().into_bytes() })
     }
 
     /// Says on standard error that a file that the user named is written.

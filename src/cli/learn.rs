@@ -5,13 +5,12 @@ use std::time::Instant;
 
 use clap::Args;
 
-use crate::cli::options::new_path::new_path;
+use crate::cli::options::new_path::{new_path, picture_path};
 use crate::cli::{Context, Failure, Interrupt, Progress, Status};
 use nbc_circuit::formats::CircuitFormat;
-use nbc_learn::LearnOptions;
 use nbc_session::report::Schema;
 use nbc_session::store;
-use nbc_session::{Learning, LearningReport, LearningRequest};
+use nbc_session::{LearnOptions, Learning, LearningReport, LearningRequest};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -33,6 +32,9 @@ pub struct LearnArguments {
     /// The file to write: .nb, .blif, .pla, .aig, .aag, .v or .dot; the circuit has its name
     #[arg(short, long, value_name = "OUT", value_parser = new_path())]
     output: Option<PathBuf>,
+    /// Write a picture (.svg or .png) of which values are taken for which
+    #[arg(long, value_name = "FILE", value_parser = picture_path())]
+    confusion: Option<PathBuf>,
     /// A port that is an output; may be repeated [default: those of a PLA, or the last port]
     #[arg(long, value_name = "PORT")]
     target: Vec<String>,
@@ -66,6 +68,7 @@ impl LearnArguments {
         let options =
             LearnOptions { gates: self.gates, hold_out: self.hold_out, seed: self.seed, group: self.group as usize };
         let request = LearningRequest { circuit: &circuit, rows: sources.file(file), outputs: &self.target, options };
+        let command = request.command();
         let mut learning = Learning::new(&request).map_err(|faults| Failure::input(faults, sources.clone()))?;
         // A format that the circuit does not fit is refused before it is learned.
         if let Some(format) = format {
@@ -83,20 +86,14 @@ impl LearnArguments {
         let report = LearningReport::of(&learned, started.elapsed().as_secs_f64());
         if let (Some(path), Some(format)) = (&self.output, format) {
             let bytes = store::encode_circuit(&learned.design, format).map_err(Failure::plain)?;
-            let comment = report.provenance(&self.command());
+            let comment = report.provenance(&command);
             context.write(path, &store::with_comment(bytes, format, &comment))?;
         }
         context.print_result(Schema::Learn, &report, || report.text())?;
+        if let Some(path) = &self.confusion {
+            context.write_picture(path, &report.draw_confusion().map_err(Failure::plain)?)?;
+        }
         Ok(Status::Done)
-    }
-
-    /// The command that does the same again, but for where its result goes.
-    fn command(&self) -> String {
-        let Self { rows, target, gates, hold_out, group, seed, .. } = self;
-        let targets: String = target.iter().map(|port| format!(" --target {port}")).collect();
-        let group = if *group > 1 { format!(" --group {group}") } else { String::new() };
-        let rows = rows.file_name().unwrap_or_default().to_string_lossy();
-        format!("nbc learn {rows}{targets} --gates {gates} --hold-out {hold_out}{group} --seed {seed}")
     }
 }
 

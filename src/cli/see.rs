@@ -5,10 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::cli::draw::read_run;
-use crate::cli::options::new_path::new_path;
+use crate::cli::options::new_path::picture_path;
 use crate::cli::source_path::source_path;
 use crate::cli::{Context, Failure, Interrupt, Progress, Status};
-use nbc_session::report::{EvolutionResults, Schema, Scheme, png};
+use nbc_session::report::{EvolutionResults, Schema, Scheme};
 use nbc_session::{Occlusion, Recognition, Session};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
@@ -39,7 +39,7 @@ pub struct SeeArguments {
     best: u32,
     /// Write a picture (.svg or .png) of what the first body needs of the images: how much less far it walks the right
     /// way when each pixel is covered by its mean
-    #[arg(long, value_name = "FILE", value_parser = new_path())]
+    #[arg(long, value_name = "FILE", value_parser = picture_path())]
     map: Option<PathBuf>,
 }
 
@@ -91,9 +91,7 @@ fn draw_map(
         bar.set(occlusion.progress().0);
     }
     drop(bar);
-    let svg = occlusion.draw(Scheme::default());
-    let is_png = path.extension().is_some_and(|extension| extension == "png");
-    context.write(path, &if is_png { png(&svg) } else { svg.finish().into_bytes() })?;
+    context.write_picture(path, &occlusion.draw(Scheme::default()))?;
     Ok(true)
 }
 

@@ -99,6 +99,37 @@ fn a_number_of_few_values_may_be_learned_as_a_code() {
 }
 
 #[test]
+fn a_small_budget_gives_a_small_tree() {
+    let bench = Bench::new();
+    // The majority of eleven bits, in a form that no recognized function of so few gates has.
+    bench.file("noisy.csv", rows(11, 1_500, |x| u64::from(x.count_ones() > 5) ^ u64::from(x % 13 == 5)));
+    let found = learned(&bench, &["noisy.csv", "--gates", "12"]);
+    assert!(found["ands"].as_u64().unwrap() <= 12, "{found}");
+    assert!(found["bits"][0]["learned"].as_str().unwrap().contains("a decision tree"), "{}", found["bits"]);
+    assert!(found["held_out"]["accuracy"].as_f64().unwrap() > 0.6, "{}", found["held_out"]);
+}
+
+#[test]
+fn confusions_are_a_picture_of_one_output_with_few_values() {
+    let bench = Bench::new();
+    bench.file("remainder.csv", rows(8, 200, |x| x % 5));
+    let ran = bench.run(&["learn", "remainder.csv", "--confusion", "remainder.svg"]);
+    assert_eq!((ran.status, ran.err.as_str()), (0, "wrote remainder.svg\n"));
+    let picture = fs::read_to_string(bench.path().join("remainder.svg")).unwrap();
+    assert!(
+        picture.contains(">remainder: y</text>") && picture.contains(" of 40 rows that were held out"),
+        "{picture}"
+    );
+    bench.file("square.csv", rows(8, 200, |x| x * x));
+    let refused = |file: &str, says: &str| {
+        let ran = bench.run(&["learn", "square.csv", "--confusion", file]);
+        assert!(ran.status == 2 && ran.err.contains(says), "{}", ran.err);
+    };
+    refused("square.png", "`square` has no table of confusions");
+    refused("square.txt", "expected a name that ends in .svg or .png");
+}
+
+#[test]
 fn the_same_seed_gives_the_same_file() {
     let bench = Bench::new();
     // Noise, so that the choice of rows matters.

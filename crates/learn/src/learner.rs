@@ -358,6 +358,10 @@ impl Learner {
         if is_exact && method.is_recognition() {
             methods.clear();
         }
+        // Where nothing that was grown fits the budget, smaller and smaller trees are tried.
+        if methods.is_empty() && !is_exact && best.as_ref().is_none_or(|best| !best.method.is_grown()) {
+            methods.extend(method.smaller_tree(parts.fit.target.rows()));
+        }
         if methods.is_empty() {
             let constant =
                 || Choice { method: LearningMethod::Constant, worth: 0.0, fitted: Fitted::constant(&parts.fit) };

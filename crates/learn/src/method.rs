@@ -56,7 +56,7 @@ impl LearningMethod {
             all.push(Self::Cubes { ones, least });
         }
         for fringes in [0, FRINGES] {
-            all.extend([1, 4, 12].map(|leaf| Self::Tree { leaf, fringes }));
+            all.extend([1, 4, MOST_LEAF].map(|leaf| Self::Tree { leaf, fringes }));
         }
         for (trees, depth) in [(7, 4), (15, 3), (7, 7), (15, 5), (31, 4), (15, 7), (31, 6), (63, 4)] {
             all.push(Self::Forest { trees, depth, fringes: 0 });
@@ -65,11 +65,26 @@ impl LearningMethod {
         all
     }
 
+    /// A tree that is smaller than this one, or than all that are tried; `None` if it would not ask anything of so many
+    /// rows.
+    pub fn smaller_tree(self, rows: usize) -> Option<Self> {
+        let leaf = if let Self::Tree { leaf, .. } = self { 2 * leaf } else { 2 * MOST_LEAF };
+        (2 * leaf <= rows).then_some(Self::Tree { leaf, fringes: 0 })
+    }
+
+    /// Whether its gates are grown row by row, so that there may be more or fewer of them.
+    pub fn is_grown(self) -> bool {
+        matches!(self, Self::Cubes { .. } | Self::Tree { .. } | Self::Forest { .. })
+    }
+
     /// Whether it recognizes a function: if that is right in all rows, nothing else is tried.
     pub fn is_recognition(self) -> bool {
         matches!(self, Self::Parity | Self::Count | Self::Arithmetic | Self::Chain)
     }
 }
+
+/// The most of the fewest rows on each side of a question of the trees that are always tried.
+const MOST_LEAF: usize = 12;
 
 /// The most rounds in which features are added.
 const FRINGES: usize = 6;

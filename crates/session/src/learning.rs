@@ -22,6 +22,17 @@ pub struct LearningRequest<'a> {
     pub options: LearnOptions,
 }
 
+impl LearningRequest<'_> {
+    /// The command that learns the same again.
+    pub fn command(&self) -> String {
+        let LearnOptions { gates, hold_out, group, seed } = self.options;
+        let targets: String = self.outputs.iter().map(|port| format!(" --target {port}")).collect();
+        let group = if group > 1 { format!(" --group {group}") } else { String::new() };
+        let rows = self.rows.name.rsplit(['/', '\\']).next().unwrap_or_default();
+        format!("nbc learn {rows}{targets} --gates {gates} --hold-out {hold_out}{group} --seed {seed}")
+    }
+}
+
 /// A circuit that is being learned. Each portion is short; a door decides when it does the next one, and cancels by
 /// dropping the value.
 #[derive(Clone, Debug)]

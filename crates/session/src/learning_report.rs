@@ -1,13 +1,13 @@
 //! What was learned, as text and as data.
 
-use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use serde::Serialize;
 
 use crate::learning::Learned;
-use crate::report::{Align, TextTable};
-use nbc_base::diag::counted;
+use crate::report::{Confusion, Svg};
+use crate::wording::LearningError;
+use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::Column;
 use nbc_circuit::levels;
 use nbc_learn::{Accuracy, Bits, Examples};
@@ -56,20 +56,6 @@ struct TriedReport {
     ands: usize,
 }
 
-/// For each value of an output, how often each value came in its place.
-#[derive(Debug, Serialize)]
-struct Confusion {
-    output: String,
-    /// Whether the rows are those that were held out.
-    held_out: bool,
-    values: Vec<u64>,
-    /// A row for each value that is wanted, with a number for each that came.
-    counts: Vec<Vec<usize>>,
-}
-
-/// The most values of an output with a table of confusions.
-const MOST_VALUES: usize = 16;
-
 impl LearningReport {
     /// The report of a circuit that took so many seconds.
     pub fn of(learned: &Learned, seconds: f64) -> Self {
@@ -91,7 +77,7 @@ impl LearningReport {
             training: AccuracyReport::of(circuit.accuracy(&circuit.training)),
             held_out: Some(held_out).filter(|held_out| held_out.rows > 0),
             bits: names.zip(&circuit.outputs).map(bit).collect(),
-            confusion: Confusion::of(learned),
+            confusion: confusion(learned),
             seconds,
         }
     }
@@ -119,6 +105,16 @@ impl LearningReport {
         text
     }
 
+    /// Which values are taken for which, as a picture.
+    ///
+    /// # Errors
+    /// When the circuit has several outputs, or one with more than 16 values.
+    pub fn draw_confusion(&self) -> Result<Svg, Diagnostic> {
+        let confusion = self.confusion.as_ref();
+        let confusion = confusion.ok_or_else(|| LearningError::NoConfusion { circuit: self.circuit.clone() })?;
+        Ok(confusion.draw(&format!("{}: {}", self.circuit, confusion.output)))
+    }
+
     /// What a file of the circuit says of where it comes from: `command` made it.
     pub fn provenance(&self, command: &str) -> Vec<String> {
         let rows = |what: &str, rows: &AccuracyReport| format!("{} of {} {what} right", rows.right, rows.rows);
@@ -143,42 +139,16 @@ impl TriedReport {
     }
 }
 
-impl Confusion {
-    /// The confusions of the only output, if it has few values, in the rows that were held out or else in all others.
-    fn of(learned: &Learned) -> Option<Self> {
-        let [output] = &learned.outputs[..] else { return None };
-        let held_out = learned.circuit.held_out.rows > 0;
-        let rows = if held_out { &learned.circuit.held_out } else { &learned.circuit.training };
-        let wanted: Vec<Bits> = rows.outputs.iter().map(|wanted| wanted.value.clone()).collect();
-        let is_known = |row: usize| rows.outputs.iter().all(|wanted| wanted.known.get(row));
-        let [wanted, found] = [numbers(&wanted, rows)?, numbers(&learned.circuit.outputs_in(rows), rows)?];
-        let pairs: Vec<(u64, u64)> =
-            wanted.into_iter().zip(found).enumerate().filter(|(row, _)| is_known(*row)).map(|(_, pair)| pair).collect();
-        let values: BTreeSet<u64> = pairs.iter().flat_map(|&(wanted, found)| [wanted, found]).collect();
-        if values.len() > MOST_VALUES {
-            return None;
-        }
-        let values: Vec<u64> = values.into_iter().collect();
-        let place = |value: u64| values.binary_search(&value).expect("all values are listed");
-        let mut counts = vec![vec![0; values.len()]; values.len()];
-        pairs.iter().for_each(|&(wanted, found)| counts[place(wanted)][place(found)] += 1);
-        Some(Self { output: output.name.clone(), held_out, values, counts })
-    }
-
-    fn text(&self) -> String {
-        let rows = if self.held_out { "rows that were held out" } else { "training rows" };
-        let names: Vec<String> = self.values.iter().map(u64::to_string).collect();
-        let columns: Vec<(&str, Align)> = [(self.output.as_str(), Align::Right)]
-            .into_iter()
-            .chain(names.iter().map(|name| (name.as_str(), Align::Right)))
-            .collect();
-        let mut table = TextTable::new(&columns);
-        for (value, counts) in self.values.iter().zip(&self.counts) {
-            let cell = |count: &usize| if *count == 0 { ".".to_owned() } else { count.to_string() };
-            table.push([value.to_string()].into_iter().chain(counts.iter().map(cell)).collect());
-        }
-        format!("the {rows}, by the value wanted (left) and the value found (top):\n{table}")
-    }
+/// The confusions of the only output, if it has few values, in the rows that were held out or else in all others.
+fn confusion(learned: &Learned) -> Option<Confusion> {
+    let [output] = &learned.outputs[..] else { return None };
+    let held_out = learned.circuit.held_out.rows > 0;
+    let rows = if held_out { &learned.circuit.held_out } else { &learned.circuit.training };
+    let wanted: Vec<Bits> = rows.outputs.iter().map(|wanted| wanted.value.clone()).collect();
+    let is_known = |row: usize| rows.outputs.iter().all(|wanted| wanted.known.get(row));
+    let [wanted, found] = [numbers(&wanted, rows)?, numbers(&learned.circuit.outputs_in(rows), rows)?];
+    let pairs = wanted.into_iter().zip(found).enumerate().filter(|(row, _)| is_known(*row));
+    Confusion::of(&output.name, held_out, &pairs.map(|(_, pair)| pair).collect::<Vec<_>>())
 }
 
 /// The number in each row of a word, the highest bit first; `None` of a word that is too wide.

@@ -66,6 +66,7 @@ pub use learning::{Learned, Learning, LearningRequest};
 pub use learning_report::LearningReport;
 pub use mapping::Mapping;
 pub use model_search::ModelSearch;
+pub use nbc_learn::LearnOptions;
 pub use observer::{Cancellable, CycleRunner, Observer, SwarmKeeper};
 pub use occlusion::Occlusion;
 pub use options::{CompileOptions, RUNS};

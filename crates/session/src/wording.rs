@@ -16,6 +16,8 @@ pub(super) enum LearningError {
     Format { file: String },
     /// So few rows that none are left to learn from.
     NoTraining { rows: usize, percent: f64 },
+    /// A circuit whose confusions are no table.
+    NoConfusion { circuit: String },
 }
 
 impl From<LearningError> for Diagnostic {
@@ -28,6 +30,10 @@ impl From<LearningError> for Diagnostic {
             LearningError::NoTraining { rows, percent } => {
                 let message = format!("{percent} % of {} leave none to learn from", counted(rows, "row"));
                 Self::without_place(Code::BadValue, message).with_help("hold out fewer rows: `--hold-out 0`")
+            }
+            LearningError::NoConfusion { circuit } => {
+                Self::without_place(Code::BadValue, format!("`{circuit}` has no table of confusions"))
+                    .with_help("such a table is of one output with at most 16 values")
             }
         }
     }

@@ -40,6 +40,17 @@ class _Sampling(TypedDict):
     worlds: int
     seed: int
 
+class _Learning(TypedDict):
+    name: str
+    file: str
+    text: Optional[str]
+    output: Optional[str]
+    target: Sequence[str]
+    gates: int
+    hold_out: float
+    group: int
+    seed: int
+
 class _Synthesizing(TypedDict):
     cells: Sequence[str]
     library: Optional[str]
@@ -178,6 +189,7 @@ def draw_body(title: str, codes: _Codes, shapes: _Shapes, materials: Optional[st
 def evaluate(codes: _Codes, shapes: _Shapes, evolution: Evolution, progress: _Report) -> Dict[str, Any]: ...
 def invalid_bodies(codes: _Codes, shapes: _Shapes, materials: Optional[str]) -> List[str]: ...
 def paper_materials() -> str: ...
+def learn(arguments: _Learning, progress: _Report) -> str: ...
 def most_threads() -> Tuple[int, int]: ...
 def nearest(word: str, known: Sequence[str]) -> Optional[str]: ...
 def program(arguments: Sequence[str]) -> int: ...

@@ -17,6 +17,7 @@ from .errors import (
     Span,
 )
 from .evolution import Evaluation, Evolution, evaluate
+from .learning import Learned, learn
 from .physics import CYCLE_STEPS, Flock, Trajectories, simulate
 from .search import Archive, Candidates, Search, evolve, read_archive
 from .synthesis import Synthesis, synthesize
@@ -37,6 +38,7 @@ __all__ = [
     "InternalError",
     "Interrupted",
     "InvalidBodyWarning",
+    "Learned",
     "MissingRobotWarning",
     "NbcError",
     "Port",
@@ -57,6 +59,7 @@ __all__ = [
     "evaluate",
     "evolve",
     "invalid",
+    "learn",
     "library",
     "load",
     "loads",

@@ -12,3 +12,11 @@ pub(in crate::cli) fn new_path() -> impl TypedValueParser<Value = PathBuf> {
         if is_visible { Ok(path) } else { Err("a name cannot have control characters") }
     })
 }
+
+/// A path of a picture, as [`new_path`], that ends in `.svg` or `.png`.
+pub(in crate::cli) fn picture_path() -> impl TypedValueParser<Value = PathBuf> {
+    new_path().try_map(|path| {
+        let is_picture = path.extension().is_some_and(|extension| extension == "svg" || extension == "png");
+        if is_picture { Ok(path) } else { Err("expected a name that ends in .svg or .png") }
+    })
+}

@@ -4,8 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::draw::wording::DrawError;
-use crate::cli::options::new_path::new_path;
+use crate::cli::options::new_path::picture_path;
 use crate::cli::options::number::number;
 use crate::cli::wording::UsageError;
 use crate::cli::world_runs::world_runs;
@@ -13,7 +12,6 @@ use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::Variation;
 use nbc_session::report::{self, Schema, YieldCurve};
-use nbc_session::store;
 use nbc_session::{Session, TestCase, Yields};
 use nbc_swarm::{Proportion, Robustness};
 
@@ -40,7 +38,7 @@ pub(super) struct WorldsArguments {
     #[arg(long, value_name = "SHARE", requires = "vary", value_parser = share)]
     least_yield: Option<f64>,
     /// Draw the yields into this file, `.svg` or `.png`
-    #[arg(long, value_name = "FILE", requires = "vary", value_parser = new_path())]
+    #[arg(long, value_name = "FILE", requires = "vary", value_parser = picture_path())]
     picture: Option<PathBuf>,
 }
 
@@ -61,7 +59,6 @@ impl WorldsArguments {
         interrupt: &Interrupt,
         context: &mut Context,
     ) -> Result<Status, Failure> {
-        self.check_picture()?;
         let times = if self.times.is_empty() { &[1.0][..] } else { &self.times };
         let yields = Yields::of(cases, &self.vary, times, self.count(), self.seed);
         if yields.experiments.is_empty() {
@@ -83,10 +80,7 @@ impl WorldsArguments {
             context.print_json(Schema::Robustness, &value)?;
         }
         if let Some(path) = self.picture.as_ref().filter(|_| left == 0) {
-            let svg = self.draw(&found);
-            let is_png = path.extension().is_some_and(|extension| extension == "png");
-            let bytes = if is_png { report::png(&svg) } else { svg.finish().into_bytes() };
-            store::write(path, &bytes).map_err(|error| Failure::unwritable(path, &error))?;
+            context.write_picture(path, &self.draw(&found))?;
         }
         let is_low = |one: &Robustness| self.least_yield.is_some_and(|least| one.passed.share() < least);
         Ok(match (left, found.iter().any(is_low)) {
@@ -98,15 +92,6 @@ impl WorldsArguments {
 
     fn count(&self) -> usize {
         self.worlds.unwrap_or(WORLDS) as usize
-    }
-
-    fn check_picture(&self) -> Result<(), Failure> {
-        let Some(path) = &self.picture else { return Ok(()) };
-        if path.extension().is_some_and(|extension| extension == "svg" || extension == "png") {
-            return Ok(());
-        }
-        let expected = vec!["`.svg`".to_owned(), "`.png`".to_owned()];
-        Err(DrawError::Extension { path: path.display().to_string(), expected, kind: "yields" }.into())
     }
 
     /// The yields against the size of the change: a curve for each test and variation.

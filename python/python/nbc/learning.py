@@ -1,0 +1,170 @@
+"""Circuits that are learned from examples."""
+
+from __future__ import annotations
+
+import html
+import json
+import os
+from dataclasses import dataclass, field
+from typing import Any, List, Mapping, Optional, Sequence, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _nbc
+from .circuits import Circuit, loads
+from .numbers import count
+from .progress import Progress, reporting
+
+__all__ = ["Learned", "learn"]
+
+Path = Union[str, "os.PathLike[str]"]
+
+
+@dataclass(frozen=True)
+class Learned:
+    """A circuit that was learned. In a notebook it is shown with its table of confusions."""
+
+    name: str
+    """The name of the circuit."""
+    training: float
+    """The share of the training rows that it gets right."""
+    held_out: Optional[float]
+    """The share of the rows that were held out; None if there are none."""
+    ands: int
+    """AND gates, inverters not counted."""
+    depth: int
+    """The longest path in cells."""
+    values: Tuple[int, ...]
+    """The values of its output, if it has one output with at most 16 values."""
+    confusion: npt.NDArray[np.intp] = field(repr=False)
+    """How often each of the values (columns) came in the place of the one wanted (rows), in the rows that were held
+    out, or else in the training rows; shape (values, values)."""
+    report: Mapping[str, Any] = field(repr=False)
+    """The JSON of ``nbc learn``, with all methods that were tried."""
+    text: str = field(repr=False)
+    """The report in lines."""
+    source: Optional[str] = field(repr=False)
+    """The circuit as a program; None if it is too large for one."""
+    _picture: Optional[str] = field(repr=False)
+
+    @property
+    def circuit(self) -> Circuit:
+        """The circuit, to be compiled or proved.
+
+        Raises:
+            ValueError: when it is too large for a program.
+        """
+        if self.source is None:
+            raise ValueError(f"the circuit `{self.name}` is too large for a program; write it to a .blif file")
+        return loads(self.source, f"{self.name}.nb").circuits[self.name]
+
+    def __str__(self) -> str:
+        return self.text
+
+    def _repr_html_(self) -> str:
+        return f"<pre>{html.escape(self.text)}</pre>{self._picture or ''}"
+
+
+def learn(
+    rows: Union[Path, Mapping[str, Any]],
+    output: Optional[Path] = None,
+    *,
+    name: Optional[str] = None,
+    target: Sequence[str] = (),
+    gates: int = 5000,
+    hold_out: float = 20.0,
+    group: int = 1,
+    seed: int = 1,
+    progress: Progress = False,
+) -> Learned:
+    """Learns a circuit from examples, as ``nbc learn`` does.
+
+    Args:
+        rows: a file, ``.csv`` or ``.pla``, or columns: a pandas frame or a mapping of names to arrays of whole numbers
+            from 0. An array of shape (rows, bits) of zeros and ones is a port of so many bits, the highest first. NaN
+            is any value.
+        output: the file to write: ``.nb``, ``.blif``, ``.pla``, ``.aig``, ``.aag``, ``.v`` or ``.dot``.
+        name: the name of the circuit; by default that of the output, or else of the rows.
+        target: ports that are outputs; by default those of a PLA, or the last port.
+        gates: the most AND gates, inverters not counted.
+        hold_out: the share of the rows in percent that the learner does not see.
+        group: so many rows after each other belong together: all are held out, or none.
+        seed: the seed of all random choices.
+        progress: whether to show a tqdm bar, or a function of the parts done and all parts.
+
+    Raises:
+        NbcError: when the rows cannot be read or learned from, or the circuit cannot be written.
+    """
+    if isinstance(rows, (str, os.PathLike)):
+        file, text = os.fspath(rows), None
+    else:
+        file, text = "rows.csv", _csv(rows)
+    if not 0 <= hold_out < 100:
+        raise ValueError(f"invalid hold_out {hold_out}; expected a number from 0 to less than 100")
+    if isinstance(target, str):
+        raise TypeError("target is a sequence of ports, such as ['q']")
+    written = None if output is None else os.fspath(output)
+    named = name or os.path.splitext(os.path.basename(written or file))[0]
+    arguments: _nbc._Learning = {
+        "name": named,
+        "file": file,
+        "text": text,
+        "output": written,
+        "target": list(target),
+        "gates": count(gates, "gates"),
+        "hold_out": float(hold_out),
+        "group": count(group, "group"),
+        "seed": count(seed, "seed", least=0, most=2**64 - 1),
+    }
+    with reporting(progress, " parts") as report:
+        made = json.loads(_nbc.learn(arguments, report))
+    data = made["data"]
+    confusion = data.get("confusion", {"values": [], "counts": []})
+    held_out = data.get("held_out")
+    return Learned(
+        name=data["circuit"],
+        training=data["training"]["accuracy"],
+        held_out=None if held_out is None else held_out["accuracy"],
+        ands=data["ands"],
+        depth=data["depth"],
+        values=tuple(confusion["values"]),
+        confusion=np.array(confusion["counts"], dtype=np.intp).reshape([len(confusion["values"])] * 2),
+        report=data,
+        text=made["text"],
+        source=made["source"],
+        _picture=made["picture"],
+    )
+
+
+def _csv(columns: Mapping[str, Any]) -> str:
+    """Columns as the text of a file: a port of several bits has a column for each."""
+    names: List[str] = []
+    texts: List[List[str]] = []
+    for name, column in columns.items():
+        values = np.asarray(column)
+        if values.ndim == 2:
+            width = values.shape[1]
+            names += [f"{name}[{width - 1 - bit}]" for bit in range(width)]
+            texts += [_texts(str(name), values[:, bit]) for bit in range(width)]
+        else:
+            names.append(str(name))
+            texts.append(_texts(str(name), values))
+    if not texts or len({len(text) for text in texts}) > 1:
+        raise ValueError("rows needs columns of the same length")
+    return "\n".join(",".join(line) for line in [names, *(list(row) for row in zip(*texts))]) + "\n"
+
+
+def _texts(name: str, values: npt.NDArray[Any]) -> List[str]:
+    """The numbers of a column as text."""
+    if values.ndim != 1:
+        raise ValueError(f"the column `{name}` has {values.ndim} dimensions, expected 1 or 2")
+    if values.dtype.kind == "f":
+        is_any = np.isnan(values)
+        whole = np.where(is_any, 0.0, values)
+        if (whole != np.floor(whole)).any() or (np.abs(whole) > 2**53).any():
+            raise ValueError(f"the column `{name}` has numbers that are not whole")
+        return ["-" if open else str(int(value)) for open, value in zip(is_any, whole)]
+    if values.dtype.kind not in "biu":
+        raise TypeError(f"the column `{name}` has the dtype {values.dtype}, expected whole numbers")
+    return [str(int(value)) for value in values]

@@ -1,0 +1,90 @@
+"""Circuits that are learned from examples."""
+
+from __future__ import annotations
+
+import json
+
+import numpy as np
+import pytest
+
+import nbc
+
+VOTES = "votes, q\n" + "".join(f"{votes}, {int(bin(votes).count('1') > 1)}\n" for votes in range(8))
+
+
+def test_what_is_learned_is_that_of_the_program(program, tmp_path):
+    rows, theirs, ours = tmp_path / "votes.csv", tmp_path / "theirs.nb", tmp_path / "ours.nb"
+    rows.write_text(VOTES)
+    expected = json.loads(program("learn", rows, "-o", theirs, "--hold-out", "25", "--seed", "2", "--format", "json"))
+    learned = nbc.learn(rows, ours, hold_out=25, seed=2)
+    assert ours.read_text() == theirs.read_text().replace("circuit theirs", "circuit ours")
+    report = dict(learned.report, circuit="theirs")
+    for one in (expected, report):
+        one.pop("seconds")
+        one.pop("schema", None)
+    assert report == expected and learned.name == "ours"
+    assert (learned.held_out, learned.confusion.sum()) == (expected["held_out"]["accuracy"], 2)
+
+
+def test_arrays_are_rows(root):
+    random = np.random.default_rng(1)
+    pixels = random.integers(0, 2, size=(300, 3, 3)).reshape(300, 9)
+    count = pixels.sum(axis=1)
+    learned = nbc.learn({"pixels": pixels, "many": count > 4}, name="majority")
+    assert learned.held_out == 1.0 and learned.report["inputs"] == [{"name": "pixels", "width": 9}]
+    assert learned.values == (0, 1) and np.trace(learned.confusion) == learned.confusion.sum() == 60
+    assert "<svg" in learned._repr_html_() and "nbc learn rows.csv" in (learned.source or "")
+    with learned.circuit.compile().swarm() as swarm:
+        bits = "110100110"
+        assert swarm.run([{"pixels": int(bits, 2)}])[0]["many"] == 1
+
+
+def test_a_frame_is_rows_and_nan_is_any_value():
+    pandas = pytest.importorskip("pandas")
+    half = pandas.DataFrame({"a": [0, 0, 1, 1], "b": [0, 1, 0, 1], "q": [0.0, 1.0, 1.0, float("nan")]})
+    learned = nbc.learn(pandas.concat([half] * 20), hold_out=0)
+    assert (learned.training, learned.held_out, learned.report["training"]["rows"]) == (1.0, None, 80)
+
+
+def test_two_outputs_have_no_table_of_confusions():
+    x = np.arange(16)
+    learned = nbc.learn({"x": x, "low": x & 1, "high": x >> 3}, target=["low", "high"], hold_out=0)
+    assert learned.values == () and learned.confusion.shape == (0, 0) and learned.training == 1.0
+    assert "<svg" not in learned._repr_html_()
+
+
+def test_wrong_rows_are_refused(tmp_path):
+    (tmp_path / "votes.txt").write_text(VOTES)
+    with pytest.raises(nbc.NbcError, match="expected .csv or .pla"):
+        nbc.learn(tmp_path / "votes.txt")
+    with pytest.raises(nbc.NbcError, match="leave none to learn from"):
+        nbc.learn({"a": [0, 1], "q": [1, 0]}, hold_out=99)
+    with pytest.raises(ValueError, match="not whole"):
+        nbc.learn({"a": [0, 0.5], "q": [1, 0]})
+    with pytest.raises(ValueError, match="same length"):
+        nbc.learn({"a": [0, 1], "q": [1]})
+    with pytest.raises(ValueError, match="same length"):
+        nbc.learn({})
+    with pytest.raises(ValueError, match="3 dimensions"):
+        nbc.learn({"a": np.zeros((2, 2, 2), dtype=int), "q": [0, 1]})
+    with pytest.raises(TypeError, match="dtype"):
+        nbc.learn({"a": ["x", "y"], "q": [0, 1]})
+    with pytest.raises(TypeError, match="sequence of ports"):
+        nbc.learn({"a": [0, 1], "q": [0, 1]}, target="q")
+    with pytest.raises(ValueError, match="invalid hold_out"):
+        nbc.learn({"a": [0, 1], "q": [0, 1]}, hold_out=100)
+    with pytest.raises(ValueError, match="unrecognized circuit format"):
+        nbc.learn({"a": [0, 1], "q": [0, 1]}, tmp_path / "q.txt", hold_out=0)
+
+
+def test_ctrl_c_ends_learning(tmp_path):
+    class Stop(Exception):
+        pass
+
+    def stop(done: int, all: int) -> None:
+        raise Stop
+
+    x = np.random.default_rng(2).integers(0, 2, size=(3000, 40))
+    with pytest.raises(Stop):
+        nbc.learn({"x": x, "q": x[:, :20].sum(axis=1) % 3 > 0}, tmp_path / "q.nb", progress=stop)
+    assert not (tmp_path / "q.nb").exists()
