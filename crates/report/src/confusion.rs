@@ -60,7 +60,7 @@ impl Confusion {
         format!("the {}, by the value wanted (left) and the value found (top):\n{table}", self.rows())
     }
 
-    /// The table as a picture. What is right is on the diagonal, and blue. A cell is the darker, the larger its share of
+    /// The table as a picture. What is right is on the diagonal, and blue. A cell is darker the larger its share is of
     /// the rows in which the value on the left is wanted.
     pub fn draw(&self, title: &str) -> Svg {
         let count = self.values.len() as f64;
