@@ -253,8 +253,11 @@ fn each_outer_crate_has_one_home() {
     });
     let drawing = ["report/src/film.rs", "report/src/font.rs", "report/src/raster.rs"];
     let pixels = |path: &Path| drawing.iter().any(|name| path.ends_with(name));
-    let painters = ["tiny_skia", "ttf_parser", "gif::", "png::"];
+    let painters = ["tiny_skia", "ttf_parser", "gif::"];
     forbid("only three files of report/ name what draws pixels", &painters, pixels);
+    let reads_png = |path: &Path| path.ends_with("model/png_file.rs");
+    let rule = "only what draws pixels and model/png_file.rs name png";
+    forbid(rule, &["png::"], |path| pixels(path) || reads_png(path));
     let files = |path: &Path| folder(path) == "store" || is_door(path);
     forbid("only store/ and doors name what writes files", &["tempfile", "rustix", "crc32fast"], files);
 }

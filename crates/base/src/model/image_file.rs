@@ -1,4 +1,4 @@
-//! Files of images: rows of numbers as CSV, portable graymaps, and the files of MNIST.
+//! Files of images: rows of numbers as CSV, portable graymaps, PNG, and the files of MNIST.
 
 use super::Image;
 use super::wording::ImageFileError;
@@ -48,6 +48,7 @@ impl ImageFile<'_> {
         let images = match name.rsplit(['.', '-']).next() {
             Some("csv") => self.csv()?,
             Some("pgm") => vec![self.pgm()?],
+            Some("png") => vec![self.png()?],
             Some("ubyte" | "idx" | "idx3") => self.idx()?,
             _ => return Err(ImageFileError::Format),
         };
@@ -135,6 +136,18 @@ impl ImageFile<'_> {
             return Err(damaged("its pixels"));
         }
         Ok(LabeledImage { label: None, image: self.image(&numbers, self.white.unwrap_or(greatest as f64), None)? })
+    }
+
+    /// The gray values of a picture.
+    #[cfg(feature = "pictures")]
+    fn png(&self) -> Result<LabeledImage, ImageFileError> {
+        let (numbers, greatest) = super::png_file::gray(self.bytes, self.size)?;
+        Ok(LabeledImage { label: None, image: self.image(&numbers, self.white.unwrap_or(greatest), None)? })
+    }
+
+    #[cfg(not(feature = "pictures"))]
+    fn png(&self) -> Result<LabeledImage, ImageFileError> {
+        Err(ImageFileError::NoPng)
     }
 
     /// The files of MNIST: bytes after a head of big-endian numbers.
@@ -279,6 +292,58 @@ mod tests {
         assert_eq!((found[1].image.pixels()[0], found[1].label.as_deref()), (1.0, Some("0")));
         assert!(ImageFile { labels: Some(&labels[..9]), ..read }.read().is_err());
         assert_eq!(ImageFile::labels_beside("a/train-images-idx3-ubyte").as_deref(), Some("a/train-labels-idx1-ubyte"));
+    }
+
+    /// A PNG of two rows and columns.
+    #[cfg(feature = "pictures")]
+    fn png(color: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+        encoder.set_color(color);
+        encoder.set_depth(depth);
+        if color == png::ColorType::Indexed {
+            encoder.set_palette(&[0, 0, 0, 255, 255, 255, 51, 51, 51][..]);
+        }
+        encoder.write_header().unwrap().write_image_data(data).unwrap();
+        bytes
+    }
+
+    #[test]
+    #[cfg(feature = "pictures")]
+    fn images_are_read_from_png_as_gray() {
+        use png::{BitDepth, ColorType};
+        let check = |color, depth, data: &[u8], white, expected: [f64; 4]| {
+            super::tests::check("a.PNG", &png(color, depth, data), white, &[(&expected, None)]);
+        };
+        check(ColorType::Grayscale, BitDepth::Eight, &[0, 255, 51, 0], None, [0.0, 1.0, 0.2, 0.0]);
+        check(ColorType::Grayscale, BitDepth::Eight, &[0, 8, 16, 4], Some(16.0), [0.0, 0.5, 1.0, 0.25]);
+        check(ColorType::Grayscale, BitDepth::One, &[0x40, 0x80], None, [0.0, 1.0, 1.0, 0.0]);
+        check(ColorType::Grayscale, BitDepth::Sixteen, &[0, 0, 255, 255, 51, 51, 0, 0], None, [0.0, 1.0, 0.2, 0.0]);
+        check(ColorType::Indexed, BitDepth::Eight, &[0, 1, 2, 0], None, [0.0, 1.0, 0.2, 0.0]);
+        let colors = [255, 255, 255, 255, 0, 0, 0, 255, 0, 0, 0, 255];
+        check(ColorType::Rgb, BitDepth::Eight, &colors, None, [1.0, 0.29900000000000004, 0.587, 0.114]);
+        let transparent = [255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 51, 0, 0, 0, 255];
+        check(ColorType::Rgba, BitDepth::Eight, &transparent, None, [0.0, 1.0, 0.2, 0.0]);
+        check(
+            ColorType::GrayscaleAlpha,
+            BitDepth::Eight,
+            &[255, 0, 255, 255, 255, 51, 0, 255],
+            None,
+            [0.0, 1.0, 0.2, 0.0],
+        );
+        let whole = png(ColorType::Grayscale, BitDepth::Eight, &[0, 255, 51, 0]);
+        let read = |bytes: &[u8], size| read("a.png", bytes, size, None).map(|_| ());
+        let size = "its images have 2 rows and 2 columns, expected 3 and 2";
+        assert_eq!(read(&whole, [3, 2]), Err(size.to_owned()));
+        let damaged = |what: &str| Err(format!("it is a damaged PNG file: {what} not complete"));
+        assert_eq!(read(&whole[..20], [2, 2]), damaged("its head is"));
+        assert_eq!(read(&whole[..45], [2, 2]), damaged("its pixels are"));
+    }
+
+    #[test]
+    #[cfg(not(feature = "pictures"))]
+    fn a_build_without_pictures_reads_no_png() {
+        assert_eq!(read("a.png", b"", [2, 2], None), Err("this program was built without PNG".to_owned()));
     }
 
     #[test]

@@ -17,6 +17,8 @@ mod image_file;
 mod material;
 mod objective;
 mod palette;
+#[cfg(feature = "pictures")]
+mod png_file;
 mod program;
 mod robot;
 mod rules;

@@ -213,6 +213,8 @@ impl Error for ImageError {}
 pub enum ImageFileError {
     /// A name of another ending.
     Format,
+    /// A PNG, in a program without them.
+    NoPng,
     /// No images.
     Empty,
     /// A file of rows that is not text.
@@ -264,6 +266,7 @@ impl fmt::Display for ImageFileError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Format => f.write_str("it has none of the formats of images"),
+            Self::NoPng => f.write_str("this program was built without PNG"),
             Self::Empty => f.write_str("it has no images"),
             Self::NotText => f.write_str("it is not valid UTF-8"),
             Self::Row { line, found, expected } => {

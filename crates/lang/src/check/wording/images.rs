@@ -112,7 +112,8 @@ impl ImagesError {
 fn file_error(file: &str, error: &ImageFileError, span: Span) -> Diagnostic {
     let message = format!("cannot read images from `{file}`: {error}");
     let label = match error {
-        ImageFileError::Format => "expected a file name ending in .csv, .pgm or -ubyte",
+        ImageFileError::Format => "expected a file name ending in .csv, .pgm, .png or -ubyte",
+        ImageFileError::NoPng => "expected .csv, .pgm or -ubyte",
         ImageFileError::Range { .. } => "expected smaller numbers, or another `white`",
         _ => "expected images of the size of the stimulus",
     };
