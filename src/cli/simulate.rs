@@ -1,19 +1,24 @@
 //! `nbc simulate`: one body under a schedule of stimuli.
 
+use std::path::Path;
+
 use clap::Args;
 use serde::Serialize;
 
+use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::{is_run, read_run};
 use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::images::{ImagesArguments, ShownSchedule};
 use crate::cli::options::number::number;
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::robots::read_body;
 use crate::cli::wording::{GroundEnds, UsageError};
 use crate::cli::{Context, Failure, Status};
 use nbc_base::diag::{Diagnostic, counted};
-use nbc_base::model::{CYCLE_STEPS, Direction, Fault, Schedule, Setting, Trajectory, Trial};
+use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Direction, Fault, Schedule, Setting, Trajectory, Trial};
 use nbc_base::source::Sources;
-use nbc_session::read_schedule;
+use nbc_session::behavior;
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::LaneBackend;
 
@@ -22,18 +27,24 @@ use nbc_sim::LaneBackend;
 #[command(after_help = "Examples:
   nbc simulate nand --schedule '00*10 01*10 10*10 11*10'
   nbc simulate body.yaml --schedule '01*56steps' --world-width 60 --start-x 28 --format json
+  nbc simulate out/zeros_and_ones --behavior LLRR --images library/seeing.nb --schedule 'zeros*250steps ones*250steps'
 
 A body is a robot file, or any YAML or JSON mapping with `body:` as rows of material codes, top row first: 0 empty, \
 1 rigid, 2 soft, 3 actuator, 4 actuator in antiphase. While stimulus 1 is present, 5 shrinks and 7 grows; while \
 stimulus 2 is present, 6 shrinks and 8 grows. A file may have `materials:` of its own; a pattern has a digit for each \
-stimulus that they sense.
+stimulus that they sense. The schedule of a body that sees names sets of images, each of which is shown for that time.
 Exit status: 0 simulated to the end, 1 the simulation failed, 2 bad input.")]
 pub struct SimulateArguments {
-    /// A file with a body, or the name of a robot in the library
+    /// A file with a body, the name of a robot in the library, or the folder of a run
     robot: String,
     /// Patterns of the stimuli with durations: `01*10` is ten cycles, `01*56steps` is 56 env steps
     #[arg(long)]
     schedule: String,
+    #[command(flatten)]
+    images: ImagesArguments,
+    /// The best robot of a run with this behavior, such as `RRRL` or its function `nand`
+    #[arg(long, value_name = "BEHAVIOR", value_parser = behavior)]
+    behavior: Option<Behavior>,
     /// The ground column of the body's left column [default: the middle of the world]
     #[arg(long, value_name = "COLUMN", value_parser = number::<usize>)]
     start_x: Option<usize>,
@@ -65,9 +76,9 @@ impl SimulateArguments {
     /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::default() };
-        let body = read_body(&self.robot, &self.library)?;
-        let stimuli = body.palette().stimuli();
-        let schedule = read_schedule("--schedule", &self.schedule, stimuli)?;
+        let body = self.body(context)?;
+        let ShownSchedule { schedule, shown } =
+            self.images.schedule(Some(&self.schedule), [&body])?.expect("a text is a schedule");
         setting.check(&body).map_err(UsageError::Setting)?;
         let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;
         let trial = Trial { body, schedule: schedule.clone() };
@@ -76,9 +87,26 @@ impl SimulateArguments {
         let warnings: Vec<Diagnostic> = ground_ends(&setting, &trajectory).into_iter().collect();
         context.tell(&warnings, &Sources::default());
         context.print_result(Schema::Simulate, &Outcome::of(&schedule, &trajectory), || {
-            describe(&schedule, stimuli, &trajectory)
+            describe(&schedule, &shown, &trajectory)
         })?;
         Ok(if trajectory.fault.is_none() { Status::Done } else { Status::TestFailed })
+    }
+
+    /// The body of the file, the robot or the run.
+    fn body(&self, context: &Context) -> Result<Body, Failure> {
+        let (path, what) = (Path::new(&self.robot), || self.robot.clone());
+        match self.behavior {
+            Some(_) if !is_run(path) => Err(UsageError::BehaviorOfFile.into()),
+            Some(behavior) => match read_run(path, context)?.champion(behavior) {
+                Some(elite) => Ok(elite.body.clone()),
+                None => Err(DrawError::UnknownBehavior { what: what(), behavior }.into()),
+            },
+            None if is_run(path) => {
+                let behaviors = read_run(path, context)?.behaviors().iter().map(Behavior::to_string).collect();
+                Err(UsageError::BodyOfRun { path: what(), behaviors }.into())
+            }
+            None => read_body(&self.robot, &self.library),
+        }
     }
 }
 
@@ -99,11 +127,11 @@ impl<'a> Outcome<'a> {
     }
 }
 
-fn describe(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> String {
+fn describe(schedule: &Schedule, shown: &[String], trajectory: &Trajectory) -> String {
     use Align::{Left, Right};
     let mut table =
         TextTable::new(&[("stimuli", Left), ("length", Right), ("displacement", Right), ("direction", Left)]);
-    for (spell, walked) in schedule.spells.iter().zip(trajectory.displacements(schedule)) {
+    for ((spell, shown), walked) in schedule.spells.iter().zip(shown).zip(trajectory.displacements(schedule)) {
         let length = match spell.steps % CYCLE_STEPS {
             0 => counted((spell.steps / CYCLE_STEPS) as usize, "cycle"),
             _ => counted(spell.steps as usize, "step"),
@@ -112,7 +140,7 @@ fn describe(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Str
             Some(walked) => (format!("{walked:+.6}"), format!("{:?}", Direction::of(walked)).to_lowercase()),
             None => ("-".to_owned(), "-".to_owned()),
         };
-        table.push(vec![spell.pattern.digits(stimuli), length, walked, direction]);
+        table.push(vec![shown.clone(), length, walked, direction]);
     }
     match trajectory.fault {
         None => format!("{table}voxels walked\n"),

@@ -53,6 +53,12 @@ pub(in crate::cli) enum UsageError {
     NoWord { file: String },
     /// Witnesses that are asked for where there is not one model.
     WitnessOfSource,
+    /// A body that senses images of so many rows and columns, without a schedule of images.
+    NoImages { size: [usize; 2] },
+    /// Images for bodies that sense none.
+    NothingSees,
+    /// A run where one body is expected, with the behaviors of its bodies.
+    BodyOfRun { path: String, behaviors: Vec<String> },
     /// Worlds for tests that run in none.
     NoWorlds,
     /// A ground that a body cannot stand on.
@@ -123,6 +129,18 @@ impl From<UsageError> for Diagnostic {
             ),
             UsageError::WitnessOfSource => bad("`--witness` is for one model in AIGER's format".to_owned())
                 .with_help("leave it out: a property of a program is refuted by a test"),
+            UsageError::NoImages { size: [rows, columns] } => {
+                bad(format!("the body senses images of {rows} x {columns} pixels, but is shown none")).with_help(
+                    "name a file with sets of images in `--images`, and its sets in `--schedule`, for example \
+                     `zeros*250steps`",
+                )
+            }
+            UsageError::NothingSees => bad("`--images` is for bodies that sense images".to_owned())
+                .with_help("leave it out: this body senses patterns of stimuli such as `01`"),
+            UsageError::BodyOfRun { path, behaviors } => {
+                let bodies = format!("it has bodies with {}", alternatives(&behaviors, "and"));
+                bad(format!("`{path}` is a run, expected one `--behavior` of it")).with_help(bodies)
+            }
             UsageError::NoWorlds => bad("none of these tests runs in a world".to_owned())
                 .with_help("leave out `--vary`: a test for ever is decided at the level of logic"),
             UsageError::Exists { file } => Self::without_place(Code::Unwritable, format!("`{file}` exists already"))

@@ -2,9 +2,11 @@
 
 use std::fs;
 
-use nbc_base::model::{Evolution, ImageOrder, Pattern, Program, SearchObjective};
+use nbc_base::model::{Body, Evolution, ImageOrder, Pattern, Program, SearchObjective, Setting, Trial};
 use nbc_base::source::MemoryWorld;
 use nbc_session::Session;
+use nbc_session::store::DiskWorld;
+use nbc_sim::Simulator;
 
 use crate::support::bench::Bench;
 use crate::support::root;
@@ -115,6 +117,64 @@ fn bodies_are_evolved_and_tell_the_images_that_they_were_evolved_with_apart_as_t
         assert_eq!(ran.status, 0, "{}", ran.err);
     }
     assert_eq!(checkpoint("out"), checkpoint("again"));
+}
+
+#[test]
+fn a_body_of_a_run_is_simulated_and_drawn_before_images() {
+    let bench = Bench::new();
+    bench.file("spots.csv", SPOTS);
+    bench.file("tell.nb", PROGRAM);
+    assert_eq!(bench.run(&["evolve", "tell.nb", "--run", "tell"]).status, 0);
+    let seen = bench.run(&["see", "tell.nb", "spots", "out/tell", "--format", "json"]);
+    let best = &validate("see", &seen.out)["bodies"][0];
+    let behavior = if best["sets"][0]["way"] == "right" { "RRLL" } else { "LLRR" };
+    let shown = ["--behavior", behavior, "--images", "tell.nb", "--schedule", "tops*20steps bottoms*30steps"];
+    let simulate = |more: &[&str]| bench.run(&[&["simulate", "out/tell"], more].concat());
+
+    let program = program();
+    let evolution = program.evolution("tell").unwrap();
+    let rows: Vec<&str> = best["body"].as_array().unwrap().iter().map(|row| row.as_str().unwrap()).collect();
+    let body = Body::parse(&rows, &evolution.palette).unwrap();
+    let trial = Trial { body, schedule: evolution.variable.clone() };
+    let walked = Simulator::default().run_trials(&Setting::default(), std::slice::from_ref(&trial)).remove(0);
+    let ran = simulate(&[&shown[..], &["--format", "json"]].concat());
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let found = validate("simulate", &ran.out);
+    assert_eq!(found["displacement"], serde_json::json!(walked.displacements(&trial.schedule)));
+    let text = simulate(&shown).out;
+    let first: Vec<&str> = text.lines().filter_map(|line| line.split("  ").next()).collect();
+    assert_eq!(first[1..5], ["tops 1", "tops 2", "bottoms 1", "bottoms 2"], "{text}");
+
+    for (kind, file) in [("gif", "film.gif"), ("strip", "strip.svg"), ("pose", "pose.svg"), ("spacetime", "path.svg")] {
+        let drawn = bench.run(&[&["draw", "out/tell", "--as", kind, "-o", file][..], &shown].concat());
+        assert_eq!(drawn.status, 0, "{}", drawn.err);
+    }
+    let picture = |file: &str| fs::read_to_string(bench.path().join(file)).unwrap();
+    // A strip shows all images, of which three have a pixel that is three quarters black; a pose shows the last one.
+    assert_eq!(["strip.svg", "pose.svg"].map(|file| picture(file).matches("\"#535353\"").count()), [3, 1]);
+    assert!(!picture("path.svg").contains("stimulus"));
+
+    let (images, behavior) = (&shown[2..], &shown[..2]);
+    simulate(images).expect_fault(&["`out/tell` is a run, expected one `--behavior` of it", "it has bodies with"]);
+    let dark = [behavior, &["--schedule", "00*1"]].concat();
+    simulate(&dark).expect_fault(&["the body senses images of 2 x 2 pixels, but is shown none", "`--images`"]);
+    let drawn = bench.run(&[&["draw", "out/tell", "--as", "gif", "-o", "dark.gif"][..], behavior].concat());
+    drawn.expect_fault(&["the body senses images of 2 x 2 pixels, but is shown none"]);
+    let blind = bench.run(&["simulate", "nand", "--schedule", "00*1", "--images", "tell.nb"]);
+    blind.expect_fault(&["`--images` is for bodies that sense images"]);
+    let own = bench.run(&["simulate", "nand", "--schedule", "00*1", "--behavior", "nand"]);
+    own.expect_fault(&["`--behavior` chooses among the robots of runs"]);
+}
+
+#[test]
+fn images_are_read_from_png() {
+    let bench = Bench::new();
+    let mut png = png::Encoder::new(fs::File::create(bench.path().join("top.png")).unwrap(), 2, 2);
+    png.set_color(png::ColorType::Grayscale);
+    png.write_header().unwrap().write_image_data(&[255, 255, 51, 0]).unwrap();
+    bench.file("top.nb", "stimulus spot[2][2]\nimages top { stimulus: spot, from: \"top.png\" }\n");
+    let checked = Session::new(DiskWorld).open(bench.path().join("top.nb").to_str().unwrap()).unwrap();
+    assert_eq!(checked.program.images[0].images[0].pixels(), [1.0, 1.0, 0.2, 0.0]);
 }
 
 #[test]

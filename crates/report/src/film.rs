@@ -7,6 +7,7 @@ use tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use crate::Color;
 use crate::element::{Anchor, Paint, Type};
+use crate::image::{ink, pixel_side};
 use crate::looks::{Look, Looks, draw_mark};
 use crate::raster::{rasterize, solid};
 use crate::scheme::Scheme;
@@ -14,7 +15,7 @@ use crate::sprite::Pose;
 use crate::stage::{Moment, Stage};
 use crate::svg::{Svg, shorten};
 use crate::swatches::{Swatches, UNCHANGED};
-use nbc_base::model::GroundProfile;
+use nbc_base::model::{GroundProfile, Image, Pattern};
 
 /// Frames for each cycle, where nothing else is asked for.
 pub const FRAMES_PER_CYCLE: u32 = 12;
@@ -53,6 +54,8 @@ struct Painter<'a> {
     backdrop: Pixmap,
     looks: Looks,
     swatches: Swatches,
+    /// Whether the robots sense images.
+    sees: bool,
     /// The world's x at the middle of each lane.
     cameras: Vec<f64>,
     frame: Pixmap,
@@ -70,11 +73,12 @@ struct Patch {
 
 impl<'a> Painter<'a> {
     fn new(film: &'a Film, stage: &Stage) -> Self {
-        let backdrop = rasterize(&film.backdrop(), 1.0);
+        let sees = stage.palettes().iter().any(|palette| palette.image().is_some());
+        let backdrop = rasterize(&film.backdrop(sees), 1.0);
         let looks = Looks::of_palettes(stage.palettes(), film.scheme);
         let swatches = Swatches::new(&looks, film.scheme, film.stimuli);
         let frame = backdrop.clone();
-        Self { film, backdrop, looks, swatches, cameras: Vec::new(), frame, indexed: Vec::new() }
+        Self { film, backdrop, looks, swatches, sees, cameras: Vec::new(), frame, indexed: Vec::new() }
     }
 
     fn size(&self) -> (u32, u32) {
@@ -145,17 +149,39 @@ impl<'a> Painter<'a> {
         }
         self.paint_ground(camera, half, lane, to_pixel);
         paint_pose(&mut self.frame, &moment.poses[lane], &self.looks, !film.is_dense(), to_pixel);
-        for (i, color) in Color::STIMULI.into_iter().take(film.stimuli).enumerate() {
-            let side = film.lamp();
-            let place = (left + side + i as f64 * side * 1.375, ground - side);
+        match &moment.spells[lane].image {
+            Some(image) => self.paint_image(image, (left + film.lamp(), ground)),
+            None if self.sees => {}
+            None => self.paint_stimuli(moment.spells[lane].pattern, (left + film.lamp(), ground)),
+        }
+        if moment.faults[lane] {
+            fill_rect(&mut self.frame, (left + film.labels(), ground + GROUND), film.span(), 4.0, Color::FAULT);
+        }
+    }
+}
+
+impl Painter<'_> {
+    /// A square for each stimulus, filled if it is present.
+    fn paint_stimuli(&mut self, pattern: Pattern, (left, bottom): (f64, f64)) {
+        let side = self.film.lamp();
+        for (i, color) in Color::STIMULI.into_iter().take(self.film.stimuli).enumerate() {
+            let place = (left + i as f64 * side * 1.375, bottom - side);
             fill_rect(&mut self.frame, place, side, side, color);
-            if !moment.patterns[lane].has(i) {
+            if !pattern.has(i) {
                 let (edge, inner) = (side / 8.0, side * 0.75);
                 fill_rect(&mut self.frame, (place.0 + edge, place.1 + edge), inner, inner, Color::WHITE);
             }
         }
-        if moment.faults[lane] {
-            fill_rect(&mut self.frame, (left + film.labels(), ground + GROUND), film.span(), 4.0, Color::FAULT);
+    }
+
+    fn paint_image(&mut self, image: &Image, (left, bottom): (f64, f64)) {
+        let ([rows, columns], side) = (image.size(), pixel_side(image, self.film.shown(true)));
+        let (wide, high) = (columns as f64 * side, rows as f64 * side);
+        fill_rect(&mut self.frame, (left - 1.0, bottom - high - 1.0), wide + 2.0, high + 2.0, Color::PALE);
+        for (at, &value) in image.pixels().iter().enumerate() {
+            let (row, column) = (at / columns, at % columns);
+            let corner = (left + column as f64 * side, bottom - (rows - row) as f64 * side);
+            fill_rect(&mut self.frame, corner, side, side, ink(value));
         }
     }
 }
@@ -199,6 +225,11 @@ impl Film {
         if self.is_dense() { 8.0 } else { 16.0 }
     }
 
+    /// The height of what shows the stimuli, or the image.
+    fn shown(&self, sees: bool) -> f64 {
+        if sees { self.lamp() * 4.0 } else { self.lamp() }
+    }
+
     /// The width of the part of a lane in which its robot walks.
     fn span(&self) -> f64 {
         self.lane_width() - self.labels()
@@ -236,20 +267,21 @@ impl Film {
         self.ground(lane) - self.lane_height() + 16.0
     }
 
-    fn backdrop(&self) -> Svg {
+    fn backdrop(&self, sees: bool) -> Svg {
         let width = self.lane_width() * self.columns() as f64;
         let height = HEAD + self.lane_height() * self.rows() as f64 + FOOT;
         let mut svg = Svg::new(width, height, &self.title);
         svg.text((14.0, 22.0), &self.title, Type::new(14.0).bold());
         let legend = Type::new(10.0).colored(Color::GRAY).anchored(Anchor::End);
-        svg.text((width - 10.0, 21.0), "squares: stimuli 1, 2; long ticks: 5 voxels", legend);
+        let shown = if sees { "left: the image" } else { "squares: stimuli 1, 2" };
+        svg.text((width - 10.0, 21.0), &format!("{shown}; long ticks: 5 voxels"), legend);
         for (lane, name) in self.lanes.iter().enumerate() {
             let (left, ground) = (self.left(lane), self.ground(lane));
             let top = self.top(lane);
             svg.rect((left + self.labels(), top), self.span(), ground - top, Paint::fill(Color::SKY));
             svg.rect((left + self.labels(), ground), self.span(), GROUND, Paint::fill(Color::GROUND));
             let (letters, size) = if self.is_dense() { (13, 7.0) } else { (15, 11.0) };
-            let above = self.lamp() * 1.5;
+            let above = self.shown(sees) + self.lamp() / 2.0;
             svg.text((left + self.lamp() - 2.0, ground - above), &shorten(name, letters), Type::new(size));
         }
         svg

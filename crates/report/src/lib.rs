@@ -26,6 +26,7 @@ mod heights;
 mod hierarchy;
 mod history;
 mod html;
+mod image;
 mod layers;
 mod listing;
 mod logic_page;

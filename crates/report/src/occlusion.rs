@@ -2,6 +2,7 @@
 
 use crate::Color;
 use crate::element::{Paint, Point, Type};
+use crate::image::{draw_pixels, ink};
 use crate::looks::Looks;
 use crate::scheme::Scheme;
 use crate::sprite::{draw_body, draw_legend, legend_size};
@@ -49,26 +50,18 @@ pub fn draw_occlusion(map: &OcclusionMap<'_>, scheme: Scheme) -> Svg {
     caption(&mut svg, left(0), "needed");
     svg.group("losses", "voxels less when a pixel is covered", |svg| {
         let color = |at: usize| losses[at].map_or(Color::PALE, |loss| loss_color(loss, most));
-        draw_pixels(svg, (left(0), TOP), [rows, columns], color);
+        draw_pixels(svg, (left(0), TOP), VOXEL, [rows, columns], color);
     });
     for (number, (name, mean)) in sets.iter().enumerate() {
         let place = left(number + 1);
         caption(&mut svg, place, &format!("mean of {name}"));
         svg.group(&format!("mean-{name}"), name, |svg| {
-            draw_pixels(svg, (place, TOP), [rows, columns], |at| Color::WHITE.mix(Color::BLACK, mean[at]));
+            draw_pixels(svg, (place, TOP), VOXEL, [rows, columns], |at| ink(mean[at]));
         });
     }
     draw_key(&mut svg, (left(0), TOP + high + 16.0), wide, most);
     draw_legend(&mut svg, (legend_left, TOP), body, &looks);
     svg
-}
-
-/// A square for each pixel.
-fn draw_pixels(svg: &mut Svg, (left, top): Point, [rows, columns]: [usize; 2], color: impl Fn(usize) -> Color) {
-    for at in 0..rows * columns {
-        let corner = (left + (at % columns) as f64 * VOXEL, top + (at / columns) as f64 * VOXEL);
-        svg.rect(corner, VOXEL, VOXEL, Paint::fill(color(at)).with_stroke(Color::PALE, 0.7));
-    }
 }
 
 /// Orange where the body needs a pixel, blue where it does better without it.

@@ -3,6 +3,7 @@
 use crate::Color;
 use crate::chart::with_minus;
 use crate::element::{Paint, Point, Type};
+use crate::image::draw_image;
 use crate::looks::Looks;
 use crate::scheme::Scheme;
 use crate::sprite::{Pose, draw_legend, legend_size};
@@ -11,6 +12,8 @@ use crate::svg::Svg;
 use nbc_base::model::{Body, CYCLE_STEPS, Schedule, Setting};
 
 const VOXEL: f64 = 30.0;
+/// The side of an image.
+const IMAGE: f64 = 64.0;
 
 /// Draws a body after an env step of a schedule; after its end or after a fault, this is the last pose.
 pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, scheme: Scheme) -> Svg {
@@ -21,17 +24,23 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
     let looks = Looks::of([body], scheme);
     let (wide, high) = legend_size(&looks, body);
     let size = ((span + 50.0 + wide).max(title.chars().count() as f64 * 9.5 + 28.0), (ground + 42.0).max(72.0 + high));
-    let mut svg = Svg::new(size.0, size.1, title);
+    let image = moment.spells[0].image.as_deref();
+    let legend = (span + 44.0, 66.0);
+    let room = if image.is_some() { high + 26.0 + IMAGE } else { high };
+    let mut svg = Svg::new(size.0, size.1.max(72.0 + room), title);
     svg.text((14.0, 28.0), title, Type::new(15.0).bold());
     let camera = moment.centers[0][0];
     let to_pixel = |(x, y): Point| (20.0 + span / 2.0 + (x - camera) * VOXEL, ground - (y - 1.0) * VOXEL);
     draw_ground(&mut svg, span, ground, camera);
     draw_rest(&mut svg, body, camera, to_pixel);
     moment.poses[0].draw(&mut svg, &looks, 1.0, to_pixel);
+    let shown = match image {
+        Some(_) => String::new(),
+        None => format!("stimuli {}, ", moment.spells[0].pattern.digits(body.palette().stimuli())),
+    };
     let when = format!(
-        "after {:.2} cycles, stimuli {}, {} voxels along",
+        "after {:.2} cycles, {shown}{} voxels along",
         f64::from(moment.step) / f64::from(CYCLE_STEPS),
-        moment.patterns[0].digits(body.palette().stimuli()),
         with_minus(&format!("{:+.2}", camera - start_of(body))),
     );
     svg.text((14.0, 46.0), &when, Type::new(11.0).colored(Color::GRAY));
@@ -41,7 +50,11 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
         ("dashed: the body at rest; ticks: voxels", Color::GRAY)
     };
     svg.text((20.0, ground + 31.0), note.0, Type::new(10.0).colored(note.1));
-    draw_legend(&mut svg, (span + 44.0, 66.0), body, &looks);
+    draw_legend(&mut svg, legend, body, &looks);
+    if let Some(image) = image {
+        svg.text((legend.0, legend.1 + high + 16.0), "image", Type::new(11.0).colored(Color::GRAY));
+        draw_image(&mut svg, (legend.0, legend.1 + high + 22.0), IMAGE, image);
+    }
     svg
 }
 

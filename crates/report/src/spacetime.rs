@@ -88,7 +88,9 @@ impl Strip {
 
 /// The diagram of one robot under a schedule.
 pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
-    let (schedule, stimuli) = (&trial.schedule, trial.body.palette().stimuli());
+    let (schedule, palette) = (&trial.schedule, trial.body.palette());
+    // An image has no strip: it is not one bit.
+    let stimuli = if palette.image().is_some() { 0 } else { palette.stimuli() };
     let cycles_of = |steps: u32| f64::from(steps) / f64::from(CYCLE_STEPS);
     let ends: Vec<f64> = schedule
         .spells
@@ -121,7 +123,8 @@ pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
 
-/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`, without incomplete spells. Of many spells, the first.
+/// Voxels walked in each spell, such as `00 +1.20, 11 −0.31`, or `+1.20, −0.31` without stimuli. Incomplete spells are
+/// left out. Of many spells, the first.
 fn walked(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> String {
     let mut start = 0;
     let mut told = Vec::new();
@@ -129,7 +132,7 @@ fn walked(schedule: &Schedule, stimuli: usize, trajectory: &Trajectory) -> Strin
         let end = start + spell.steps as usize;
         let Some(place) = trajectory.com_x.get(end) else { break };
         let voxels = with_minus(&format!("{:+.2}", place - trajectory.com_x[start]));
-        told.push(format!("{} {voxels}", spell.pattern.digits(stimuli)));
+        told.push(format!("{} {voxels}", spell.pattern.digits(stimuli)).trim_start().to_owned());
         start = end;
         if told.len() == MOST_WALKED && schedule.spells.len() > MOST_WALKED {
             told.push("\u{2026}".to_owned());

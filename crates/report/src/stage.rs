@@ -33,8 +33,8 @@ pub struct Moment {
     pub poses: Vec<Pose>,
     /// Each robot's center of mass, in voxels.
     pub centers: Vec<[f64; 2]>,
-    /// The stimuli of each robot.
-    pub patterns: Vec<Pattern>,
+    /// The spell of each robot, with its stimuli or its image.
+    pub spells: Vec<Spell>,
     /// Whether each robot's simulation has been given up.
     pub faults: Vec<bool>,
 }
@@ -142,13 +142,13 @@ impl Stage {
 
     fn moment(&self) -> Moment {
         let robots = 0..self.robots();
-        let none = vec![Pattern::default(); self.robots()];
-        let patterns = |(_, spells): &(u32, Vec<Spell>)| spells.iter().map(|spell| spell.pattern).collect();
+        let none = vec![Spell::of(Pattern::default(), 0); self.robots()];
+        let spells = |(_, spells): &(u32, Vec<Spell>)| spells.clone();
         Moment {
             step: self.step,
             poses: robots.clone().map(|i| self.pose(i)).collect(),
             centers: robots.clone().map(|i| self.flock.center(i)).collect(),
-            patterns: self.spells.get(self.spell).or(self.spells.last()).map_or(none, patterns),
+            spells: self.spells.get(self.spell).or(self.spells.last()).map_or(none, spells),
             faults: robots.map(|i| self.flock.fault(i).is_some()).collect(),
         }
     }

@@ -4,11 +4,12 @@
 use crate::Color;
 use crate::chart::with_minus;
 use crate::element::{Paint, Point, Type};
+use crate::image::draw_image;
 use crate::looks::Looks;
 use crate::scheme::Scheme;
 use crate::stage::{Moment, Stage};
 use crate::svg::Svg;
-use nbc_base::model::{Body, CYCLE_STEPS, Schedule, Setting};
+use nbc_base::model::{Body, CYCLE_STEPS, Schedule, Setting, Spell};
 
 /// Snapshots in a row.
 const SHOTS: usize = 7;
@@ -16,6 +17,8 @@ const SHOTS: usize = 7;
 const STRIDE: u32 = CYCLE_STEPS / SHOTS as u32;
 const GHOSTS: usize = 2;
 const MAX_ROWS: usize = 40;
+/// The side of an image.
+const IMAGE: f64 = 40.0;
 
 /// Draws the strip of a body under a schedule.
 pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme) -> Svg {
@@ -26,12 +29,19 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
     let (pitch, height) = (side * 1.5 * scale + 14.0, tallest(&rows) * scale + 34.0);
     let mut svg = Svg::new(76.0 + pitch * SHOTS as f64, 58.0 + height * rows.len().max(1) as f64, title);
     svg.text((14.0, 28.0), title, Type::new(15.0).bold());
-    let note = "the last cycle under each pattern; below the pattern, voxels walked";
-    svg.text((14.0, 46.0), note, Type::new(10.0).colored(Color::GRAY));
+    let shown = if body.palette().image().is_some() { "image" } else { "pattern" };
+    let note = format!("the last cycle under each {shown}; below the {shown}, voxels walked");
+    svg.text((14.0, 46.0), &note, Type::new(10.0).colored(Color::GRAY));
     let looks = Looks::of([body], scheme);
-    for (r, WalkedSpell { pattern, walked, moments }) in rows.iter().enumerate() {
+    for (r, WalkedSpell { spell, walked, moments }) in rows.iter().enumerate() {
         let ground = 54.0 + (r as f64 + 1.0) * height - 18.0;
-        svg.text((14.0, ground - 18.0), pattern, Type::new(15.0).bold());
+        match &spell.image {
+            Some(image) => draw_image(&mut svg, (14.0, ground - 18.0 - IMAGE), IMAGE, image),
+            None => {
+                let pattern = spell.pattern.digits(body.palette().stimuli());
+                svg.text((14.0, ground - 18.0), &pattern, Type::new(15.0).bold());
+            }
+        }
         let is_faulty = moments.last().is_some_and(|moment| moment.faults[0]);
         let walked = if is_faulty { "none".to_owned() } else { with_minus(&format!("{walked:+.2}")) };
         svg.text((14.0, ground - 4.0), &walked, Type::new(10.0).colored(Color::GRAY));
@@ -45,31 +55,27 @@ pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme)
 }
 
 /// How high the body ever reaches, in voxels above the ground.
-fn tallest(rows: &[WalkedSpell]) -> f64 {
+fn tallest(rows: &[WalkedSpell<'_>]) -> f64 {
     let voxels = rows.iter().flat_map(|row| &row.moments).flat_map(|moment| &moment.poses[0].voxels);
     let heights = voxels.flat_map(|(corners, _)| corners.map(|(_, y)| y - 1.0));
     heights.filter(|height| height.is_finite()).fold(1.0, f64::max)
 }
 
 /// A spell of the schedule as it was walked.
-struct WalkedSpell {
-    pattern: String,
+struct WalkedSpell<'a> {
+    spell: &'a Spell,
     /// Voxels walked in it, up to the last of its moments.
     walked: f64,
     /// Moments of its last cycle, after as many that only leave ghosts.
     moments: Vec<Moment>,
 }
 
-fn snapshots(setting: &Setting, body: &Body, schedule: &Schedule) -> Vec<WalkedSpell> {
+fn snapshots<'a>(setting: &Setting, body: &Body, schedule: &'a Schedule) -> Vec<WalkedSpell<'a>> {
     let mut ends: Vec<u32> = Vec::new();
-    let mut rows: Vec<WalkedSpell> = Vec::new();
+    let mut rows: Vec<WalkedSpell<'a>> = Vec::new();
     for spell in schedule.spells.iter().take(MAX_ROWS) {
         ends.push(ends.last().copied().unwrap_or(0) + spell.steps);
-        rows.push(WalkedSpell {
-            pattern: spell.pattern.digits(body.palette().stimuli()),
-            walked: 0.0,
-            moments: Vec::new(),
-        });
+        rows.push(WalkedSpell { spell, walked: 0.0, moments: Vec::new() });
     }
     let mut start = None;
     for moment in Stage::of_trial(setting, body, schedule, STRIDE) {

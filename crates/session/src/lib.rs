@@ -78,7 +78,7 @@ pub use replay::Excerpt;
 pub use robot_request::{OwnBody, RobotRequest, behavior};
 pub use run_report::{RunList, RunReport};
 pub use running_test::RunningTest;
-pub use schedule::read_schedule;
+pub use schedule::{read_image_schedule, read_schedule};
 pub use script::{EnvironmentRow, EnvironmentRun, MemoryContents};
 pub use session::Session;
 #[cfg(feature = "disk")]

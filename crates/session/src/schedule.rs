@@ -1,12 +1,15 @@
-//! Schedules of a single robot as users write them: `00*10 01*56steps`.
+//! Schedules of a single robot as users write them: `00*10 01*56steps`, or `zeros*250steps` with sets of images.
 
-use crate::wording::ScheduleError;
-use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::model::{CYCLE_STEPS, Pattern, Schedule, Spell};
+use crate::wording::{ScheduleError, ScheduleKind};
+use nbc_base::diag::{Diagnostic, Diagnostics, Suggestion};
+use nbc_base::model::{CYCLE_STEPS, NamedImages, NamedSchedule, Pattern, Schedule, Spell};
 use nbc_base::source::{SourceFile, Sources, Span};
 
 /// The most env steps of a schedule.
 const MAX_STEPS: u64 = 10_000_000;
+
+/// An entry of a schedule: what is shown, the place of its name, and the env steps.
+type Entry<T> = (T, Span, u32);
 
 /// Reads a schedule: entries with blanks between them, each of a bit for each of so many stimuli, `*`, and a number of
 /// cycles or env steps. Messages call the text `name`.
@@ -14,28 +17,80 @@ const MAX_STEPS: u64 = 10_000_000;
 /// # Errors
 /// A diagnostic for each entry that is wrong, at its place.
 pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule, Diagnostics> {
+    read(name, text, |file| parse(file, stimuli))
+}
+
+/// Reads a schedule whose entries name sets of images, to a body that senses images of so many rows and columns. Each
+/// image of a set is shown for the time of the entry.
+///
+/// # Errors
+/// As [`read_schedule`], and when there is no such set, it has images of another size, or there are more than four.
+pub fn read_image_schedule(
+    name: &str,
+    text: &str,
+    images: &[NamedImages],
+    size: [usize; 2],
+) -> Result<NamedSchedule, Diagnostics> {
+    let schedule = read(name, text, |file| parse_images(file, images, size))?;
+    Ok(NamedSchedule { name: name.to_owned(), ..schedule })
+}
+
+/// What is read from a text of that name.
+fn read<T>(
+    name: &str,
+    text: &str,
+    parse: impl FnOnce(&SourceFile) -> Result<T, Vec<Diagnostic>>,
+) -> Result<T, Diagnostics> {
     let mut sources = Sources::default();
     let id = sources.add(name, text);
-    parse(sources.file(id), stimuli).map_err(|list| Diagnostics { list, sources })
+    parse(sources.file(id)).map_err(|list| Diagnostics { list, sources })
 }
 
 fn parse(file: &SourceFile, stimuli: usize) -> Result<Schedule, Vec<Diagnostic>> {
-    let (mut spells, mut faults) = (Vec::new(), Vec::new());
+    let kind = ScheduleKind::Pattern { stimuli };
+    let entries = parse_entries(file, kind, |bits| parse_bits(bits, stimuli), |_| 1)?;
+    Ok(Schedule { spells: entries.into_iter().map(|(pattern, _, steps)| Spell::of(pattern, steps)).collect() })
+}
+
+fn parse_images(file: &SourceFile, images: &[NamedImages], size: [usize; 2]) -> Result<NamedSchedule, Vec<Diagnostic>> {
+    let entries =
+        parse_entries(file, ScheduleKind::Set, |name| find_set(name, images, size), |set| set.images.len() as u64)?;
+    let mut shown =
+        NamedSchedule { name: String::new(), stimuli: Vec::new(), schedule: Schedule::default(), sets: Vec::new() };
+    for (set, span, steps) in entries {
+        shown.show(set, steps);
+        if shown.sets.len() > NamedSchedule::MOST_SETS {
+            return Err(vec![
+                ScheduleError::TooManySets { most: NamedSchedule::MOST_SETS }.at(span, ScheduleKind::Set),
+            ]);
+        }
+    }
+    Ok(shown)
+}
+
+/// All entries of a text, each of which shows so many things for its time.
+fn parse_entries<T>(
+    file: &SourceFile,
+    kind: ScheduleKind,
+    what: impl Fn(&str) -> Result<T, ScheduleError>,
+    shown: impl Fn(&T) -> u64,
+) -> Result<Vec<Entry<T>>, Vec<Diagnostic>> {
+    let (mut entries, mut faults) = (Vec::new(), Vec::new());
     for span in words(file) {
-        match parse_entry(file, span, stimuli) {
-            Ok(spell) => spells.push(spell),
+        match parse_entry(file, span, kind, &what) {
+            Ok(entry) => entries.push(entry),
             Err(fault) => faults.push(fault),
         }
     }
     let whole = Span::new(file.id, 0, file.text.len());
-    if spells.is_empty() && faults.is_empty() {
-        faults.push(ScheduleError::Empty.at(whole, stimuli));
+    if entries.is_empty() && faults.is_empty() {
+        faults.push(ScheduleError::Empty.at(whole, kind));
     }
-    let steps: u64 = spells.iter().map(|spell| u64::from(spell.steps)).sum();
+    let steps: u64 = entries.iter().map(|(entry, _, steps)| shown(entry) * u64::from(*steps)).sum();
     if steps > MAX_STEPS {
-        faults.push(ScheduleError::TooLong { steps, most: MAX_STEPS }.at(whole, stimuli));
+        faults.push(ScheduleError::TooLong { steps, most: MAX_STEPS }.at(whole, kind));
     }
-    if faults.is_empty() { Ok(Schedule { spells }) } else { Err(faults) }
+    if faults.is_empty() { Ok(entries) } else { Err(faults) }
 }
 
 /// The spans of the words of a text.
@@ -44,21 +99,38 @@ fn words(file: &SourceFile) -> Vec<Span> {
     file.text.split_whitespace().map(|word| Span::new(file.id, start(word), start(word) + word.len())).collect()
 }
 
-fn parse_entry(file: &SourceFile, span: Span, stimuli: usize) -> Result<Spell, Diagnostic> {
+fn parse_entry<T>(
+    file: &SourceFile,
+    span: Span,
+    kind: ScheduleKind,
+    what: impl Fn(&str) -> Result<T, ScheduleError>,
+) -> Result<Entry<T>, Diagnostic> {
     let entry = &file.text[span.range()];
     let start = span.range().start;
-    let Some((bits, length)) = entry.split_once('*') else {
-        return Err(ScheduleError::NoDuration { entry: entry.to_owned() }.at(span, stimuli));
+    let Some((name, length)) = entry.split_once('*') else {
+        return Err(ScheduleError::NoDuration { entry: entry.to_owned() }.at(span, kind));
     };
-    let bits_span = Span::new(file.id, start, start + bits.len());
-    let length_span = Span::new(file.id, start + bits.len() + 1, span.range().end);
-    let pattern = parse_bits(bits, stimuli).map_err(|fault| fault.at(bits_span, stimuli))?;
-    Ok(Spell::of(pattern, parse_length(length).map_err(|fault| fault.at(length_span, stimuli))?))
+    let name_span = Span::new(file.id, start, start + name.len());
+    let length_span = Span::new(file.id, start + name.len() + 1, span.range().end);
+    let shown = what(name).map_err(|fault| fault.at(name_span, kind))?;
+    Ok((shown, name_span, parse_length(length).map_err(|fault| fault.at(length_span, kind))?))
 }
 
 fn parse_bits(bits: &str, stimuli: usize) -> Result<Pattern, ScheduleError> {
     let pattern = Pattern::try_from(bits.to_owned()).ok().filter(|_| bits.len() == stimuli);
     pattern.ok_or_else(|| ScheduleError::Pattern { found: bits.to_owned() })
+}
+
+/// The set of images of that name, for bodies that sense images of that size.
+fn find_set<'a>(name: &str, images: &'a [NamedImages], size: [usize; 2]) -> Result<&'a NamedImages, ScheduleError> {
+    let Some(set) = images.iter().find(|set| set.name == name) else {
+        let meant = Suggestion::of(name, images.iter().map(|set| set.name.as_str()));
+        return Err(ScheduleError::NoSet { name: name.to_owned(), meant });
+    };
+    match set.images.iter().map(|image| image.size()).find(|found| *found != size) {
+        Some(found) => Err(ScheduleError::ImageSize { name: name.to_owned(), found, expected: size }),
+        None => Ok(set),
+    }
 }
 
 fn parse_length(length: &str) -> Result<u32, ScheduleError> {
@@ -83,7 +155,10 @@ fn parse_length(length: &str) -> Result<u32, ScheduleError> {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
+    use nbc_base::model::Image;
     use nbc_base::source::Sources;
 
     /// A fault's message and the text at its place.
@@ -141,6 +216,39 @@ mod tests {
         check_fault("é*1", "invalid stimulus pattern `é`", "é");
         let long = "9".repeat(40);
         check_fault(&format!("00*{long}"), &format!("the duration `{long}` is too long"), &long);
+    }
+
+    #[test]
+    fn entries_of_images_show_whole_sets_and_number_them() {
+        let image = |values: [f64; 2]| Arc::new(Image::new([1, 2], values.to_vec()).unwrap());
+        let images = [image([0.0, 1.0]), image([1.0, 0.0]), image([0.5, 0.5])];
+        let set = |name: &str, images: &[Arc<Image>]| NamedImages {
+            name: name.to_owned(),
+            stimulus: 0,
+            images: images.to_vec(),
+        };
+        let sets = [set("ends", &images[..2]), set("middle", &images[2..])];
+        let read = |text: &str, size| read_image_schedule("--schedule", text, &sets, size);
+        let found = read("middle*3steps ends*1", [1, 2]).unwrap();
+        let spell = |number, image: &Arc<Image>, steps| Spell {
+            image: Some(image.clone()),
+            ..Spell::of(Schedule::of_set(number), steps)
+        };
+        let expected = [spell(0, &images[2], 3), spell(1, &images[0], 84), spell(1, &images[1], 84)];
+        assert_eq!((found.schedule.spells, found.sets), (expected.to_vec(), vec!["middle".into(), "ends".into()]));
+        let check = |text: &str, size, expected: &str| {
+            let faults = read(text, size).unwrap_err();
+            assert_eq!(faults.list.into_iter().map(|fault| fault.message).collect::<Vec<_>>(), [expected]);
+        };
+        check("end*1", [1, 2], "no set of images is called `end`");
+        check("00*1", [1, 2], "no set of images is called `00`");
+        check("ends*0", [1, 2], "the duration `0` is too short");
+        check("ends*1", [2, 1], "the images `ends` have 1 x 2 pixels");
+        // Two images of six million env steps each.
+        check("ends*6000000steps", [1, 2], "the schedule of 12000000 env steps is too long");
+        let five: Vec<NamedImages> = (0..5).map(|i| set(&format!("s{i}"), &images[..1])).collect();
+        let faults = read_image_schedule("", "s0*1 s1*1 s2*1 s3*1 s4*1", &five, [1, 2]).unwrap_err();
+        assert_eq!(faults.list[0].message, "the schedule shows too many sets of images");
     }
 
     #[test]

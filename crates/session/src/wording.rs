@@ -356,6 +356,12 @@ pub(super) enum ScheduleError {
     NoDuration { entry: String },
     /// A pattern that has no digit for each stimulus.
     Pattern { found: String },
+    /// A set of images that is not declared.
+    NoSet { name: String, meant: Suggestion },
+    /// A set of images that the body does not sense.
+    ImageSize { name: String, found: [usize; 2], expected: [usize; 2] },
+    /// One set of images too many.
+    TooManySets { most: usize },
     /// A duration that is not a number of cycles or env steps.
     NotADuration { found: String },
     /// A duration of zero.
@@ -364,10 +370,22 @@ pub(super) enum ScheduleError {
     LongEntry { found: String, most: u64 },
 }
 
+/// What the entries of a schedule begin with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ScheduleKind {
+    /// A pattern of so many stimuli.
+    Pattern { stimuli: usize },
+    /// The name of a set of images.
+    Set,
+}
+
 impl ScheduleError {
-    /// The error at its place in the text of a schedule of so many stimuli.
-    pub(super) fn at(self, span: Span, stimuli: usize) -> Diagnostic {
-        let example = format!("{:0>stimuli$}", 1);
+    /// The error at its place in the text of a schedule.
+    pub(super) fn at(self, span: Span, kind: ScheduleKind) -> Diagnostic {
+        let (what, example) = match kind {
+            ScheduleKind::Pattern { stimuli } => ("stimuli", format!("{:0>stimuli$}", 1)),
+            ScheduleKind::Set => ("a set of images", "zeros".to_owned()),
+        };
         let (message, label) = match self {
             Self::Empty => ("the schedule is empty".to_owned(), format!("expected an entry such as `{example}*10`")),
             Self::TooLong { steps, most } => {
@@ -378,11 +396,25 @@ impl ScheduleError {
                 format!("expected `*` and a number, for example `{entry}*10`"),
             ),
             Self::Pattern { found } => {
-                let expected = match stimuli {
+                let expected = match example.len() {
                     2 => "00, 01, 10 or 11".to_owned(),
-                    _ => format!("{stimuli} digits, 0 or 1, for the stimuli that the materials of the body sense"),
+                    stimuli => {
+                        format!("{stimuli} digits, 0 or 1, for the stimuli that the materials of the body sense")
+                    }
                 };
                 (format!("invalid stimulus pattern `{found}`"), format!("expected {expected}"))
+            }
+            Self::NoSet { name, meant } => {
+                let message = format!("no set of images is called `{name}`");
+                return Diagnostic::new(Code::Unknown, message, span, "not declared").with_near(&meant);
+            }
+            Self::ImageSize { name, found, expected } => {
+                let size = |[rows, columns]: [usize; 2]| format!("{rows} x {columns} pixels");
+                let message = format!("the images `{name}` have {}", size(found));
+                (message, format!("the body senses images of {}", size(expected)))
+            }
+            Self::TooManySets { most } => {
+                ("the schedule shows too many sets of images".to_owned(), format!("expected at most {most}"))
             }
             Self::NotADuration { found } => (
                 format!("`{found}` is not a duration"),
@@ -396,7 +428,7 @@ impl ScheduleError {
             }
         };
         Diagnostic::new(Code::BadSchedule, message, span, label).with_help(format!(
-            "write stimuli, `*` and a duration: `{example}*10` is ten cycles, `{example}*56steps` is 56 env steps"
+            "write {what}, `*` and a duration: `{example}*10` is ten cycles, `{example}*56steps` is 56 env steps"
         ))
     }
 }

@@ -18,6 +18,8 @@ Examples:
   nbc draw circuits/latch.nb --as schematic -o latch.svg
   nbc draw out/gates --as heatmap --axes voxels,active -o archive.png
   nbc draw out/gates --behavior RRRL --as strip -o nand.png
+  nbc draw out/zeros_and_ones --behavior LLRR --as gif --images library/seeing.nb --schedule 'zeros*250steps \
+ones*250steps' -o seeing.gif
 
 docs/pictures.md shows every kind.")]
 pub struct DrawArguments {

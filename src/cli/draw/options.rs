@@ -27,6 +27,7 @@ pub(super) fn check_options(
         (goal.unwrap_or_default(), goal.is_some(), is_program, "a source file (.nb)"),
         ("--file", request.named.is_given(), is_program, "a source file (.nb)"),
         ("--frames", request.frames.is_some(), takes("--frames"), "a film"),
+        ("--images", request.images.is_given(), takes("--schedule") && !is_program, "robots that move"),
         ("--library", has_library, is_program || subject == SubjectKind::Robot, "a source file (.nb) or a robot"),
         ("--robots", !request.robots.is_empty(), takes("--robots") && is_program, "a swarm in space and time"),
         ("--safe-colors", request.safe_colors, takes("--safe-colors"), "a picture of bodies"),

@@ -6,10 +6,10 @@ use clap::builder::PossibleValuesParser;
 use crate::cli::Failure;
 use crate::cli::draw::wording::DrawError;
 use crate::cli::options::circuit::FilesArguments;
+use crate::cli::options::images::ImagesArguments;
 use crate::cli::options::making::MakingArguments;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Spell};
 use nbc_session::behavior;
-use nbc_session::read_schedule;
 use nbc_session::report::{FRAMES_PER_CYCLE, Scheme};
 
 /// The cycles of each pattern if no schedule is given, as in the paper.
@@ -26,6 +26,8 @@ pub struct DrawRequest {
     /// The schedule of a robot's stimuli, as in `nbc simulate` [default: ten cycles of each pattern]
     #[arg(long)]
     pub(super) schedule: Option<String>,
+    #[command(flatten)]
+    pub(super) images: ImagesArguments,
     /// The cycle of a pose [default: the end of the schedule]
     #[arg(long, value_name = "CYCLE", value_parser = cycle, allow_negative_numbers = true)]
     pub(super) at: Option<f64>,
@@ -66,15 +68,13 @@ impl DrawRequest {
     }
 
     /// The schedule of some bodies, by default all patterns of the stimuli that they sense.
-    pub(super) fn schedule<'a>(&self, bodies: impl IntoIterator<Item = &'a Body>) -> Result<Schedule, Failure> {
-        let stimuli = bodies.into_iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
-        match &self.schedule {
-            Some(text) => Ok(read_schedule("--schedule", text, stimuli)?),
-            None => {
-                let spell = |pattern| Spell::of(pattern, CYCLES * CYCLE_STEPS);
-                Ok(Schedule { spells: Pattern::all(stimuli).take(MOST_PATTERNS).map(spell).collect() })
-            }
-        }
+    pub(super) fn schedule<'a>(&self, bodies: impl IntoIterator<Item = &'a Body> + Clone) -> Result<Schedule, Failure> {
+        let given = self.images.schedule(self.schedule.as_deref(), bodies.clone())?;
+        Ok(given.map(|given| given.schedule).unwrap_or_else(|| {
+            let stimuli = bodies.into_iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
+            let spell = |pattern| Spell::of(pattern, CYCLES * CYCLE_STEPS);
+            Schedule { spells: Pattern::all(stimuli).take(MOST_PATTERNS).map(spell).collect() }
+        }))
     }
 
     /// The env step of a pose: the end of the schedule, or the cycle of `--at`.

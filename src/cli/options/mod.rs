@@ -2,6 +2,7 @@
 
 pub(super) mod circuit;
 pub(super) mod device;
+pub(super) mod images;
 pub(super) mod making;
 pub(super) mod mapping;
 pub(super) mod new_path;

@@ -80,6 +80,14 @@ impl Palette {
         sensed.fold(2, usize::max)
     }
 
+    /// The rows and columns of the images that bodies of these materials sense; none if they sense no image.
+    pub fn image(&self) -> Option<[usize; 2]> {
+        self.materials.iter().find_map(|material| match material.kind {
+            MaterialKind::Sensor(response) => response.image,
+            _ => None,
+        })
+    }
+
     /// The number of inputs of bodies of these materials as gates: their stimuli, of which a gate has two or three. A
     /// fourth one stays absent.
     pub fn inputs(&self) -> usize {

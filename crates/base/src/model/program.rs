@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::{
     Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Image, Instance, Material,
-    NamedWorld, Schedule,
+    NamedWorld, Pattern, Schedule, Spell,
 };
 use crate::source::Span;
 
@@ -61,6 +61,23 @@ pub struct NamedSchedule {
     pub schedule: Schedule,
     /// The names of the sets whose images it shows, in the order that numbers them; none for other stimuli.
     pub sets: Vec<String>,
+}
+
+impl NamedSchedule {
+    /// The most sets of images: as many as two stimuli have patterns.
+    pub const MOST_SETS: usize = Pattern::PAIRS.len();
+
+    /// Adds the images of a set, each for so many env steps. Their pattern is the number of the set, the least
+    /// significant bit first.
+    pub fn show(&mut self, set: &NamedImages, steps: u32) {
+        let number = self.sets.iter().position(|name| *name == set.name).unwrap_or_else(|| {
+            self.sets.push(set.name.clone());
+            self.sets.len() - 1
+        });
+        let pattern = Schedule::of_set(number);
+        let spell = |image: &Arc<Image>| Spell { image: Some(image.clone()), ..Spell::of(pattern, steps) };
+        self.schedule.spells.extend(set.images.iter().map(spell));
+    }
 }
 
 /// Images of a file with a name.

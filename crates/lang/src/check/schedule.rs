@@ -9,9 +9,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{NamedImages, NamedSchedule, Pattern, Schedule, Spell};
 use nbc_base::source::Span;
 
-/// The most sets of images of a schedule: as many as two stimuli have patterns.
-const MOST_SETS: usize = Pattern::PAIRS.len();
-
 /// The sets of images of a program.
 #[derive(Clone, Copy)]
 pub(crate) struct DeclaredImages<'a> {
@@ -72,8 +69,7 @@ fn check_rows(source: &tree::ScheduleSyntax, faults: &mut Vec<Diagnostic>) {
     }
 }
 
-/// A schedule of images: each row shows those of a set one after another, each for its time. The pattern of an image is
-/// the number of its set, the least significant bit first.
+/// A schedule of images: each row shows those of a set one after another, each for its time.
 fn of_images(
     source: &tree::ScheduleSyntax,
     (column, stimulus): (&tree::NameSyntax, usize),
@@ -82,7 +78,8 @@ fn of_images(
     faults: &mut Vec<Diagnostic>,
 ) -> Option<NamedSchedule> {
     check_rows(source, faults);
-    let (mut schedule, mut sets) = (Schedule::default(), Vec::<String>::new());
+    let (name, stimuli) = (source.name.text.clone(), vec![stimulus]);
+    let mut shown = NamedSchedule { name, stimuli, schedule: Schedule::default(), sets: Vec::new() };
     for spell in &source.spells {
         let steps = quantity::steps(&spell.length).map_err(|fault| faults.push(fault)).ok();
         let [cell] = &spell.cells[..] else {
@@ -92,24 +89,19 @@ fn of_images(
         let found = images.names.resolve(cell, home).map_err(|fault| faults.push(fault)).ok().flatten();
         // The error of a set that has one is already reported.
         let Some(set) = found.map(|at| &images.declared[at]) else { continue };
-        if set.stimulus != stimulus {
+        if !shown.stimuli.contains(&set.stimulus) {
             let stimulus = column.text.clone();
             faults.push(ImagesError::OtherStimulus { set: cell.text.clone(), stimulus }.at(cell.span));
             continue;
         }
-        if !sets.contains(&set.name) {
-            sets.push(set.name.clone());
-            if sets.len() == MOST_SETS + 1 {
-                faults.push(ImagesError::TooManySets { most: MOST_SETS }.at(cell.span));
-            }
+        let before = shown.sets.len();
+        // The error of a row without a time is already reported.
+        shown.show(set, steps.unwrap_or(1));
+        if before == NamedSchedule::MOST_SETS && shown.sets.len() > before {
+            faults.push(ImagesError::TooManySets { most: before }.at(cell.span));
         }
-        let number = sets.iter().position(|name| *name == set.name).unwrap_or_default();
-        let pattern = Schedule::of_set(number);
-        let spells = set.images.iter().zip(steps.into_iter().cycle());
-        let spells = spells.map(|(image, steps)| Spell { image: Some(image.clone()), ..Spell::of(pattern, steps) });
-        schedule.spells.extend(spells);
     }
-    Some(NamedSchedule { name: source.name.text.clone(), stimuli: vec![stimulus], schedule, sets })
+    Some(shown)
 }
 
 fn pattern(stimuli: &[usize], bits: &[bool]) -> Pattern {

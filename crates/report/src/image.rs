@@ -1,0 +1,36 @@
+//! Images as squares, from white for 0 to black for 1.
+
+use crate::Color;
+use crate::element::{Paint, Point};
+use crate::svg::Svg;
+use nbc_base::model::Image;
+
+/// The color of a value from 0 to 1.
+pub fn ink(value: f64) -> Color {
+    Color::WHITE.mix(Color::BLACK, value)
+}
+
+/// Draws an image whose longer side has that length, below and to the right of a corner.
+pub fn draw_image(svg: &mut Svg, corner: Point, side: f64, image: &Image) {
+    draw_pixels(svg, corner, pixel_side(image, side), image.size(), |at| ink(image.pixels()[at]));
+}
+
+/// The side of a pixel of an image whose longer side has that length.
+pub fn pixel_side(image: &Image, side: f64) -> f64 {
+    let [rows, columns] = image.size();
+    side / rows.max(columns) as f64
+}
+
+/// Draws a square of that side for each pixel of so many rows and columns.
+pub fn draw_pixels(
+    svg: &mut Svg,
+    (left, top): Point,
+    side: f64,
+    [rows, columns]: [usize; 2],
+    color: impl Fn(usize) -> Color,
+) {
+    for at in 0..rows * columns {
+        let corner = (left + (at % columns) as f64 * side, top + (at / columns) as f64 * side);
+        svg.rect(corner, side, side, Paint::fill(color(at)).with_stroke(Color::PALE, 0.7));
+    }
+}
