@@ -51,7 +51,8 @@ pub struct ProveArguments {
     /// The most steps that are looked at one after the other
     #[arg(long, value_name = "STEPS", default_value_t = SearchBudget::default().steps, value_parser = number::<usize>)]
     steps: usize,
-    /// The most work for each declaration or model, in calls of the solver and clauses that it learns
+    /// The most work for each declaration or model, in calls of the solver, clauses that it learns, and hundreds of
+    /// values that it derives
     #[arg(long, value_name = "WORK", default_value_t = SearchBudget::default().work, value_parser = number::<u64>)]
     work: u64,
     /// The most time for each declaration or model

@@ -336,7 +336,8 @@ class Program:
         Args:
             name: only what is claimed of this circuit, or under this title.
             steps: the most steps that are looked at one after the other.
-            work: the most work for each claim, in calls of the solver and clauses that it learns.
+            work: the most work for each claim, in calls of the solver, clauses that it learns, and
+                hundreds of values that it derives.
             seconds: the most time for each claim.
             physics: whether to run each test that refutes a property with robots.
             progress: whether to show a tqdm bar, or a function of the properties that are decided and all properties.

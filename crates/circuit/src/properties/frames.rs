@@ -27,7 +27,7 @@ pub(super) enum Found {
     Nothing,
     /// No state in these cubes is ever reached, and all states that violate the property are in them.
     Invariant(Vec<Cube>),
-    /// A run that violates the property, the shortest one.
+    /// A run that violates the property. There may be shorter ones.
     Violation(SystemRun),
 }
 
@@ -168,7 +168,14 @@ impl Frames {
         }
         match self.reaches(system, frame - 1, &cube, true) {
             Reached::Open => self.put_back(obligation),
-            Reached::Never(smaller) => self.learn(system, frame, smaller),
+            Reached::Never(smaller) => {
+                // The states are also to be left out later: that finds long runs and deep invariants early.
+                let next = self.learn(system, frame, smaller) + 1;
+                if next <= self.steps() {
+                    self.obligations[obligation].frame = next;
+                    self.put_back(obligation);
+                }
+            }
             Reached::From { state, inputs } => {
                 let cube = self.widened(system, &state, &inputs, Some(&cube));
                 self.put_back(obligation);
@@ -302,8 +309,9 @@ impl Frames {
         reached
     }
 
-    /// Leaves a cube out of the set of so many steps, and more states with it, and of later sets as far as that holds.
-    fn learn(&mut self, system: &TransitionSystem, frame: usize, cube: Cube) {
+    /// Leaves a cube out of the set of so many steps, and more states with it, and of later sets as far as that holds;
+    /// the last of them.
+    fn learn(&mut self, system: &TransitionSystem, frame: usize, cube: Cube) -> usize {
         let cube = self.wider(system, frame, cube);
         let mut last = frame;
         while last < self.steps() {
@@ -314,6 +322,7 @@ impl Frames {
         }
         cube.iter().for_each(|&(at, _)| self.counts[at] += 1);
         self.add(system, last, cube);
+        last
     }
 
     /// The cube without literals that it does not need.

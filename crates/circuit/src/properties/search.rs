@@ -1,5 +1,5 @@
-//! The search that decides properties: bounded search and induction for the first steps, then bounded search, induction
-//! and the search for invariants in turn, each with the same share of work.
+//! The search that decides properties: bounded search and induction for the first steps, then the search for invariants
+//! with most of the work, and bounded search and induction in turn with the rest.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -22,12 +22,15 @@ const PORTION: u64 = 2_000;
 /// The most work in the first steps.
 const FIRST_WORK: u64 = 20_000;
 
+/// How much more work the search for invariants does than bounded search, whose clauses are about many steps.
+const INVARIANT_SHARE: u64 = 3;
+
 /// What is known of a property.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PropertyVerdict {
     /// It holds in every step of every run.
     Proved(InductiveProof),
-    /// The last step of this run violates it. No shorter run does.
+    /// The last step of this run violates it. No shorter run does, unless the budget ended before this was known.
     Refuted(SystemRun),
     /// The budget ended. It holds in so many first steps.
     Undecided {
@@ -36,7 +39,8 @@ pub enum PropertyVerdict {
     },
 }
 
-/// How much a search may do. Work is counted in calls of the solver and clauses that it learned.
+/// How much a search may do. Work is counted in calls of the solver, clauses that it learned, and hundreds of values
+/// that it derived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SearchBudget {
     /// The most steps of a run that are looked at one after the other.
@@ -73,6 +77,8 @@ pub struct PropertySearch {
     frames_work: u64,
     /// States that are never reached, as cubes.
     known: Vec<Cube>,
+    /// A run that violates a property, while shorter ones are looked for.
+    longer: Option<(usize, SystemRun)>,
 }
 
 impl PropertySearch {
@@ -93,6 +99,7 @@ impl PropertySearch {
             frames: None,
             frames_work: 0,
             known: Vec::new(),
+            longer: None,
         }
     }
 
@@ -130,12 +137,16 @@ impl PropertySearch {
         if self.is_done() {
             return;
         }
+        if self.longer.is_some() {
+            self.look_further();
+            return;
+        }
         let is_first = self.bounded.step <= FIRST_STEPS && self.bounded.work() < FIRST_WORK;
         let [bounded, invariant] = [self.bounded.work(), self.invariant_work()];
         let is_behind = self.induces && self.induction.steps < self.bounded.step;
-        if is_behind && (is_first || self.induction.work() < bounded.min(invariant)) {
+        if is_behind && (is_first || self.induction.work() < bounded) {
             self.induce();
-        } else if self.bounded.step < self.budget.steps && (is_first || bounded < invariant) {
+        } else if self.bounded.step < self.budget.steps && (is_first || INVARIANT_SHARE * bounded < invariant) {
             self.look_further();
         } else {
             self.look_for_invariant();
@@ -159,6 +170,11 @@ impl PropertySearch {
         if let Some((property, run)) = self.bounded.advance(&self.system, &self.open, PORTION) {
             self.decide(property, PropertyVerdict::Refuted(run));
         }
+        // All shorter runs were looked at.
+        let steps = self.bounded.step;
+        if let Some((property, run)) = self.longer.take_if(|(_, run)| run.inputs.len() <= steps + 1) {
+            self.decide(property, PropertyVerdict::Refuted(run));
+        }
     }
 
     fn look_for_invariant(&mut self) {
@@ -176,7 +192,11 @@ impl PropertySearch {
         let (_, frames) = self.frames.get_or_insert_with(begin);
         match frames.advance(system) {
             Found::Nothing => {}
-            Found::Violation(run) => self.decide(first, PropertyVerdict::Refuted(run)),
+            Found::Violation(mut run) => {
+                let last = system.violation(first, &run).expect("the run violates the property");
+                run.inputs.truncate(last + 1);
+                self.longer = Some((first, run));
+            }
             Found::Invariant(cubes) => {
                 let given = frames.given().iter().copied().collect();
                 self.known.clone_from(&cubes);
@@ -201,6 +221,7 @@ impl PropertySearch {
             }
             PropertyVerdict::Undecided { .. } => verdict,
         };
+        self.longer.take_if(|(other, _)| *other == property);
         self.open.remove(&property);
         self.verdicts.insert(property, verdict);
     }
@@ -208,6 +229,9 @@ impl PropertySearch {
     /// What is known of each property.
     pub fn verdicts(&self) -> Vec<PropertyVerdict> {
         let open = |property: usize| {
+            if let Some((_, run)) = self.longer.as_ref().filter(|(other, _)| *other == property) {
+                return PropertyVerdict::Refuted(run.clone());
+            }
             let own = self.frames.as_ref().filter(|(first, _)| *first == property);
             PropertyVerdict::Undecided { steps: own.map_or(0, |(_, frames)| frames.steps()).max(self.bounded.step) }
         };
