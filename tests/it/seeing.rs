@@ -153,6 +153,10 @@ fn a_body_of_a_run_is_simulated_and_drawn_before_images() {
     // A strip shows all images, of which three have a pixel that is three quarters black; a pose shows the last one.
     assert_eq!(["strip.svg", "pose.svg"].map(|file| picture(file).matches("\"#535353\"").count()), [3, 1]);
     assert!(!picture("path.svg").contains("stimulus"));
+    // The page of a run lets its elites walk before the first image of each set.
+    let page = bench.run(&["draw", "out/tell", "--as", "report", "-o", "page.html"]);
+    assert_eq!(page.status, 0, "{}", page.err);
+    assert!(picture("page.html").contains(r#""images":[[[1.0,1.0],[0.0,0.0]],[[0.0,0.25],[1.0,0.75]]]"#));
 
     let (images, behavior) = (&shown[2..], &shown[..2]);
     simulate(images).expect_fault(&["`out/tell` is a run, expected one `--behavior` of it", "it has bodies with"]);

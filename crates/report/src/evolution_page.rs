@@ -17,13 +17,13 @@ use crate::scheme::Scheme;
 use crate::stage::Stage;
 use crate::svg::Svg;
 use nbc_base::diag::counted;
-use nbc_base::model::{Axis, Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Setting, Spell};
+use nbc_base::model::{Axis, Behavior, Body, CYCLE_STEPS, Image, Schedule, Setting, Spell};
 use nbc_swarm::evolve::{Elite, NicheKey};
 use nbc_swarm::{Recorded, Room};
 
 const SCRIPT: &str = include_str!("../assets/page/archive.js");
-/// Cycles of a gait under each pattern.
-const GAIT_CYCLES: usize = 2;
+/// Cycles of a gait under each pattern, or before each image.
+const GAIT_CYCLES: u32 = 2;
 
 /// A drawing of the page with its heading.
 pub struct PageFigure {
@@ -44,7 +44,7 @@ struct Entry<'a> {
 pub fn draw_evolution_page(results: &EvolutionResults, figures: &[PageFigure], scheme: Scheme) -> String {
     let entries = ranked(results);
     let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);
-    let (pace, gaits) = record(&entries, results.stimuli);
+    let (pace, gaits) = record(&entries, &results.shown(GAIT_CYCLES));
     let left_out = entries.len() - gaits.len();
     let behaviors = results.behaviors().len();
     Html {
@@ -90,15 +90,13 @@ fn ranked(results: &EvolutionResults) -> Vec<Entry<'_>> {
 }
 
 /// Frames per cycle, and the gaits of the first elites, as many as fit.
-fn record(entries: &[Entry<'_>], stimuli: usize) -> (u32, Vec<Recorded>) {
-    let spell = |pattern| Spell::of(pattern, GAIT_CYCLES as u32 * CYCLE_STEPS);
-    let schedule = Schedule { spells: Pattern::all(stimuli).map(spell).collect() };
+fn record(entries: &[Entry<'_>], schedule: &Schedule) -> (u32, Vec<Recorded>) {
     let bodies: Vec<Body> = entries.iter().map(|entry| entry.elite.body.clone()).collect();
     let setting = Setting::default();
-    let probe = Stage::of_trials(&setting, &bodies, &schedule, CYCLE_STEPS);
+    let probe = Stage::of_trials(&setting, &bodies, schedule, CYCLE_STEPS);
     let points: Vec<usize> = (0..bodies.len()).map(|i| probe.points(i)).collect();
-    let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES * schedule.spells.len());
-    let recording = Stage::of_trials(&setting, &bodies[..count], &schedule, stride).record(count);
+    let (stride, count) = Room::GAITS.fit(&points, GAIT_CYCLES as usize * schedule.spells.len());
+    let recording = Stage::of_trials(&setting, &bodies[..count], schedule, stride).record(count);
     (recording.frames_per_cycle, recording.robots)
 }
 
@@ -174,9 +172,12 @@ fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], p
         .filter(|behavior| results.stimuli == 2 || found.contains(behavior))
         .map(|behavior| json!({ "word": behavior.to_string(), "function": behavior.function().name() }))
         .collect();
+    let digits = |spell: &Spell| spell.pattern.digits(results.stimuli);
+    let patterns: Vec<String> = results.shown(GAIT_CYCLES).spells.iter().map(digits).collect();
     json!({
         "looks": look_data(looks),
-        "patterns": Pattern::all(results.stimuli).map(|pattern| pattern.digits(results.stimuli)).collect::<Vec<_>>(),
+        "images": results.images.iter().map(|image| Vec::from(Image::clone(image))).collect::<Vec<_>>(),
+        "patterns": patterns,
         "cycles": GAIT_CYCLES,
         "pace": pace,
         "axes": axes,

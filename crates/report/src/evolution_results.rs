@@ -2,12 +2,13 @@
 //! niche over all seeds.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use crate::discovery::Discovery;
 use crate::groups::{DIFFICULTIES, difficulty_of, group_of};
 use crate::history::ProgressLine;
 use crate::progress::{Course, Series};
-use nbc_base::model::{Axis, Behavior, Count, Function, SearchObjective};
+use nbc_base::model::{Axis, Behavior, CYCLE_STEPS, Count, Function, Image, Pattern, Schedule, SearchObjective, Spell};
 use nbc_swarm::evolve::{Champion, Elite, NicheKey};
 
 /// Runs of one declaration.
@@ -19,6 +20,8 @@ pub struct EvolutionResults {
     pub axes: Vec<Axis>,
     /// The stimuli of their bodies.
     pub stimuli: usize,
+    /// The first image of each set that their bodies were shown; none of other objectives.
+    pub images: Vec<Arc<Image>>,
     /// What fitness meant in these runs.
     pub objective: SearchObjective,
     /// The runs by their seeds: a seed is one run, however often it was read.
@@ -84,6 +87,20 @@ impl EvolutionResults {
     /// The fittest elite of a behavior over all seeds.
     pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
         fittest(self.runs.values().filter_map(|run| run.champion(behavior)))
+    }
+
+    /// What a page shows to the elites, each for so many cycles: all patterns of their stimuli, or the images.
+    pub fn shown(&self, cycles: u32) -> Schedule {
+        let spell = |pattern| Spell::of(pattern, cycles * CYCLE_STEPS);
+        let seen = |(set, image): (usize, &Arc<Image>)| Spell {
+            image: Some(Arc::clone(image)),
+            ..spell(Schedule::of_set(set))
+        };
+        let spells = match self.images[..] {
+            [] => Pattern::all(self.stimuli).map(spell).collect(),
+            [..] => self.images.iter().enumerate().map(seen).collect(),
+        };
+        Schedule { spells }
     }
 
     /// The number of niches.

@@ -1,8 +1,9 @@
 //! The declaration of a run, as its checkpoint stores it.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use nbc_base::model::{Axis, Evolution, Palette, SearchObjective};
+use nbc_base::model::{Axis, Evolution, Image, Palette, Pattern, SearchObjective, Spell};
 
 /// The declaration in a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +53,18 @@ impl Declared {
             FullDeclaration::Data(evolution) => Some(evolution.generations),
             FullDeclaration::Text(_) => None,
         }
+    }
+
+    /// The first image of each set that bodies were shown; none of other objectives.
+    pub fn images(&self) -> Vec<Arc<Image>> {
+        let FullDeclaration::Data(evolution) = &self.whole else { return Vec::new() };
+        let mut first: BTreeMap<Pattern, Arc<Image>> = BTreeMap::new();
+        for Spell { pattern, image, .. } in &evolution.variable.spells {
+            if let Some(image) = image {
+                first.entry(*pattern).or_insert_with(|| Arc::clone(image));
+            }
+        }
+        first.into_values().collect()
     }
 
     /// Whether a run of that declaration fills the same archive: its name, seeds and number of generations may be

@@ -38,9 +38,10 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
         if checkpoint.declared.axes.is_empty() {
             return Err(DrawError::NoAxes { path: place }.into());
         }
+        let images = checkpoint.declared.images();
         let Declared { name, axes, objective, palette, .. } = checkpoint.declared;
         let stimuli = palette.inputs();
-        let empty = EvolutionResults { name, axes: axes.clone(), stimuli, objective, runs: BTreeMap::new() };
+        let empty = EvolutionResults { name, axes: axes.clone(), stimuli, images, objective, runs: BTreeMap::new() };
         let results = results.get_or_insert(empty);
         if results.axes != axes || results.objective != objective || results.stimuli != stimuli {
             return Err(DrawError::OtherDeclaration { path: place }.into());

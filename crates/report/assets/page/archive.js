@@ -105,12 +105,28 @@ class Archive {
     const view = { left: 0, top: 0, width, ground, scale, camera: this.camera };
     drawGround(pen, view);
     drawPose(pen, elite, pose, view, this.data.looks);
-    const pattern = this.data.patterns[Math.min(this.data.patterns.length - 1, Math.floor(this.clock.time / this.data.cycles))];
+    const shown = Math.min(this.data.patterns.length - 1, Math.floor(this.clock.time / this.data.cycles));
+    const image = this.data.images[shown];
+    if (image) {
+      drawImage(pen, image, 8, 8);
+      return;
+    }
+    const pattern = this.data.patterns[shown];
     drawStimuli(pen, [...pattern].map(Number), 8, 8);
     pen.fillStyle = themed("ink");
     pen.font = "13px system-ui, sans-serif";
     pen.fillText("stimuli " + pattern, 12 + 22 * pattern.length, 20);
   }
+}
+
+// An image with black for 1, its longer side 64 pixels long.
+function drawImage(pen, rows, left, top) {
+  const side = 64 / Math.max(rows.length, rows[0].length);
+  rows.forEach((row, y) => row.forEach((value, x) => {
+    const gray = Math.round(255 - 229 * value);
+    pen.fillStyle = `rgb(${gray}, ${gray}, ${gray})`;
+    pen.fillRect(left + x * side, top + y * side, side + 0.5, side + 0.5);
+  }));
 }
 
 window.archive = new Archive(JSON.parse(document.getElementById("data").textContent));

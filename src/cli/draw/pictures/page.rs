@@ -10,7 +10,7 @@ use crate::cli::draw::pictures::spacetime::champions;
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::runs::run_page as swarm_page;
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{CYCLE_STEPS, Pattern, Schedule, SearchObjective, Spell};
+use nbc_base::model::SearchObjective;
 use nbc_session::report::{self, EvolutionResults, PageFigure, Scheme};
 use nbc_swarm::Room;
 
@@ -41,10 +41,8 @@ impl PictureKind for PagePicture {
 
 /// The page of a run with all its plots, and warnings of robots that fail on their way through them.
 pub(in crate::cli) fn run_page(results: &EvolutionResults, scheme: Scheme) -> (String, Vec<Diagnostic>) {
-    let spell = |pattern| Spell::of(pattern, 10 * CYCLE_STEPS);
-    let schedule = Schedule { spells: Pattern::all(results.stimuli).map(spell).collect() };
     let figure = |heading: &str, drawing| PageFigure { heading: heading.to_owned(), drawing };
-    let (paths, faults) = champions(&each_champion(results), &schedule);
+    let (paths, faults) = champions(&each_champion(results), &results.shown(10));
     let mut figures = vec![figure("Progress", progress(results)), figure("Champions in space and time", paths)];
     if results.objective == SearchObjective::Distance && results.stimuli == 2 {
         figures.push(figure("Groups of behaviors", comparison(results)));
