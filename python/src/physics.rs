@@ -1,8 +1,9 @@
 //! Trials: bodies under a schedule, from a fresh start.
 
 use std::ops::Range;
+use std::sync::Arc;
 
-use nbc::{Body, Fault, FaultKind, Pattern, Schedule, Setting, Simulator, Spell, Trajectory, Trial};
+use nbc::{Body, Fault, FaultKind, Image, Palette, Pattern, Schedule, Setting, Simulator, Spell, Trajectory, Trial};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
@@ -22,37 +23,67 @@ const TOGETHER: usize = 32;
 /// The most memory of recorded paths and poses.
 const MOST_BYTES: u64 = 1 << 33;
 
-/// The stimuli of the paper's materials.
-const PAPER_STIMULI: usize = 2;
-
 /// What a call without room for its results can do.
 const LESS: &str = "simulate fewer bodies at once, or with `record=None`";
 
 /// The fault of a simulation that was not begun.
 pub const STOPPED: Fault = Fault { env_step: 1, kind: FaultKind::Stopped };
 
-/// A schedule as Python gives it: text, or patterns with env steps.
+/// A schedule as Python gives it: text, or what is shown with env steps.
 #[derive(FromPyObject)]
 pub enum ScheduleWords {
     /// `00*10 01*56steps`
     Text(String),
-    /// Patterns as digits, and env steps.
-    Spells(Vec<(String, u32)>),
+    /// What is shown, and env steps.
+    Spells(Vec<(Shown, u32)>),
+}
+
+/// What a spell shows.
+#[derive(FromPyObject)]
+pub enum Shown {
+    /// Patterns as digits.
+    Pattern(String),
+    /// Rows of pixels.
+    Image(Vec<Vec<f64>>),
 }
 
 impl ScheduleWords {
-    /// The schedule of so many stimuli.
+    /// The schedule of bodies of these materials.
     ///
     /// # Errors
-    /// When it is invalid.
-    pub fn read(self, py: Python<'_>, stimuli: usize) -> PyResult<Schedule> {
-        let read = |text: &str| nbc::read_schedule("schedule", text, stimuli);
+    /// When it is invalid, or does not have what the materials sense.
+    pub fn read(self, py: Python<'_>, palette: &Palette) -> PyResult<Schedule> {
         let spells = match self {
-            Self::Text(text) => return read(&text).map_err(|found| diagnosed(py, &found)),
+            Self::Text(text) if palette.image().is_none() => {
+                return nbc::read_schedule("schedule", &text, palette.stimuli()).map_err(|found| diagnosed(py, &found));
+            }
+            Self::Text(text) => vec![(Shown::Pattern(text), 1)],
             Self::Spells(spells) => spells,
         };
-        let spell = |(digits, steps)| Ok(Spell::of(pattern(digits, stimuli)?, steps));
+        let spell = |(shown, steps): (Shown, u32)| shown.spell(steps, palette);
         Ok(Schedule { spells: spells.into_iter().map(spell).collect::<PyResult<_>>()? })
+    }
+}
+
+impl Shown {
+    fn spell(self, steps: u32, palette: &Palette) -> PyResult<Spell> {
+        match (self, palette.image()) {
+            (Self::Pattern(digits), None) => Ok(Spell::of(pattern(digits, palette.stimuli())?, steps)),
+            (Self::Pattern(digits), Some([rows, columns])) => Err(bad_value(format!(
+                "the schedule has the pattern `{digits}`, but the materials sense images; expected arrays of {rows} x \
+                 {columns} pixels"
+            ))),
+            (Self::Image(_), None) => Err(bad_value("the schedule has an image, but the materials sense none")),
+            (Self::Image(rows), Some(size)) => {
+                let image = Image::try_from(rows).map_err(|error| bad_value(format!("an image: {error}")))?;
+                let ([rows, columns], [high, wide]) = (image.size(), size);
+                if image.size() != size {
+                    let found = format!("an image of the schedule has {rows} x {columns} pixels");
+                    return Err(bad_value(format!("{found}, but the materials sense {high} x {wide}")));
+                }
+                Ok(Spell { image: Some(Arc::new(image)), ..Spell::of(Pattern::default(), steps) })
+            }
+        }
     }
 }
 
@@ -60,8 +91,9 @@ impl ScheduleWords {
 #[pyfunction]
 pub fn read_schedule(py: Python<'_>, schedule: ScheduleWords) -> PyResult<Vec<(String, u32)>> {
     at_once(py, || {
-        let spells = schedule.read(py, PAPER_STIMULI)?.spells;
-        Ok(spells.into_iter().map(|spell| (spell.pattern.digits(PAPER_STIMULI), spell.steps)).collect())
+        let palette = Palette::paper();
+        let spells = schedule.read(py, &palette)?.spells;
+        Ok(spells.into_iter().map(|spell| (spell.pattern.digits(palette.stimuli()), spell.steps)).collect())
     })
 }
 
@@ -150,7 +182,7 @@ impl TrialArguments<'_> {
         at_once(py, || {
             let palette = palette(self.materials.as_deref())?;
             let experiment = Experiment {
-                schedule: self.schedule.read(py, palette.stimuli())?,
+                schedule: self.schedule.read(py, &palette)?,
                 batch: Batch::read(&self.codes, &self.shapes, &palette)?,
                 setting: setting(self.world_width, self.start_x),
                 record_com: self.record_com,
@@ -268,10 +300,12 @@ impl Experiment {
         };
         let mut recorded: Vec<Recorded> = (0..flock.len()).map(new).collect();
         record_moment(&*flock, &mut recorded, true);
-        let patterns =
-            self.schedule.spells.iter().flat_map(|spell| std::iter::repeat_n(spell.pattern, spell.steps as usize));
-        for (env_step, pattern) in (1..).zip(patterns) {
-            flock.advance(&vec![pattern; bodies.len()], 1);
+        let each_step = |spell: &Spell| {
+            let each = vec![Spell { steps: 1, ..spell.clone() }; bodies.len()];
+            std::iter::repeat_n(each, spell.steps as usize)
+        };
+        for (env_step, spells) in (1..).zip(self.schedule.spells.iter().flat_map(each_step)) {
+            flock.advance_under(&spells);
             record_moment(&*flock, &mut recorded, u32::is_multiple_of(env_step, stride));
             let is_stopped = |i| flock.fault(i).is_some_and(|fault| fault.kind == FaultKind::Stopped);
             if (0..flock.len()).any(is_stopped) {

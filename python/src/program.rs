@@ -7,6 +7,7 @@ use nbc::{
     Checked, Choice, ClaimReport, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
 };
 use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, Yields};
+use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
 use pyo3::prelude::*;
 use serde_json::{Value, json};
 
@@ -110,6 +111,16 @@ impl Program {
             Ok((evolution.name.clone(), Evolution(started.map_err(|found| diagnosed(py, &found))?)))
         };
         self.checked.program.evolutions.iter().map(started).collect()
+    }
+
+    /// Its sets of images by name: arrays of images, rows and columns.
+    fn images<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray3<f64>>)>> {
+        let sets = self.checked.program.images.iter().map(|set| {
+            let [rows, columns] = set.images.first().map_or([0; 2], |image| image.size());
+            let pixels: Vec<f64> = set.images.iter().flat_map(|image| image.pixels().iter().copied()).collect();
+            Ok((set.name.clone(), pixels.into_pyarray(py).reshape([set.images.len(), rows, columns])?))
+        });
+        sets.collect()
     }
 
     /// Compiles a circuit to a swarm.

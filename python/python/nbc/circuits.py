@@ -243,6 +243,11 @@ class Program:
         return _Evolutions({name: Evolution._of(native) for name, native in self._native.evolutions()})
 
     @property
+    def images(self) -> Mapping[str, npt.NDArray[np.float64]]:
+        """The sets of images by name, values from 0 to 1, shape (N, rows, columns) each."""
+        return dict(self._native.images())
+
+    @property
     def tests(self) -> Tuple[Mapping[str, Any], ...]:
         """The declared tests: ``circuit``, ``title``, ``file`` and ``line`` of each."""
         return tuple(json.loads(self._native.tests()))

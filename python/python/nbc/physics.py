@@ -22,10 +22,11 @@ __all__ = ["CYCLE_STEPS", "Flock", "Schedule", "Trajectories", "simulate"]
 CYCLE_STEPS: int = _nbc.CYCLE_STEPS
 """Env steps of one actuation cycle of the paper."""
 
-Schedule = Union[str, Sequence[Tuple[str, int]]]
+Schedule = Union[str, Sequence[Tuple[Union[str, npt.NDArray[Any], Sequence[Sequence[float]]], int]]]
 """Stimuli over time: ``"00*10 01*56steps"`` (ten cycles of pattern 00, then 56 env steps of pattern 01), or pairs of a
 pattern and a number of env steps, ``[("00", 840), ("01", 56)]``. A pattern has a digit for each stimulus, stimulus 1
-first."""
+first. For materials that sense an image, pairs of an image and a number of env steps: an array of shape (rows, columns)
+with values from 0 to 1, row 0 on top."""
 
 RECORDS = ("com", "poses")
 FAULTS = np.dtype([("env_step", "u4"), ("kind", "U10")])
@@ -85,7 +86,7 @@ def simulate(
     Args:
         bodies: an integer array (N, H, W) of numpy or a library such as JAX, or a list of bodies of any sizes.
         schedule: the stimuli over time, for all bodies; a pattern has a digit for each stimulus that the materials
-            sense, two for the paper's.
+            sense, two for the paper's. For materials that sense an image, arrays of pixels take the place of patterns.
         materials: the materials of the codes; by default the paper's.
         world_width: ground voxels in a row.
         start_x: the ground column of each body's left column; by default the middle of the world.
@@ -357,17 +358,20 @@ def _replayed(source: _Source, last: Optional[_Spell]) -> _nbc.Flock:
     return flock
 
 
-def pack_schedule(schedule: Schedule) -> Union[str, List[Tuple[str, int]]]:
+def pack_schedule(schedule: Schedule) -> Union[str, List[Tuple[Union[str, List[List[float]]], int]]]:
     """A schedule as the native half reads it."""
     if isinstance(schedule, str):
         return schedule
     if not isinstance(schedule, Sequence):
         raise TypeError(f"schedule is of type {type(schedule).__name__}, expected a text or pairs")
-    spells = []
+    spells: List[Tuple[Union[str, List[List[float]]], int]] = []
     for entry in schedule:
         if isinstance(entry, str) or not isinstance(entry, Sequence) or len(entry) != 2:
             raise ValueError(f"the schedule has the entry {entry!r}, expected a pattern and a number of env steps")
-        spells.append((_pattern(entry[0]), count(entry[1], "the length of a spell", least=1, most=MOST_STEPS)))
+        first = array_of(entry[0]) if is_array(entry[0]) else entry[0]
+        is_image = isinstance(first, (list, tuple)) or np.ndim(first) > 0
+        shown = _image(first) if is_image else _pattern(first)
+        spells.append((shown, count(entry[1], "the length of a spell", least=1, most=MOST_STEPS)))
     if not spells:
         raise ValueError("the schedule is empty")
     if sum(steps for _, steps in spells) > MOST_STEPS:
@@ -386,6 +390,16 @@ def _pattern(pattern: Any) -> str:
     if not isinstance(pattern, str):
         raise TypeError(f"{pattern!r} is not a pattern; expected digits such as '01'")
     return str(pattern)
+
+
+def _image(image: Any) -> List[List[float]]:
+    array = np.asarray(image)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{image!r} is neither a pattern such as '01' nor an image of numbers")
+    if array.ndim != 2:
+        raise ValueError(f"an image of the schedule has the shape {array.shape}, expected (rows, columns)")
+    rows: List[List[float]] = array.astype(float).tolist()
+    return rows
 
 
 def _trajectories(arrays: Mapping[str, Any], unread: Mapping[int, str]) -> Trajectories:
