@@ -3,8 +3,8 @@
 //!
 //! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), and so do two
 //! circuits that are to be equal (`pair.rs`); a file of AIGER is one already. The search looks at one number of steps
-//! after the other (`bounded.rs`), tries induction, and looks for an invariant (`frames.rs`). Proofs are checked by
-//! other code (`certificate.rs`), and runs are simulated.
+//! after the other (`bounded.rs`), tries induction, and looks for an invariant (`pairs.rs`, `frames.rs`). Proofs are
+//! checked by other code (`certificate.rs`), and runs are simulated.
 
 mod bounded;
 mod certificate;
@@ -12,7 +12,9 @@ mod cubes;
 mod frames;
 mod machine;
 mod monitor;
+mod needed;
 mod pair;
+mod pairs;
 mod search;
 mod solver;
 mod system;

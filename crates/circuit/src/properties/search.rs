@@ -7,6 +7,8 @@ use crate::properties::bounded::{Bounded, Induction};
 use crate::properties::certificate::InductiveProof;
 use crate::properties::cubes::Cube;
 use crate::properties::frames::{Found, Frames};
+use crate::properties::needed::needed;
+use crate::properties::pairs::never_together;
 use crate::properties::system::{SystemRun, TransitionSystem};
 use nbc_base::source::CancelFlag;
 
@@ -75,8 +77,8 @@ pub struct PropertySearch {
     frames: Option<(usize, Frames)>,
     /// The work of searches for invariants that have ended.
     frames_work: u64,
-    /// States that are never reached, as cubes.
-    known: Vec<Cube>,
+    /// States that are never reached, as cubes, once they were looked for.
+    known: Option<Vec<Cube>>,
     /// A run that violates a property, while shorter ones are looked for.
     longer: Option<(usize, SystemRun)>,
 }
@@ -98,7 +100,7 @@ impl PropertySearch {
             induces: true,
             frames: None,
             frames_work: 0,
-            known: Vec::new(),
+            known: None,
             longer: None,
         }
     }
@@ -185,10 +187,14 @@ impl PropertySearch {
             self.frames = None;
         }
         let (system, cancel) = (&self.system, &self.cancel);
+        let known = self.known.get_or_insert_with(|| {
+            let (cubes, work) = never_together(system, cancel);
+            self.frames_work += work;
+            cubes
+        });
         let proved = self.verdicts.iter().filter(|(_, verdict)| matches!(verdict, PropertyVerdict::Proved(_)));
         let given: Vec<usize> = proved.map(|(&property, _)| property).collect();
-        let known = self.known.clone();
-        let begin = || (first, Frames::new(system, first, (given, known), cancel.clone()));
+        let begin = || (first, Frames::new(system, first, (given, known.clone()), cancel.clone()));
         let (_, frames) = self.frames.get_or_insert_with(begin);
         match frames.advance(system) {
             Found::Nothing => {}
@@ -198,8 +204,10 @@ impl PropertySearch {
                 self.longer = Some((first, run));
             }
             Found::Invariant(cubes) => {
-                let given = frames.given().iter().copied().collect();
-                self.known.clone_from(&cubes);
+                let given = frames.given();
+                known.clone_from(&cubes);
+                let cubes = needed(system, first, given, cubes, cancel);
+                let given = given.iter().copied().collect();
                 let opposite = |cube: Cube| cube.into_iter().map(|(at, value)| (at, !value)).collect();
                 let clauses = cubes.into_iter().map(opposite).collect();
                 self.decide(first, PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }));

@@ -9,7 +9,10 @@ use super::*;
 use crate::and_graph::AndGraph;
 use crate::passes::DissolveWires;
 use crate::properties::bounded::{Bounded, Induction};
+use crate::properties::cubes::Cube;
 use crate::properties::frames::{Found, Frames};
+use crate::properties::needed::needed;
+use crate::properties::pairs::never_together;
 use crate::properties::system::is_on;
 use crate::registers::flip_flop;
 use crate::waves::{ClockRun, ClockStep};
@@ -66,6 +69,11 @@ fn bits(number: usize, count: usize) -> Vec<bool> {
 
 /// For each property, the number of steps of a shortest violation, found by going through all states.
 fn exhaustive(system: &TransitionSystem) -> Vec<Option<usize>> {
+    explored(system).0
+}
+
+/// The number of steps of a shortest violation of each property, and all states that are reached.
+fn explored(system: &TransitionSystem) -> (Vec<Option<usize>>, BTreeSet<Vec<bool>>) {
     let all = |state: &Vec<bool>| -> Vec<Vec<bool>> {
         (0..1 << system.inputs.len()).map(|inputs| system.values(&bits(inputs, system.inputs.len()), state)).collect()
     };
@@ -93,7 +101,7 @@ fn exhaustive(system: &TransitionSystem) -> Vec<Option<usize>> {
         }
         front = next;
     }
-    found
+    (found, seen)
 }
 
 fn check(system: &TransitionSystem, what: &str) {
@@ -163,6 +171,45 @@ fn induction_alone_decides_what_it_says_it_does() {
         }
     }
     assert!(proved > 100, "{proved} were proved");
+}
+
+#[test]
+fn registers_that_never_have_some_values_together_have_them_in_no_state() {
+    let mut random = ChaCha8Rng::seed_from_u64(65);
+    let mut found = [0; 2];
+    for _ in 0..300 {
+        let system = random_system(&mut random);
+        let (_, states) = explored(&system);
+        for cube in never_together(&system, &CancelFlag::default()).0 {
+            let is_in = |state: &Vec<bool>| cube.iter().all(|&(at, value)| state[at] == value);
+            assert!(!states.iter().any(is_in), "{cube:?}: {system:?}");
+            found[cube.len() - 1] += 1;
+        }
+    }
+    assert!(found.iter().all(|&count| count > 100), "{found:?} cubes of one and two registers");
+}
+
+#[test]
+fn an_invariant_has_only_the_clauses_that_it_needs() {
+    // The last place of a ring with one 1 excludes the first; the places between them matter, and the counter does not.
+    let mut system = counter(4, 9, 15);
+    let registers = system.registers.len();
+    let place = |at: usize| 2 * (registers + 1 + at % 4);
+    let ring = (0..4).map(|at| SystemRegister { name: format!("r{at}"), start: Some(at == 0), next: place(at + 3) });
+    let shifted = |literal: usize| if literal / 2 > registers { literal + 8 } else { literal };
+    system.ands.iter_mut().flatten().for_each(|pin| *pin = shifted(*pin));
+    system.registers.iter_mut().for_each(|register| register.next = shifted(register.next));
+    system.registers.extend(ring);
+    system.ands.push([place(3), place(0)]);
+    system.bad = vec![2 * (registers + 4 + system.ands.len())];
+    let pairs = [[0, 1], [0, 2], [0, 3], [1, 2], [1, 3], [2, 3]];
+    let mut cubes: Vec<Cube> =
+        pairs.iter().map(|pair| pair.iter().map(|at| (registers + at, true)).collect()).collect();
+    cubes.insert(2, vec![(0, true), (1, true), (2, true), (3, true)]);
+    let kept = needed(&system, 0, &[], cubes, &CancelFlag::default());
+    let expected: Vec<Cube> =
+        [[0, 1], [0, 3], [1, 2], [2, 3]].iter().map(|pair| pair.map(|at| (registers + at, true)).to_vec()).collect();
+    assert_eq!(kept, expected);
 }
 
 #[test]

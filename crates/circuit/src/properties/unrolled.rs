@@ -84,6 +84,11 @@ impl Unrolled {
         made.is_some_and(|literal| self.solver.is_on(literal))
     }
 
+    /// The value of a literal of a step in what was found last.
+    pub(super) fn shows(&self, step: usize, literal: AndLiteral) -> bool {
+        self.is_on(step, literal / 2) != (literal & 1 == 1)
+    }
+
     /// The state of a step in what was found last.
     pub(super) fn state(&self, system: &TransitionSystem, step: usize) -> Vec<bool> {
         (0..system.registers.len()).map(|at| self.is_on(step, system.register(at) / 2)).collect()
