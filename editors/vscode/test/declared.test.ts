@@ -6,7 +6,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
 import { declaredTests } from "../src/core/declared";
-import { readResults } from "../src/core/results";
+import { readClaims, readResults } from "../src/core/results";
 import { GALLERY, NBC } from "./nbc";
 
 test("the gallery's tests and rows are where nbc reports them", () => {
@@ -18,7 +18,7 @@ test("the gallery's tests and rows are where nbc reports them", () => {
         stdio: ["ignore", "pipe", "ignore"],
       }),
     );
-    const declared = declaredTests(readFileSync(file, "utf8"));
+    const declared = declaredTests(readFileSync(file, "utf8")).filter(({ kind }) => kind === "test");
     const heads = declared.map(({ circuit, title, line }) => [circuit.replace(/\[.*/, ""), title, line + 1]);
     const found = results.map(({ circuit, title, line }) => [circuit.replace(/\[.*/, ""), title, line]);
     assert.deepEqual(heads, [...new Map(found.map(one => [String(one), one])).values()], file);
@@ -35,6 +35,25 @@ test("the gallery's tests and rows are where nbc reports them", () => {
     }
   }
   assert.ok(rows > 100, `${rows} rows were compared`);
+});
+
+test("the gallery's claims and properties are where nbc reports them", () => {
+  let properties = 0;
+  for (const file of GALLERY) {
+    const declared = declaredTests(readFileSync(file, "utf8")).filter(({ kind }) => kind === "prove");
+    if (declared.length === 0) {
+      continue;
+    }
+    const printed = execFileSync(NBC, ["prove", "--format", "json", file], { encoding: "utf8" });
+    const found = readClaims(printed).map(claim => [claim.line, claim.properties.map(({ line }) => line)]);
+    assert.deepEqual(
+      declared.map(({ line, rows }) => [line + 1, rows.map(row => row.line + 1)]),
+      found,
+      file,
+    );
+    properties += declared.flatMap(({ rows }) => rows).length;
+  }
+  assert.ok(properties > 20, `${properties} properties were compared`);
 });
 
 test("each form of a test is read", () => {
@@ -68,8 +87,15 @@ test read in [paper] from "b.csv"
 test a "last" for all inputs {
 }
 test mine "y" against other[2] for ever
+prove mine[3] "z" with memory {
+    assume not a  // never
+    always a and
+        b => q within 8 steps
+    never  q == 3
+}
+prove mine with memory
 `;
-  assert.deepEqual(declaredTests(source), [
+  const tests = [
     {
       circuit: "test_me",
       title: "a { title",
@@ -99,7 +125,19 @@ test mine "y" against other[2] for ever
     { circuit: "read", title: "", line: 26, endLine: 26, rows: [] },
     { circuit: "a", title: "last", line: 27, endLine: 28, rows: [] },
     { circuit: "mine", title: "y", line: 29, endLine: 29, rows: [] },
-  ]);
+  ];
+  const claim = {
+    kind: "prove",
+    circuit: "mine[3]",
+    title: "z",
+    line: 30,
+    endLine: 35,
+    rows: [
+      { line: 32, text: "always a and b => q within 8 steps" },
+      { line: 34, text: "never q == 3" },
+    ],
+  };
+  assert.deepEqual(declaredTests(source), [...tests.map(test => ({ kind: "test", ...test })), claim]);
 });
 
 test("texts that are being typed have the tests that are complete so far", () => {

@@ -108,6 +108,36 @@ test("the explorer lists tests and rows, and shows what each came to", async () 
   assert.ok(run.states.includes("started 0 0 | 1"));
 });
 
+test("the explorer proves what a program claims, and shows the test that refutes it", async () => {
+  const claimed = `circuit toggle(t, clk) -> (q) { q = register(t xor q, clk) }
+prove toggle "turns" {
+    always q == (before(q) xor t)
+    never  q
+}
+test toggle { t clk | q
+    1 ^ | 1
+}
+`;
+  const editor = editorWith("claimed.nb", claimed);
+  await activate(editor);
+  const run = await ran(editor, "Run as Logic");
+  const told = run.states.filter(state => /^(passed|failed|errored)/.test(state));
+  assert.deepEqual(told, [
+    'failed toggle "turns"',
+    "passed always q == (before(q) xor t)",
+    "failed never q",
+    "passed toggle",
+    "passed 1 ^ | 1",
+  ]);
+  const [message] = run.messages.get("never q")!;
+  assert.match(message!.message, /^refuted after 2 steps\ntest toggle "never q" \{/);
+  assert.equal(message!.location!.range.line, 3);
+  const file = path.join(folder, "claimed.nb");
+  assert.equal(editor.logged.at(-1), `${NBC} prove --format json ${file}`);
+  await ran(editor, "Run", [below(editor.items.get(uri("claimed.nb"))!)[0]!]);
+  assert.equal(editor.logged.at(-1), `${NBC} prove --format json ${file}`);
+});
+
 test("one row runs its whole test, and no other", async () => {
   const editor = editorWith("tested.nb", TESTED);
   await activate(editor);

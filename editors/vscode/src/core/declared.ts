@@ -1,25 +1,27 @@
-// The tests that a program declares, with the lines of their rows. This needs no `nbc`, so that the test explorer has
-// items before anything ran. `nbc test --format json` reports the same lines.
+// The tests that a program declares, with the lines of their rows, and its claims, with the lines of their properties.
+// This needs no `nbc`, so that the test explorer has items before anything ran. `nbc test --format json` and `nbc prove
+// --format json` report the same lines.
 
-/** A `test` declaration. Lines count from 0. */
+/** A `test` or `prove` declaration. Lines count from 0. */
 export interface DeclaredTest {
+  kind: "test" | "prove";
   /** The circuit as it is written, with its arguments: `ripple[3]`. */
   circuit: string;
   title: string;
   line: number;
   endLine: number;
-  /** The rows that are written; a test of all inputs or for ever has none. */
+  /** The rows that are written, or the properties but for assumptions; a test of all inputs or for ever has none. */
   rows: DeclaredRow[];
 }
 
-/** A row of a test. */
+/** A row of a test, or a property. */
 export interface DeclaredRow {
   line: number;
   /** The row as it is written, with single spaces. */
   text: string;
 }
 
-/** The name by which `nbc test --only` chooses a test: its title, or its circuit without arguments. */
+/** The name by which `--only` chooses a test or a claim: its title, or its circuit without arguments. */
 export function nameOf({ title, circuit }: DeclaredTest): string {
   return title === "" ? circuit.split("[")[0]!.trim() : title;
 }
@@ -34,13 +36,13 @@ interface Token {
 
 const TOKEN = /\/\/.*|"[^"]*"|\w+|[^\s\w]/g;
 
-/** The tests of a program, in order. A program with errors may have fewer. */
+/** The tests and claims of a program, in order. A program with errors may have fewer. */
 export function declaredTests(source: string): DeclaredTest[] {
   const tokens = source.split(/\r?\n/).flatMap(tokensOf);
   const tests: DeclaredTest[] = [];
   let depth = 0;
   for (let at = 0; at < tokens.length; at++) {
-    const found = depth === 0 && is(tokens[at], "test") ? readTest(tokens, at) : undefined;
+    const found = depth === 0 ? readDeclaration(tokens, at) : undefined;
     if (found !== undefined) {
       tests.push(found.test);
       at = found.last;
@@ -68,9 +70,10 @@ function nesting(token: Token | undefined, open: string, close: string): number 
   return is(token, open) ? 1 : is(token, close) ? -1 : 0;
 }
 
-/** Reads the test that begins with the word at `start`; `last` is its last token. */
-function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: number } | undefined {
-  if (tokens[start + 1]?.kind !== "word") {
+/** Reads the test or claim that begins with the word at `start`; `last` is its last token. */
+function readDeclaration(tokens: Token[], start: number): { test: DeclaredTest; last: number } | undefined {
+  const kind = (["test", "prove"] as const).find(word => is(tokens[start], word));
+  if (kind === undefined || tokens[start + 1]?.kind !== "word") {
     return undefined;
   }
   const name = afterInstance(tokens, start + 1);
@@ -80,9 +83,14 @@ function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: n
   const at = afterClauses(tokens, name + (titled ? 2 : 1));
   const allInputs = is(tokens[at], "for");
   const body = allInputs ? at + 3 : at;
+  if (kind === "prove" && is(tokens[at], "{")) {
+    const last = closing(tokens, at, "{", "}");
+    const rows = propertiesOf(tokens.slice(at + 1, last));
+    return { test: { kind, circuit, title, line: tokens[start]!.line, endLine: tokens[last]!.line, rows }, last };
+  }
   const against = is(tokens[body], "against");
   const fromFile = is(tokens[body], "from") && tokens[body + 1]?.kind === "text";
-  if (!against && !fromFile && !is(tokens[body], "{")) {
+  if (kind === "prove" || (!against && !fromFile && !is(tokens[body], "{"))) {
     return undefined;
   }
   const last = against
@@ -92,7 +100,7 @@ function readTest(tokens: Token[], start: number): { test: DeclaredTest; last: n
       : closing(tokens, body, "{", "}");
   const rows = against || allInputs || fromFile ? [] : rowsOf(tokens.slice(body + 1, last));
   const endLine = tokens[last]!.line;
-  return { test: { circuit, title, line: tokens[start]!.line, endLine, rows }, last };
+  return { test: { kind, circuit, title, line: tokens[start]!.line, endLine, rows }, last };
 }
 
 /** The token after what a test says before its rows: what answers it, and its worlds. */
@@ -136,6 +144,15 @@ function closing(tokens: Token[], open: number, opening: string, closing: string
     }
   }
   return tokens.length - 1;
+}
+
+/** The properties of a claim but for its assumptions: each begins with a word that nothing else is. */
+function propertiesOf(tokens: Token[]): DeclaredRow[] {
+  const begins = (token: Token) => ["always", "never", "assume"].some(word => is(token, word));
+  const starts = tokens.flatMap((token, at) => (begins(token) ? [at] : []));
+  const parts = starts.map((start, at) => tokens.slice(start, starts[at + 1]));
+  const wanted = parts.filter(([word]) => !is(word, "assume"));
+  return wanted.map(part => ({ line: part[0]!.line, text: written(part) }));
 }
 
 /** The lines after the first one, which names the columns, without the braces of repetitions. */

@@ -1,4 +1,4 @@
-// What `nbc test --format json` prints (docs/schema/test.json), and what editors show of it.
+// What `nbc test --format json` and `nbc prove --format json` print (docs/schema/), and what editors show of it.
 
 /** A port of the tested circuit. */
 interface Port {
@@ -53,16 +53,35 @@ export interface TestResult {
   proof?: string;
 }
 
-/** A failed row, in words. */
+/** What is known of a property. Lines count from 1. */
+export interface PropertyResult {
+  property: string;
+  line: number;
+  verdict: "proved" | "refuted" | "undecided";
+  /** Steps of the run that violates it, or the first steps in which it holds. */
+  steps: number;
+  /** A test whose last row violates it. */
+  test?: string;
+}
+
+/** A `prove` declaration that was decided. */
+export interface ClaimResult {
+  line: number;
+  properties: PropertyResult[];
+}
+
+/** A row that failed or a property that is not proved, in words. */
 export interface Failure {
   /** From 1. */
   line: number;
   message: string;
-  expected: string;
-  observed: string;
+  /** Of a row only. */
+  expected?: string;
+  observed?: string;
 }
 
 const SCHEMA = "urn:nbc:test:1";
+const CLAIM_SCHEMA = "urn:nbc:prove:1";
 
 /** The results in the output of `nbc test --format json`; an error if it is something else. */
 export function readResults(stdout: string): TestResult[] {
@@ -71,6 +90,15 @@ export function readResults(stdout: string): TestResult[] {
     throw new Error(`expected results in the format ${SCHEMA}, found ${excerpt(stdout)}`);
   }
   return read.tests as TestResult[];
+}
+
+/** The results in the output of `nbc prove --format json`; an error if it is something else. */
+export function readClaims(stdout: string): ClaimResult[] {
+  const read = parsed(stdout);
+  if (read?.schema !== CLAIM_SCHEMA || !Array.isArray(read.claims)) {
+    throw new Error(`expected results in the format ${CLAIM_SCHEMA}, found ${excerpt(stdout)}`);
+  }
+  return read.claims as ClaimResult[];
 }
 
 /** Why no test ran: the messages of the diagnostics, or what was printed as text. */
@@ -105,6 +133,14 @@ function parsed(text: string): Record<string, unknown> | undefined {
 
 function excerpt(text: string): string {
   return text.trim() === "" ? "nothing" : `\`${text.trim().slice(0, 200)}\``;
+}
+
+/** A property that is not proved, with the test that refutes it. */
+export function unproved({ line, verdict, steps, test }: PropertyResult): Failure {
+  const word = steps === 1 ? "step" : "steps";
+  const how =
+    verdict === "refuted" ? `refuted after ${steps} ${word}` : `undecided; it holds in the first ${steps} ${word}`;
+  return { line, message: test === undefined ? how : `${how}\n${test.trimEnd()}` };
 }
 
 /** The failed rows of a test. */

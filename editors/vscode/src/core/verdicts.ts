@@ -1,9 +1,9 @@
 // The results of a run, for each declared test and row.
 
 import type { DeclaredTest } from "./declared";
-import { failures, type Failure, type TestResult } from "./results";
+import { type ClaimResult, failures, type Failure, type TestResult, unproved } from "./results";
 
-/** What a test came to. Rows are in the order in which they are declared. */
+/** What a test or a claim came to. Rows are in the order in which they are declared. */
 export interface Verdict {
   /** Without results, a test did not run. */
   state: "passed" | "failed" | "missing";
@@ -12,7 +12,7 @@ export interface Verdict {
   rows: RowVerdict[];
 }
 
-/** What a row came to, in all swarms of its test. */
+/** What a row came to, in all swarms of its test; or a property. */
 export interface RowVerdict {
   state: "passed" | "failed" | "missing";
   failures: Failure[];
@@ -36,6 +36,17 @@ export function verdictOf(test: DeclaredTest, results: TestResult[]): Verdict {
   const loose = failed.filter(failure => !written.has(failure.line));
   const state = mine.length === 0 ? "missing" : mine.every(result => result.passed) ? "passed" : "failed";
   return { state, failures: shortened(loose), rows };
+}
+
+/** The verdict of a declared claim: it passes if all its properties are proved. */
+export function verdictOfClaim(claim: DeclaredTest, results: ClaimResult[]): Verdict {
+  const mine = results.filter(result => result.line === claim.line + 1).flatMap(({ properties }) => properties);
+  const rows = claim.rows.map(({ line }) => {
+    const own = mine.filter(property => property.line === line + 1);
+    return verdict(own.length > 0, own.filter(({ verdict }) => verdict !== "proved").map(unproved));
+  });
+  const state = mine.length === 0 ? "missing" : mine.every(({ verdict }) => verdict === "proved") ? "passed" : "failed";
+  return { state, failures: [], rows };
 }
 
 function verdict(seen: boolean, failures: Failure[]): RowVerdict {

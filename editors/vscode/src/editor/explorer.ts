@@ -1,17 +1,26 @@
-// The test explorer: runs `nbc test` on saved files, and shows its results at the items.
+// The test explorer: runs `nbc test` and `nbc prove` on saved files, and shows their results at the items.
 
 import * as vscode from "vscode";
 
-import { type Finished, run as runProgram } from "../core/child";
-import { nameOf } from "../core/declared";
-import { type Failure, readFaults, readResults, type TestResult } from "../core/results";
-import { verdictOf } from "../core/verdicts";
+import { run as runProgram } from "../core/child";
+import { type DeclaredTest, nameOf } from "../core/declared";
+import { type ClaimResult, type Failure, readClaims, readFaults, readResults, type TestResult } from "../core/results";
+import { verdictOf, verdictOfClaim } from "../core/verdicts";
 import { folderOf, save } from "./files";
 import { Items } from "./items";
 import type { Program } from "./program";
 
 /** The level at which tests run; `auto` leaves the choice to `nbc`. */
 export type Level = "auto" | "physics" | "logic";
+
+/** A command of `nbc`, with what it is to choose of a file. */
+type Choice = [DeclaredTest["kind"], ...string[]];
+
+/** What the runs of a file printed. */
+interface Results {
+  tests: TestResult[];
+  claims: ClaimResult[];
+}
 
 /** The tests to run, by the item of their file. */
 type Chosen = Map<vscode.TestItem, Set<vscode.TestItem>>;
@@ -97,17 +106,24 @@ export class Explorer implements vscode.Disposable {
     }
     // Lines are those of the saved text.
     await this.items.refresh(file);
-    const levels = level === "auto" ? [] : [`--${level}`];
-    const all: TestResult[] = [];
-    for (const only of this.choices(item, tests)) {
-      const args = ["test", "--format", "json", ...levels, ...only, file.fsPath];
+    const all: Results = { tests: [], claims: [] };
+    for (const [kind, ...only] of this.choices(item, tests)) {
+      const levels = kind === "prove" || level === "auto" ? [] : [`--${level}`];
+      const args = [kind, "--format", "json", ...levels, ...only, file.fsPath];
       this.log.info(`${program} ${args.join(" ")}`);
       try {
-        const results = resultsOf(await runProgram(program, args, folderOf(file), run.token));
-        if (!Array.isArray(results)) {
-          return results;
+        const finished = await runProgram(program, args, folderOf(file), run.token);
+        if (finished.stopped) {
+          return undefined;
         }
-        all.push(...results);
+        if (finished.status !== 0 && finished.status !== 1) {
+          return readFaults(finished.stdout, finished.stderr);
+        }
+        if (kind === "prove") {
+          all.claims.push(...readClaims(finished.stdout));
+        } else {
+          all.tests.push(...readResults(finished.stdout));
+        }
       } catch (error) {
         return error instanceof Error ? error.message : String(error);
       }
@@ -115,22 +131,28 @@ export class Explorer implements vscode.Disposable {
     return all;
   }
 
-  /** The arguments of the runs of some tests of a file: one run for all tests, or one for each name. */
-  private choices(file: vscode.TestItem, tests: vscode.TestItem[]): string[][] {
-    if (tests.length === file.children.size) {
-      return [[]];
-    }
-    const declared = tests.flatMap(test => this.items.test(test) ?? []);
-    return [...new Set(declared.map(nameOf))].map(name => [`--only=${name}`]);
+  /** The runs of some tests and claims of a file: for each kind, one run for all of them, or one for each name. */
+  private choices(file: vscode.TestItem, tests: vscode.TestItem[]): Choice[] {
+    const declared = (items: vscode.TestItem[]) => items.flatMap(item => this.items.test(item) ?? []);
+    const all = declared([...file.children].map(([, item]) => item));
+    return (["test", "prove"] as const).flatMap((kind): Choice[] => {
+      const isOfKind = (one: DeclaredTest) => one.kind === kind;
+      const own = declared(tests).filter(isOfKind);
+      if (own.length === all.filter(isOfKind).length) {
+        return own.length === 0 ? [] : [[kind]];
+      }
+      return [...new Set(own.map(nameOf))].map(name => [kind, `--only=${name}`]);
+    });
   }
 
-  private report(run: vscode.TestRun, item: vscode.TestItem, results: TestResult[]): void {
+  private report(run: vscode.TestRun, item: vscode.TestItem, results: Results): void {
     const test = this.items.test(item);
     const uri = item.uri!;
     if (test === undefined) {
       return;
     }
-    const verdict = verdictOf(test, results);
+    const isTest = test.kind === "test";
+    const verdict = isTest ? verdictOf(test, results.tests) : verdictOfClaim(test, results.claims);
     settle(run, item, verdict.state, messages(uri, verdict.failures));
     const rows = rowsOf(item);
     verdict.rows.forEach(
@@ -163,14 +185,6 @@ export class Explorer implements vscode.Disposable {
   }
 }
 
-function resultsOf(finished: Finished): TestResult[] | string | undefined {
-  if (finished.stopped) {
-    return undefined;
-  }
-  const ran = finished.status === 0 || finished.status === 1;
-  return ran ? readResults(finished.stdout) : readFaults(finished.stdout, finished.stderr);
-}
-
 function settle(run: vscode.TestRun, item: vscode.TestItem, state: string, messages: vscode.TestMessage[]): void {
   if (state === "passed") {
     run.passed(item);
@@ -183,7 +197,8 @@ function settle(run: vscode.TestRun, item: vscode.TestItem, state: string, messa
 
 function messages(file: vscode.Uri, failures: Failure[]): vscode.TestMessage[] {
   return failures.map(({ message, expected, observed, line }) => {
-    const shown = vscode.TestMessage.diff(message, expected, observed);
+    const isCompared = expected !== undefined && observed !== undefined;
+    const shown = isCompared ? vscode.TestMessage.diff(message, expected, observed) : new vscode.TestMessage(message);
     shown.location = new vscode.Location(file, new vscode.Position(line - 1, 0));
     return shown;
   });
