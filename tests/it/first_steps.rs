@@ -270,7 +270,7 @@ fn every_task_of_how_do_i_runs() {
 #[test]
 fn a_property_is_written_proved_broken_and_repaired() {
     let commands = execute_page(&Bench::new(), "docs/always.md");
-    assert_eq!(commands, 6);
+    assert_eq!(commands, 7);
 }
 
 /// A circuit of a program, with the places of its inputs in order of their names.

@@ -88,12 +88,24 @@ impl AndGraph {
 
     /// The gates of a network whose inputs are these literals; returns the literal of each of its outputs.
     pub(crate) fn outputs(&mut self, network: &Network, inputs: &[AndLiteral]) -> Vec<AndLiteral> {
+        let inputs: Vec<Option<AndLiteral>> = inputs.iter().copied().map(Some).collect();
+        let outputs = self.known_outputs(network, &inputs);
+        outputs.into_iter().map(|output| output.expect("all inputs are known")).collect()
+    }
+
+    /// The literals of the outputs of a network that do not depend on unknown inputs.
+    pub(crate) fn known_outputs(
+        &mut self,
+        network: &Network,
+        inputs: &[Option<AndLiteral>],
+    ) -> Vec<Option<AndLiteral>> {
         assert_eq!(inputs.len(), network.inputs, "a literal for each input");
-        let mut made: Vec<AndLiteral> = vec![0, 1];
+        let mut made = vec![Some(0), Some(1)];
         made.extend(inputs);
         for &Gate { function, pins } in &network.gates {
-            let literal = self.function(function, pins.map(|pin| made[pin as usize]));
-            made.push(literal);
+            let pin = |at: usize| if function.depends_on(at) { made[pins[at] as usize] } else { Some(0) };
+            let known = pin(0).zip(pin(1));
+            made.push(known.map(|(a, b)| self.function(function, [a, b])));
         }
         network.outputs.iter().map(|&output| made[output as usize]).collect()
     }

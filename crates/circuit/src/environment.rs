@@ -43,6 +43,28 @@ impl Environment {
     /// # Errors
     /// When it is no circuit with one clock.
     pub fn new(netlist: &Netlist, ports: Vec<MemoryPorts>, contents: Vec<Vec<u128>>) -> Result<Self, EnvironmentFault> {
+        let step = Self::step(netlist, &ports)?;
+        let memories = ports.iter().zip(contents).map(|(memory, mut words)| {
+            words.resize(memory.words, 0);
+            words
+        });
+        let memories = memories.collect();
+        let read: usize = ports.iter().flat_map(|memory| memory.reads.iter().map(|[_, data]| data.len())).sum();
+        let written: usize = ports
+            .iter()
+            .map(|memory| {
+                let reads = memory.reads.iter().map(|[address, _]| address.len());
+                let writes = memory.writes.iter().flat_map(|ports| ports.iter().map(std::ops::Range::len));
+                reads.chain(writes).sum::<usize>()
+            })
+            .sum();
+        let declared = [step.inputs.len() - read, step.outputs.len() - written];
+        let inputs = vec![0; step.inputs.len()];
+        Ok(Self { run: ClockRun::new(step), ports, memories, inputs, declared })
+    }
+
+    /// What an environment does at each edge, without its memories.
+    pub(crate) fn step(netlist: &Netlist, ports: &[MemoryPorts]) -> Result<ClockStep, EnvironmentFault> {
         let clocks = ports.iter().flat_map(|memory| memory.writes.iter().map(|[.., clk]| clk.start));
         let drivers: Vec<NetId> = clocks.map(|at| netlist.pins(netlist.outputs()[at])[0]).collect();
         // The clocks of memories are no data of the step.
@@ -61,23 +83,7 @@ impl Environment {
         if step.clock.is_some() && !step.rises {
             return Err(EnvironmentFault::OtherClock);
         }
-        let memories = ports.iter().zip(contents).map(|(memory, mut words)| {
-            words.resize(memory.words, 0);
-            words
-        });
-        let memories = memories.collect();
-        let read: usize = ports.iter().flat_map(|memory| memory.reads.iter().map(|[_, data]| data.len())).sum();
-        let written: usize = ports
-            .iter()
-            .map(|memory| {
-                let reads = memory.reads.iter().map(|[address, _]| address.len());
-                let writes = memory.writes.iter().flat_map(|ports| ports.iter().map(std::ops::Range::len));
-                reads.chain(writes).sum::<usize>()
-            })
-            .sum();
-        let declared = [step.inputs.len() - read, step.outputs.len() - written];
-        let inputs = vec![0; step.inputs.len()];
-        Ok(Self { run: ClockRun::new(step), ports, memories, inputs, declared })
+        Ok(step)
     }
 
     /// Applies the declared inputs; the outputs follow, with the words that are read.

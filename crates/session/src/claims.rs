@@ -2,11 +2,14 @@
 
 use crate::observer::Observer;
 use crate::run_rows::RunPorts;
-use crate::wording::ClaimError;
+use crate::wording::{ClaimError, ScriptError};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Base, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation};
+use nbc_base::model::{Base, CircuitId, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation};
 use nbc_base::source::Span;
-use nbc_circuit::properties::{Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem};
+use nbc_circuit::elaborate::elaborate_environment;
+use nbc_circuit::properties::{
+    EnvironmentStep, Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem,
+};
 use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate_reference, elaborate_watched};
 
 /// A claim that is being decided. It can be dropped between any two portions.
@@ -58,10 +61,11 @@ impl ClaimSearch {
             let circuit = claim.circuit.to_string();
             vec![ClaimError::NoSteps { circuit, why }.at(claim.span)]
         };
-        let monitored = Monitored::of(&circuit, &monitor, &claim.properties, &cancel).map_err(fault)?;
-        let Monitored { system, ports, clock } = monitored;
+        let environment = claim.environment.map(|place| environment(program, place)).transpose()?;
+        let monitored = Monitored::of(&circuit, &monitor, &claim.properties, environment.as_ref(), &cancel);
+        let Monitored { system, ports, given, clock } = monitored.map_err(fault)?;
         let search = PropertySearch::new(system, budget, cancel);
-        Ok(Self { claim: claim.clone(), search, ports: RunPorts { ports, clock }, circuit, monitor })
+        Ok(Self { claim: claim.clone(), search, ports: RunPorts { ports, given, clock }, circuit, monitor })
     }
 
     /// The search, to be advanced.
@@ -97,7 +101,7 @@ impl ClaimSearch {
         let Claim { circuit, span, file, line, inputs, outputs, .. } = self.claim.clone();
         let mut watcher = Watcher { logic: Logic::new(&self.monitor), said: Vec::new() };
         let bases: Vec<Base> = inputs.iter().chain(&outputs).map(Base::of_port).collect();
-        let mut rows = self.ports.rows(&self.circuit, run, &bases, (span, line));
+        let mut rows = self.ports.rows(&self.circuit, (self.search.system(), run), &bases, (span, line));
         let bits = outputs.iter().map(|port| port.width).sum();
         for row in &mut rows {
             // Only the rows of steps check something.
@@ -112,6 +116,15 @@ impl ClaimSearch {
         let (rows_from, worlds) = (None, Vec::new());
         CircuitTest { circuit, title, span, file, line, inputs, outputs, stimulation, rows_from, worlds }
     }
+}
+
+/// An environment for all that its memories may hold: those that begin with a file may hold anything.
+fn environment(program: &Program, place: CircuitId) -> Result<EnvironmentStep, Vec<Diagnostic>> {
+    let (netlist, memories) = elaborate_environment(program, place)?;
+    let circuit = &program.circuits[place.0 as usize];
+    let is_empty = circuit.memories.iter().map(|memory| memory.contents.is_none()).collect();
+    let fault = |fault| vec![ScriptError::Environment(fault).at(circuit.span)];
+    EnvironmentStep::new(&netlist, memories, is_empty).map_err(fault)
 }
 
 /// What is said of each step, by the cells of the monitor.

@@ -36,8 +36,8 @@ impl Equivalence {
             let circuit = [&test.circuit, other][at].to_string();
             vec![ClaimError::NoSteps { circuit, why }.at(test.span)]
         })?;
-        let Monitored { system, ports, clock } = monitored;
-        Ok(Self { system, ports: RunPorts { ports, clock }, circuits, cancel })
+        let Monitored { system, ports, given, clock } = monitored;
+        Ok(Self { system, ports: RunPorts { ports, given, clock }, circuits, cancel })
     }
 
     /// A search that has done nothing yet.
@@ -61,7 +61,7 @@ impl Equivalence {
         let rows = match &verdict {
             PropertyVerdict::Refuted(run) => {
                 let bases: Vec<Base> = test.inputs.iter().chain(&test.outputs).map(Base::of_port).collect();
-                let rows = self.ports.rows(&self.circuits[1], run, &bases, (test.span, test.line));
+                let rows = self.ports.rows(&self.circuits[1], (&self.system, run), &bases, (test.span, test.line));
                 let mut tested = Settled::new(&self.circuits[0]);
                 let judge = |rows: &[TestRow]| nbc_swarm::judge_logic(test, rows, &mut tested).collect::<Vec<_>>();
                 let rows: Vec<RowVerdict> = rows.chunks(Settled::ROWS).flat_map(judge).collect();

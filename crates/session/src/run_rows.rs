@@ -2,14 +2,16 @@
 
 use nbc_base::model::{Base, TestRow};
 use nbc_base::source::Span;
-use nbc_circuit::properties::{StepClock, SystemRun};
+use nbc_circuit::properties::{AndLiteral, StepClock, SystemRun, TransitionSystem};
 use nbc_circuit::{Logic, Netlist};
 
 /// How the inputs of a system are those of circuits.
 #[derive(Clone, Debug)]
 pub(super) struct RunPorts {
-    /// For each input of the system, the input bit of the circuit.
+    /// The input bits of the circuit but for the clock.
     pub(super) ports: Vec<usize>,
+    /// For each of them, the literal of the system that it has.
+    pub(super) given: Vec<AndLiteral>,
     /// The clock: each step after the first is an edge of it.
     pub(super) clock: Option<StepClock>,
 }
@@ -23,16 +25,16 @@ impl RunPorts {
     pub(super) fn rows(
         &self,
         circuit: &Netlist,
-        run: &SystemRun,
+        (system, run): (&TransitionSystem, &SystemRun),
         bases: &[Base],
         (span, line): (Span, usize),
     ) -> Vec<TestRow> {
         let mut logic = Logic::new(circuit);
         let mut rows: Vec<TestRow> = Vec::new();
         let mut row = 0;
-        for (step, values) in run.inputs.iter().enumerate() {
+        for (step, values) in system.along(run, &self.given).into_iter().enumerate() {
             let mut inputs = vec![false; circuit.inputs().len()];
-            self.ports.iter().zip(values).for_each(|(&port, &value)| inputs[port] = value);
+            self.ports.iter().zip(values).for_each(|(&port, value)| inputs[port] = value);
             let edge = self.clock.filter(|_| step > 0);
             let halves = if edge.is_some() { 2 } else { 1 };
             for half in 0..halves {

@@ -1,6 +1,6 @@
 //! Claims: what is said of every step of a circuit, for all inputs.
 
-use super::{Circuit, Column, Instance};
+use super::{Circuit, CircuitId, Column, Instance};
 use crate::source::Span;
 
 /// A declared claim. The source is needed for messages only.
@@ -22,6 +22,8 @@ pub struct Claim {
     pub outputs: Vec<Column>,
     /// The nets inside the circuit that properties read.
     pub inner: Vec<InnerNet>,
+    /// The environment that gives some of its inputs, if there is one.
+    pub environment: Option<CircuitId>,
     /// The properties, in order of declaration.
     pub properties: Vec<Property>,
     /// What the properties say, as a circuit: its inputs are the ports of the circuit, the nets inside it,

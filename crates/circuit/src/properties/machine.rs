@@ -106,6 +106,20 @@ impl Machine {
         }
     }
 
+    /// What the outputs show before the edge of a step, as far as it is known from these inputs.
+    pub(super) fn shown_before(
+        &self,
+        graph: &mut AndGraph,
+        inputs: &[Option<AndLiteral>],
+        state: &[AndLiteral],
+    ) -> Vec<Option<AndLiteral>> {
+        let (MachineKind::Clocked(logic) | MachineKind::Settling(logic, _)) = &self.kind;
+        let known: Vec<Option<AndLiteral>> = inputs.iter().copied().chain(state.iter().copied().map(Some)).collect();
+        let mut shown = graph.known_outputs(logic, &known);
+        shown.truncate(logic.outputs.len() - state.len());
+        shown
+    }
+
     /// What the outputs show in a step, and the state after it. `first` is 1 in the first step.
     pub(super) fn step(
         &self,
@@ -201,7 +215,7 @@ fn settling_time(step: &Network, allowed: &Network, start: &[StateBit], cancel: 
 }
 
 /// Whether all of two lists are equal.
-fn same(graph: &mut AndGraph, one: &[AndLiteral], other: &[AndLiteral]) -> AndLiteral {
+pub(super) fn same(graph: &mut AndGraph, one: &[AndLiteral], other: &[AndLiteral]) -> AndLiteral {
     one.iter().zip(other).fold(1, |all, (&a, &b)| {
         let equal = graph.choice(a, b, b ^ 1);
         graph.and(all, equal)

@@ -1,11 +1,13 @@
 //! Properties of all steps of a machine: a search proves them, or finds the shortest run that violates one
 //! (docs/always.md).
 //!
-//! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), and so do two
+//! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), maybe with
+//! its environment (`beside.rs`), and so do two
 //! circuits that are to be equal (`pair.rs`); a file of AIGER is one already. The search looks at one number of steps
 //! after the other (`bounded.rs`), tries induction, and looks for an invariant (`pairs.rs`, `frames.rs`). Proofs are
 //! checked by other code (`certificate.rs`), and runs are simulated.
 
+mod beside;
 mod bounded;
 mod certificate;
 mod cubes;
@@ -24,6 +26,7 @@ mod unrolled;
 mod wording;
 
 pub use crate::and_graph::AndLiteral;
+pub use beside::EnvironmentStep;
 pub use certificate::InductiveProof;
 pub use machine::StepClock;
 pub use monitor::Monitored;

@@ -5,6 +5,7 @@
 use crate::Netlist;
 use crate::and_graph::{AndGraph, AndLiteral};
 use crate::network::{Network, Signal};
+use crate::properties::beside::EnvironmentStep;
 use crate::properties::machine::{Machine, StepClock, reads};
 use crate::properties::system::{SystemRegister, TransitionSystem};
 use crate::properties::wording::NoSteps;
@@ -17,18 +18,20 @@ use nbc_base::source::CancelFlag;
 pub struct Monitored {
     /// The system. Its properties are those that are no assumptions, in order.
     pub system: TransitionSystem,
-    /// For each input of the system, the input port of the circuit.
+    /// The input ports of the circuit but for the clock.
     pub ports: Vec<usize>,
+    /// For each of them, the literal of the system that it has.
+    pub given: Vec<AndLiteral>,
     /// The clock whose edges are the steps, if there is one.
     pub clock: Option<StepClock>,
 }
 
 impl Monitored {
-    /// The system of a circuit and a monitor. The monitor has an output for each property, and one before it for what
-    /// the property depends on, if it has a condition.
+    /// The system of a circuit and a monitor, maybe with an environment. The monitor has an output for each property,
+    /// and one before it for what the property depends on, if it has a condition.
     ///
     /// # Errors
-    /// When the circuit has no steps, or a property reads their clock.
+    /// When the circuit has no steps, a property reads their clock, or the environment has other steps.
     ///
     /// # Panics
     /// When the monitor does not have these ports, or has other memory than registers of its clock.
@@ -36,6 +39,7 @@ impl Monitored {
         circuit: &Netlist,
         monitor: &Netlist,
         properties: &[Property],
+        environment: Option<&EnvironmentStep>,
         cancel: &CancelFlag,
     ) -> Result<Self, NoSteps> {
         let monitor = ClockStep::of(monitor).expect("a monitor has registers of one clock");
@@ -43,7 +47,15 @@ impl Monitored {
         if let Some(clock) = machine.clock.filter(|clock| reads(&monitor.logic, clock.input)) {
             return Err(NoSteps::ClockHasNoValue { clock: monitor.inputs[clock.input].clone() });
         }
-        Ok(Assembly::of(machine, &monitor, properties))
+        if let Some(EnvironmentStep { step, .. }) = environment {
+            let own = machine.clock.filter(|clock| clock.rises);
+            let own = own.map(|clock| circuit.net_name(circuit.inputs()[clock.input]));
+            let is_same = step.clock.is_none_or(|at| own.as_ref() == Some(&step.inputs[at]));
+            if own.is_none() || !is_same {
+                return Err(NoSteps::EnvironmentClock);
+            }
+        }
+        Assembly::of((circuit, machine), environment, &monitor, properties)
     }
 }
 
@@ -80,26 +92,54 @@ struct Assembly {
 }
 
 impl Assembly {
-    fn of(machine: &Machine, monitor: &ClockStep, properties: &[Property]) -> Monitored {
+    fn of(
+        (circuit, machine): (&Netlist, &Machine),
+        environment: Option<&EnvironmentStep>,
+        monitor: &ClockStep,
+        properties: &[Property],
+    ) -> Result<Monitored, NoSteps> {
         let clock = machine.clock.map(|clock| clock.input);
         let ports: Vec<usize> = (0..machine.inputs).filter(|&port| Some(port) != clock).collect();
+        let answered: Vec<usize> =
+            environment.map_or(Vec::new(), |beside| beside.gives(circuit)).into_iter().map(|(port, _)| port).collect();
+        let free: Vec<usize> = ports.iter().copied().filter(|port| !answered.contains(port)).collect();
+        let mut names: Vec<String> = free.iter().map(|&port| monitor.inputs[port].clone()).collect();
+        names.extend(environment.map_or(Vec::new(), EnvironmentStep::words));
+        let beside = environment.map_or(Vec::new(), EnvironmentStep::registers);
         let depth = properties.iter().map(|property| property.before).max().unwrap_or(0);
-        let waits: usize = properties.iter().filter_map(|property| property.within).sum();
+        let wanted = || properties.iter().filter(|property| property.kind != PropertyKind::Assume);
+        let waits: usize = wanted().filter_map(|property| property.within).sum();
+        let once = environment.map_or(0, |_| wanted().count());
         let own = usize::from(machine.is_clocked());
-        let count = machine.state.len() + own + monitor.state.len() + depth + waits;
-        let graph = AndGraph::new(ports.len() + count);
-        let mut assembly = Self { graph, registers: Vec::new(), first: ports.len() };
+        let count = machine.state.len() + own + monitor.state.len() + depth + beside.len() + waits + once;
+        let graph = AndGraph::new(names.len() + count);
+        let mut assembly = Self { graph, registers: Vec::new(), first: names.len() };
         let state = assembly.state(&machine.state);
         let first = match machine.is_clocked() {
-            true => assembly.register("the first step", true),
+            true => assembly.register("the first step", Some(true)),
             false => 0,
         };
         let remembered = assembly.state(&monitor.state);
         let started: Vec<AndLiteral> =
-            (1..=depth).map(|step| assembly.register(&format!("step {step}"), false)).collect();
+            (1..=depth).map(|step| assembly.register(&format!("step {step}"), Some(false))).collect();
 
-        let mut inputs = vec![0; machine.inputs];
-        ports.iter().enumerate().for_each(|(at, &port)| inputs[port] = assembly.graph.source(at));
+        let beside: Vec<AndLiteral> = beside.into_iter().map(|(name, start)| assembly.register(&name, start)).collect();
+
+        let sources: Vec<AndLiteral> = (0..names.len()).map(|at| assembly.graph.source(at)).collect();
+        let (sources, words) = sources.split_at(free.len());
+        let mut inputs = vec![Some(0); machine.inputs];
+        answered.iter().for_each(|&port| inputs[port] = None);
+        free.iter().zip(sources).for_each(|(&port, &source)| inputs[port] = Some(source));
+        let (inputs, beside_after, reads_known) = match environment {
+            Some(environment) => {
+                let graph = &mut assembly.graph;
+                let answer = environment.answer(graph, (circuit, machine), inputs, (&state, &beside, words))?;
+                let after = beside.iter().zip(answer.after);
+                let after = after.map(|(&before, after)| graph.choice(first, before, after)).collect();
+                (answer.inputs, after, answer.reads_known)
+            }
+            None => (inputs.into_iter().map(|input| input.expect("all are free")).collect(), Vec::new(), 1),
+        };
         let (shown, after) = machine.step(&mut assembly.graph, &inputs, &state, first);
         let seen = [&inputs[..], &shown, &[0], &remembered].concat();
         let mut said = assembly.graph.outputs(&monitor.logic, &seen);
@@ -109,6 +149,7 @@ impl Assembly {
         nexts.extend((machine.is_clocked()).then_some(0));
         nexts.extend(kept);
         nexts.extend([1].iter().chain(&started).take(depth));
+        nexts.extend(beside_after);
         let (mut bad, mut constraints) = (Vec::new(), Vec::new());
         let mut said = said.into_iter();
         let mut next = || said.next().expect("an output for each property");
@@ -118,33 +159,38 @@ impl Assembly {
             let value = next();
             let active = assembly.graph.and(begins, condition);
             let wrong = assembly.graph.and(active, value ^ usize::from(property.kind != PropertyKind::Never));
-            match (property.kind, property.within) {
-                (PropertyKind::Assume, _) => constraints.push(wrong ^ 1),
-                (_, None) => bad.push(wrong),
-                (_, Some(within)) => {
-                    let mut waiting = wrong;
-                    for step in 1..=within {
-                        let before = assembly.register(&format!("waiting[{step}]"), false);
-                        nexts.push(waiting);
-                        waiting = assembly.graph.and(before, value ^ 1);
-                    }
-                    bad.push(waiting);
-                }
+            if property.kind == PropertyKind::Assume {
+                constraints.push(wrong ^ 1);
+                continue;
             }
+            let mut waiting = wrong;
+            for step in 1..=property.within.unwrap_or(0) {
+                let before = assembly.register(&format!("waiting[{step}]"), Some(false));
+                nexts.push(waiting);
+                waiting = assembly.graph.and(before, value ^ 1);
+            }
+            if environment.is_some() {
+                // The words are known in the first step that violates the property.
+                let before = assembly.register("violated", Some(false));
+                nexts.push(assembly.graph.or(before, waiting));
+                waiting = assembly.graph.and(waiting, before ^ 1);
+                waiting = assembly.graph.and(waiting, reads_known);
+            }
+            bad.push(waiting);
         }
         let Self { graph, mut registers, .. } = assembly;
         registers.iter_mut().zip(nexts).for_each(|(register, next)| register.next = next);
-        let names = ports.iter().map(|&port| monitor.inputs[port].clone()).collect();
+        let given = ports.iter().map(|&port| inputs[port]).collect();
         let system = TransitionSystem { inputs: names, registers, ands: graph.ands, bad, constraints };
-        Monitored { system, ports, clock: machine.clock }
+        Ok(Monitored { system, ports, given, clock: machine.clock })
     }
 
-    fn register(&mut self, name: &str, start: bool) -> AndLiteral {
-        self.registers.push(SystemRegister { name: name.to_owned(), start: Some(start), next: 0 });
+    fn register(&mut self, name: &str, start: Option<bool>) -> AndLiteral {
+        self.registers.push(SystemRegister { name: name.to_owned(), start, next: 0 });
         self.graph.source(self.first + self.registers.len() - 1)
     }
 
     fn state(&mut self, bits: &[StateBit]) -> Vec<AndLiteral> {
-        bits.iter().map(|bit| self.register(&bit.name, bit.start)).collect()
+        bits.iter().map(|bit| self.register(&bit.name, Some(bit.start))).collect()
     }
 }

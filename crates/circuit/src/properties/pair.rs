@@ -60,7 +60,8 @@ impl Monitored {
             bad: vec![differs],
             constraints: Vec::new(),
         };
-        Ok(Self { system, ports, clock })
+        let given = (0..ports.len()).map(|at| 2 * (at + 1)).collect();
+        Ok(Self { system, ports, given, clock })
     }
 }
 

@@ -94,6 +94,17 @@ impl TransitionSystem {
         self.registers.iter().map(|register| is_on(values, register.next)).collect()
     }
 
+    /// The values of literals in each step of a run.
+    pub fn along(&self, run: &SystemRun, literals: &[AndLiteral]) -> Vec<Vec<bool>> {
+        let mut state = run.start.clone();
+        let mut step = |inputs: &Vec<bool>| {
+            let values = self.values(inputs, &state);
+            state = self.next(&values);
+            literals.iter().map(|&literal| is_on(&values, literal)).collect()
+        };
+        run.inputs.iter().map(&mut step).collect()
+    }
+
     /// Whether the start values permit a state as the first.
     pub fn may_start(&self, state: &[bool]) -> bool {
         self.registers.iter().zip(state).all(|(register, &value)| register.start.is_none_or(|start| start == value))

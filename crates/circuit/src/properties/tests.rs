@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::and_graph::AndGraph;
+use crate::elaborate::MemoryPorts;
 use crate::passes::DissolveWires;
 use crate::properties::bounded::{Bounded, Induction};
 use crate::properties::cubes::Cube;
@@ -16,7 +17,7 @@ use crate::properties::pairs::never_together;
 use crate::properties::system::is_on;
 use crate::registers::flip_flop;
 use crate::waves::{ClockRun, ClockStep};
-use crate::{Logic, NetId, Netlist, Settled};
+use crate::{Environment, Logic, NetId, Netlist, Settled};
 use nbc_base::model::{Function, Property, PropertyKind};
 use nbc_base::source::{CancelFlag, Sources, Span};
 
@@ -298,7 +299,7 @@ fn monitor(ports: usize, said: impl Fn(&mut Netlist, &[NetId]) -> Vec<NetId>) ->
 }
 
 fn monitored(circuit: &Netlist, monitor: &Netlist, properties: &[Property]) -> Monitored {
-    Monitored::of(circuit, monitor, properties, &CancelFlag::default()).unwrap()
+    Monitored::of(circuit, monitor, properties, None, &CancelFlag::default()).unwrap()
 }
 
 /// A register of one bit that stores `d`.
@@ -335,7 +336,7 @@ fn steps_of_a_clocked_circuit_are_rows_of_a_test() {
 fn a_property_cannot_read_the_clock() {
     let reads = monitor(3, |_, p| vec![p[1]]);
     let always = [property(PropertyKind::Always, false, None, 0)];
-    let error = Monitored::of(&stored(), &reads, &always, &CancelFlag::default()).unwrap_err();
+    let error = Monitored::of(&stored(), &reads, &always, None, &CancelFlag::default()).unwrap_err();
     assert_eq!(error, NoSteps::ClockHasNoValue { clock: "p1".to_owned() });
 }
 
@@ -391,7 +392,7 @@ fn a_ring_has_no_steps() {
     netlist.add_output("q", gate);
     let shows = monitor(1, |_, p| vec![p[0]]);
     let never = [property(PropertyKind::Never, false, None, 0)];
-    let error = Monitored::of(&netlist, &shows, &never, &CancelFlag::default()).unwrap_err();
+    let error = Monitored::of(&netlist, &shows, &never, None, &CancelFlag::default()).unwrap_err();
     assert!(matches!(error, NoSteps::Unsettled { .. }), "{error:?}");
 }
 
@@ -409,7 +410,8 @@ fn a_latch_that_must_not_be_set_and_reset_has_steps_where_that_is_assumed() {
         vec![both, netlist.add_gate(Function::XNOR, &[p[2], p[3]])]
     });
     let [never, assume] = [PropertyKind::Never, PropertyKind::Assume].map(|kind| property(kind, false, None, 0));
-    let error = Monitored::of(&netlist, &says, &[never.clone(), never.clone()], &CancelFlag::default()).unwrap_err();
+    let error =
+        Monitored::of(&netlist, &says, &[never.clone(), never.clone()], None, &CancelFlag::default()).unwrap_err();
     assert!(matches!(error, NoSteps::Unsettled { .. }), "{error:?}");
     let says = monitor(4, |netlist, p| {
         let one = netlist.add_gate(Function::OR, &[p[0], p[1]]);
@@ -542,4 +544,128 @@ fn circuits_of_different_steps_are_not_compared() {
     constant.add_output("q", zero);
     let PropertyVerdict::Refuted(run) = compared(&stored(), &constant) else { panic!("it stores a 1") };
     assert_eq!(run.inputs, [[false], [true]]);
+}
+
+/// An environment of a random machine: a memory of four bits, which gives `i0`. The outputs are addresses and data.
+fn memory_beside(circuit: &Netlist, random: &mut ChaCha8Rng) -> (Netlist, Vec<MemoryPorts>) {
+    let mut netlist = Netlist::new("memory");
+    let outputs = 0..circuit.outputs().len();
+    let mut nets: Vec<NetId> = outputs.map(|at| netlist.add_input(format!("o{at}"))).collect();
+    let clock = netlist.add_input("clk");
+    let word = netlist.add_input("word");
+    let first = nets[0];
+    nets.push(flip_flop(&mut netlist, "stored", first, clock, false));
+    let read = netlist.add_gate(Function::XOR, &[word, nets[nets.len() - 1]]);
+    netlist.add_output("i0", if random.random() { read } else { word });
+    for at in 0..6 {
+        let net = nets[random.next_u32() as usize % nets.len()];
+        netlist.add_output(format!("memory {at}"), net);
+    }
+    netlist.add_output("memory clk", clock);
+    let word = nets.len()..nets.len() + 1;
+    let (reads, writes) = (vec![[1..3, word]], vec![[3..5, 5..6, 6..7, 7..8]]);
+    (netlist, vec![MemoryPorts { memory: 0, words: 3, width: 1, reads, writes }])
+}
+
+/// Whether a circuit and its environment violate a property in random steps: each is said of an input or output port.
+fn is_violated(
+    circuit: &Netlist,
+    beside: &(Netlist, Vec<MemoryPorts>),
+    said: &[(usize, bool)],
+    random: &mut ChaCha8Rng,
+) -> bool {
+    let mut run = ClockRun::new(ClockStep::of(circuit).unwrap());
+    let mut environment = Environment::new(&beside.0, beside.1.clone(), vec![Vec::new()]).unwrap();
+    let inputs = circuit.inputs().len();
+    (0..60).any(|step| {
+        let mut row: Vec<u64> = (0..inputs).map(|_| if random.random() { u64::MAX } else { 0 }).collect();
+        row[inputs - 1] = 0;
+        let shown = |run: &ClockRun| (0..circuit.outputs().len()).map(|at| run.output(at) & 1 == 1).collect::<Vec<_>>();
+        for _ in 0..9 {
+            run.apply(&row);
+            environment.apply(&[shown(&run), vec![false]].concat()).unwrap();
+            row[0] = if environment.outputs().next().unwrap() { u64::MAX } else { 0 };
+        }
+        if step > 0 {
+            environment.advance();
+            run.advance();
+        }
+        let values = [row.iter().map(|&word| word & 1 == 1).collect(), shown(&run)].concat();
+        said.iter().all(|&(port, value)| values[port] == value)
+    })
+}
+
+#[test]
+fn what_is_proved_beside_a_memory_holds_for_what_it_stores() {
+    let mut random = ChaCha8Rng::seed_from_u64(66);
+    let (mut proved, mut refuted, mut seen) = (0, 0, 0);
+    while proved < 300 {
+        let circuit = crate::example::random_machine(&mut random);
+        let is_clocked = ClockStep::of(&circuit).is_ok_and(|step| step.clock.is_some());
+        if !is_clocked || circuit.inputs().len() < 2 {
+            continue;
+        }
+        let beside = memory_beside(&circuit, &mut random);
+        let environment = EnvironmentStep::new(&beside.0, beside.1.clone(), vec![true]).unwrap();
+        let inputs = circuit.inputs().len();
+        let ports = inputs + circuit.outputs().len();
+        let free: Vec<usize> = (0..ports).filter(|&port| port != inputs - 1).collect();
+        let pairs = free.iter().flat_map(|&a| free.iter().map(move |&b| [a, b]));
+        let said: Vec<[(usize, bool); 2]> =
+            pairs.map(|ports| ports.map(|port| (port, random.random()))).take(8).collect();
+        let says = monitor(ports, |netlist, p| {
+            let inverted = p.iter().map(|&net| netlist.add_gate(Function::NOT, &[net])).collect::<Vec<_>>();
+            let on = |(port, value): (usize, bool)| if value { p[port] } else { inverted[port] };
+            said.iter().map(|&[a, b]| netlist.add_gate(Function::AND, &[on(a), on(b)])).collect()
+        });
+        let properties = vec![property(PropertyKind::Never, false, None, 0); said.len()];
+        let cancel = CancelFlag::default();
+        let made = match Monitored::of(&circuit, &says, &properties, Some(&environment), &cancel) {
+            Ok(made) => made,
+            Err(why) => {
+                assert_eq!(why, NoSteps::Circle);
+                continue;
+            }
+        };
+        let found = PropertySearch::new(made.system, SearchBudget::default(), cancel).finish();
+        for (verdict, said) in found.iter().zip(&said) {
+            let is_violated = (0..20).any(|_| is_violated(&circuit, &beside, said, &mut random));
+            match verdict {
+                PropertyVerdict::Proved(_) => {
+                    assert!(!is_violated, "{said:?} of\n{circuit}{}", beside.0);
+                    proved += 1;
+                }
+                _ => {
+                    refuted += 1;
+                    seen += usize::from(is_violated);
+                }
+            }
+        }
+    }
+    // Words that nothing could have stored refute some.
+    assert!(seen * 10 > refuted * 8, "{seen} of {refuted} were seen");
+}
+
+#[test]
+fn a_memory_that_begins_with_zeros_shows_them_until_others_are_stored() {
+    let mut netlist = Netlist::new("reader");
+    let [i, clock] = ["i0", "clk"].map(|name| netlist.add_input(name));
+    let o = flip_flop(&mut netlist, "o", i, clock, false);
+    netlist.add_output("o0", o);
+    let mut beside = Netlist::new("memory");
+    let [o, clock, word] = ["o0", "clk", "word"].map(|name| beside.add_input(name));
+    for (name, net) in [("i0", word), ("read", o), ("at", o), ("data", o), ("enable", o), ("clk", clock)] {
+        beside.add_output(name, net);
+    }
+    let (reads, writes) = (vec![[1..2, 2..3]], vec![[2..3, 3..4, 4..5, 5..6]]);
+    let memories = vec![MemoryPorts { memory: 0, words: 2, width: 1, reads, writes }];
+    let says = monitor(3, |_, p| vec![p[0]]);
+    let never = [property(PropertyKind::Never, false, None, 0)];
+    let verdict = |is_empty: bool| {
+        let environment = EnvironmentStep::new(&beside, memories.clone(), vec![is_empty]).unwrap();
+        let made = Monitored::of(&netlist, &says, &never, Some(&environment), &CancelFlag::default()).unwrap();
+        PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish().remove(0)
+    };
+    assert!(matches!(verdict(true), PropertyVerdict::Proved(_)));
+    assert!(matches!(verdict(false), PropertyVerdict::Refuted(_)));
 }

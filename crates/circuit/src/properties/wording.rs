@@ -22,6 +22,10 @@ pub enum NoSteps {
         /// The clock.
         clock: String,
     },
+    /// Its environment takes steps when a clock rises, and the circuit does not.
+    EnvironmentClock,
+    /// What the circuit and its environment answer each other depends on itself.
+    Circle,
     /// Nobody waits for the answer any more.
     Cancelled,
 }
@@ -37,6 +41,10 @@ impl fmt::Display for NoSteps {
             Self::ClockHasNoValue { clock } => {
                 write!(f, "a property cannot read the clock `{clock}`: each step after the first is an edge of it")
             }
+            Self::EnvironmentClock => f.write_str(
+                "its environment has steps when a clock rises, and the circuit has no registers of that clock",
+            ),
+            Self::Circle => f.write_str("what it and its environment answer each other depends on itself"),
             Self::Cancelled => f.write_str("the check was cancelled"),
         }
     }

@@ -53,13 +53,17 @@ impl Converter<'_> {
         SpellSyntax { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
     }
 
+    /// The name after `with`, if it is next.
+    pub(super) fn beside<'p>(&self, parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>) -> Option<NameSyntax> {
+        let named = parts.next_if(|part| part.as_rule() == Rule::beside)?;
+        super::convert::parts(named).next().map(|name| self.name(&name))
+    }
+
     pub(crate) fn test(&mut self, pair: Pair<Rule>) -> Test {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
         let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
-        let environment = parts.next_if(|part| part.as_rule() == Rule::beside);
-        let environment =
-            environment.and_then(|named| super::convert::parts(named).next()).map(|name| self.name(&name));
+        let environment = self.beside(&mut parts);
         let worlds = parts.next_if(|part| part.as_rule() == Rule::in_worlds).map_or(Vec::new(), |all| self.names(all));
         let what = parts.next().expect("what the circuit must do");
         let kind = match what.as_rule() {

@@ -29,6 +29,10 @@ impl<'a> Assembly<'a> {
         let circuit = self.instance(&source.circuit, program)?;
         let (inputs, outputs) = self.ports(&circuit, source.circuit.name.span, inspector)?;
         let before = self.faults.len();
+        let environment = match &source.environment {
+            Some(name) => Some(self.environment(name, &circuit, (&inputs, &outputs), program, inspector)?.0),
+            None => None,
+        };
         let is_broken = self.declarations.is_broken(source.circuit.name.span);
         if !is_broken && source.properties.iter().all(|property| property.kind == PropertyKind::Assume) {
             let error = PropertyError::NothingToProve { circuit: circuit.circuit.clone() };
@@ -42,7 +46,8 @@ impl<'a> Assembly<'a> {
         }
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
-        Some(Claim { circuit, title, span, file, line, inputs, outputs, inner, properties, monitor: Box::new(monitor) })
+        let monitor = Box::new(monitor);
+        Some(Claim { circuit, title, span, file, line, inputs, outputs, inner, environment, properties, monitor })
     }
 
     fn property(&mut self, source: &PropertySyntax, claim: &tree::Prove) -> Property {

@@ -195,9 +195,9 @@ impl<'a> Assembly<'a> {
         self.inner.extend(columns.iter().zip(values).filter_map(used));
     }
 
-    /// The environment of a test, and the inputs of the circuit that it gives. Its inputs are outputs of the circuit,
-    /// or inputs that have columns; its outputs are inputs of the circuit, or what it prints.
-    fn environment(
+    /// The environment of a test or a claim, and the inputs of the circuit that it gives. Its inputs are outputs of the
+    /// circuit, or inputs that have columns; its outputs are inputs of the circuit, or what it prints.
+    pub(super) fn environment(
         &mut self,
         name: &NameSyntax,
         tested: &Instance,

@@ -14,6 +14,9 @@ impl Printer<'_> {
         if let Some(title) = &prove.title {
             self.write(&format!("\"{}\" ", title.text));
         }
+        if let Some(environment) = &prove.environment {
+            self.write(&format!("with {} ", environment.text));
+        }
         let width = prove.properties.iter().map(|property| property.kind.word().len()).max().unwrap_or(0);
         self.block(span.end, |printer| {
             for property in &prove.properties {

@@ -3,7 +3,7 @@
 use nbc_base::model::PropertyKind;
 use nbc_base::source::Span;
 
-use crate::syntax::tree::{BodySyntax, ExpressionSyntaxId, InstanceSyntax, Number, Text};
+use crate::syntax::tree::{BodySyntax, ExpressionSyntaxId, InstanceSyntax, NameSyntax, Number, Text};
 
 /// `prove lights "never both green" { … }`
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Prove {
     pub circuit: InstanceSyntax,
     /// The text after the circuit.
     pub title: Option<Text>,
+    /// The environment after `with`, if it is given.
+    pub environment: Option<NameSyntax>,
     /// The properties in order of text.
     pub properties: Vec<PropertySyntax>,
     /// The expressions of the properties; it has no statements.
