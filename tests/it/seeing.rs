@@ -198,9 +198,11 @@ fn images_and_bodies_that_do_not_fit_are_refused() {
 }
 
 #[test]
-fn the_program_of_the_library_reads_its_images() {
+fn the_programs_of_the_library_read_their_images() {
     let bench = Bench::new();
-    let path = root().join("library/seeing.nb");
-    let ran = bench.run(&["check", path.to_str().unwrap()]);
-    assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{}", ran.out);
+    for file in ["library/seeing.nb", "library/seeing/experiments.nb"] {
+        let path = root().join(file);
+        let ran = bench.run(&["check", path.to_str().unwrap()]);
+        assert_eq!((ran.status, ran.err.as_str()), (0, ""), "{}", ran.out);
+    }
 }
