@@ -19,22 +19,26 @@ const SIMULATIONS: usize = 4;
 /// The steps of a simulation.
 const STEPS: usize = 256;
 
-/// The most cubes that are tried.
+/// The most registers whose pairs are tried, and the most cubes.
+const MOST_REGISTERS: usize = 2_000;
 const MOST: usize = 50_000;
 
 /// The most work of the proof.
 const MOST_WORK: u64 = 50_000;
 
 /// Cubes of one or two registers that no run reaches, and the work of the proof. Each leaves out the start, and no step
-/// enters one from outside of all. There are none if the proof takes too long.
+/// enters one from outside of all. There are none if they are too many, or the proof takes too long.
 pub(super) fn never_together(system: &TransitionSystem, cancel: &CancelFlag) -> (Vec<Cube>, u64) {
-    let mut cubes = History::of(system).candidates(system);
+    let relevant = system.relevant();
+    if relevant.len() > MOST_REGISTERS {
+        return (Vec::new(), 0);
+    }
+    let mut cubes = History::of(system, relevant).candidates(system);
     let mut work = 0;
     let mut before = usize::MAX;
     while !cubes.is_empty() && cubes.len() < before {
         before = cubes.len();
-        let fits = before <= MOST && retain_kept(system, &mut cubes, &mut work, cancel);
-        if !fits {
+        if !retain_kept(system, &mut cubes, &mut work, cancel) {
             cubes.clear();
         }
     }
@@ -91,9 +95,8 @@ struct History {
 }
 
 impl History {
-    fn of(system: &TransitionSystem) -> Self {
+    fn of(system: &TransitionSystem, relevant: Vec<usize>) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_6169_7273);
-        let relevant = system.relevant();
         let mut history = Self { values: vec![Vec::new(); relevant.len()], counts: Vec::new(), relevant };
         for _ in 0..SIMULATIONS {
             let start = |start: Option<bool>| start.map_or_else(|| random.next_u64(), everywhere);
@@ -118,25 +121,33 @@ impl History {
         history
     }
 
-    /// The cubes of one register, and of two of which none is in another, that no run reached.
+    /// The cubes of one register, and of two of which none is in another, that no run reached; none if they are too
+    /// many.
     fn candidates(&self, system: &TransitionSystem) -> Vec<Cube> {
+        let registers = |cube: &[(usize, bool)]| -> Cube {
+            cube.iter().map(|&(place, value)| (self.relevant[place], value)).collect()
+        };
         let mut cubes: Vec<Cube> = Vec::new();
         let mut varying = Vec::new();
         for place in 0..self.relevant.len() {
             match [false, true].into_iter().find(|&value| self.is_never(&[(place, value)])) {
-                Some(value) => cubes.push(vec![(place, value)]),
+                Some(value) => cubes.push(registers(&[(place, value)])),
                 None => varying.push(place),
             }
         }
+        cubes.retain(|cube| excludes_start(system, cube));
         for (at, &first) in varying.iter().enumerate() {
             for &second in &varying[at + 1..] {
                 let pairs = [false, true].into_iter().flat_map(|one| [false, true].map(|other| (one, other)));
-                let cubes_of_both = pairs.map(|(one, other)| vec![(first, one), (second, other)]);
-                cubes.extend(cubes_of_both.filter(|cube| self.is_never(cube)));
+                let cubes_of_both = pairs.map(|(one, other)| [(first, one), (second, other)]);
+                let never = cubes_of_both.filter(|cube| self.is_never(cube)).map(|cube| registers(&cube));
+                cubes.extend(never.filter(|cube| excludes_start(system, cube)));
+            }
+            if cubes.len() > MOST {
+                return Vec::new();
             }
         }
-        let registers = |cube: Cube| cube.into_iter().map(|(place, value)| (self.relevant[place], value)).collect();
-        cubes.into_iter().map(registers).filter(|cube: &Cube| excludes_start(system, cube)).collect()
+        cubes
     }
 
     /// Whether no run was in a cube, whose registers are places in the list.
