@@ -26,7 +26,7 @@ def test_what_is_learned_is_that_of_the_program(program, tmp_path):
     assert (learned.held_out, learned.confusion.sum()) == (expected["held_out"]["accuracy"], 2)
 
 
-def test_arrays_are_rows(root):
+def test_arrays_are_rows():
     random = np.random.default_rng(1)
     pixels = random.integers(0, 2, size=(300, 3, 3)).reshape(300, 9)
     count = pixels.sum(axis=1)
@@ -77,7 +77,7 @@ def test_wrong_rows_are_refused(tmp_path):
         nbc.learn({"a": [0, 1], "q": [0, 1]}, tmp_path / "q.txt", hold_out=0)
 
 
-def test_ctrl_c_ends_learning(tmp_path):
+def test_a_progress_function_can_end_learning(tmp_path):
     class Stop(Exception):
         pass
 

@@ -72,7 +72,7 @@ impl LearningMethod {
         (2 * leaf <= rows).then_some(Self::Tree { leaf, fringes: 0 })
     }
 
-    /// Whether its gates are grown row by row, so that there may be more or fewer of them.
+    /// Whether it grows gates from rows, so that their number depends on how far it grows.
     pub fn is_grown(self) -> bool {
         matches!(self, Self::Cubes { .. } | Self::Tree { .. } | Self::Forest { .. })
     }
@@ -83,7 +83,7 @@ impl LearningMethod {
     }
 }
 
-/// The most of the fewest rows on each side of a question of the trees that are always tried.
+/// The smallest of the trees that are always tried has at least so many rows on each side of a question.
 const MOST_LEAF: usize = 12;
 
 /// The most rounds in which features are added.
