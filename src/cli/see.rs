@@ -9,7 +9,7 @@ use crate::cli::options::new_path::picture_path;
 use crate::cli::source_path::source_path;
 use crate::cli::{Context, Failure, Interrupt, Progress, Status};
 use nbc_session::report::{EvolutionResults, Schema, Scheme};
-use nbc_session::{Occlusion, Recognition, Session};
+use nbc_session::{Occlusion, Recognition, RecognitionReport, Session};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
 
@@ -18,6 +18,7 @@ Examples:
   nbc evolve library/seeing.nb --run zeros_and_ones
   nbc see library/seeing.nb held_out out/zeros_and_ones
   nbc see library/seeing.nb held_out out/zeros_and_ones/seed-1 --best 5
+  nbc see library/seeing/experiments.nb held_out out/box_5 out/seeds out/box_10 --chart boxes.svg
   nbc see library/seeing.nb some_held_out out/zeros_and_ones --map needed.svg";
 
 /// Show images to evolved bodies and count those that they tell apart
@@ -28,12 +29,13 @@ Examples:
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]
 pub struct SeeArguments {
-    /// The file with the evolution and the schedule
+    /// The file with the evolutions and the schedule
     file: PathBuf,
-    /// The schedule of images, with as many sets as the evolution's, in the same order
+    /// The schedule of images, with as many sets as those of the evolutions, in the same order
     schedule: String,
-    /// The folder of a run such as out/zeros_and_ones, or of one of its seeds
-    run: PathBuf,
+    /// Folders of runs such as out/zeros_and_ones, or of one of their seeds
+    #[arg(required = true, value_name = "RUN")]
+    runs: Vec<PathBuf>,
     /// So many bodies of each seed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1000))]
     best: u32,
@@ -41,6 +43,9 @@ pub struct SeeArguments {
     /// way when each pixel is covered by its mean
     #[arg(long, value_name = "FILE", value_parser = picture_path())]
     map: Option<PathBuf>,
+    /// Write a chart (.svg or .png) of the shares that the bodies of each run tell apart
+    #[arg(long, value_name = "FILE", value_parser = picture_path())]
+    chart: Option<PathBuf>,
 }
 
 impl SeeArguments {
@@ -52,24 +57,35 @@ impl SeeArguments {
         let interrupt = Interrupt::watch()?;
         let mut session = Session::new(interrupt.world());
         let checked = session.open(source_path(&self.file)?)?;
-        let results = read_run(&self.run, context)?;
-        let (program, bodies) = (&checked.program, best(&results, self.best as usize));
-        let recognition = Recognition::new(program, &results.name, &self.schedule, bodies, Simulator::default());
-        let mut recognition = recognition.map_err(Failure::plain)?;
-        let bar = Progress::new("seeing", recognition.progress().1);
-        while recognition.advance() {
-            if interrupt.is_raised() {
-                return Ok(Status::Interrupted);
+        let recognition = |run: &PathBuf| {
+            let results = read_run(run, context)?;
+            let (program, bodies) = (&checked.program, best(&results, self.best as usize));
+            let recognition = Recognition::new(program, &results.name, &self.schedule, bodies, Simulator::default());
+            recognition.map_err(Failure::plain)
+        };
+        let mut recognitions = self.runs.iter().map(recognition).collect::<Result<Vec<_>, _>>()?;
+        let bar = Progress::new("seeing", recognitions.iter().map(|one| one.progress().1).sum());
+        let mut shown = 0;
+        for recognition in &mut recognitions {
+            while recognition.advance() {
+                if interrupt.is_raised() {
+                    return Ok(Status::Interrupted);
+                }
+                bar.set(shown + recognition.progress().0);
             }
-            bar.set(recognition.progress().0);
+            shown += recognition.progress().1;
         }
         drop(bar);
         if let Some(path) = &self.map
-            && !draw_map(path, &recognition, &interrupt, context)?
+            && !draw_map(path, &recognitions[0], &interrupt, context)?
         {
             return Ok(Status::Interrupted);
         }
-        let report = recognition.finish();
+        let bodies = recognitions.into_iter().flat_map(Recognition::finish).collect();
+        let report = RecognitionReport { schedule: self.schedule, bodies };
+        if let Some(path) = &self.chart {
+            context.write_picture(path, &report.chart())?;
+        }
         context.print_result(Schema::See, &report, || report.text())?;
         Ok(Status::Done)
     }

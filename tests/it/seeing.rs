@@ -104,11 +104,21 @@ fn bodies_are_evolved_and_tell_the_images_that_they_were_evolved_with_apart_as_t
         assert!(least <= 0.0 || body["accuracy"] == 1.0, "{body}");
     }
     let text = bench.run(&["see", "tell.nb", "spots", "out/tell/seed-5"]);
-    assert!(text.out.starts_with("1 body of tell before the images of spots\n"), "{}", text.out);
+    assert!(text.out.starts_with("1 body before the images of spots\nevolution  seed"), "{}", text.out);
     let map = bench.run(&["see", "tell.nb", "spots", "out/tell", "--map", "needed.svg"]);
     assert_eq!((map.status, &map.out), (0, &bench.run(&["see", "tell.nb", "spots", "out/tell"]).out), "{}", map.err);
     let picture = fs::read_to_string(bench.path().join("needed.svg")).unwrap();
     assert!(["losses", "mean-tops", "mean-bottoms"].iter().all(|part| picture.contains(&format!("id=\"{part}\""))));
+    let both = ["see", "tell.nb", "spots", "out/tell", "out/tell_in_turn", "--best", "2", "--chart", "chart.svg"];
+    let ran = bench.run(&both);
+    assert_eq!(ran.status, 0, "{}", ran.err);
+    let of = |evolution: &str| ran.out.lines().filter(|line| line.starts_with(&format!("{evolution}  "))).count();
+    assert_eq!([of("tell"), of("tell_in_turn")], [2, 2], "{}", ran.out);
+    assert!(ran.out.lines().any(|line| line.starts_with("tell: ") && line.contains(" % on average, ")), "{}", ran.out);
+    let chart = fs::read_to_string(bench.path().join("chart.svg")).unwrap();
+    for part in ["evolution-tell\"", "evolution-tell_in_turn\"", "2 bodies"] {
+        assert!(chart.contains(part), "{part}");
+    }
     // The same seed again, with an interruption, gives the same bits.
     let checkpoint = |folder: &str| fs::read(bench.path().join(folder).join("tell/seed-5/checkpoint.nbc")).unwrap();
     for generations in [&["--generations", "2"][..], &["--resume"]] {

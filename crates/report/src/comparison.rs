@@ -65,18 +65,30 @@ fn is_set_apart(groups: &[BehaviorGroup], comparisons: &[GroupComparison], place
 
 fn draw_group(svg: &mut Svg, panel: &Panel, group: &BehaviorGroup, slot: f64) {
     let color = [Color::series(4), Color::series(5), Color::series(2)][group.stimuli.min(2)];
-    let count = group.values.len();
-    for (i, &value) in group.values.iter().enumerate() {
-        // The dots of a group are next to each other.
+    draw_values(svg, panel, slot, (group.name, "run"), &group.values, color);
+}
+
+/// Draws values above a slot: a dot for each, next to each other, a cross at their mean, and below the panel the name
+/// and how many there are of what.
+pub(super) fn draw_values(
+    svg: &mut Svg,
+    panel: &Panel,
+    slot: f64,
+    (name, what): (&str, &str),
+    values: &[f64],
+    color: Color,
+) {
+    let count = values.len();
+    for (i, &value) in values.iter().enumerate() {
         let beside = ((i as f64 + 0.5) / count as f64 - 0.5) * 0.5;
         svg.circle(panel.at((slot + beside, value)), 3.6, Paint::fill(color).with_opacity(0.85));
     }
-    let (x, _) = panel.at((slot, 0.0));
-    svg.text((x, panel.bottom + 16.0), group.name, Type::new(11.0).anchored(Anchor::Middle));
+    let x = panel.x.at(slot);
+    svg.text((x, panel.bottom + 16.0), name, Type::new(11.0).anchored(Anchor::Middle));
     let small = Type::new(9.5).colored(Color::GRAY).anchored(Anchor::Middle);
-    svg.text((x, panel.bottom + 30.0), &counted(count, "run"), small);
+    svg.text((x, panel.bottom + 30.0), &counted(count, what), small);
     if count > 0 {
-        let (x, y) = panel.at((slot, group.values.iter().sum::<f64>() / count as f64));
+        let (x, y) = panel.at((slot, values.iter().sum::<f64>() / count as f64));
         let paint = Paint::stroke(Color::BLACK, 2.0);
         svg.line((x - 5.0, y - 5.0), (x + 5.0, y + 5.0), paint);
         svg.line((x - 5.0, y + 5.0), (x + 5.0, y - 5.0), paint);

@@ -1,5 +1,6 @@
 //! Reports: results as text, pictures and data. Everything here returns text or bytes; the layers above write them.
 
+mod accuracy;
 mod answer;
 mod champions;
 mod chart;
@@ -64,6 +65,7 @@ mod verdict;
 mod waves;
 mod wires;
 
+pub use accuracy::draw_accuracies;
 pub use answer::{Answer, Outcome};
 pub use champions::{Champions, draw_champions};
 pub use color::Color;

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::report::{Align, TextTable};
+use crate::report::{Align, Svg, TextTable, draw_accuracies};
 use crate::wording::RecognitionError;
 use nbc_base::diag::{Diagnostic, Suggestion, counted};
 use nbc_base::model::{Direction, Evolution, ImageOrder, NamedSchedule, Program, Schedule, SearchObjective};
@@ -28,8 +28,6 @@ pub struct Recognition {
 /// How well bodies tell images apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecognitionReport {
-    /// The evolution that made the bodies.
-    pub evolution: String,
     /// The schedule that was shown.
     pub schedule: String,
     /// The bodies in the order in which they were given.
@@ -39,6 +37,8 @@ pub struct RecognitionReport {
 /// How well a body tells images apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecognizingBody {
+    /// The evolution that made it.
+    pub evolution: String,
     /// The seed of its run.
     pub seed: u64,
     /// Its voxels.
@@ -129,14 +129,15 @@ impl Recognition {
         self.progress().0 < self.progress().1
     }
 
-    /// The result of the images that were shown.
-    pub fn finish(self) -> RecognitionReport {
+    /// The results of the bodies, by the images that were shown.
+    pub fn finish(self) -> Vec<RecognizingBody> {
         let Self { evolution, schedule, elites, walked, .. } = self;
         let body = |((seed, elite), walked): (&(u64, Elite), &Vec<Option<f64>>)| {
             let sets: Vec<RecognizedSet> =
                 (0..schedule.sets.len()).map(|number| recognized(&schedule, number, elite, walked)).collect();
             let (correct, images) = sets.iter().fold((0, 0), |sum, set| (sum.0 + set.correct, sum.1 + set.images));
             RecognizingBody {
+                evolution: evolution.name.clone(),
                 seed: *seed,
                 body: elite.body.rows(),
                 least: elite.fitness[0],
@@ -146,8 +147,7 @@ impl Recognition {
                 sets,
             }
         };
-        let bodies = elites.iter().zip(&walked).map(body).collect();
-        RecognitionReport { evolution: evolution.name, schedule: schedule.name, bodies }
+        elites.iter().zip(&walked).map(body).collect()
     }
 }
 
@@ -169,20 +169,46 @@ fn recognized(schedule: &NamedSchedule, number: usize, elite: &Elite, walked: &[
 }
 
 impl RecognitionReport {
+    /// The evolutions in the order of their bodies, each with the accuracies of its bodies.
+    fn accuracies(&self) -> Vec<(&str, Vec<f64>)> {
+        let runs = self.bodies.chunk_by(|a, b| a.evolution == b.evolution);
+        runs.map(|own| (own[0].evolution.as_str(), own.iter().map(|body| body.accuracy).collect())).collect()
+    }
+
     /// The report for people.
     pub fn text(&self) -> String {
-        let Self { evolution, schedule, bodies } = self;
-        let count = counted(bodies.len(), "body");
-        let columns = [("seed", Align::Right), ("least", Align::Right), ("correct", Align::Right), ("", Align::Left)];
+        let Self { schedule, bodies } = self;
+        let columns = [
+            ("evolution", Align::Left),
+            ("seed", Align::Right),
+            ("least", Align::Right),
+            ("correct", Align::Right),
+            ("", Align::Left),
+        ];
         let mut table = TextTable::new(&columns);
-        for RecognizingBody { seed, least, correct, images, accuracy, sets, .. } in bodies {
+        for RecognizingBody { evolution, seed, least, correct, images, accuracy, sets, .. } in bodies {
             let each: Vec<String> = sets
                 .iter()
                 .map(|RecognizedSet { set, way, correct, images, .. }| format!("{set}: {correct} of {images} {way}"))
                 .collect();
             let correct = format!("{correct} of {images} ({:.1} %)", 100.0 * accuracy);
-            table.push(vec![seed.to_string(), format!("{least:.2}"), correct, each.join(", ")]);
+            table.push(vec![evolution.clone(), seed.to_string(), format!("{least:.2}"), correct, each.join(", ")]);
         }
-        format!("{count} of {evolution} before the images of {schedule}\n{table}")
+        let mut text = format!("{} before the images of {schedule}\n{table}", counted(bodies.len(), "body"));
+        for (evolution, accuracies) in self.accuracies() {
+            if accuracies.len() > 1 {
+                let mean = accuracies.iter().sum::<f64>() / accuracies.len() as f64;
+                let least = accuracies.iter().copied().fold(1.0, f64::min);
+                let most = accuracies.iter().copied().fold(0.0, f64::max);
+                let [mean, least, most] = [mean, least, most].map(|share| format!("{:.1}", 100.0 * share));
+                text += &format!("{evolution}: {mean} % on average, {least} to {most} %\n");
+            }
+        }
+        text
+    }
+
+    /// A chart of the accuracies by evolution.
+    pub fn chart(&self) -> Svg {
+        draw_accuracies(&format!("Images of {} that are told apart", self.schedule), &self.accuracies())
     }
 }
