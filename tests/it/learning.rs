@@ -107,6 +107,12 @@ fn a_small_budget_gives_a_small_tree() {
     assert!(found["ands"].as_u64().unwrap() <= 12, "{found}");
     assert!(found["bits"][0]["learned"].as_str().unwrap().contains("a decision tree"), "{}", found["bits"]);
     assert!(found["held_out"]["accuracy"].as_f64().unwrap() > 0.6, "{}", found["held_out"]);
+    // What is learned again from all training rows may need more gates.
+    bench.file("mixed.csv", rows(10, 1_000, |x| if x % 3 == 0 { x % 6 } else { (x * 7 + x % 11) % 6 }));
+    for (file, gates) in [("noisy.csv", 60), ("mixed.csv", 12)] {
+        let found = learned(&bench, &[file, "--gates", &gates.to_string()]);
+        assert!(found["ands"].as_u64().unwrap() <= gates, "{found}");
+    }
 }
 
 #[test]

@@ -147,17 +147,27 @@ struct Choice {
     fitted: Fitted,
 }
 
+/// The best code for all bits of a port.
+#[derive(Clone, Debug)]
+struct CodeChoice {
+    shape: CodeShape,
+    worth: f64,
+    /// What it has learned from the rows to fit.
+    graph: GateGraph,
+    literals: Vec<Literal>,
+}
+
 /// What is done for an output port.
 #[derive(Clone, Debug)]
 enum Phase {
     /// A method is tried on an output bit; the others come after it.
     Trying { parts: Parts, fitting: Fitting, methods: Vec<LearningMethod>, tried: Vec<Tried>, best: Option<Choice> },
     /// A code is tried on all bits; the others come after it.
-    Coding { classes: Classes, fitting: CodeFitting, shapes: Vec<CodeShape>, best: Option<(f64, CodeShape)> },
+    Coding { classes: Classes, fitting: CodeFitting, shapes: Vec<CodeShape>, best: Option<CodeChoice> },
     /// The chosen method learns an output bit from all training rows.
     Again { parts: Parts, fitting: Fitting },
     /// The chosen code learns all bits from all training rows.
-    CodingAgain { classes: Classes, fitting: CodeFitting },
+    CodingAgain { classes: Classes, fitting: CodeFitting, choice: CodeChoice },
 }
 
 /// An output port that is being learned.
@@ -276,35 +286,46 @@ impl Learner {
                     let shape = fitting.shape();
                     let (graph, literals) = fitting.finish(&classes);
                     let (worth, tried) = self.rate(&graph, &literals, &bits, shape.to_string());
-                    let is_better = worth.is_some_and(|worth| best.is_none_or(|(most, _)| worth > most));
-                    let best = if is_better { worth.map(|worth| (worth, shape)) } else { best };
-                    codes.push(tried);
-                    let won = best.filter(|&(worth, _)| shapes.is_empty() && worth > self.worth_of(&choices, &bits));
-                    // All training rows may have too many values, though those to learn from have few.
-                    let won = won.and_then(|(_, shape)| Some((shape, self.classes(&bits, true)?)));
-                    Some(match won {
-                        _ if !shapes.is_empty() => self.coding(shapes, best, classes, port),
-                        Some((shape, all)) => {
-                            let fitting = CodeFitting::new(shape, &all, seed, port);
-                            Phase::CodingAgain { classes: all, fitting }
+                    let best = match worth {
+                        Some(worth) if best.as_ref().is_none_or(|best| worth > best.worth) => {
+                            Some(CodeChoice { shape, worth, graph, literals })
                         }
-                        None => self.again(&bits, &choices, 0),
+                        _ => best,
+                    };
+                    codes.push(tried);
+                    Some(if shapes.is_empty() {
+                        let won = best.filter(|best| best.worth > self.worth_of(&choices, &bits));
+                        // All training rows may have too many values, though those to learn from have few.
+                        match won.and_then(|choice| Some((choice, self.classes(&bits, true)?))) {
+                            Some((choice, all)) => {
+                                let fitting = CodeFitting::new(choice.shape, &all, seed, port);
+                                Phase::CodingAgain { classes: all, fitting, choice }
+                            }
+                            None => self.again(&bits, &choices, 0),
+                        }
+                    } else {
+                        self.coding(shapes, best, classes, port)
                     })
                 }
             }
             Phase::Again { parts, fitting } => match fitting.advance(&parts.all) {
                 FittingStep::More(fitting) => Some(Phase::Again { parts, fitting }),
                 FittingStep::Done(found) => {
-                    learned.push(found.unwrap_or_else(|| Fitted::constant(&parts.all)));
+                    let found = found.unwrap_or_else(|| Fitted::constant(&parts.all));
+                    // From more rows it may have grown too large.
+                    let fits = self.worth(1.0, found.ands(), 1).is_some();
+                    learned.push(if fits { found } else { choices[learned.len()].0.fitted.clone() });
                     (learned.len() < bits.len()).then(|| self.again(&bits, &choices, learned.len()))
                 }
             },
-            Phase::CodingAgain { classes, mut fitting } => {
+            Phase::CodingAgain { classes, mut fitting, choice } => {
                 if fitting.advance(&classes, self.options.seed, port) {
-                    Some(Phase::CodingAgain { classes, fitting })
+                    Some(Phase::CodingAgain { classes, fitting, choice })
                 } else {
                     let what = fitting.shape().to_string();
                     let (graph, literals) = fitting.finish(&classes);
+                    let fits = self.worth(1.0, graph.ands(&literals), bits.len()).is_some();
+                    let (graph, literals) = if fits { (graph, literals) } else { (choice.graph, choice.literals) };
                     learned.extend(literals.into_iter().map(|literal| Fitted {
                         graph: graph.clone(),
                         literal,
@@ -372,13 +393,7 @@ impl Learner {
     }
 
     /// The next code.
-    fn coding(
-        &self,
-        mut shapes: Vec<CodeShape>,
-        best: Option<(f64, CodeShape)>,
-        classes: Classes,
-        port: usize,
-    ) -> Phase {
+    fn coding(&self, mut shapes: Vec<CodeShape>, best: Option<CodeChoice>, classes: Classes, port: usize) -> Phase {
         let fitting = CodeFitting::new(shapes.remove(0), &classes, self.options.seed, port);
         Phase::Coding { classes, fitting, shapes, best }
     }
