@@ -43,7 +43,7 @@ def test_examples(example, tmp_path):
         pytest.importorskip("evogym")
     if example.stem in ("ppo_walker", "cppn_walkers"):
         pytest.importorskip("stable_baselines3")
-    if example.stem == "learn":
+    if example.stem in ("eyes", "learn"):
         pytest.importorskip("sklearn")
     environment = {**os.environ, "NBC_EXAMPLE": "short", "MPLBACKEND": "agg"}
     done = subprocess.run([sys.executable, str(example)], cwd=tmp_path, env=environment, capture_output=True, text=True)
