@@ -27,6 +27,7 @@ mod films;
 mod first_steps;
 mod flows;
 mod formatting;
+mod forms;
 mod gallery;
 #[cfg(feature = "gpu")]
 mod gpu;

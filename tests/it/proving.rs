@@ -236,3 +236,36 @@ prove shift[4] {
     bench.file("shift.nb", text.replace("inside == 4'd9", "beside == 4'd9"));
     bench.run(&["prove", "shift.nb"]).expect_fault(&["`beside`"]);
 }
+
+/// A flip-flop of eight cells whose second latch starts so.
+fn flip_flop(q: &str, nq: &str) -> String {
+    let latch = "    low = not clk
+    set = nand(d, low)
+    held init 0 = nand(set, heldn)
+    heldn = nand(nand(set, low), held)
+    show = nand(held, clk)";
+    let shown = format!("    q{q} = nand(show, nq)\n    nq{nq} = nand(nand(show, clk), q)");
+    format!("circuit stored(d, clk) -> (q) {{\n{latch}\n{shown}\n}}\n\nprove stored \"starts\" {{\n    never q\n}}\n")
+}
+
+#[test]
+fn a_register_starts_as_its_cells_do() {
+    let bench = Bench::new();
+    bench.file("one.nb", flip_flop("", " init 0"));
+    let ran = bench.run(&["prove", "one.nb"]);
+    assert!(ran.status == 1 && ran.out.contains("refuted    never q  (after 1 step)"), "{}{}", ran.out, ran.err);
+    bench.file("none.nb", flip_flop(" init 0", " init 0"));
+    let ran = bench.run(&["prove", "none.nb"]);
+    assert!(ran.err.contains("no-steps") && ran.err.contains("does not settle"), "{}{}", ran.out, ran.err);
+    bench.file(
+        "waves.nb",
+        format!("{}\nswarm s {{ circuit: stored, registers: waves }}\n", flip_flop(" init 0", " init 0")),
+    );
+    let ran = bench.run(&["build", "waves.nb"]);
+    assert!(
+        ran.err.contains("the cells of the register `q` have start values that contradict"),
+        "{}{}",
+        ran.out,
+        ran.err
+    );
+}

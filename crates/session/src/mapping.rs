@@ -2,7 +2,7 @@
 
 use nbc_circuit::timing::{Delays, Held, Pulsed, PulsedRegisters};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{CellLibrary, Netlist, Proof, Timing};
+use nbc_circuit::{CellLibrary, Netlist, Proof, Timing, prove_forms};
 
 /// A circuit made of cells, and proved.
 #[derive(Clone, Debug)]
@@ -13,8 +13,8 @@ pub struct Mapping {
     pub netlist: Netlist,
     /// The available cells.
     pub cells: CellLibrary,
-    /// How the two netlists were proved equal, before registers became latches of another form; or the steps of a wave
-    /// machine.
+    /// How the two netlists were proved equal, before registers became latches of another form, which has a proof of
+    /// its own; or the steps of a wave machine.
     pub proof: Proof,
     /// The registers, if they were to be pulsed latches or latches of one robot.
     pub registers: Option<PulsedRegisters>,
@@ -26,14 +26,24 @@ impl Mapping {
     /// The same circuit with pulsed latches as registers.
     pub(super) fn pulsed(self) -> Self {
         let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
-        Self { netlist, registers: Some(registers), ..self }
+        self.with(netlist, registers)
     }
 
     /// The same circuit with latches of one robot; none if the library has no robot for them.
     pub(super) fn held(self) -> Option<Self> {
         let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
-        let registers = PulsedRegisters { pulses: Vec::new(), kept };
-        Some(Self { netlist, registers: Some(registers), ..self })
+        Some(self.with(netlist, PulsedRegisters { pulses: Vec::new(), kept }))
+    }
+
+    /// The same circuit with registers of another form.
+    ///
+    /// # Panics
+    /// When they are not proved to store the same, which is a fault of the compiler.
+    fn with(self, netlist: Netlist, registers: PulsedRegisters) -> Self {
+        if let Err(error) = prove_forms(&self.netlist, &netlist, &registers.pulses) {
+            panic!("the registers of `{}` differ from those of its source: {error}", self.source.name);
+        }
+        Self { netlist, registers: Some(registers), ..self }
     }
 
     /// When each net has settled; the hold of a wave machine is the length of a step.

@@ -7,7 +7,7 @@ use nbc_base::model::{Function, Library};
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
 use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
-use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, registers};
+use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, prove_expanded, registers};
 
 /// How a design is mapped.
 #[derive(Clone, Debug)]
@@ -67,7 +67,7 @@ impl Synthesis {
         let (design, removed) = correspondence::reduce(read);
         let whole = Made::of(design, options)?;
         // The result with its registers is proved to be what was read, too. For registers made of cells, the design
-        // without needless registers was proved, and then its cells.
+        // without needless registers was proved, then that its registers are these cells, and then its cells.
         if !options.expand
             && let Err(error) = correspondence::prove(read, &whole.result, &removed)
         {
@@ -141,6 +141,11 @@ struct Made {
 impl Made {
     fn of(design: Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
         let source = if options.expand { registers::expand(&design) } else { design.logic.clone() };
+        if options.expand
+            && let Some(Err(error)) = prove_expanded(&design, &source)
+        {
+            panic!("the registers of `{}` as cells differ from those of its file: {error}", design.logic.name);
+        }
         let logic = synthesize(source.clone(), &options.cells, &options.map)?.netlist;
         let registers = if options.expand { Vec::new() } else { design.registers.clone() };
         let ascending = design.ascending.clone();

@@ -122,10 +122,11 @@ fn same_names<'n>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Node;
     use crate::cells::CellLibrary;
     use crate::example::{full_adder, latch};
     use crate::map::map;
+    use crate::passes::DissolveWires;
+    use crate::{Logic, Node};
     use nbc_base::model::Function;
 
     #[test]
@@ -185,6 +186,34 @@ mod tests {
             assert!(prove_through(&source, &made(passes::ORDER), &passes).is_ok());
             let found = prove_through(&source, &made(&passes), &passes);
             assert!(matches!(found, Err(ProofError::Different { .. })), "{found:?}");
+        }
+    }
+
+    /// The netlist with the opposite start of its cell of this name, whether the cell has a start value or not.
+    fn started_otherwise(netlist: &Netlist, name: &str) -> Netlist {
+        let mut other = netlist.clone();
+        let (id, _) = netlist.cells().find(|(_, cell)| cell.name.as_deref() == Some(name)).unwrap();
+        let start = Logic::new(netlist).value(id);
+        other.cell_mut(id).unwrap().start = Some(!start);
+        other
+    }
+
+    #[test]
+    fn another_start_is_found_though_the_source_leaves_it_to_the_other_cell() {
+        let mut source = latch();
+        DissolveWires.run_on(&mut source).unwrap();
+        for without in ["", "q", "nq"] {
+            let mut source = source.clone();
+            let found = source.cells().find(|(_, cell)| cell.name.as_deref() == Some(without)).map(|(id, _)| id);
+            if let Some(id) = found {
+                source.cell_mut(id).unwrap().start = None;
+            }
+            let mapped = map(&source, &CellLibrary::uniform([Function::NAND])).unwrap();
+            assert!(prove(&source, &mapped).is_ok());
+            for name in ["q", "nq"] {
+                let found = prove(&source, &started_otherwise(&mapped, name));
+                assert!(matches!(found, Err(ProofError::Start(_))), "{name} without {without}: {found:?}");
+            }
         }
     }
 

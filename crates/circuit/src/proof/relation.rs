@@ -5,6 +5,7 @@
 //! propose it.
 
 use crate::formats::{Forcing, Register};
+use crate::known::{TernaryBit, answer};
 use crate::network::{Network, Signal, View};
 use crate::proof::compare::equal;
 use crate::proof::method::Method;
@@ -41,6 +42,34 @@ impl Side<'_> {
         let registers = self.registers.iter().map(|register| register.name.clone());
         registers.chain(self.cuts.iter().map(|&cut| self.logic.net_name(cut)))
     }
+
+    /// The start value of a cell.
+    fn start(&self, cell: NetId) -> Option<bool> {
+        self.logic.cell(cell).and_then(|cell| cell.start)
+    }
+
+    /// The start of each cut, as far as it is known: its start value, or what follows from those of others with inputs
+    /// of 0, whatever the delays. `network` is the logic with all loops cut.
+    fn starts(&self, network: &Network) -> Vec<TernaryBit> {
+        let mut starts: Vec<TernaryBit> = self.cuts.iter().map(|&cut| self.start(cut)).collect();
+        let first = network.outputs.len() - self.cuts.len();
+        while starts.contains(&None) {
+            let mut values: Vec<TernaryBit> = [0, 1].map(|value| Some(value == 1)).to_vec();
+            values.extend(vec![Some(false); self.ports()]);
+            values.extend(self.registers.iter().map(|register| Some(register.starts_at())));
+            values.extend(&starts);
+            for gate in &network.gates {
+                values.push(answer(gate.function, &gate.pins.map(|pin| values[pin as usize])));
+            }
+            let after = |(start, &output): (&TernaryBit, &Signal)| start.or(values[output as usize]);
+            let next: Vec<TernaryBit> = starts.iter().zip(&network.outputs[first..]).map(after).collect();
+            if next == starts {
+                break;
+            }
+            starts = next;
+        }
+        starts
+    }
 }
 
 /// Two circuits, and what each register and then each cut of the first is in the second.
@@ -67,6 +96,7 @@ impl StateRelation<'_> {
             view.map(|view| view.network).map_err(|id| ProofError::NewLoop(side.logic.net_name(id)))
         });
         let (one, two) = (one?, two?);
+        self.cuts_start(&one, &two)?;
         let ports = reference.ports();
         // The inputs of both: the ports, the state of the result, and what the result does without.
         let mut names: Vec<String> =
@@ -113,11 +143,18 @@ impl StateRelation<'_> {
                 return Err(ProofError::Start(register.name.clone()));
             }
         }
-        for (&cut, &counterpart) in reference.cuts.iter().zip(&self.cuts) {
+        Ok(())
+    }
+
+    /// Whether related cuts start alike. A start that follows from others may be unknown.
+    fn cuts_start(&self, one: &Network, two: &Network) -> Result<(), ProofError> {
+        let Self { reference, result, .. } = self;
+        let [starts, others] = [(reference, one), (result, two)].map(|(side, network)| side.starts(network));
+        for ((&cut, &counterpart), start) in reference.cuts.iter().zip(&self.cuts).zip(starts) {
             let Counterpart::Same(at) = counterpart else { continue };
-            let start = |side: &Side<'_>, id: NetId| side.logic.cell(id).and_then(|cell| cell.start);
-            let other = start(result, result.cuts[at - result.registers.len()]);
-            if start(reference, cut).is_some_and(|start| Some(start) != other) {
+            let other = others[at - result.registers.len()];
+            let is_declared = reference.start(cut).is_some();
+            if start.is_some() && start != other && (is_declared || other.is_some()) {
                 return Err(ProofError::Start(reference.logic.net_name(cut)));
             }
         }

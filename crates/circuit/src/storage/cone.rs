@@ -47,16 +47,20 @@ fn only_pin(netlist: &Netlist, id: NetId, cell: &Cell) -> Option<(NetId, bool)> 
         return None;
     }
     let ends = netlist.operands(id);
-    let constant = |pin: NetId| match netlist.node(pin) {
-        Node::Constant(value) => Some(*value),
-        _ => None,
-    };
-    let free = ends.iter().copied().find(|&pin| constant(pin).is_none())?;
-    if ends.iter().any(|&pin| pin != free && constant(pin).is_none()) {
+    let free = ends.iter().copied().find(|&pin| constant(netlist, pin).is_none())?;
+    if ends.iter().any(|&pin| pin != free && constant(netlist, pin).is_none()) {
         return None;
     }
-    let output = |value: bool| cell.function.at(ends.iter().map(|&pin| constant(pin).unwrap_or(value)));
+    let output = |value: bool| cell.function.at(ends.iter().map(|&pin| constant(netlist, pin).unwrap_or(value)));
     (output(false) != output(true)).then(|| (free, output(false)))
+}
+
+/// The value of a constant.
+pub(super) fn constant(netlist: &Netlist, net: NetId) -> TernaryBit {
+    match netlist.node(net) {
+        Node::Constant(value) => Some(*value),
+        _ => None,
+    }
 }
 
 /// A memory element with the cells before it.
@@ -160,11 +164,8 @@ impl<'a> Cone<'a> {
         answer(cell.function, &bits)
     }
 
-    /// The known value of a net.
+    /// The known value of a net; a constant may be given another one.
     pub fn value(&self, values: &Values, net: NetId) -> TernaryBit {
-        match self.netlist.node(net) {
-            Node::Constant(value) => Some(*value),
-            _ => values.get(&net).copied().flatten(),
-        }
+        values.get(&net).copied().unwrap_or_else(|| constant(self.netlist, net))
     }
 }

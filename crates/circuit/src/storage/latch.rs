@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::cells::CellKind;
 use crate::known::TernaryBit;
-use crate::storage::cone::{Cone, Inverters, Values};
+use crate::storage::cone::{Cone, Inverters, Values, constant};
 use crate::{NetId, Netlist};
 
 /// The most inputs of a latch whose values are all tried.
@@ -68,11 +68,15 @@ impl Follower {
         let cone = Cone::new(netlist, &latch.cells);
         let closed = latch.open == inverters.root(latch.enable).1;
         let trial = Trial { cone: &cone, enable: latch.enable, closed, guards: &latch.guards };
-        let root = inverters.root(*latch.data.first()?).0;
+        // Data that are constant are taken for a net, unless there are others.
+        let mut roots: Vec<NetId> = latch.data.iter().map(|&net| inverters.root(net).0).collect();
+        roots.sort_by_key(|&root| constant(netlist, root).is_some());
+        let root = *roots.first()?;
         let shown = |value: bool| {
             let of_root = |net: &NetId| {
                 let (own, inverted) = inverters.root(*net);
-                (own == root).then_some((*net, Some(value != inverted)))
+                let value = if own == root { Some(value) } else { constant(netlist, own) };
+                Some((*net, Some(value? != inverted)))
             };
             trial.opened(&latch.data.iter().map(of_root).collect::<Option<Values>>()?)
         };
@@ -129,7 +133,8 @@ pub(super) fn recognize<'k>(
     data.dedup();
     data.retain(|net| *net != enable && !guards.contains(net) && !element.contains(net));
     let trial = Trial { cone: &cone, enable, closed, guards: &guards };
-    let rounds = trial.run(inverters, &data)?;
+    let varying: Vec<NetId> = data.iter().copied().filter(|&net| constant(netlist, net).is_none()).collect();
+    let rounds = trial.run(inverters, &varying)?;
     let mut chain: Vec<NetId> = inverters.steps(enable).map(|(net, _)| net).collect();
     chain.pop();
     chain.reverse();

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 use crate::cells::CellLibrary;
 use crate::passes::{Pass, Sweep};
 use crate::timing::phase::{MOST_ROOTS, earliest, passages, phases};
-use crate::{BlockId, Cell, FlipFlop, Latch, NetId, Netlist, Node, Storage};
+use crate::{BlockId, Cell, FlipFlop, Latch, Logic, NetId, Netlist, Node, Storage};
 use nbc_base::model::Function;
 
 /// The numbers of inverters that are tried for a pulse.
@@ -60,7 +60,8 @@ pub struct Pulse {
 /// Why a register stays as it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WhyKept {
-    /// It is not made of eight NAND cells as the standard circuits are, or its first latch is read elsewhere.
+    /// It is not made of eight NAND cells as the standard circuits are, or its first latch is read elsewhere or starts
+    /// otherwise.
     OtherForm,
     /// Its clock is not an input.
     DerivedClock,
@@ -76,10 +77,11 @@ impl Pulsed {
     /// A netlist of cells of a library, with pulsed latches where they are proved safe.
     pub fn of(netlist: &Netlist, library: &CellLibrary) -> Self {
         let storage = Storage::of(netlist, library.kinds_of(netlist));
+        let before = Logic::new(netlist);
         let mut kept = Vec::new();
         let mut registers = Vec::new();
         for pair in &storage.flip_flops {
-            match Register::of(netlist, &storage, pair) {
+            match Register::of(netlist, &before, &storage, pair) {
                 Ok(register) => registers.push((register, 0)),
                 Err(why) => kept.push((storage.latches[pair.second].cells[0], why)),
             }
@@ -124,14 +126,16 @@ struct Register {
 }
 
 impl Register {
-    fn of(netlist: &Netlist, storage: &Storage, pair: &FlipFlop) -> Result<Self, WhyKept> {
+    /// The flip-flop, if it is one of this form in a netlist that starts so.
+    fn of(netlist: &Netlist, before: &Logic, storage: &Storage, pair: &FlipFlop) -> Result<Self, WhyKept> {
         let [first, second] = [pair.first, pair.second].map(|latch| &storage.latches[latch]);
         let data = |latch: &Latch| <[NetId; 1]>::try_from(&latch.data[..]).map_err(|_| WhyKept::OtherForm);
         let ([data], [held]) = (data(first)?, data(second)?);
         let Some([_, _, first_q, first_nq]) = standard(netlist, first, data) else { return Err(WhyKept::OtherForm) };
         let Some([set, reset, q, nq]) = standard(netlist, second, held) else { return Err(WhyKept::OtherForm) };
         let is_private = netlist.fanout(first_q).iter().all(|(listener, _)| [first_nq, set].contains(listener));
-        if held != first_q || !is_private || netlist.fanout(first_nq).len() != 1 {
+        let starts_alike = before.value(first_q) == before.value(q);
+        if held != first_q || !starts_alike || !is_private || netlist.fanout(first_nq).len() != 1 {
             return Err(WhyKept::OtherForm);
         }
         if !matches!(netlist.node(second.root), Node::Input(_)) {

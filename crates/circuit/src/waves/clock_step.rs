@@ -8,7 +8,7 @@ use crate::passes::{DissolveWires, Pass, Sweep};
 use crate::signal_blocks::SignalBlocks;
 use crate::storage::{Follower, Inverters};
 use crate::waves::wording::WaveError;
-use crate::{Blocks, Latch, NetId, Netlist, Node, Storage};
+use crate::{Blocks, Latch, Logic, NetId, Netlist, Node, Storage};
 use nbc_base::model::Function;
 
 /// A bit of the state.
@@ -49,6 +49,8 @@ struct Register {
     shows: Vec<(NetId, bool)>,
     /// The cells of the first latch, which nothing else may read.
     first: Vec<NetId>,
+    /// The cell of the first latch that the second one stores, and whether the bit is the opposite of it.
+    held: (NetId, bool),
     /// The net of the data, and whether the first cell shows the opposite of it.
     data: (NetId, bool),
     /// The net that clocks it, and whether it takes the data when that rises.
@@ -59,7 +61,8 @@ impl ClockStep {
     /// The step of a circuit of which every register has the same clock.
     ///
     /// # Errors
-    /// When the circuit has other memory, other clocks, or a clock that is read as data.
+    /// When the circuit has other memory, other clocks, a clock that is read as data, or a register whose cells do not
+    /// start as it could be.
     pub fn of(source: &Netlist) -> Result<Self, WaveError> {
         const KIND: CellKind = CellKind::uniform(1, 1.0);
         let mut netlist = source.clone();
@@ -123,7 +126,7 @@ impl ClockStep {
             outputs: names(netlist.outputs()),
             clock: clock.and_then(|(clock, _)| netlist.inputs().iter().position(|&id| id == clock)),
             rises: clock.is_none_or(|(_, rises)| rises),
-            state: registers.iter().map(|register| state_bit(netlist, register)).collect(),
+            state: state(netlist, registers)?,
             logic: step,
             blocks: netlist.blocks().without_nodes(),
             signal_blocks,
@@ -173,6 +176,7 @@ fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, Wave
         Ok(Register {
             shows: cells.iter().map(|&(id, opposite)| (id, opposite != named)).collect(),
             first: first.cells.clone(),
+            held: (shown.data, named),
             data: (taken.data, named != inverted),
             clock: (second.root, pair.rising),
         })
@@ -202,8 +206,19 @@ fn clock(netlist: &Netlist, registers: &[Register]) -> Result<Option<(NetId, boo
     Ok(Some(first.clock))
 }
 
-fn state_bit(netlist: &Netlist, register: &Register) -> StateBit {
-    let (id, _) = register.shows[0];
-    let start = netlist.cell(id).and_then(|cell| cell.start).unwrap_or(false);
-    StateBit { name: netlist.net_name(id), start }
+/// The bits of the state. Those without a start value start as the circuit does.
+fn state(netlist: &Netlist, registers: &[Register]) -> Result<Vec<StateBit>, WaveError> {
+    let before = Logic::new(netlist);
+    let bit = |register: &Register| {
+        let (id, _) = register.shows[0];
+        let (name, start) = (netlist.net_name(id), before.value(id));
+        let starts = |(cell, is_opposite): (NetId, bool)| before.value(cell) == (start != is_opposite);
+        // While its clock is 0, a register that stores when that falls shows its first latch.
+        let is_held = register.clock.1 || starts(register.held);
+        if is_held && register.shows.iter().all(|&cell| starts(cell)) {
+            return Ok(StateBit { name, start });
+        }
+        Err(WaveError::Starts { net: name })
+    };
+    registers.iter().map(bit).collect()
 }

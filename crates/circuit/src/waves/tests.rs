@@ -7,6 +7,7 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::Node;
 use crate::example::random_machine;
+use crate::registers::flip_flop;
 use nbc_base::model::Function;
 
 /// The robots of clock 1 in the shipped library.
@@ -71,4 +72,64 @@ fn a_machine_with_a_wrong_phase_or_a_wrong_cell_is_not_proved() {
         different += usize::from(certify(&step, &wrong).is_err());
     }
     assert!(mixed > 5 && different > 20, "{mixed} and {different} faults were found");
+}
+
+#[test]
+fn a_register_starts_as_its_cells_do_though_the_one_that_names_it_has_no_start_value() {
+    let mut random = ChaCha8Rng::seed_from_u64(72);
+    let mut started = [0; 2];
+    for _ in 0..50 {
+        let mut source = random_machine(&mut random);
+        let expected = ClockStep::of(&source).unwrap();
+        let named: Vec<_> = source
+            .cells()
+            .filter(|(_, cell)| expected.state.iter().any(|bit| cell.name.as_ref() == Some(&bit.name)))
+            .map(|(id, _)| id)
+            .collect();
+        named.into_iter().for_each(|id| source.cell_mut(id).unwrap().start = None);
+        let step = ClockStep::of(&source).unwrap();
+        assert_eq!(step.state, expected.state, "{source}");
+        step.state.iter().for_each(|bit| started[usize::from(bit.start)] += 1);
+    }
+    assert!(started.iter().all(|&count| count > 10), "{started:?} start at 0 and 1");
+}
+
+/// A flip-flop whose latches start so; it stores when its clock rises, or when it falls.
+fn started(rises: bool, starts: [Option<bool>; 4]) -> Netlist {
+    let mut netlist = Netlist::new("started");
+    let [d, clock] = ["d", "clk"].map(|name| netlist.add_input(name));
+    let edge = if rises { clock } else { netlist.add_gate(Function::NOT, &[clock]) };
+    let q = flip_flop(&mut netlist, "q", d, edge, false);
+    netlist.add_output("o", q);
+    for (name, start) in ["q", "q.n", "q.held", "q.held.n"].into_iter().zip(starts) {
+        let id = netlist.ids().find(|&id| netlist.net_name(id) == name).unwrap();
+        netlist.cell_mut(id).unwrap().start = start;
+    }
+    netlist
+}
+
+#[test]
+fn start_values_that_contradict_are_no_step() {
+    let [zero, one] = [Some(false), Some(true)];
+    let state = |rises, starts| ClockStep::of(&started(rises, starts)).map(|step| step.state[0].start);
+    let contradicts = Err(WaveError::Starts { net: "q".to_owned() });
+    assert_eq!(state(true, [zero, zero, zero, one]), contradicts);
+    assert_eq!(state(true, [None, zero, zero, one]), Ok(true));
+    // The first latch of a register that stores when its clock falls is seen before that.
+    assert_eq!([true, false].map(|rises| state(rises, [one, None, zero, one])), [Ok(true), contradicts]);
+}
+
+#[test]
+fn a_register_whose_data_never_change_has_steps() {
+    let mut random = ChaCha8Rng::seed_from_u64(73);
+    for value in [false, true] {
+        let mut netlist = Netlist::new("constant");
+        let clock = netlist.add_input("clk");
+        let data = netlist.add_constant(value);
+        let q = flip_flop(&mut netlist, "q", data, clock, !value);
+        netlist.add_output("o", q);
+        let step = ClockStep::of(&netlist).unwrap();
+        assert_eq!((step.state[0].start, step.run(&[true], &[!value])), (!value, (vec![!value], vec![value])));
+        check(&netlist, &WaveOptions { beat: 1, ..WaveOptions::default() }, &mut random);
+    }
 }

@@ -51,6 +51,11 @@ pub enum WaveError {
         /// The clock.
         clock: String,
     },
+    /// A register whose cells have start values that contradict each other.
+    Starts {
+        /// The register.
+        net: String,
+    },
     /// The requested step is no whole number of beats.
     UnevenStep {
         /// The requested cycles.
@@ -89,6 +94,7 @@ impl fmt::Display for WaveError {
                 write!(f, "`{rising}` changes when the clock rises, but `{falling}` when it falls")
             }
             Self::ClockIsRead { clock } => write!(f, "the clock `{clock}` is also read as data"),
+            Self::Starts { net } => write!(f, "the cells of the register `{net}` have start values that contradict"),
             Self::UnevenStep { wanted, beat } => {
                 let [wanted, beat] = [*wanted, *beat].map(|cycles| counted(cycles as usize, "cycle"));
                 write!(f, "a step of {wanted} is no whole number of beats of {beat}")
@@ -118,6 +124,9 @@ impl WaveError {
             Self::TwoClocks { .. } => "give all registers one clock".to_owned(),
             Self::BothEdges { .. } => "let all registers change at the same edge".to_owned(),
             Self::ClockIsRead { .. } => "in a wave machine the clock is no stimulus: read another input".to_owned(),
+            Self::Starts { .. } => {
+                "give only one cell of each latch a start value, the same in both latches".to_owned()
+            }
             Self::UnevenStep { .. } => "make `step` a multiple of `beat`".to_owned(),
             Self::ShortStep { .. } => "leave out `step` for the shortest one".to_owned(),
         })
