@@ -10,6 +10,8 @@
 mod beside;
 mod bounded;
 mod certificate;
+#[cfg(test)]
+mod circuit_tests;
 mod cubes;
 mod frames;
 mod machine;
@@ -18,10 +20,10 @@ mod needed;
 mod pair;
 mod pairs;
 mod search;
+#[cfg(test)]
+mod search_tests;
 mod solver;
 mod system;
-#[cfg(test)]
-mod tests;
 mod unrolled;
 mod wording;
 
