@@ -8,7 +8,9 @@ import { compiled, done } from "./lessons.mjs";
 import { served } from "./opened.mjs";
 import { LATCH } from "./program.mjs";
 
-const here = served({ "latch.nb": LATCH }, "latch.nb");
+const MATERIAL = "material slow { kind: actuator, drive: sine, period: 168 steps, phase: 0 deg, range: 0.6..1.6 }\n";
+
+const here = served({ "latch.nb": LATCH, "material.nb": MATERIAL }, "latch.nb");
 
 const at = fragment => `${here.program.address}#${fragment}`;
 const file = (page, name) => page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
@@ -86,6 +88,25 @@ test("Back and Forward go through files and views", async () => {
   await tab(page, "tests");
   await page.reload();
   await tab(page, "tests");
+  await page.leave();
+});
+
+test("a program without a circuit says so, and shows no robots of another", async () => {
+  const page = await visit(here.program.url);
+  await walking(page);
+  await page.locator("[data-do=open]").click();
+  await page.locator('.files [data-open="material.nb"]').click();
+  await file(page, "material.nb");
+  const says = text => page.locator(".swarm .status", { hasText: text }).waitFor();
+  await says(/^The program has no circuit$/);
+  await page.locator(".stage").waitFor({ state: "hidden" });
+  await page.locator(".hint").waitFor({ state: "hidden" });
+  await typeProgram(page, "circuit gate(a, b) -> (q) {\n    q = a and b\n}\n");
+  await says(/^1 robot/);
+  await page.locator(".stage").waitFor();
+  await typeProgram(page, MATERIAL);
+  await says(/^The program has no circuit; these robots are from before$/);
+  await page.locator(".stage").waitFor();
   await page.leave();
 });
 

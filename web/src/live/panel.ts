@@ -26,6 +26,8 @@ export class SwarmPanel {
     program.choice.on(() => this.#listChoices());
     program.stage.follow(stage => this.#showStage(stage));
     swarm.stopped.on(() => this.#showStage(program.stage.value));
+    program.checked.on(() => this.#showStage(program.stage.value));
+    swarm.definition.on(() => this.#showStage(program.stage.value));
   }
 
   get host(): HTMLElement {
@@ -60,6 +62,7 @@ export class SwarmPanel {
   #showStage(stage: CompileStage): void {
     this.#status.dataset["state"] = stage.state;
     this.host.classList.toggle("stale", stage.state === "errors" || stage.state === "failed");
+    this.host.classList.toggle("vacant", this.#hasNone() && this.#isVacant());
     const reason = this.swarm.stopped.value;
     switch (stage.state) {
       case "compiling":
@@ -84,7 +87,20 @@ export class SwarmPanel {
     }
   }
 
+  /** Whether the program declares no circuit, but perhaps materials or evolutions. */
+  #hasNone(): boolean {
+    return this.program.checked.value?.circuits.length === 0;
+  }
+
+  /** Whether there is no swarm of the program. */
+  #isVacant(): boolean {
+    return this.swarm.definition.value === null || this.program.shown !== this.program.path.value;
+  }
+
   #summary(): string {
+    if (this.#hasNone()) {
+      return `The program has no circuit${this.#isVacant() ? "" : "; these robots are from before"}`;
+    }
     const definition = this.swarm.definition.value;
     return definition === null ? "" : summaryOf(definition);
   }
