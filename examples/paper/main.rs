@@ -56,9 +56,7 @@ fn main() -> Fallible<()> {
     let boxes = [5, 7, 10];
     let runs: Vec<BTreeMap<u64, Run>> =
         boxes.iter().map(|side| read(&format!("paper/paper{side}"))).collect::<Fallible<_>>()?;
-    let (mut long, code) = (read("long/paper5")?, read("paper/code5")?);
-    // Others are still going on.
-    long.retain(|_, run| run.results.progress.last().is_some_and(|line| line.generation >= LONG));
+    let (long, code) = (finished(read("long/paper5")?), read("paper/code5")?);
     let parts: Vec<String> = std::env::args().skip(1).collect();
     let is_wanted = |part: &str| parts.is_empty() || parts.iter().any(|wanted| wanted == part);
     let [small, medium, large] = [&runs[0], &runs[1], &runs[2]];
@@ -74,7 +72,11 @@ fn main() -> Fallible<()> {
         print_difficulties(&with_long);
         print_means(&with_long);
         print_growth(small, &long);
-        print_unfinished(&[("7x7", read("long/paper7")?), ("10x10", read("long/paper10")?)]);
+        let going_on = [("7x7", read("long/paper7")?), ("10x10", read("long/paper10")?)];
+        print_unfinished(&going_on);
+        let [(_, wide), (_, widest)] = going_on;
+        print_growth(medium, &finished(wide));
+        print_growth(large, &finished(widest));
         rules::print_distances(small, &code);
         rules::print_matters(&[
             ("nothing", "paper/paper5"),
@@ -114,6 +116,12 @@ fn read(name: &str) -> Fallible<BTreeMap<u64, Run>> {
         runs.insert(checkpoint.state.seed, Run { results, end });
     }
     Ok(runs)
+}
+
+/// Those of the runs that have the paper's generations. Others are still going on.
+fn finished(mut runs: BTreeMap<u64, Run>) -> BTreeMap<u64, Run> {
+    runs.retain(|_, run| run.results.progress.last().is_some_and(|line| line.generation >= LONG));
+    runs
 }
 
 /// The folders of runs in a folder of `out`; none if it is not there.
