@@ -16,10 +16,10 @@ use crate::properties::unrolled::Unrolled;
 use nbc_base::source::CancelFlag;
 
 /// Clauses that were needed for one call, after which the solver is made again.
-const MOST_SPENT: usize = 1_000;
+const MOST_SPENT: usize = 3_000;
 
 /// The rounds in which literals are left out of a cube.
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 2;
 
 /// What a portion of the search found.
 pub(super) enum Found {
@@ -77,7 +77,7 @@ impl Frames {
         (given, known): (Vec<usize>, Vec<Cube>),
         cancel: CancelFlag,
     ) -> Self {
-        let step = Unrolled::new(false, cancel.clone());
+        let step = Unrolled::any_step(cancel.clone());
         let constrained = step.solver.one();
         let mut frames = Self {
             cancel,
@@ -102,10 +102,10 @@ impl Frames {
     /// Makes the solver, with the cubes that are left out.
     fn begin(&mut self, system: &TransitionSystem) {
         self.work_before += self.step.solver.work();
-        self.step = Unrolled::new(false, self.cancel.clone());
+        self.step = Unrolled::any_step(self.cancel.clone());
         self.spent = 0;
         self.active.clear();
-        self.constrained = self.step.solver.fresh();
+        self.constrained = self.step.solver.follower();
         for &literal in &system.constraints {
             let literal = self.step.literal(system, 0, literal);
             self.step.solver.clause(&[!self.constrained, literal]);
@@ -117,7 +117,7 @@ impl Frames {
             let clause = self.outside(system, &cube);
             self.step.solver.clause(&clause);
         }
-        let start = self.step.solver.fresh();
+        let start = self.step.solver.follower();
         self.active.push(start);
         for at in system.relevant() {
             if let Some(value) = system.registers[at].start {
@@ -126,7 +126,7 @@ impl Frames {
             }
         }
         for frame in 1..self.cubes.len() {
-            let active = self.step.solver.fresh();
+            let active = self.step.solver.follower();
             self.active.push(active);
             for cube in self.cubes[frame].clone() {
                 self.leave_out(system, frame, &cube);
@@ -217,7 +217,7 @@ impl Frames {
             Solved::No => {
                 self.obligations.clear();
                 self.cubes.push(Vec::new());
-                let active = self.step.solver.fresh();
+                let active = self.step.solver.follower();
                 self.active.push(active);
                 self.pushing = Some((1, 0));
             }
@@ -247,7 +247,7 @@ impl Frames {
     /// The states that lead to the cube, or violate the property, as certainly as this one does with these inputs.
     fn widened(&mut self, system: &TransitionSystem, state: &[bool], inputs: &[bool], to: Option<&Cube>) -> Cube {
         self.spent += 1;
-        let other = self.step.solver.fresh();
+        let other = self.step.solver.follower();
         let mut clause = vec![!other];
         let mut wanted = system.constraints.clone();
         match to {
@@ -279,7 +279,7 @@ impl Frames {
         let mut outside = None;
         if is_new {
             self.spent += 1;
-            let active = self.step.solver.fresh();
+            let active = self.step.solver.follower();
             let mut clause = vec![!active];
             clause.extend(self.outside(system, cube));
             self.step.solver.clause(&clause);

@@ -32,7 +32,8 @@ const INVARIANT_SHARE: u64 = 3;
 pub enum PropertyVerdict {
     /// It holds in every step of every run.
     Proved(InductiveProof),
-    /// The last step of this run violates it. No shorter run does, unless the budget ended before this was known.
+    /// The last step of this run violates it. No shorter run does, unless the budget or the work for shorter ones ended
+    /// before this was known.
     Refuted(SystemRun),
     /// The budget ended. It holds in so many first steps.
     Undecided {
@@ -79,8 +80,8 @@ pub struct PropertySearch {
     frames_work: u64,
     /// States that are never reached, as cubes, once they were looked for.
     known: Option<Vec<Cube>>,
-    /// A run that violates a property, while shorter ones are looked for.
-    longer: Option<(usize, SystemRun)>,
+    /// A run that violates a property, while shorter ones are looked for, and the work at which that ends.
+    longer: Option<(usize, SystemRun, u64)>,
 }
 
 impl PropertySearch {
@@ -140,7 +141,7 @@ impl PropertySearch {
             return;
         }
         if self.longer.is_some() {
-            self.look_further();
+            self.look_for_shorter();
             return;
         }
         let is_first = self.bounded.step <= FIRST_STEPS && self.bounded.work() < FIRST_WORK;
@@ -172,9 +173,14 @@ impl PropertySearch {
         if let Some((property, run)) = self.bounded.advance(&self.system, &self.open, PORTION) {
             self.decide(property, PropertyVerdict::Refuted(run));
         }
-        // All shorter runs were looked at.
-        let steps = self.bounded.step;
-        if let Some((property, run)) = self.longer.take_if(|(_, run)| run.inputs.len() <= steps + 1) {
+    }
+
+    fn look_for_shorter(&mut self) {
+        self.look_further();
+        // All shorter runs were looked at, or that took as much work as all before.
+        let (steps, work) = (self.bounded.step, self.work());
+        let is_last = |(_, run, most): &mut (usize, SystemRun, u64)| run.inputs.len() <= steps + 1 || work >= *most;
+        if let Some((property, run, _)) = self.longer.take_if(is_last) {
             self.decide(property, PropertyVerdict::Refuted(run));
         }
     }
@@ -201,7 +207,7 @@ impl PropertySearch {
             Found::Violation(mut run) => {
                 let last = system.violation(first, &run).expect("the run violates the property");
                 run.inputs.truncate(last + 1);
-                self.longer = Some((first, run));
+                self.longer = Some((first, run, 2 * self.work()));
             }
             Found::Invariant(cubes) => {
                 let given = frames.given();
@@ -229,7 +235,7 @@ impl PropertySearch {
             }
             PropertyVerdict::Undecided { .. } => verdict,
         };
-        self.longer.take_if(|(other, _)| *other == property);
+        self.longer.take_if(|(other, ..)| *other == property);
         self.open.remove(&property);
         self.verdicts.insert(property, verdict);
     }
@@ -237,7 +243,7 @@ impl PropertySearch {
     /// What is known of each property.
     pub fn verdicts(&self) -> Vec<PropertyVerdict> {
         let open = |property: usize| {
-            if let Some((_, run)) = self.longer.as_ref().filter(|(other, _)| *other == property) {
+            if let Some((_, run, _)) = self.longer.as_ref().filter(|(other, ..)| *other == property) {
                 return PropertyVerdict::Refuted(run.clone());
             }
             let own = self.frames.as_ref().filter(|(first, _)| *first == property);

@@ -37,6 +37,9 @@ pub(super) enum Solved {
 pub(super) struct ClauseSolver {
     solver: Solver<SolverLimits>,
     one: Lit,
+    /// Whether it chooses values of gates, and does not wait until they follow from their pins. That helps where values
+    /// are hard to find.
+    chooses_gates: bool,
     calls: u64,
 }
 
@@ -47,7 +50,12 @@ impl ClauseSolver {
         let mut solver = Solver::new(SolverOpts { ccmin_mode: 1, ..SolverOpts::default() }, limits);
         let one = Lit::new(solver.new_var_default(), true);
         solver.add_clause_reuse(&mut vec![one]);
-        Self { solver, one, calls: 0 }
+        Self { solver, one, chooses_gates: true, calls: 0 }
+    }
+
+    /// A solver in which gates follow from their pins.
+    pub(super) fn without_choice_of_gates(cancel: CancelFlag) -> Self {
+        Self { chooses_gates: false, ..Self::new(cancel) }
     }
 
     /// The literal that is always 1.
@@ -58,6 +66,11 @@ impl ClauseSolver {
     /// A new variable, as the literal that is 1 where it is.
     pub(super) fn fresh(&mut self) -> Lit {
         Lit::new(self.solver.new_var_default(), true)
+    }
+
+    /// A new variable of which the solver does not choose the value: it follows from those of others, or may be 0.
+    pub(super) fn follower(&mut self) -> Lit {
+        Lit::new(self.solver.new_var(lbool::UNDEF, false), true)
     }
 
     /// Requires that one of these literals is 1.
@@ -73,7 +86,7 @@ impl ClauseSolver {
             _ if a == one || a == b => b,
             _ if b == one => a,
             _ => {
-                let both = self.fresh();
+                let both = if self.chooses_gates { self.fresh() } else { self.follower() };
                 self.clause(&[!both, a]);
                 self.clause(&[!both, b]);
                 self.clause(&[both, !a, !b]);

@@ -21,6 +21,11 @@ impl Unrolled {
         Self { solver: ClauseSolver::new(cancel), from_start, steps: Vec::new() }
     }
 
+    /// A step from any state, in which gates follow from the inputs and the state.
+    pub(super) fn any_step(cancel: CancelFlag) -> Self {
+        Self { solver: ClauseSolver::without_choice_of_gates(cancel), from_start: false, steps: Vec::new() }
+    }
+
     /// The literal of the solver for one of a step, with the clauses that define it.
     pub(super) fn literal(&mut self, system: &TransitionSystem, step: usize, literal: AndLiteral) -> Lit {
         // What is still to be defined, the first last.
