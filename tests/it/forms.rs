@@ -10,6 +10,7 @@ use nbc_circuit::{CancelFlag, Netlist};
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Mapping, Session};
 
+use crate::support::bench::Bench;
 use crate::support::root;
 
 /// The circuits of these programs with registers or latches, as they were elaborated and as robots.
@@ -58,7 +59,7 @@ fn check(files: &[&str]) {
                 // Pulsed latches take their data at an edge only if timing says so: their form has a proof of its own.
                 cells = nbc_circuit::map(&mapping.source, &mapping.cells).unwrap();
                 let begun = Instant::now();
-                nbc_circuit::prove_forms(&cells, &mapping.netlist, pulses).unwrap();
+                nbc_circuit::prove_forms(&cells, &mapping.netlist, pulses).unwrap().unwrap();
                 println!("pulsed latches of {what}: {:.3} s", begun.elapsed().as_secs_f64());
             }
             assert_eq!(is_equal(&mapping.source, &cells, &what), Some(true), "{what}");
@@ -87,4 +88,30 @@ fn circuits_of_the_gallery_and_their_robots_are_equal_for_ever() {
 #[ignore = "takes half a minute"]
 fn the_processor_and_its_robots_are_equal_for_ever() {
     check(&["riscv.nb"]);
+}
+
+/// A circuit whose registers read their own clocks as data, and a latch whose data depend on what opens it.
+const READING: &str = "\
+circuit reading(a, b, clk, clk2) -> (p, q, r) {
+    own   = register((a nand clk) nand (clk2 nor b), clk2)
+    gone  = register(own xor a, clk)
+    p     = register((clk and a) and gone, clk)
+    q     = latch((own and a) nand b, a and b)
+    r     = own
+}
+";
+
+#[test]
+fn registers_that_read_their_own_clocks_are_compiled_in_each_form() {
+    let bench = Bench::new();
+    for registers in ["pulsed", "mux, library: three"] {
+        let swarm = format!("\nswarm all {{ circuit: reading, registers: {registers} }}\n");
+        bench.file("reading.nb", format!("{READING}{swarm}"));
+        let ran = bench.run(&["build", "reading.nb"]);
+        assert_eq!(ran.status, 0, "{registers}: {}", ran.err);
+    }
+    let latch = ".model m\n.inputs b c\n.outputs q\n.latch d q ah c 2\n.names c b d\n0- 1\n-1 1\n.end\n";
+    bench.file("latch.blif", latch);
+    let ran = bench.run(&["synth", "latch.blif", "--registers", "expand"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
 }

@@ -98,8 +98,6 @@ pub enum ProofError {
     Netlist(NetlistError),
     /// The two do not have the same ports.
     Port(String),
-    /// A net on a loop of the source that is missing in the mapped netlist.
-    MissingCut(String),
     /// The mapped netlist has a loop that the source does not have.
     NewLoop(String),
     /// A register or a cell of a loop that starts or changes otherwise.
@@ -124,7 +122,6 @@ impl fmt::Display for ProofError {
         match self {
             Self::Netlist(error) => error.fmt(f),
             Self::Port(port) => write!(f, "`{port}` is a port of only one of the netlists"),
-            Self::MissingCut(net) => write!(f, "the mapped netlist has no net `{net}`"),
             Self::Start(net) => write!(f, "`{net}` starts or changes otherwise"),
             Self::NewLoop(net) => write!(f, "`{net}` is on a loop that the source does not have"),
             Self::Different { output, inputs } => {

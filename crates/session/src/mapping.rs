@@ -38,9 +38,9 @@ impl Mapping {
     /// The same circuit with registers of another form.
     ///
     /// # Panics
-    /// When they are not proved to store the same, which is a fault of the compiler.
+    /// When they store something else, which is a fault of the compiler.
     fn with(self, netlist: Netlist, registers: PulsedRegisters) -> Self {
-        if let Err(error) = prove_forms(&self.netlist, &netlist, &registers.pulses) {
+        if let Some(Err(error)) = prove_forms(&self.netlist, &netlist, &registers.pulses) {
             panic!("the registers of `{}` differ from those of its source: {error}", self.source.name);
         }
         Self { netlist, registers: Some(registers), ..self }

@@ -5,13 +5,13 @@
 //! itself. This is safe because the multiplexer does not glitch: when its enable closes it, it shows the same before
 //! and after, and both latches of a flip-flop see the edge in the same cycle.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cells::CellLibrary;
 use crate::passes::{Pass, Sweep};
 use crate::storage::{Follower, Inverters, Latch};
 use crate::timing::pulsed::WhyKept;
-use crate::{Cell, NetId, Netlist, Storage};
+use crate::{Cell, FlipFlop, NetId, Netlist, Storage};
 use nbc_base::model::Function;
 
 /// A netlist with latches of one cell.
@@ -47,19 +47,44 @@ impl Held {
         let mut kept: Vec<(NetId, WhyKept)> =
             storage.unphased.iter().map(|unphased| (unphased.nets[0], WhyKept::NotOneBit)).collect();
         let mut plans = Vec::new();
-        for latch in &storage.latches {
+        for (number, latch) in storage.latches.iter().enumerate() {
             match Plan::of(netlist, &inverters, latch) {
-                Some(plan) => plans.push(plan),
+                Some(plan) => plans.push((number, plan)),
                 None => kept.push((latch.cells[0], WhyKept::NotOneBit)),
             }
         }
-        kept.sort_by_key(|(net, _)| *net);
-        let (netlist, latches) = make(netlist, &plans, library);
-        let found = Storage::of(&netlist, library.kinds_of(&netlist));
-        let is_latch = |net: &NetId| found.latches.iter().any(|latch| latch.cells == [*net]);
-        assert!(latches.iter().all(is_latch), "a multiplexer that reads itself is a latch");
-        Some(Self { netlist, latches, kept })
+        loop {
+            let (made, latches) = make(netlist, &plans, library);
+            let is_used = |net: NetId| made.graph().contains_node(net);
+            let recognized = recognized(&made, library);
+            let lost: Vec<usize> = (plans.iter().zip(&latches))
+                .filter(|&(_, &latch)| is_used(latch) && !recognized.contains(&latch))
+                .map(|((number, _), _)| *number)
+                .collect();
+            if lost.is_empty() {
+                let latches = latches.into_iter().filter(|&latch| is_used(latch)).collect();
+                kept.sort_by_key(|(net, _)| *net);
+                return Some(Self { netlist: made, latches, kept });
+            }
+            // Both latches of a flip-flop stay.
+            let is_lost = |number: usize| {
+                let pair = |pair: &&FlipFlop| [pair.first, pair.second].contains(&number);
+                let with = |pair: &FlipFlop| lost.contains(&pair.first) || lost.contains(&pair.second);
+                lost.contains(&number) || storage.flip_flops.iter().filter(pair).any(with)
+            };
+            for (number, _) in plans.extract_if(.., |(number, _)| is_lost(*number)) {
+                kept.push((storage.latches[number].cells[0], WhyKept::NotRecognized));
+            }
+        }
     }
+}
+
+/// The cells that are latches of one cell and one bit.
+fn recognized(netlist: &Netlist, library: &CellLibrary) -> BTreeSet<NetId> {
+    let storage = Storage::of(netlist, library.kinds_of(netlist));
+    let inverters = Inverters::of(netlist);
+    let is_one = |latch: &&Latch| latch.cells.len() == 1 && Follower::of(netlist, &inverters, latch).is_some();
+    storage.latches.iter().filter(is_one).map(|latch| latch.cells[0]).collect()
 }
 
 /// A latch that is to be one cell.
@@ -81,12 +106,12 @@ impl Plan {
     }
 }
 
-/// The netlist with these latches as one cell each, and these cells.
-fn make(netlist: &Netlist, plans: &[Plan], library: &CellLibrary) -> (Netlist, Vec<NetId>) {
+/// The netlist with these latches as one cell each, and these cells. One that nothing reads is not in it.
+fn make(netlist: &Netlist, plans: &[(usize, Plan)], library: &CellLibrary) -> (Netlist, Vec<NetId>) {
     let mut made = netlist.clone();
     let mut new: BTreeMap<NetId, NetId> = BTreeMap::new();
     let mut latches = Vec::with_capacity(plans.len());
-    for Plan { open, shown, .. } in plans {
+    for (_, Plan { open, shown, .. }) in plans {
         let first = made.cell(shown[0]).expect("a latch is made of cells").clone();
         let function = if *open { OPEN_HIGH } else { OPEN_LOW };
         let block = made.block(shown[0]);
@@ -95,8 +120,8 @@ fn make(netlist: &Netlist, plans: &[Plan], library: &CellLibrary) -> (Netlist, V
         new.extend(shown.iter().map(|&cell| (cell, latch)));
         latches.push(latch);
     }
-    let is_old = |net: NetId| plans.iter().any(|plan| plan.shown.contains(&net) || plan.opposite.contains(&net));
-    for (Plan { opposite, .. }, &latch) in plans.iter().zip(&latches) {
+    let is_old = |net: NetId| plans.iter().any(|(_, plan)| plan.shown.contains(&net) || plan.opposite.contains(&net));
+    for ((_, Plan { opposite, .. }), &latch) in plans.iter().zip(&latches) {
         for &cell in opposite {
             let name = made.cell(cell).and_then(|cell| cell.name.clone());
             let inverter = Cell { function: inverter(library), name, start: None, span: None };
@@ -115,14 +140,12 @@ fn make(netlist: &Netlist, plans: &[Plan], library: &CellLibrary) -> (Netlist, V
         }
     }
     let now = |net: NetId| new.get(&net).copied().unwrap_or(net);
-    for (plan, &latch) in plans.iter().zip(&latches) {
+    for ((_, plan), &latch) in plans.iter().zip(&latches) {
         for (pin, net) in (0..).zip([now(plan.root), now(plan.data), latch]) {
             made.connect(latch, pin, net);
         }
     }
     Sweep.run(&mut made).expect("a sweep always succeeds");
-    let is_used = |net: &NetId| made.graph().contains_node(*net);
-    let latches = latches.into_iter().filter(is_used).collect();
     (made, latches)
 }
 

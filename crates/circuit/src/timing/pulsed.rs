@@ -69,6 +69,8 @@ pub enum WhyKept {
     FastData,
     /// It is not a latch of one bit, so one cell cannot be in its place.
     NotOneBit,
+    /// One cell in its place would not be recognized as a latch, such as where its data depend on what opens it.
+    NotRecognized,
     /// Pulsed latches would not save cells.
     NoGain,
 }

@@ -12,6 +12,7 @@ impl WhyKept {
             Self::DerivedClock => "its clock is not an input",
             Self::FastData => "its data may change before a pulse has ended",
             Self::NotOneBit => "it is not a latch of one bit",
+            Self::NotRecognized => "one robot in its place would not be recognized as a latch",
             Self::NoGain => "pulsed latches would not save robots",
         }
     }
