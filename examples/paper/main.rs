@@ -75,8 +75,11 @@ fn main() -> Fallible<()> {
         let going_on = [("7x7", read("long/paper7")?), ("10x10", read("long/paper10")?)];
         print_unfinished(&going_on);
         let [(_, wide), (_, widest)] = going_on;
-        print_growth(medium, &finished(wide));
-        print_growth(large, &finished(widest));
+        for (short, grown) in [(medium, finished(wide)), (large, finished(widest))] {
+            if !grown.is_empty() {
+                print_growth(short, &grown);
+            }
+        }
         rules::print_distances(small, &code);
         rules::print_matters(&[
             ("nothing", "paper/paper5"),
