@@ -46,6 +46,12 @@ pub fn library(names: &str) -> CellLibrary {
     CellLibrary::uniform(names.split_whitespace().map(|name| Function::parse(name).unwrap()))
 }
 
+/// All cells of two inputs, an inverter, and the multiplexers.
+pub fn multiplexer_library() -> CellLibrary {
+    let cells = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
+    CellLibrary::uniform(cells.chain(Function::MUX.arrangements()))
+}
+
 /// A network whose gates have the functions of these bits and listen to any earlier signals; the outputs show its last
 /// six signals.
 pub fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {

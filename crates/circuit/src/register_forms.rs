@@ -236,23 +236,16 @@ mod tests {
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
-    use crate::CellLibrary;
-    use crate::example::{latch, random_machine};
+    use crate::example::{latch, multiplexer_library, random_machine};
     use crate::map::map;
     use crate::registers::expand;
     use crate::timing::{Held, Pulsed, PulsedRegisters};
 
-    fn library() -> CellLibrary {
-        let wide = Function::MUX.arrangements();
-        let cells = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
-        CellLibrary::uniform(cells.chain(wide))
-    }
-
     /// A mapped circuit, what its registers become in each form, and the pulses of that form.
     fn forms(source: &Netlist) -> (Netlist, [(Netlist, Vec<Pulse>); 2]) {
-        let mapped = map(source, &library()).unwrap();
-        let Pulsed { netlist, registers: PulsedRegisters { pulses, .. } } = Pulsed::of(&mapped, &library());
-        let held = Held::of(&mapped, &library()).unwrap().netlist;
+        let mapped = map(source, &multiplexer_library()).unwrap();
+        let Pulsed { netlist, registers: PulsedRegisters { pulses, .. } } = Pulsed::of(&mapped, &multiplexer_library());
+        let held = Held::of(&mapped, &multiplexer_library()).unwrap().netlist;
         (mapped, [(netlist, pulses), (held, Vec::new())])
     }
 

@@ -161,19 +161,13 @@ mod tests {
 
     use super::*;
     use crate::cells::CellKind;
-    use crate::example::latch;
+    use crate::example::{latch, multiplexer_library};
     use crate::map::map;
     use crate::passes::DissolveWires;
     use crate::{Delayed, Delays, Timing, registers};
 
-    fn library() -> CellLibrary {
-        let wide = Function::MUX.arrangements();
-        let cells = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
-        CellLibrary::uniform(cells.chain(wide))
-    }
-
     fn held(source: &Netlist) -> Held {
-        let held = Held::of(&map(source, &library()).unwrap(), &library()).unwrap();
+        let held = Held::of(&map(source, &multiplexer_library()).unwrap(), &multiplexer_library()).unwrap();
         assert!(held.kept.is_empty(), "{:?}", held.kept);
         held
     }
@@ -193,9 +187,9 @@ mod tests {
 
     #[test]
     fn a_library_whose_multiplexer_glitches_makes_none() {
-        let mut glitching = library();
+        let mut glitching = multiplexer_library();
         glitching.insert(Function::MUX, CellKind { glitches: true, ..CellKind::uniform(1, 1.0) });
-        let mapped = map(&latch(), &library()).unwrap();
+        let mapped = map(&latch(), &multiplexer_library()).unwrap();
         assert!(Held::of(&mapped, &glitching).is_none());
     }
 
@@ -209,7 +203,7 @@ mod tests {
         DissolveWires.run_on(&mut source).unwrap();
         let Held { netlist, latches, .. } = held(&source);
         assert_eq!((netlist.cells().count(), latches.len()), (2, 2), "{netlist}");
-        let timing = Timing::of(&netlist, &library(), Delays::Clock);
+        let timing = Timing::of(&netlist, &multiplexer_library(), Delays::Clock);
         assert_eq!((timing.storage.flip_flops.len(), timing.storage.unphased.len()), (1, 0));
         let mut random = ChaCha8Rng::seed_from_u64(1);
         let mut draw = |bound: u32| (rand::Rng::next_u32(&mut random) % bound) as usize;

@@ -7,7 +7,8 @@ impl WhyKept {
     pub fn explain(self) -> &'static str {
         match self {
             Self::OtherForm => {
-                "it is not made of eight NAND cells as `register` is, or its first latch is read elsewhere"
+                "it is not made of eight NAND cells as `register` is, or its first latch is read elsewhere or starts \
+                 otherwise"
             }
             Self::DerivedClock => "its clock is not an input",
             Self::FastData => "its data may change before a pulse has ended",
