@@ -37,6 +37,11 @@ export function append(parent: Node, children: Child[]): void {
   }
 }
 
+/** Words with what is known of them. */
+export function factList(facts: [string, string][]): HTMLElement {
+  return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+}
+
 /** Replaces all that is in `parent`. */
 export function fill(parent: Element, ...children: Child[]): void {
   parent.replaceChildren();

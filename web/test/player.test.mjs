@@ -182,7 +182,7 @@ test("the page of nbc play makes the same file", async () => {
   const waiting = page.waitForEvent("download");
   await page.locator('[data-take="player"]').click();
   const download = await waiting;
-  assert.equal(download.suggestedFilename(), "d_latch.html");
+  assert.equal(download.suggestedFilename(), "d_latch-recorded.html");
   const made = await readFile(await download.path(), "utf8");
   const file = path.join(here.place.folder, "command.html");
   await run(PROGRAM, ["play", path.join(here.place.folder, "latch.nb"), "--export", file]);

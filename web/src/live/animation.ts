@@ -1,5 +1,6 @@
 // Draws the views of a swarm once a screen frame while something moves, and not at all while nothing does.
 
+import { FrameLoop } from "../frame_loop";
 import { prefersStillness } from "../theme";
 import type { LiveSwarm } from "./swarm";
 
@@ -15,13 +16,9 @@ const SLOW = 0.024;
 /** There patient views are drawn once in so many frames. */
 const SHARE = 3;
 
-/** Longer pauses, as of a hidden tab, do not count as time. */
-const LONGEST_STEP = 0.1;
-
 export class Animation {
   readonly #views: View[] = [];
-  #asked = 0;
-  #before = 0;
+  readonly #loop = new FrameLoop(seconds => this.#pass(seconds));
   /** The usual time between two frames, in seconds. */
   #usual = 1 / 60;
   #count = 0;
@@ -38,25 +35,18 @@ export class Animation {
 
   /** Draws at the next screen frame. */
   wake(): void {
-    if (this.#asked === 0) {
-      this.#asked = requestAnimationFrame(time => this.#frame(time));
-    }
+    this.#loop.wake();
   }
 
-  #frame(time: number): void {
-    this.#asked = 0;
+  #pass(seconds: number): boolean {
     const { playback } = this.swarm;
-    const seconds = Math.min(LONGEST_STEP, Math.max(0, (time - this.#before) / 1000));
-    this.#before = time;
     if (prefersStillness()) {
       playback.finish();
     } else {
       playback.advance(seconds);
     }
     this.#draw(seconds, !playback.moving);
-    if (playback.moving) {
-      this.wake();
-    }
+    return playback.moving;
   }
 
   #draw(seconds: number, last: boolean): void {

@@ -4,6 +4,7 @@ import { LaneGrid } from "./camera";
 import type { Corners } from "./drawing";
 import type { Outline } from "./playback";
 import type { SwarmRobot } from "../protocol";
+import type { Area } from "./walk";
 
 export type Detail = "voxels" | "silhouettes" | "dots";
 
@@ -27,16 +28,8 @@ export function detailOf(grid: LaneGrid): Detail {
 
 type Pen = CanvasRenderingContext2D;
 
-/** A cell of the grid on the canvas. */
-export interface Cell {
-  left: number;
-  top: number;
-  width: number;
-  height: number;
-}
-
 /** A dot that stands to the right for 1 and to the left for 0; `turned` is the part of its way from before. */
-export function drawDot(pen: Pen, cell: Cell, before: number, now: number, turned: number): void {
+export function drawDot(pen: Pen, cell: Area, before: number, now: number, turned: number): void {
   const side = Math.max(2, Math.min(cell.width / 2, cell.height - 2, 14));
   const place = before + (now - before) * turned;
   const left = cell.left + 1 + Math.max(0, cell.width - 2 - side) * place;
@@ -46,7 +39,7 @@ export function drawDot(pen: Pen, cell: Cell, before: number, now: number, turne
 /** The body in one color, in the middle of its cell, on the cell's lower edge. */
 export function drawSilhouette(
   pen: Pen,
-  cell: Cell,
+  cell: Area,
   outline: Outline,
   voxels: SwarmRobot["voxels"],
   middle: number,

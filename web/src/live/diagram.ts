@@ -1,6 +1,7 @@
 // What the diagrams over time have in common: the axis, the present, dragging, and seeking.
 
-import { colors, enlargement } from "../theme";
+import { colors } from "../colors";
+import { enlargement } from "../theme";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
 import type { Timeline } from "./timeline";

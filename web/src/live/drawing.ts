@@ -1,7 +1,7 @@
 // Robots on a canvas: colored voxels on a ground with a tick for each voxel.
 
 import type { SwarmRobot, VoxelLook } from "../protocol";
-import type { Colors } from "../theme";
+import type { Colors } from "../colors";
 import type { Outline } from "./playback";
 import { threadColor } from "./waves";
 
@@ -26,7 +26,7 @@ type Point = [number, number];
 /** The corners of a voxel, around it from the top left. */
 export type Corners = [Point, Point, Point, Point];
 
-export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true): void {
+export function drawGround(pen: Pen, lane: Lane, colors: Colors): void {
   const { left, top, width, height, ground, scale, camera } = lane;
   pen.fillStyle = colors.sky;
   pen.fillRect(left, top, width, ground - top);
@@ -41,7 +41,7 @@ export function drawGround(pen: Pen, lane: Lane, colors: Colors, numbered = true
   for (let voxel = Math.ceil(camera - half); voxel <= camera + half; voxel++) {
     const x = Math.round(left + (voxel - camera + half) * scale);
     pen.fillRect(x, ground, 1, voxel % 5 === 0 ? 6 : 3);
-    if (numbered && voxel % 10 === 0 && top + height - ground >= 17) {
+    if (voxel % 10 === 0 && top + height - ground >= 17) {
       pen.fillText(String(voxel), x, ground + 7);
     }
   }
@@ -144,7 +144,14 @@ export function drawLamp(pen: Pen, value: number | null, x: number, y: number, r
 }
 
 /** A square for a stimulus, filled while it is present. */
-export function drawStimulus(pen: Pen, value: number | null, x: number, y: number, size: number, colors: Colors): void {
+export function drawStimulus(
+  pen: Pen,
+  value: number | null,
+  x: number,
+  y: number,
+  size: number,
+  colors: Pick<Colors, "one" | "dim">,
+): void {
   pen.lineWidth = 1.5;
   pen.strokeStyle = value === 1 ? colors.one : colors.dim;
   pen.strokeRect(x + 0.75, y + 0.75, size - 1.5, size - 1.5);

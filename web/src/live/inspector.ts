@@ -1,6 +1,6 @@
 // A line that says what is pointed at, and a table about the robot that is followed.
 
-import { button, element, fill } from "../element";
+import { button, element, factList, fill } from "../element";
 import { gateName, patterns, truthTable } from "../gate";
 import type { SwarmRobot } from "../protocol";
 import type { View } from "./animation";
@@ -104,11 +104,4 @@ export function truthTableElement(name: string | null, outputs = truthTable(name
     element("tr", {}, element("th", { scope: "row" }, "0"), ...cells.slice(0, columns.length)),
     element("tr", {}, element("th", { scope: "row" }, "1"), ...cells.slice(columns.length)),
   );
-}
-
-export function factList(about: [string, string][] | string): HTMLElement {
-  if (typeof about === "string") {
-    return element("p", {}, about);
-  }
-  return element("dl", {}, ...about.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
 }

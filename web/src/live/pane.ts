@@ -13,7 +13,8 @@ export class CanvasPane {
   scrolled = 0;
   readonly #spacer = element("div", { class: "spacer" });
   readonly #pen: Pen;
-  #total = -1;
+  /** Pixels of the picture below the visible part. */
+  #below = -1;
 
   constructor(name: string, label: string, changed: () => void) {
     this.host = element(
@@ -48,9 +49,10 @@ export class CanvasPane {
       this.canvas.style.width = `${this.width}px`;
       this.canvas.style.height = `${this.height}px`;
     }
-    if (total !== this.#total) {
-      this.#total = total;
-      this.#spacer.style.height = `${Math.max(0, total - this.height)}px`;
+    const below = Math.max(0, total - this.height);
+    if (below !== this.#below) {
+      this.#below = below;
+      this.#spacer.style.height = `${below}px`;
     }
     this.#pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     this.#pen.clearRect(0, 0, this.width, this.height);

@@ -6,8 +6,9 @@ import type { BitSource, ShownSchematic } from "../protocol";
 import { sameSource } from "../selection";
 import type { LiveSwarm } from "./swarm";
 import type { View } from "./animation";
+import { Dragging } from "./dragging";
 import { GATES, Labels, levelOf, measuring } from "./labels";
-import { addHalo, leaveDrawing, placeBodies, threadNumber } from "./schematic_parts";
+import { addHalo, drawingOf, leaveDrawing, pathTo, placeBodies, threadNumber } from "./schematic_parts";
 import { Viewport, type Box } from "./viewport";
 import { threadColor } from "./waves";
 
@@ -32,8 +33,6 @@ const MARGIN = 10;
 const BUTTONS = 36;
 /** That of the drawing. */
 const FONT = '"DejaVu Sans", Verdana, sans-serif';
-/** A press that moves fewer pixels is a click. */
-const SLACK = 4;
 
 export class Schematic implements View {
   readonly host = element("div", {
@@ -58,8 +57,6 @@ export class Schematic implements View {
   /** What is shown after the pane has another size: what is seen at first, the whole, or what the reader chose. */
   #shows: "first" | "whole" | "own" = "first";
   readonly #measure = measuring(FONT);
-  /** The pointers that are down, where each is. */
-  readonly #pointers = new Map<number, [number, number]>();
 
   constructor(private readonly swarm: LiveSwarm) {
     this.tools = element(
@@ -121,39 +118,30 @@ export class Schematic implements View {
   /** Opens a sheet, and shows the robots of its part alone. */
   #open(sheet: number): void {
     this.#load(sheet);
-    const { homes } = this.#schematic;
-    const inside = [...homes.keys()].filter(robot => this.#path(homes[robot] ?? 0).includes(sheet));
+    const { homes, sheets } = this.#schematic;
+    const inside = [...homes.keys()].filter(robot => pathTo(sheets, homes[robot] ?? 0).includes(sheet));
     this.swarm.selection.opened.set(sheet === 0 ? null : inside);
     this.draw();
-  }
-
-  /** The sheets from the whole to this one. */
-  #path(sheet: number): number[] {
-    const outer = this.#schematic.sheets[sheet]?.outer ?? null;
-    return outer === null ? [sheet] : [...this.#path(outer), sheet];
   }
 
   #load(sheet: number): void {
     this.#sheet = sheet;
     const { sheets, bodies } = this.#schematic;
-    const text = sheets[sheet]?.svg ?? "";
     this.#marked = [];
     this.#robots = [];
-    this.#svg = null;
     this.#labels = null;
-    const parsed = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
-    if (text === "" || !(parsed instanceof SVGSVGElement)) {
+    this.#svg = drawingOf(sheets[sheet]);
+    if (this.#svg === null) {
       this.host.replaceChildren(element("p", { class: "empty" }, "This circuit has no schematic."));
       return;
     }
-    this.#svg = document.importNode(parsed, true);
     const { name, about } = sheets[sheet] ?? { name: "", about: "" };
     this.#svg.setAttribute("aria-label", `${name}: ${about}`);
     this.#whole = leaveDrawing(this.#svg);
     placeBodies(this.#svg, bodies);
     fill(
       this.#crumbs,
-      ...this.#path(sheet).map(at => {
+      ...pathTo(sheets, sheet).map(at => {
         const { name, about } = sheets[at] ?? { name: "", about: "" };
         return button(name, () => this.#open(at), { title: about, "aria-current": at === sheet ? "page" : null });
       }),
@@ -330,8 +318,12 @@ export class Schematic implements View {
     this.host.addEventListener("focusin", point);
     this.host.addEventListener("mouseleave", () => selection.point(null));
     this.host.addEventListener("keydown", event => this.#press(event));
-    this.host.addEventListener("wheel", event => this.#wheel(event), { passive: false });
-    this.host.addEventListener("pointerdown", event => this.#drag(event));
+    const move = (by: [number, number], factor: number, at: [number, number]): void => {
+      this.#view.move(...by);
+      this.#zoom(factor, ...at);
+    };
+    // A press that does not move follows a robot or opens a part.
+    new Dragging(this.host, move, target => this.#click(target));
   }
 
   /** Arrows go from robot to robot, Enter follows one, Escape follows all again. */
@@ -387,63 +379,6 @@ export class Schematic implements View {
     }
   }
 
-  /** The wheel zooms with Ctrl, as pinching a touch pad does; without, the page scrolls as everywhere. */
-  #wheel(event: WheelEvent): void {
-    if (event.ctrlKey) {
-      event.preventDefault();
-      this.#zoom(Math.exp(-event.deltaY / 300), ...this.#place(event));
-    }
-  }
-
-  #place(event: MouseEvent): [number, number] {
-    const box = this.host.getBoundingClientRect();
-    return [event.clientX - box.left - this.host.clientLeft, event.clientY - box.top - this.host.clientTop];
-  }
-
-  #isTool(target: EventTarget | null): boolean {
-    return target instanceof Node && (this.tools.contains(target) || this.#crumbs.contains(target));
-  }
-
-  /** One pointer drags the picture and two pinch it; a press that does not move follows a robot or opens a part. */
-  #drag(start: PointerEvent): void {
-    if (this.#svg === null || start.button !== 0 || this.#isTool(start.target)) {
-      return;
-    }
-    this.#pointers.set(start.pointerId, this.#place(start));
-    const from = this.#place(start);
-    let isClick = this.#pointers.size === 1;
-    const move = (event: PointerEvent): void => {
-      if (event.pointerId !== start.pointerId) {
-        isClick = false;
-        return;
-      }
-      const to = this.#place(event);
-      isClick &&= Math.hypot(to[0] - from[0], to[1] - from[1]) <= SLACK;
-      if (!isClick) {
-        this.#moved(event.pointerId, to);
-      }
-    };
-    const end = (event: PointerEvent): void => {
-      if (event.pointerId !== start.pointerId) {
-        return;
-      }
-      this.#pointers.delete(start.pointerId);
-      for (const [name, listener] of [
-        ["pointermove", move],
-        ["pointerup", end],
-        ["pointercancel", end],
-      ] as const) {
-        window.removeEventListener(name, listener);
-      }
-      if (isClick && event.type === "pointerup") {
-        this.#click(start.target);
-      }
-    };
-    window.addEventListener("pointermove", move);
-    window.addEventListener("pointerup", end);
-    window.addEventListener("pointercancel", end);
-  }
-
   #click(target: EventTarget | null): void {
     const source = this.#sourceOf(target);
     const part = this.#partOf(target);
@@ -452,23 +387,6 @@ export class Schematic implements View {
     } else if (source !== null && "robot" in source) {
       this.swarm.selection.follow(source.robot);
     }
-  }
-
-  /** A pointer has moved to a place. */
-  #moved(pointer: number, to: [number, number]): void {
-    const from = this.#pointers.get(pointer) ?? to;
-    const other = [...this.#pointers].find(([id]) => id !== pointer)?.[1];
-    this.#pointers.set(pointer, to);
-    this.#shows = "own";
-    if (other === undefined) {
-      this.#view.move(to[0] - from[0], to[1] - from[1]);
-      this.#show();
-      return;
-    }
-    const apart = (place: [number, number]): number =>
-      Math.max(1, Math.hypot(place[0] - other[0], place[1] - other[1]));
-    this.#view.move((to[0] - from[0]) / 2, (to[1] - from[1]) / 2);
-    this.#zoom(apart(to) / apart(from), (to[0] + other[0]) / 2, (to[1] + other[1]) / 2);
   }
 }
 

@@ -1,6 +1,6 @@
 // Parts of the schematic's drawing that are added or hidden after it has come.
 
-import type { ShownSchematic } from "../protocol";
+import type { ShownSchematic, ShownSheet } from "../protocol";
 import type { Box } from "./viewport";
 
 /** The drawing of the whole with the bodies of its robots, as a file. */
@@ -10,6 +10,18 @@ export function wholeOf({ sheets, bodies }: ShownSchematic): string {
     placeBodies(svg.documentElement, bodies);
   }
   return new XMLSerializer().serializeToString(svg);
+}
+
+/** The drawing of a sheet for the page, without the bodies of its robots; null if there is none. */
+export function drawingOf(sheet: ShownSheet | undefined): SVGSVGElement | null {
+  const drawn = new DOMParser().parseFromString(sheet?.svg ?? "", "image/svg+xml").documentElement;
+  return drawn instanceof SVGSVGElement ? document.importNode(drawn, true) : null;
+}
+
+/** The sheets from the whole to this one. */
+export function pathTo(sheets: ShownSheet[], sheet: number): number[] {
+  const outer = sheets[sheet]?.outer ?? null;
+  return outer === null ? [sheet] : [...pathTo(sheets, outer), sheet];
 }
 
 /** Puts the bodies of the robots into their places. */

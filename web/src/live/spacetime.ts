@@ -1,7 +1,8 @@
 // The place of each robot against time: lines that rise walk right, lines that fall walk left.
 
 import { sameSource } from "../selection";
-import { colors, enlargement } from "../theme";
+import { colors } from "../colors";
+import { enlargement } from "../theme";
 import { AXIS, Diagram } from "./diagram";
 import type { Pen } from "./pane";
 import { spread } from "./spread";

@@ -1,12 +1,14 @@
 // The robots of a swarm, each in a lane of its own with a camera that follows it.
 
-import { colors, enlargement } from "../theme";
-import { LaneGrid, followWithSlack, middleOf } from "./camera";
-import { crowdGrid, detailOf, drawDot, drawSilhouette, type Cell } from "./crowd";
-import { drawGround, drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
+import { colors } from "../colors";
+import { enlargement } from "../theme";
+import { LaneGrid, middleOf } from "./camera";
+import { crowdGrid, detailOf, drawDot, drawSilhouette } from "./crowd";
+import { drawLamp, drawRobot, drawStimulus, drawThread, type Lane } from "./drawing";
 import { fitText } from "./labels";
 import { CanvasPane, type Pen } from "./pane";
 import type { LiveSwarm } from "./swarm";
+import { drawWalk, type Area } from "./walk";
 import type { BitSource } from "../protocol";
 import type { View } from "./animation";
 import { sameSource } from "../selection";
@@ -110,7 +112,7 @@ export class Stage implements View {
 
   #drawCell(pen: Pen, robot: number, lane: number): void {
     const grid = this.#grid;
-    const cell: Cell = {
+    const cell: Area = {
       left: grid.left(lane),
       top: grid.top(lane) - this.pane.scrolled,
       width: grid.laneWidth,
@@ -235,27 +237,17 @@ export class Stage implements View {
     pen.fillText(name, x + 16 * size, top + 10 * size);
   }
 
-  #drawWalk(pen: Pen, robot: number, area: { left: number; top: number; width: number; height: number }): void {
+  #drawWalk(pen: Pen, robot: number, area: Area): void {
     const definition = this.swarm.definition.value;
-    const outline = this.swarm.playback.outline(robot);
-    const columns = definition?.ground ?? [];
-    const tall = Math.max(5, this.#tallness(robot)) + Math.max(0, ...columns.map(ends => (ends.at(-1) ?? 1) - 1));
-    const ground = area.top + area.height - Math.min(20, Math.max(9, area.height / 6));
-    const scale = Math.min((ground - area.top) / (tall * 1.3), area.width / 14);
-    const place = outline === null ? 0 : middleOf(outline);
-    const half = area.width / 2 / scale;
-    const camera = followWithSlack(this.#cameras.get(robot), place, half / 3);
-    this.#cameras.set(robot, camera);
-    const lane: Lane = { ...area, ground, scale, camera, columns };
-    pen.save();
-    pen.beginPath();
-    pen.rect(area.left, area.top, area.width, area.height);
-    pen.clip();
-    drawGround(pen, lane, colors.value);
-    if (outline !== null && definition !== null) {
-      drawRobot(pen, outline, definition.robots[robot]?.voxels ?? [], definition.looks, lane, colors.value);
-    }
-    pen.restore();
+    const walking = {
+      outline: definition === null ? null : this.swarm.playback.outline(robot),
+      voxels: definition?.robots[robot]?.voxels ?? [],
+      looks: definition?.looks ?? [],
+      tall: Math.max(5, this.#tallness(robot)),
+      wide: 14,
+      columns: definition?.ground ?? [],
+    };
+    this.#cameras.set(robot, drawWalk(pen, area, walking, this.#cameras.get(robot), colors.value));
   }
 
   /** The rows of a body. */

@@ -3,7 +3,7 @@
 
 import { element, fill, iconButton } from "../element";
 import type { ShownSwarm } from "../protocol";
-import { colors } from "../theme";
+import { colors } from "../colors";
 import { Animation } from "./animation";
 import { ClockPanel } from "./clock";
 import { Controls } from "./controls";

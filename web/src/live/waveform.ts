@@ -5,9 +5,11 @@ import { recall, remember } from "../memory";
 import { toNumber } from "../ports";
 import type { BitSource } from "../protocol";
 import { sameSource } from "../selection";
-import { colors, enlargement } from "../theme";
+import { colors } from "../colors";
+import { enlargement } from "../theme";
 import { AXIS, Diagram } from "./diagram";
-import { numberFormat, numberText, type Valued } from "./numbers";
+import { drawBit, drawBus } from "./levels";
+import { numberFormat, numberText } from "./numbers";
 import type { Pen } from "./pane";
 import { waveRows, type WaveRow } from "./rows";
 import type { LiveSwarm } from "./swarm";
@@ -94,12 +96,21 @@ export class Waveform extends Diagram {
     const end = this.swarm.running.value ? this.x(this.swarm.playback.time, this.range()[0]) : this.pane.width;
     pen.rect(this.label, top, end - this.label, height);
     pen.clip();
-    if (row.sources.length === 1) {
-      this.#drawBit(pen, row.sources[0] as BitSource, top + 3, top + height - 3);
-    } else {
-      this.#drawBus(pen, row, top + 3, top + height - 3);
-    }
+    this.#drawSignal(pen, row, [top + 3, top + height - 3]);
     pen.restore();
+  }
+
+  #drawSignal(pen: Pen, { sources, valued }: WaveRow, [high, low]: [number, number]): void {
+    const [start, ...cycles] = this.#cycles();
+    const x = (cycle: number): number => this.x(cycle - 1, start);
+    const band = { high, low, x, left: this.label, colors: colors.value };
+    if (sources.length === 1) {
+      drawBit(pen, band, cycles, cycle => this.swarm.value(sources[0] as BitSource, cycle));
+      return;
+    }
+    const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));
+    pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
+    drawBus(pen, band, cycles, value, number => numberText(number, valued));
   }
 
   /** The cycles of the log in view. */
@@ -108,75 +119,5 @@ export class Waveform extends Diagram {
     const { log, playback, running } = this.swarm;
     const last = running.value ? playback.cycle : log.last;
     return [start, Math.max(log.first + 1, Math.floor(start) + 1), Math.min(last, Math.ceil(end))];
-  }
-
-  #drawBit(pen: Pen, source: BitSource, high: number, low: number): void {
-    const [start, from, to] = this.#cycles();
-    let before: number | null = null;
-    for (let cycle = from; cycle <= to; cycle++) {
-      const value = this.swarm.value(source, cycle);
-      if (value !== null) {
-        this.#drawLevel(pen, this.x(cycle - 1, start), this.x(cycle, start), [high, low], value, before);
-      }
-      before = value;
-    }
-  }
-
-  /** High is thick and low is thin, so that the values can be told apart without color. */
-  #drawLevel(
-    pen: Pen,
-    left: number,
-    right: number,
-    [high, low]: [number, number],
-    value: number,
-    before: number | null,
-  ): void {
-    pen.fillStyle = value === 1 ? colors.value.one : colors.value.zero;
-    if (value === 1) {
-      pen.globalAlpha = 0.18;
-      pen.fillRect(left, high, right - left, low - high);
-      pen.globalAlpha = 1;
-      pen.fillRect(left, high, right - left, 3);
-    } else {
-      pen.fillRect(left, low - 1.5, right - left, 1.5);
-    }
-    if (before !== null && before !== value) {
-      pen.fillStyle = colors.value.dim;
-      pen.fillRect(left - 0.5, high, 1.2, low - high);
-    }
-  }
-
-  /** A box for each value, with the value in it where there is room. */
-  #drawBus(pen: Pen, { sources, valued }: WaveRow, high: number, low: number): void {
-    const [start, from, to] = this.#cycles();
-    const value = (cycle: number): bigint => toNumber(sources.map(source => this.swarm.value(source, cycle) ?? 0));
-    pen.font = `${11 * enlargement.value}px ${colors.value.font}`;
-    pen.lineWidth = 1.2;
-    for (let left = from; left <= to; ) {
-      let right = left + 1;
-      while (right <= to && value(right) === value(left)) {
-        right++;
-      }
-      this.#drawBusValue(pen, this.x(left - 1, start), this.x(right - 1, start), high, low, [value(left), valued]);
-      left = right;
-    }
-  }
-
-  #drawBusValue(
-    pen: Pen,
-    left: number,
-    right: number,
-    high: number,
-    low: number,
-    [value, valued]: [bigint, Valued],
-  ): void {
-    pen.strokeStyle = value === 0n ? colors.value.zero : colors.value.one;
-    pen.strokeRect(left + 0.5, high, right - left - 1, low - high);
-    const text = numberText(value, valued);
-    const inner = Math.max(left, this.label);
-    if (pen.measureText(text).width + 8 < right - inner) {
-      pen.fillStyle = colors.value.ink;
-      pen.fillText(text, inner + 4, (high + low) / 2 + 0.5);
-    }
   }
 }

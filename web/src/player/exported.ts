@@ -1,6 +1,7 @@
 // What an exported page contains: the swarm, how its robots walk, and the rows of the tests. It is compressed.
 
 import type { ExportedSwarm } from "../protocol";
+import { decodeNumbers } from "../robots/gait";
 
 /** Reads the data of an exported page: base64 of JSON, compressed as zlib does. */
 export async function readRecording(text: string): Promise<ExportedSwarm> {
@@ -19,9 +20,8 @@ export interface Stride {
 
 /** The strides of a walk, one for each pattern. */
 export function stridesOf(walk: ExportedSwarm["walks"][number]): Stride[] {
-  return walk.strides.map(({ shift, poses }) => {
-    const raw = atob(poses);
-    const view = new DataView(Uint8Array.from(raw, letter => letter.charCodeAt(0)).buffer);
-    return { shift, poses: Float32Array.from({ length: raw.length >> 1 }, (_, i) => view.getInt16(2 * i, true) / 100) };
-  });
+  return walk.strides.map(({ shift, poses }) => ({
+    shift,
+    poses: Float32Array.from(decodeNumbers(poses), hundredths => hundredths / 100),
+  }));
 }

@@ -1,6 +1,6 @@
 // The robots of the library and of the program, as cards on which they walk.
 
-import { button, element, fill } from "../element";
+import { button, element, factList, fill } from "../element";
 import { gateName, outputsOf, patterns } from "../gate";
 import { truthTableElement } from "../live/inspector";
 import type { RobotCard, VoxelLook } from "../protocol";
@@ -110,7 +110,12 @@ export class Cards {
       .then(
         probe => {
           if (!ended) {
-            const view = new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height: robot.height });
+            const view = new GaitView(canvas, {
+              voxels: probe.voxels,
+              looks: probe.looks,
+              tall: robot.height + 1,
+              wide: 11,
+            });
             stop = this.ticker.add(play(view, probe.gaits.map(decodeGait), probe.letters, caption));
           }
         },
@@ -149,7 +154,7 @@ function factsOf(robot: RobotCard): HTMLElement {
     ["errors", percent(robot.errors)],
     ["from", robot.shipped ? "the library" : "the program"],
   ];
-  return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+  return factList(facts);
 }
 
 export function percent(share: number): string {

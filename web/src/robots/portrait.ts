@@ -2,7 +2,7 @@
 
 import { drawVoxel, type Corners } from "../live/drawing";
 import type { PaletteEntry, RobotCard, VoxelLook } from "../protocol";
-import { colors } from "../theme";
+import { colors } from "../colors";
 import { EMPTY } from "./body";
 
 /** The look of each code of a palette. */

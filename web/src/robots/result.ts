@@ -1,6 +1,6 @@
 // How the body in the designer walks under each pattern, and what follows from it.
 
-import { element, fill } from "../element";
+import { element, factList, fill } from "../element";
 import { gateName, patterns } from "../gate";
 import { truthTableElement } from "../live/inspector";
 import type { ProbeReport } from "../protocol";
@@ -70,7 +70,10 @@ export class ProbeView {
         canvas,
         element("span", { class: "letter", "data-letter": letter, title: directionOf(letter) }, letter),
       );
-      return { lane, view: new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, height }) };
+      return {
+        lane,
+        view: new GaitView(canvas, { voxels: probe.voxels, looks: probe.looks, tall: height + 1, wide: 11 }),
+      };
     });
     this.#lanes.toggleAttribute("data-many", gaits.length > 4);
     fill(this.#lanes, ...views.map(({ lane }) => lane));
@@ -98,7 +101,7 @@ export class ProbeView {
         ...(character.topples ? [["falls over", "sometimes"] satisfies [string, string]] : []),
       );
     }
-    return element("dl", {}, ...facts.flatMap(([name, value]) => [element("dt", {}, name), element("dd", {}, value)]));
+    return factList(facts);
   }
 }
 

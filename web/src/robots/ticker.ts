@@ -1,14 +1,14 @@
 // Time for small animations, while there are any.
 
+import { FrameLoop } from "../frame_loop";
 import { prefersStillness } from "../theme";
 
 type Tick = (seconds: number) => void;
 
 export class Ticker {
   readonly #ticks = new Set<Tick>();
-  #asked = false;
+  readonly #loop = new FrameLoop(seconds => this.#pass(seconds));
   #on = false;
-  #before = 0;
 
   /** Animations stop while their tab is not shown. */
   turn(on: boolean): void {
@@ -23,20 +23,20 @@ export class Ticker {
   }
 
   #wake(): void {
-    if (this.#on && !this.#asked && this.#ticks.size > 0) {
-      this.#asked = true;
-      requestAnimationFrame(time => this.#frame(time));
+    if (this.#moves) {
+      this.#loop.wake();
     }
   }
 
-  #frame(time: number): void {
-    this.#asked = false;
-    const seconds = Math.min(0.1, Math.max(0, (time - this.#before) / 1000));
-    this.#before = time;
+  get #moves(): boolean {
+    return this.#on && this.#ticks.size > 0;
+  }
+
+  #pass(seconds: number): boolean {
     // Someone who asked for stillness still sees each pattern, as a picture that changes a few times a minute.
     for (const tick of [...this.#ticks]) {
       tick(prefersStillness() ? 0 : seconds);
     }
-    this.#wake();
+    return this.#moves;
   }
 }

@@ -1,17 +1,11 @@
 // A canvas with one robot that walks.
 
-import { followWithSlack, middleOf } from "../live/camera";
-import { drawGround, drawRobot } from "../live/drawing";
-import type { SwarmRobot, VoxelLook } from "../protocol";
-import { colors } from "../theme";
+import { colors } from "../colors";
+import { drawWalk, type Walking } from "../live/walk";
 import { outlineAt, type Gait } from "./gait";
 
 /** The part of a body that never changes while it walks. */
-export interface Looking {
-  voxels: SwarmRobot["voxels"];
-  looks: VoxelLook[];
-  height: number;
-}
+export type Looking = Pick<Walking, "voxels" | "looks" | "tall" | "wide">;
 
 /** A canvas with one robot on the ground. */
 export class GaitView {
@@ -34,13 +28,8 @@ export class GaitView {
       this.canvas.height = Math.round(height * ratio);
     }
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
-    const outline = outlineAt(gait, time);
-    const place = middleOf(outline);
-    const ground = height - 10;
-    const scale = Math.min((ground - 2) / (this.looking.height * 1.45), width / 11);
-    this.#camera = followWithSlack(time === 0 ? place : this.#camera, place, width / scale / 5);
-    const lane = { left: 0, top: 0, width, height, ground, scale, camera: this.#camera, columns: [] };
-    drawGround(pen, lane, colors.value, false);
-    drawRobot(pen, outline, this.looking.voxels, this.looking.looks, lane, colors.value);
+    const area = { left: 0, top: 0, width, height };
+    const walking = { ...this.looking, outline: outlineAt(gait, time), columns: [] };
+    this.#camera = drawWalk(pen, area, walking, time === 0 ? undefined : this.#camera, colors.value);
   }
 }
