@@ -1,6 +1,6 @@
-// Bundles the page into dist/, with the licenses of the packages in it, and the page of exported files, which uses no
-// package; with --tests, the unit tests into build/unit/; with --tab PROGRAM FOLDER, the page that needs no server into a
-// folder, with the program as WebAssembly.
+// Bundles the page into dist/, with the licenses of the packages in it, the page of exported files and, in report/, the
+// scripts and the style of the pages of results, which use no package; with --tests, the unit tests into build/unit/;
+// with --tab PROGRAM FOLDER, the page that needs no server into a folder, with the program as WebAssembly.
 // The bytes depend only on the sources and the locked packages, so that they can be committed and compared.
 
 import { createHash } from "node:crypto";
@@ -40,6 +40,11 @@ async function page() {
   writeFileSync("dist/class.html", readFileSync("src/class.html"));
   writeFileSync("dist/NOTICES.txt", notices(Object.keys(bundled.metafile.inputs)));
   writeFileSync("dist/player.html", await player());
+  mkdirSync("dist/report");
+  for (const report of ["run", "evolution", "sheets"]) {
+    writeFileSync(`dist/report/${report}.js`, await bundle(script, `src/report/${report}.ts`));
+  }
+  writeFileSync("dist/report/report.css", await bundle(sheet, "src/style/report.css"));
 }
 
 /**

@@ -207,29 +207,32 @@ const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => 
     const later = (ready, then) => { const started = performance.now(), wait = setInterval(() => {\
     if (ready() || performance.now() - started > 60000) { clearInterval(wait); then(); } }, 100); };</script>";
 const READER: &str = r#"<script>
-const player = players[0], section = document.getElementById("swarm-0");
-const shot = () => section.querySelector(".stage").toDataURL();
-const before = shot(), moved = () => shot() !== before && player.clock.time > 0; section.querySelector(".play").click();
-later(moved, () => {
-  const walked = moved(); section.querySelector(".play").click();
-  const cell = section.querySelector('[data-id="cell-1"]');
-  cell.dispatchEvent(new KeyboardEvent("keydown", { key: "Enter" }));
-  const followed = player.chosen, pressed = cell.getAttribute("aria-pressed");
+const section = document.getElementById("swarm-0"), slider = section.querySelector(".scrub");
+const stage = section.querySelector(".stage"), shot = () => stage.querySelector("canvas").toDataURL();
+const cell = name => section.querySelector(`[data-id="cell-${name}"]`);
+let still = "";
+const drawn = () => (still = shot()).length > 5000, moved = () => shot() !== still && Number(slider.value) > 1;
+later(drawn, () => { section.querySelector(".play").click(); later(moved, () => {
+  const walked = moved(), tall = stage.clientHeight; section.querySelector(".play").click();
+  cell(1).dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
+  const alone = stage.clientHeight, pressed = cell(1).getAttribute("aria-pressed");
   const panel = section.querySelector(".robot").textContent;
-  section.querySelector('[data-id="cell-2"]').dispatchEvent(new MouseEvent("mouseenter"));
+  cell(2).dispatchEvent(new MouseEvent("mouseover", { bubbles: true }));
   const hovered = section.querySelector(".robot").textContent;
-  const slider = section.querySelector(".scrub"); slider.value = 6; slider.dispatchEvent(new Event("input"));
+  slider.value = 6; slider.dispatchEvent(new Event("input"));
   const clock = section.querySelector(".clock").textContent, wide = document.documentElement.scrollWidth <= innerWidth;
-  tell({ walked, followed, pressed, panel, hovered, focusable: cell.tabIndex, clock, wide });
-});
+  tell({ walked, tall, alone, pressed, panel, hovered, focusable: cell(1).tabIndex, clock, wide });
+}); });
 </script>"#;
 const EXPLORER: &str = r##"<script>
 const niches = [...document.querySelectorAll("button.niche")], last = niches[niches.length - 1];
-const stage = document.querySelector(".stage");
+const stage = document.querySelector(".stage"), slider = document.querySelector(".scrub");
+const { elites } = JSON.parse(document.getElementById("data").textContent);
 last.click();
-const elite = archive.data.elites[Number(last.dataset.elite)], shot = () => stage.toDataURL();
-const before = shot(), moved = () => shot() !== before && archive.clock.time > 0;
-later(moved, () => {
+const elite = elites[Number(last.dataset.elite)], shot = () => stage.toDataURL();
+let still = "";
+const drawn = () => (still = shot()).length > 2000, moved = () => shot() !== still && Number(slider.value) > 0.2;
+later(drawn, () => later(moved, () => {
   const walked = moved(), panel = document.querySelector(".robot").textContent;
   niches[0].focus(); niches[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
   const stepped = document.activeElement === niches[1], maps = document.querySelectorAll(".map").length;
@@ -237,36 +240,43 @@ later(moved, () => {
   const again = document.querySelectorAll("button.niche").length;
   const wide = document.documentElement.scrollWidth <= innerWidth, body = elite.about[4][1];
   tell({ walked, behavior: elite.behavior, body, panel, stepped, maps, niches: niches.length, again, wide });
-});
+}));
 </script>"##;
 
 const SIMULATION: &str = r#"<script>
-const player = players[1], section = document.getElementById("swarm-1");
-const shot = () => section.querySelector(".stage").toDataURL();
-const before = shot(), moved = () => shot() !== before && player.clock.time > 0;
+const section = document.getElementById("swarm-1"), slider = section.querySelector(".scrub");
+const shot = () => section.querySelector(".stage canvas").toDataURL();
+let still = "";
+const drawn = () => (still = shot()).length > 5000, moved = () => shot() !== still && Number(slider.value) > 1;
 section.scrollIntoView();
 const rows = [...section.querySelectorAll("tr")].filter(row => row.querySelector("td"))
   .map(row => [...row.cells].map(cell => cell.textContent.trim()));
-section.querySelector(".play").click();
-later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
+later(drawn, () => {
+  section.querySelector(".play").click();
+  later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
+});
 </script>"#;
 
 const SHEETS: &str = r#"<script>
-const { sheets } = schematic, whole = schematic.parts("part").map(([, sheet]) => sheets[Number(sheet)].name);
-const boxes = schematic.parts("part"), cells = schematic.parts("cell").length, whole_about = sheets[0].about;
-boxes[0][0].dispatchEvent(new MouseEvent("click"));
-const opened = sheets[schematic.sheet].name;
-const crumbs = [...document.querySelectorAll(".crumbs button")].map(crumb => crumb.textContent);
+const sheet = document.querySelector(".sheet"), crumbs = () => [...document.querySelectorAll(".crumbs button")];
+const drawn = kind => [...sheet.querySelectorAll(`[data-id^="${kind}-"]`)];
+const about = () => document.querySelector(".crumbs span").textContent;
+const click = part => part.dispatchEvent(new MouseEvent("click", { bubbles: true }));
+const whole = drawn("part").map(part => part.querySelector("text").textContent);
+const cells = drawn("cell").length, whole_about = about();
+click(drawn("part")[0]);
+const opened = crumbs().map(crumb => crumb.textContent), inside = about();
 const search = document.querySelector(".search"); search.value = "q[5]"; search.dispatchEvent(new Event("input"));
 document.querySelector(".results button").click();
-const robot = schematic.cells[schematic.chosen.robot].net, panel = document.querySelector(".robot").textContent;
+const panel = document.querySelector(".robot").textContent;
+const chosen = drawn("cell").filter(cell => cell.getAttribute("aria-pressed") === "true").length;
 const reach = document.querySelector(".reach"); reach.value = "before"; reach.dispatchEvent(new Event("change"));
-const marked = schematic.marked().size, lit = schematic.svg.querySelectorAll(".marked").length;
-schematic.leave(); schematic.open(0);
-const path = schematic.parts("part").filter(([part]) => part.classList.contains("marked")).length;
+const lit = sheet.querySelectorAll(".marked").length;
+sheet.dispatchEvent(new KeyboardEvent("keydown", { key: "Escape" })); crumbs()[0].click();
+const path = drawn("part").filter(part => part.classList.contains("marked")).length;
 const high = document.documentElement.scrollHeight / innerHeight;
 const wide = document.documentElement.scrollWidth <= innerWidth;
-tell({ whole, cells, whole_about, opened, crumbs, robot, panel, marked, lit, path, high, wide });
+tell({ whole, cells, whole_about, opened, inside, panel, chosen, lit, path, high, wide });
 </script>"#;
 
 /// What the reader's script tells on the console. Frames come in real time only: a virtual clock runs ahead of them on
@@ -333,8 +343,8 @@ fn the_page_of_a_run_works_in_a_browser() {
     for size in ["--window-size=1200,900", "--window-size=500,800"] {
         let found = found(&browser, &page, READER, size);
         assert_eq!(found["walked"], true, "the player moves");
-        assert_eq!((&found["followed"], &found["focusable"]), (&1.into(), &0.into()), "a cell's robot is followed");
-        assert_eq!(found["pressed"], "true");
+        assert_eq!((&found["tall"], &found["alone"]), (&460.into(), &240.into()), "a cell's robot is alone: {found}");
+        assert_eq!((&found["pressed"], &found["focusable"]), (&"true".into(), &0.into()));
         assert!(found["panel"].as_str().unwrap().contains("nand_1"), "{found}");
         assert!(found["hovered"].as_str().unwrap().contains("n3 = nand"), "{found}");
         assert_eq!(found["clock"], "cycle 7 of 24");
@@ -367,11 +377,12 @@ fn the_sheets_of_a_schematic_open_in_a_browser() {
     for size in ["--window-size=1200,900", "--window-size=500,800"] {
         let found = found(&browser, &page, SHEETS, size);
         assert_eq!(found["whole"], serde_json::json!(["first", "second"]), "{found}");
-        assert_eq!((&found["opened"], &found["crumbs"]), (&"first".into(), &serde_json::json!(["sums", "first"])));
+        assert_eq!(found["opened"], serde_json::json!(["sums", "first"]), "{found}");
+        assert_ne!(found["inside"], found["whole_about"], "{found}");
         assert_eq!((&found["cells"], &found["whole_about"]), (&0.into(), &"68 robots".into()), "{found}");
-        assert_eq!(found["robot"], "q[5]", "{found}");
         assert!(found["panel"].as_str().unwrap().starts_with("q[5] = "), "{found}");
-        assert!(found["marked"].as_u64().unwrap() > 20 && found["lit"].as_u64().unwrap() > 2, "{found}");
+        assert_eq!(found["chosen"], 1, "{found}");
+        assert!(found["lit"].as_u64().unwrap() > 2, "{found}");
         assert_eq!(found["path"], 2, "the path of a sum runs through both adders: {found}");
         assert!(found["high"].as_f64().unwrap() < 2.5, "{found}");
     }

@@ -355,3 +355,23 @@ fn lines_have_at_most_120_columns() {
     }
     assert!(wide.is_empty(), "lines of more than 120 columns\n{}", wide.join("\n"));
 }
+
+#[test]
+fn scripts_of_pages_are_in_web() {
+    let mut open = vec![root().join("crates")];
+    let mut found = Vec::new();
+    while let Some(path) = open.pop() {
+        if path.is_dir() && !path.is_symlink() {
+            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+        } else if matches!(path.extension().and_then(|name| name.to_str()), Some("css" | "html" | "js" | "ts")) {
+            found.push(path);
+        }
+    }
+    assert!(found.is_empty(), "scripts and styles of pages are in web/: {found:?}");
+    let reports = root().join("crates/report/page");
+    for script in ["evolution.js", "run.js", "sheets.js"] {
+        let text = fs::read_to_string(reports.join(script)).unwrap();
+        assert!(text.len() < 60_000, "{script} has {} bytes", text.len());
+        assert!(!text.contains("localStorage"), "{script} remembers something");
+    }
+}

@@ -21,7 +21,7 @@ use nbc_base::model::{Axis, Behavior, Body, CYCLE_STEPS, Image, Schedule, Settin
 use nbc_swarm::evolve::{Elite, NicheKey};
 use nbc_swarm::{Recorded, Room};
 
-const SCRIPT: &str = include_str!("../assets/page/archive.js");
+const SCRIPT: &str = include_str!("../page/evolution.js");
 /// Cycles of a gait under each pattern, or before each image.
 const GAIT_CYCLES: u32 = 2;
 
@@ -52,8 +52,7 @@ pub fn draw_evolution_page(results: &EvolutionResults, figures: &[PageFigure], s
         passed: behaviors > 0,
         verdict: verdict(results, behaviors, entries.len()),
         body: archive(results, left_out) + &figures.iter().map(figure).collect::<String>(),
-        data: data(results, &entries, &gaits, pace, &looks),
-        script: SCRIPT,
+        script: Some((SCRIPT, data(results, &entries, &gaits, pace, &looks))),
     }
     .finish()
 }
@@ -183,7 +182,6 @@ fn data(results: &EvolutionResults, entries: &[Entry<'_>], gaits: &[Recorded], p
         "axes": axes,
         "behaviors": behaviors,
         "elites": elites,
-        "first": 0,
     })
 }
 

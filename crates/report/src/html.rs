@@ -10,9 +10,8 @@ use serde_json::Value;
 
 use crate::svg::Svg;
 
-const STYLE: &str = include_str!("../assets/page/page.css");
-/// Robots on a canvas, and the controls of a player.
-const COMMON: [&str; 2] = [include_str!("../assets/page/robot.js"), include_str!("../assets/page/clock.js")];
+/// The style and the scripts of all pages come from `web/`.
+const STYLE: &str = include_str!("../page/report.css");
 
 /// A page under construction.
 pub struct Html<'a> {
@@ -24,9 +23,8 @@ pub struct Html<'a> {
     pub verdict: String,
     /// The body, as HTML.
     pub body: String,
-    /// The data for the script.
-    pub data: Value,
-    pub script: &'static str,
+    /// The script, if the page has one, and its data.
+    pub script: Option<(&'static str, Value)>,
 }
 
 impl Html<'_> {
@@ -34,20 +32,21 @@ impl Html<'_> {
     pub fn finish(self) -> String {
         let (heading, verdict, version) = (escape(self.heading), escape(&self.verdict), nbc_base::VERSION);
         let class = if self.passed { "pass" } else { "fail" };
-        // No text of the user's can end the element.
-        let data = self.data.to_string().replace('<', "\\u003c");
-        let scripts: String =
-            COMMON.iter().chain([&self.script]).map(|script| format!("<script>\n{script}</script>\n")).collect();
+        let script = self.script.map_or(String::new(), |(script, data)| {
+            // No text of the user's can end the element.
+            let data = data.to_string().replace('<', "\\u003c");
+            format!("<script id=\"data\" type=\"application/json\">{data}</script>\n<script>\n{script}\n</script>\n")
+        });
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; \
              script-src 'unsafe-inline'; img-src data:\">\n\
              <title>{heading}: {verdict}</title>\n<link rel=\"icon\" \
-             href=\"data:,\">\n<style>\n{STYLE}</style>\n</head>\n<body>\n<main>\n\
+             href=\"data:,\">\n<style>\n{STYLE}\n</style>\n</head>\n<body>\n<main>\n\
              <h1>{heading}</h1>\n<p class=\"verdict {class}\">{verdict}</p>\n{body}\
              <footer class=\"dim\"><p>made by nbc {version}</p></footer>\n</main>\n\
-             <script id=\"data\" type=\"application/json\">{data}</script>\n{scripts}</body>\n</html>\n",
+             {script}</body>\n</html>\n",
             body = self.body,
         )
     }

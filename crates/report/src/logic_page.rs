@@ -1,7 +1,5 @@
 //! The report of tests at the level of logic as one self-contained HTML page: the verdict and the truth tables.
 
-use serde_json::json;
-
 use crate::html::{Html, escape};
 use crate::verdict::describe_test;
 use nbc_base::diag::counted;
@@ -17,8 +15,7 @@ pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {
         passed: passed == all,
         verdict: format!("{word}: {passed} of {} passed", counted(all, "test")),
         body: verdicts.iter().map(|verdict| section(verdict)).collect(),
-        data: json!({}),
-        script: "",
+        script: None,
     }
     .finish()
 }

@@ -15,7 +15,7 @@ use nbc_base::diag::counted;
 use nbc_base::model::{CYCLE_STEPS, Column, Value};
 use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
-const SCRIPT: &str = concat!(include_str!("../assets/page/schematic.js"), include_str!("../assets/page/swarm.js"));
+const SCRIPT: &str = include_str!("../page/run.js");
 
 /// The result of a test or a simulation.
 #[derive(Clone, Copy)]
@@ -48,16 +48,16 @@ pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> 
     let looks = Looks::of(members.map(|member| &member.robot.body), scheme);
     let (tests, simulations): (Vec<SwarmOutcome<'_>>, Vec<SwarmOutcome<'_>>) =
         swarms.iter().map(|swarm| swarm.outcome).partition(|outcome| matches!(outcome, SwarmOutcome::Test(_)));
+    let data = json!({
+        "looks": look_data(&looks),
+        "swarms": swarms.iter().map(|swarm| swarm_data(swarm, &looks)).collect::<Vec<_>>(),
+    });
     Html {
         heading: source,
         passed: swarms.iter().all(|swarm| swarm.outcome.passed()),
         verdict: heading(&tests, &simulations),
         body: swarms.iter().enumerate().map(|(i, swarm)| section(i, swarm)).collect(),
-        data: json!({
-            "looks": look_data(&looks),
-            "swarms": swarms.iter().map(|swarm| swarm_data(swarm, &looks)).collect::<Vec<_>>(),
-        }),
-        script: SCRIPT,
+        script: Some((SCRIPT, data)),
     }
     .finish()
 }
@@ -132,10 +132,8 @@ fn section(number: usize, swarm: &PageSwarm<'_>) -> String {
 
 fn player() -> String {
     format!(
-        "<h3>Robots of the sheet</h3>\n{}<p class=\"dim unrecorded\"></p>\n<div class=\"scroller\"><canvas \
-         class=\"stage\" role=\"img\" aria-label=\"the robots walking\"></canvas></div>\n\
-         <h3>Waveform of the sheet</h3>\n<div class=\"scroller\"><canvas class=\"wave\" role=\"img\" \
-         aria-label=\"inputs, bits of the sheet's robots, parts and outputs over the cycles\"></canvas></div>\n",
+        "<h3>Robots of the sheet</h3>\n{}<p class=\"dim unrecorded\"></p>\n<div class=\"stage\"></div>\n\
+         <h3>Waveform of the sheet</h3>\n<div class=\"wave\"></div>\n",
         controls("2")
     )
 }

@@ -8,7 +8,7 @@ use crate::schematic::SchematicPages;
 use nbc_base::diag::counted;
 use nbc_swarm::Assembly;
 
-const SCRIPT: &str = concat!(include_str!("../assets/page/schematic.js"), include_str!("../assets/page/sheets.js"));
+const SCRIPT: &str = include_str!("../page/sheets.js");
 
 /// The page of a swarm's schematic.
 pub fn draw_schematic_page(assembly: &Assembly, schematic: &SchematicPages) -> String {
@@ -18,8 +18,7 @@ pub fn draw_schematic_page(assembly: &Assembly, schematic: &SchematicPages) -> S
         passed: true,
         verdict: format!("{robots} on {sheets}"),
         body: explorer(),
-        data: json!({ "schematic": schematic, "cells": cell_data(assembly) }),
-        script: SCRIPT,
+        script: Some((SCRIPT, json!({ "schematic": schematic, "cells": cell_data(assembly) }))),
     }
     .finish()
 }
@@ -40,7 +39,7 @@ pub fn explorer() -> String {
          wires</option><option value=\"before\">what it depends on</option><option value=\"after\">what depends on \
          it</option></select></label>{buttons}<ul class=\"results\"></ul></div>\n<div class=\"frame-of-sheet\"><div \
          class=\"sheet picture\" tabindex=\"0\" role=\"group\" aria-label=\"schematic\"></div><div \
-         class=\"map-of-sheet\" aria-hidden=\"true\"></div></div>\n<p class=\"explained\"><span><i \
+         class=\"map-of-sheet picture\" aria-hidden=\"true\"></div></div>\n<p class=\"explained\"><span><i \
          class=\"box\"></i>a part: opens</span><span><i class=\"slow\"></i>slowest path</span><span><i \
          class=\"lit\"></i>chosen and marked</span></p></div><div class=\"robot\" aria-live=\"polite\"></div></div>\n"
     )
