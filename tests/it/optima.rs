@@ -148,7 +148,7 @@ fn compare(cells: &str, most: usize, step: usize) -> Vec<u8> {
 #[test]
 fn the_compiler_uses_the_fewest_cells_of_any_library() {
     for cells in LIBRARIES {
-        compare(cells, 1_000, 11);
+        compare(cells, 300, 23);
     }
 }
 

@@ -12,7 +12,9 @@ use crate::backend::lanes::lane_batch::{LaneBatch, Stepped};
 use crate::backend::lanes::real::Real;
 use crate::backend::lanes::step::env_step;
 use crate::backend::lanes::stiffness::{Common, Own, Stiffness};
-use crate::backend::lanes::vector::{Eight, Four};
+#[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
+use crate::backend::lanes::vector::Eight;
+use crate::backend::lanes::vector::Four;
 use crate::constants::Constants;
 use crate::lattice::Lattice;
 use crate::meter::{Meter, Part, Stopwatch};
@@ -71,6 +73,13 @@ impl InstructionSet {
         }
     }
 
+    /// The most lanes of a kernel: more would be several vectors, or not fit into the registers that engines of
+    /// WebAssembly give to a function. Of other processors that was not measured.
+    fn most_lanes(self) -> usize {
+        let by_vector = cfg!(any(target_arch = "x86_64", target_family = "wasm"));
+        if by_vector && self != Self::Avx512 { 4 } else { 8 }
+    }
+
     /// Its name as processors' makers write it.
     pub fn name(self) -> &'static str {
         match self {
@@ -88,19 +97,19 @@ impl Kernel {
     /// One simulation at a time.
     pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
 
-    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions.
+    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions, or when so many lanes are
+    /// several vectors, which are no faster together than one after the other.
     ///
     /// # Panics
     /// When there is no kernel of so many lanes.
     pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
         assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
-        set.is_available().then_some(Self { set, lanes })
+        (set.is_available() && lanes <= set.most_lanes()).then_some(Self { set, lanes })
     }
 
-    /// The kernel with most lanes that are worth it. Four lanes fit into the registers that engines of WebAssembly give
-    /// to a function: a substep of a robot takes a fifth less time than in eight.
+    /// The kernel with most lanes.
     fn widest(set: InstructionSet) -> Self {
-        Self { set, lanes: if cfg!(target_family = "wasm") { 4 } else { 8 } }
+        Self { set, lanes: set.most_lanes() }
     }
 
     /// A kernel whether the processor has its instructions or not, to reason about.
@@ -115,8 +124,7 @@ impl Kernel {
         let (different, same) = match (self.set, robots) {
             (_, 1) => (51, 51),
             (InstructionSet::Avx512, 5..) => (100, 86),
-            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4) => (83, 72),
-            (InstructionSet::Avx2, _) => (166, 144),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, _) => (83, 72),
             (InstructionSet::Baseline, ..=4) => (152, 126),
             (InstructionSet::Baseline, _) => (304, 252),
         };
@@ -140,21 +148,19 @@ impl Kernel {
         match (self.set, robots.len(), alike) {
             (_, 1, _) => layout::<f64, Common>(robots, ground, env_step),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, true) => x86::avx2_4::<Common>(robots, ground),
+            (InstructionSet::Avx512, 5.., true) => x86::avx512_8::<Common>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512 | InstructionSet::Avx2, ..=4, false) => x86::avx2_4::<Own<_>>(robots, ground),
+            (InstructionSet::Avx512, 5.., false) => x86::avx512_8::<Own<_>>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx2, _, true) => x86::avx2_8::<Common>(robots, ground),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, _, true) => x86::avx2_4::<Common>(robots, ground),
             #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx2, _, false) => x86::avx2_8::<Own<_>>(robots, ground),
-            #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512, _, true) => x86::avx512_8::<Common>(robots, ground),
-            #[cfg(target_arch = "x86_64")]
-            (InstructionSet::Avx512, _, false) => x86::avx512_8::<Own<_>>(robots, ground),
-            (_, ..=4, true) => layout::<Four, Common>(robots, ground, env_step),
-            (_, ..=4, false) => layout::<Four, Own<_>>(robots, ground, env_step),
-            (_, _, true) => layout::<Eight, Common>(robots, ground, env_step),
-            (_, _, false) => layout::<Eight, Own<_>>(robots, ground, env_step),
+            (InstructionSet::Avx512 | InstructionSet::Avx2, _, false) => x86::avx2_4::<Own<_>>(robots, ground),
+            #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
+            (_, 5.., true) => layout::<Eight, Common>(robots, ground, env_step),
+            #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
+            (_, 5.., false) => layout::<Eight, Own<_>>(robots, ground, env_step),
+            (_, _, true) => layout::<Four, Common>(robots, ground, env_step),
+            (_, _, false) => layout::<Four, Own<_>>(robots, ground, env_step),
         }
     }
 }
@@ -211,10 +217,6 @@ mod x86 {
     #[derive(Clone, Copy, Debug)]
     pub struct Avx2Mask(__m256d);
 
-    /// Two vectors used as one.
-    #[derive(Clone, Copy, Debug)]
-    pub struct Pair<T>(T, T);
-
     /// Eight lanes with AVX-512 instructions, which must be available.
     pub fn avx512_8<K: Stiffness<Avx512>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
         #[target_feature(enable = "avx512f,avx512dq,avx512vl,avx2")]
@@ -235,16 +237,6 @@ mod x86 {
         layout::<Avx2, K>(robots, ground, |batch| unsafe { step(batch) })
     }
 
-    /// Eight lanes with AVX2 instructions, which must be available.
-    pub fn avx2_8<K: Stiffness<Pair<Avx2>>>(robots: &[(&Lattice, &State)], ground: Ground<'_>) -> Box<dyn LaneBatch> {
-        #[target_feature(enable = "avx2")]
-        fn step<K: Stiffness<Pair<Avx2>>>(batch: &mut Batch<Pair<Avx2>, K>) {
-            env_step(batch);
-        }
-        // SAFETY: a kernel of this set is made only where the processor has it.
-        layout::<Pair<Avx2>, K>(robots, ground, |batch| unsafe { step(batch) })
-    }
-
     // SAFETY: a vector of this type exists only where the processor has its instructions; so below.
     operators!(
         [] Avx512, |a, b|
@@ -258,13 +250,6 @@ mod x86 {
         Self(unsafe { _mm256_sub_pd(a.0, b.0) }),
         Self(unsafe { _mm256_mul_pd(a.0, b.0) })
     );
-    operators!(
-        [T: Real] Pair<T>, |a, b|
-        Self(a.0 + b.0, a.1 + b.1),
-        Self(a.0 - b.0, a.1 - b.1),
-        Self(a.0 * b.0, a.1 * b.1)
-    );
-
     /// One lane of a vector, accessed in place.
     macro_rules! lane_access {
         () => {
@@ -428,89 +413,6 @@ mod x86 {
                 let root = _mm_sqrt_ps(_mm256_cvtpd_ps(self.0));
                 _mm256_cvtps_pd(_mm_div_ps(_mm_set1_ps(1.0), root))
             })
-        }
-    }
-
-    impl Mask for Pair<Avx2Mask> {
-        #[inline(always)]
-        fn bits(self) -> u32 {
-            self.0.bits() | self.1.bits() << 4
-        }
-
-        #[inline(always)]
-        fn from_bits(bits: u32) -> Self {
-            Self(Avx2Mask::from_bits(bits), Avx2Mask::from_bits(bits >> 4))
-        }
-
-        #[inline(always)]
-        fn or(self, other: Self) -> Self {
-            Self(self.0.or(other.0), self.1.or(other.1))
-        }
-
-        #[inline(always)]
-        fn and(self, other: Self) -> Self {
-            Self(self.0.and(other.0), self.1.and(other.1))
-        }
-
-        #[inline(always)]
-        fn any(self) -> bool {
-            self.0.or(self.1).any()
-        }
-    }
-
-    impl Real for Pair<Avx2> {
-        const LANES: usize = 8;
-
-        type Mask = Pair<Avx2Mask>;
-
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(Avx2::splat(value), Avx2::splat(value))
-        }
-
-        #[inline(always)]
-        fn lane(&self, lane: usize) -> f64 {
-            if lane < 4 { self.0.lane(lane) } else { self.1.lane(lane - 4) }
-        }
-
-        #[inline(always)]
-        fn set_lane(&mut self, lane: usize, value: f64) {
-            if lane < 4 { self.0.set_lane(lane, value) } else { self.1.set_lane(lane - 4, value) }
-        }
-
-        #[inline(always)]
-        fn abs(self) -> Self {
-            Self(self.0.abs(), self.1.abs())
-        }
-
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(self.0.max(other.0), self.1.max(other.1))
-        }
-
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(self.0.min(other.0), self.1.min(other.1))
-        }
-
-        #[inline(always)]
-        fn below(self, other: Self) -> Self::Mask {
-            Pair(self.0.below(other.0), self.1.below(other.1))
-        }
-
-        #[inline(always)]
-        fn at_most(self, other: Self) -> Self::Mask {
-            Pair(self.0.at_most(other.0), self.1.at_most(other.1))
-        }
-
-        #[inline(always)]
-        fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
-            Self(Avx2::select(mask.0, yes.0, no.0), Avx2::select(mask.1, yes.1, no.1))
-        }
-
-        #[inline(always)]
-        fn recip_sqrt_seed(self) -> Self {
-            Self(self.0.recip_sqrt_seed(), self.1.recip_sqrt_seed())
         }
     }
 }

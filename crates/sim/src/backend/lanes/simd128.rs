@@ -8,9 +8,8 @@ use std::array::from_fn;
 
 use crate::backend::lanes::real::{Mask, Real, operators};
 
-/// Four lanes, and eight.
+/// Four lanes.
 pub type Four = Pairs<2>;
-pub type Eight = Pairs<4>;
 
 /// `N` vectors of two numbers.
 #[derive(Clone, Copy, Debug)]

@@ -4,8 +4,10 @@ use std::array::from_fn;
 
 use crate::backend::lanes::real::{Mask, Real, operators};
 
-/// Four lanes, and eight.
+/// Four lanes.
 pub type Four = Lanes<4>;
+/// Eight lanes, where they are worth it.
+#[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 pub type Eight = Lanes<8>;
 
 /// An array of `N` numbers.
