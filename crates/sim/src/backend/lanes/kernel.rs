@@ -97,8 +97,8 @@ impl Kernel {
     /// One simulation at a time.
     pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
 
-    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions, or when so many lanes are
-    /// several vectors, which are no faster together than one after the other.
+    /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions, or when so many lanes
+    /// are several vectors, which are no faster together than one after the other.
     ///
     /// # Panics
     /// When there is no kernel of so many lanes.
