@@ -25,7 +25,7 @@ test("only the scripts of the page run, and nothing is loaded", () => {
   const policies = [...page.matchAll(/http-equiv="Content-Security-Policy" content="([^"]*)"/g)].map(match => match[1]);
   assert.deepEqual(policies, ["default-src 'none'; script-src 'nonce-abc'; style-src 'unsafe-inline'; img-src data:"]);
   const scripts = [...page.matchAll(/<script\b[^>]*>/g)].map(match => match[0]);
-  assert.ok(scripts.length > 2 && scripts.every(script => script.includes(' nonce="abc"')), scripts.join());
+  assert.ok(scripts.length === 2 && scripts.every(script => script.includes(' nonce="abc"')), scripts.join());
   assert.deepEqual(page.match(/(src|href)="(?!data:)[^"]*"/g), null);
   assert.deepEqual(page.match(/<[a-z][^>]*\son[a-z]+=/g), null, "handlers in attributes would not run");
 });
@@ -33,9 +33,9 @@ test("only the scripts of the page run, and nothing is loaded", () => {
 test("the page follows the theme of the editor", () => {
   const dark = reportPage(REPORT, { nonce: "a", dark: true });
   const light = reportPage(REPORT, { nonce: "a", dark: false });
-  assert.ok(dark.includes("@media all {") && dark.includes("color-scheme: dark;"));
-  assert.ok(light.includes("@media not all {") && light.includes("color-scheme: light;"));
-  assert.ok(!dark.includes("@media (prefers-color-scheme") && !light.includes("@media (prefers-color-scheme"));
+  assert.ok(dark.includes("@media all{") && dark.includes("color-scheme:dark;"));
+  assert.ok(light.includes("@media not all{") && light.includes("color-scheme:light;"));
+  assert.ok([dark, light].every(page => !/@media ?\(prefers|light dark/.test(page)));
 });
 
 test("a file that is no report is not shown", () => {

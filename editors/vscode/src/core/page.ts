@@ -21,8 +21,9 @@ export function reportPage(report: string, frame: Frame): string {
       .replace(POLICY, policy(`script-src 'nonce-${scripts}'; `))
       // Users' texts in the page are escaped, so that each of these is an element of nbc.
       .replaceAll(/<script(?=[ >])/g, `<script nonce="${scripts}"`)
-      .replace("color-scheme: light dark;", `color-scheme: ${frame.dark ? "dark" : "light"};`)
-      .replaceAll("@media (prefers-color-scheme: dark)", frame.dark ? "@media all" : "@media not all")
+      // The style of a page may be minified.
+      .replace(/color-scheme: ?light dark;/, `color-scheme:${frame.dark ? "dark" : "light"};`)
+      .replaceAll(/@media ?\(prefers-color-scheme: ?dark\)/g, frame.dark ? "@media all" : "@media not all")
   );
 }
 
