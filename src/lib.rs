@@ -217,12 +217,12 @@ pub use nbc_base::model::Spell;
 /// ```
 /// use std::sync::Arc;
 ///
-/// use nbc::{Image, Pattern, Spell};
-/// let image = Image::new([1, 2], vec![0.25, 1.0]).unwrap();
+/// use nbc::{Image, ImageSize, Pattern, Spell};
+/// let image = Image::new(ImageSize::new(1, 2), vec![0.25, 1.0]).unwrap();
 /// let spell = Spell { image: Some(Arc::new(image)), ..Spell::of(Pattern::default(), 250) };
 /// assert_eq!(spell.value_over([0, 1], [1, 2]), 1.0);
 /// ```
-pub use nbc_base::model::Image;
+pub use nbc_base::model::{Image, ImageSize};
 
 /// ```
 /// use nbc::{Body, Palette, Setting, SettingError};

@@ -69,17 +69,16 @@ impl Shown {
     fn spell(self, steps: u32, palette: &Palette) -> PyResult<Spell> {
         match (self, palette.image()) {
             (Self::Pattern(digits), None) => Ok(Spell::of(pattern(digits, palette.stimuli())?, steps)),
-            (Self::Pattern(digits), Some([rows, columns])) => Err(bad_value(format!(
-                "the schedule has the pattern `{digits}`, but the materials sense images; expected arrays of {rows} x \
-                 {columns} pixels"
+            (Self::Pattern(digits), Some(size)) => Err(bad_value(format!(
+                "the schedule has the pattern `{digits}`, but the materials sense images; expected arrays of \
+                 {size} pixels"
             ))),
             (Self::Image(_), None) => Err(bad_value("the schedule has an image, but the materials sense none")),
             (Self::Image(rows), Some(size)) => {
                 let image = Image::try_from(rows).map_err(|error| bad_value(format!("an image: {error}")))?;
-                let ([rows, columns], [high, wide]) = (image.size(), size);
                 if image.size() != size {
-                    let found = format!("an image of the schedule has {rows} x {columns} pixels");
-                    return Err(bad_value(format!("{found}, but the materials sense {high} x {wide}")));
+                    let found = format!("an image of the schedule has {} pixels", image.size());
+                    return Err(bad_value(format!("{found}, but the materials sense {size}")));
                 }
                 Ok(Spell { image: Some(Arc::new(image)), ..Spell::of(Pattern::default(), steps) })
             }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use nbc::{
     Checked, Choice, ClaimReport, CompileOptions, Diagnostics, DiskWorld, Effort, GuardedWorld, Hardened, Hardening,
+    ImageSize,
 };
 use nbc::{Level, MappingObjective, Room, RunReport, SearchBudget, Session, TestOptions, TestRun, Yields};
 use numpy::{IntoPyArray, PyArray3, PyArrayMethods};
@@ -116,7 +117,7 @@ impl Program {
     /// Its sets of images by name: arrays of images, rows and columns.
     fn images<'py>(&self, py: Python<'py>) -> PyResult<Vec<(String, Bound<'py, PyArray3<f64>>)>> {
         let sets = self.checked.program.images.iter().map(|set| {
-            let [rows, columns] = set.images.first().map_or([0; 2], |image| image.size());
+            let ImageSize { rows, columns } = set.images.first().expect("a set has images").size();
             let pixels: Vec<f64> = set.images.iter().flat_map(|image| image.pixels().iter().copied()).collect();
             Ok((set.name.clone(), pixels.into_pyarray(py).reshape([set.images.len(), rows, columns])?))
         });

@@ -2,7 +2,7 @@
 
 use nbc_base::diag::suggest::alternatives;
 use nbc_base::diag::{Code, Diagnostic, Severity, Suggestion, counted};
-use nbc_base::model::SettingError;
+use nbc_base::model::{ImageSize, SettingError};
 
 /// A command line that is invalid, or output that cannot be written; `path` is as the user wrote it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -53,8 +53,8 @@ pub(in crate::cli) enum UsageError {
     NoWord { file: String },
     /// Witnesses that are asked for where there is not one model.
     WitnessOfSource,
-    /// A body that senses images of so many rows and columns, without a schedule of images.
-    NoImages { size: [usize; 2] },
+    /// A body that senses images of a size, without a schedule of images.
+    NoImages { size: ImageSize },
     /// Images for bodies that sense none.
     NothingSees,
     /// A run where one body is expected, with the behaviors of its bodies.
@@ -129,12 +129,11 @@ impl From<UsageError> for Diagnostic {
             ),
             UsageError::WitnessOfSource => bad("`--witness` is for one model in AIGER's format".to_owned())
                 .with_help("leave it out: a property of a program is refuted by a test"),
-            UsageError::NoImages { size: [rows, columns] } => {
-                bad(format!("the body senses images of {rows} x {columns} pixels, but is shown none")).with_help(
+            UsageError::NoImages { size } => bad(format!("the body senses images of {size} pixels, but is shown none"))
+                .with_help(
                     "name a file with sets of images in `--images`, and its sets in `--schedule`, for example \
                      `zeros*250steps`",
-                )
-            }
+                ),
             UsageError::NothingSees => bad("`--images` is for bodies that sense images".to_owned())
                 .with_help("leave it out: this body senses patterns of stimuli such as `01`"),
             UsageError::BodyOfRun { path, behaviors } => {

@@ -3,6 +3,7 @@
 mod and_graph;
 mod blocks;
 mod cells;
+mod clause;
 mod components;
 pub mod correspondence;
 mod delayed;
@@ -44,6 +45,7 @@ mod wording;
 
 pub use blocks::{BlockId, Blocks, keeps_state};
 pub use cells::{CellKind, CellLibrary};
+pub use clause::{Clause, Literal};
 pub use delayed::Delayed;
 pub use elaborate::{
     Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, elaborate_watched,

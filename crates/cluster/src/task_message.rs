@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::bits::{pack, unpack};
 use crate::message::{MessageFault, TaskKey, decode, encode};
 use nbc_base::model::{
-    Behavior, Body, CYCLE_STEPS, Displacements, GroundProfile, Image, ImageOrder, Niche, Palette, Pattern,
+    Behavior, Body, CYCLE_STEPS, Displacements, GroundProfile, Image, ImageOrder, ImageSize, Niche, Palette, Pattern,
     PhysicsWorld, SampledWorlds, Schedule, SearchObjective, Spell, WorldFactors, WorldNoise,
 };
 use nbc_swarm::evolve::{Rivals, validate};
@@ -306,12 +306,12 @@ impl BodyRecord {
 
 impl ImageRecord {
     fn of(image: &Image) -> Self {
-        let [rows, columns] = image.size().map(|side| side as u16);
+        let [rows, columns] = <[usize; 2]>::from(image.size()).map(|side| side as u16);
         Self(rows, columns, image.pixels().to_vec())
     }
 
     fn check(self) -> Option<Image> {
-        Image::new([self.0.into(), self.1.into()], self.2).ok()
+        Image::new(ImageSize::new(self.0.into(), self.1.into()), self.2).ok()
     }
 }
 

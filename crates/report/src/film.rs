@@ -15,7 +15,7 @@ use crate::sprite::Pose;
 use crate::stage::{Moment, Stage};
 use crate::svg::{Svg, shorten};
 use crate::swatches::{Swatches, UNCHANGED};
-use nbc_base::model::{GroundProfile, Image, Pattern};
+use nbc_base::model::{GroundProfile, Image, ImageSize, Pattern};
 
 /// Frames for each cycle, where nothing else is asked for.
 pub const FRAMES_PER_CYCLE: u32 = 12;
@@ -175,7 +175,7 @@ impl Painter<'_> {
     }
 
     fn paint_image(&mut self, image: &Image, (left, bottom): (f64, f64)) {
-        let ([rows, columns], side) = (image.size(), pixel_side(image, self.film.shown(true)));
+        let (ImageSize { rows, columns }, side) = (image.size(), pixel_side(image, self.film.shown(true)));
         let (wide, high) = (columns as f64 * side, rows as f64 * side);
         fill_rect(&mut self.frame, (left - 1.0, bottom - high - 1.0), wide + 2.0, high + 2.0, Color::PALE);
         for (at, &value) in image.pixels().iter().enumerate() {

@@ -3,7 +3,7 @@
 use crate::Color;
 use crate::element::{Paint, Point};
 use crate::svg::Svg;
-use nbc_base::model::Image;
+use nbc_base::model::{Image, ImageSize};
 
 /// The color of a value from 0 to 1.
 pub fn ink(value: f64) -> Color {
@@ -17,16 +17,16 @@ pub fn draw_image(svg: &mut Svg, corner: Point, side: f64, image: &Image) {
 
 /// The side of a pixel of an image whose longer side has that length.
 pub fn pixel_side(image: &Image, side: f64) -> f64 {
-    let [rows, columns] = image.size();
-    side / rows.max(columns) as f64
+    let size = image.size();
+    side / size.rows.max(size.columns) as f64
 }
 
-/// Draws a square of that side for each pixel of so many rows and columns.
+/// Draws a square of that side for each pixel of an image of that size.
 pub fn draw_pixels(
     svg: &mut Svg,
     (left, top): Point,
     side: f64,
-    [rows, columns]: [usize; 2],
+    ImageSize { rows, columns }: ImageSize,
     color: impl Fn(usize) -> Color,
 ) {
     for at in 0..rows * columns {

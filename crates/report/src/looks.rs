@@ -184,8 +184,8 @@ pub fn describe_material(material: &Material) -> String {
         MaterialKind::Actuator(Drive { period, phase, low, high }) => {
             format!("{name}: {low}..{high} in {period} steps, {phase}°")
         }
-        MaterialKind::Sensor(Response { image: Some([rows, columns]), absent, present, .. }) => {
-            format!("{name}: image of {rows} x {columns}, {absent} to {present}")
+        MaterialKind::Sensor(Response { image: Some(size), absent, present, .. }) => {
+            format!("{name}: image of {size}, {absent} to {present}")
         }
         MaterialKind::Sensor(Response { stimulus, absent, present, .. }) => {
             format!("{name}: stimulus {}, {absent} to {present}", stimulus + 1)

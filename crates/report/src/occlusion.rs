@@ -7,7 +7,7 @@ use crate::looks::Looks;
 use crate::scheme::Scheme;
 use crate::sprite::{draw_body, draw_legend, legend_size};
 use crate::svg::Svg;
-use nbc_base::model::Body;
+use nbc_base::model::{Body, ImageSize};
 
 /// The side of a voxel, and the room around pictures.
 const VOXEL: f64 = 24.0;
@@ -20,8 +20,8 @@ pub struct OcclusionMap<'a> {
     pub title: &'a str,
     /// The body.
     pub body: &'a Body,
-    /// The rows and columns of the images.
-    pub size: [usize; 2],
+    /// The size of the images.
+    pub size: ImageSize,
     /// For each pixel how much less far the body walks the right way when it is covered, in voxels; none where no voxel
     /// senses it.
     pub losses: &'a [Option<f64>],
@@ -31,10 +31,10 @@ pub struct OcclusionMap<'a> {
 
 /// Draws the body, the map beside it, and the mean image of each set.
 pub fn draw_occlusion(map: &OcclusionMap<'_>, scheme: Scheme) -> Svg {
-    let OcclusionMap { title, body, size: [rows, columns], losses, sets } = *map;
+    let OcclusionMap { title, body, size, losses, sets } = *map;
     let looks = Looks::of([body], scheme);
     let picture = draw_body(body, &looks, VOXEL);
-    let (wide, high) = (columns as f64 * VOXEL, rows as f64 * VOXEL);
+    let (wide, high) = (size.columns as f64 * VOXEL, size.rows as f64 * VOXEL);
     let legend = legend_size(&looks, body);
     let maps = 1 + sets.len();
     let legend_left = GAP + picture.width() + GAP + maps as f64 * (wide + GAP);
@@ -50,13 +50,13 @@ pub fn draw_occlusion(map: &OcclusionMap<'_>, scheme: Scheme) -> Svg {
     caption(&mut svg, left(0), "needed");
     svg.group("losses", "voxels less when a pixel is covered", |svg| {
         let color = |at: usize| losses[at].map_or(Color::PALE, |loss| loss_color(loss, most));
-        draw_pixels(svg, (left(0), TOP), VOXEL, [rows, columns], color);
+        draw_pixels(svg, (left(0), TOP), VOXEL, size, color);
     });
     for (number, (name, mean)) in sets.iter().enumerate() {
         let place = left(number + 1);
         caption(&mut svg, place, &format!("mean of {name}"));
         svg.group(&format!("mean-{name}"), name, |svg| {
-            draw_pixels(svg, (place, TOP), VOXEL, [rows, columns], |at| ink(mean[at]));
+            draw_pixels(svg, (place, TOP), VOXEL, size, |at| ink(mean[at]));
         });
     }
     draw_key(&mut svg, (left(0), TOP + high + 16.0), wide, most);

@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use crate::recognition::Recognition;
 use crate::report::{OcclusionMap, Scheme, Svg, draw_occlusion};
-use nbc_base::model::{Body, Image, ImageOrder, MaterialKind, Schedule, Spell};
+use nbc_base::model::{Body, Image, ImageOrder, ImageSize, MaterialKind, Schedule, Spell};
 use nbc_swarm::image_displacements;
 
 /// The images with each pixel covered, before the first body of a recognition. It is advanced pixel by pixel.
 #[derive(Debug)]
 pub struct Occlusion {
     recognition: Recognition,
-    size: [usize; 2],
+    size: ImageSize,
     /// The mean of each pixel over all images, which covers it.
     mean: Vec<f64>,
     /// The distance in the right way before each image as it is.
@@ -25,7 +25,7 @@ impl Occlusion {
         let images: Vec<&Image> =
             recognition.schedule.schedule.spells.iter().filter_map(|spell| spell.image.as_deref()).collect();
         let size = images.first().expect("a set has images").size();
-        let mean = mean(images.iter().copied(), size[0] * size[1]);
+        let mean = mean(images.iter().copied(), size.pixels());
         let mut occlusion = Self { recognition, size, mean, plain: Vec::new(), losses: Vec::new() };
         occlusion.plain = occlusion.distances(None);
         occlusion
@@ -96,8 +96,8 @@ fn mean<'a>(images: impl Iterator<Item = &'a Image>, pixels: usize) -> Vec<f64> 
 }
 
 /// Whether a voxel of a body senses a pixel.
-fn senses(body: &Body, size: [usize; 2], pixel: usize) -> bool {
-    let mut pixels = vec![0.0; size[0] * size[1]];
+fn senses(body: &Body, size: ImageSize, pixel: usize) -> bool {
+    let mut pixels = vec![0.0; size.pixels()];
     pixels[pixel] = 1.0;
     let image = Image::new(size, pixels).expect("one pixel is an image");
     let sees = |code: u8| match body.palette().kind(code) {

@@ -6,6 +6,7 @@ use serde::Serialize;
 
 use nbc_base::diag::counted;
 use nbc_circuit::properties::{InductiveProof, PropertyVerdict, TransitionSystem};
+use nbc_circuit::{Clause, Literal};
 
 /// A property and what is known of it.
 #[derive(Clone, Debug, Serialize)]
@@ -60,8 +61,8 @@ impl PropertyReport {
                 report.with = together.iter().copied().filter(|&other| other != number).collect();
             }
             PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }) => {
-                let clause = |clause: &Vec<(usize, bool)>| {
-                    let literal = |&(at, value): &(usize, bool)| {
+                let clause = |clause: &Clause| {
+                    let literal = |&(at, value): &Literal| {
                         let name = &system.registers[at].name;
                         if value { name.clone() } else { format!("not {name}") }
                     };

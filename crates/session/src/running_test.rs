@@ -1,6 +1,5 @@
 //! Tests that run: each is a value that does its work in portions.
 
-use std::collections::BTreeMap;
 use std::vec::IntoIter;
 
 use crate::hold;
@@ -8,7 +7,7 @@ use crate::observer::{CaseObserver, CycleRunner, Observer};
 use crate::script::PerformedRow;
 use crate::swarm_run::{DrivenSwarm, Physics, RunEnd, SwarmRun};
 use crate::test::{TestCase, TestRun, TestSubject, judged, verdict};
-use crate::test_timing::TestTiming;
+use crate::test_timing::{RowEnds, TestTiming};
 use nbc_base::diag::Diagnostic;
 use nbc_circuit::Settled;
 use nbc_circuit::properties::PropertySearch;
@@ -83,7 +82,7 @@ enum Running {
     /// A search that decides a test for ever.
     Search(Box<PropertySearch>),
     /// A swarm. If the test ends with the first row that fails, the rows that end with each cycle.
-    Robots(Box<DrivenSwarm>, BTreeMap<usize, Vec<(usize, usize)>>),
+    Robots(Box<DrivenSwarm>, RowEnds),
 }
 
 impl RunningCase {
@@ -94,7 +93,7 @@ impl RunningCase {
                 let inputs = timed.inputs(case.rows.len());
                 let mut swarm = DrivenSwarm::new(physics.swarm(timed.compiled, inputs.len()), inputs);
                 swarm.resume(timed.compiled, observer);
-                let ends = if case.ends_at_failure { timed.row_ends() } else { BTreeMap::new() };
+                let ends = if case.ends_at_failure { timed.row_ends() } else { RowEnds::new() };
                 Running::Robots(Box::new(swarm), ends)
             }
             (None, TestSubject::Gates(netlist)) => Running::Gates(Box::new(Settled::new(netlist))),

@@ -2,7 +2,7 @@
 
 use crate::wording::{ScheduleError, ScheduleKind};
 use nbc_base::diag::{Diagnostic, Diagnostics, Suggestion};
-use nbc_base::model::{CYCLE_STEPS, NamedImages, NamedSchedule, Pattern, Schedule, Spell};
+use nbc_base::model::{CYCLE_STEPS, ImageSize, NamedImages, NamedSchedule, Pattern, Schedule, Spell};
 use nbc_base::source::{SourceFile, Sources, Span};
 
 /// The most env steps of a schedule.
@@ -20,7 +20,7 @@ pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule,
     read(name, text, |file| parse(file, stimuli))
 }
 
-/// Reads a schedule whose entries name sets of images, to a body that senses images of so many rows and columns. Each
+/// Reads a schedule whose entries name sets of images, to a body that senses images of a size. Each
 /// image of a set is shown for the time of the entry.
 ///
 /// # Errors
@@ -29,7 +29,7 @@ pub fn read_image_schedule(
     name: &str,
     text: &str,
     images: &[NamedImages],
-    size: [usize; 2],
+    size: ImageSize,
 ) -> Result<NamedSchedule, Diagnostics> {
     let schedule = read(name, text, |file| parse_images(file, images, size))?;
     Ok(NamedSchedule { name: name.to_owned(), ..schedule })
@@ -52,7 +52,7 @@ fn parse(file: &SourceFile, stimuli: usize) -> Result<Schedule, Vec<Diagnostic>>
     Ok(Schedule { spells: entries.into_iter().map(|(pattern, _, steps)| Spell::of(pattern, steps)).collect() })
 }
 
-fn parse_images(file: &SourceFile, images: &[NamedImages], size: [usize; 2]) -> Result<NamedSchedule, Vec<Diagnostic>> {
+fn parse_images(file: &SourceFile, images: &[NamedImages], size: ImageSize) -> Result<NamedSchedule, Vec<Diagnostic>> {
     let entries =
         parse_entries(file, ScheduleKind::Set, |name| find_set(name, images, size), |set| set.images.len() as u64)?;
     let mut shown =
@@ -122,7 +122,7 @@ fn parse_bits(bits: &str, stimuli: usize) -> Result<Pattern, ScheduleError> {
 }
 
 /// The set of images of that name, for bodies that sense images of that size.
-fn find_set<'a>(name: &str, images: &'a [NamedImages], size: [usize; 2]) -> Result<&'a NamedImages, ScheduleError> {
+fn find_set<'a>(name: &str, images: &'a [NamedImages], size: ImageSize) -> Result<&'a NamedImages, ScheduleError> {
     let Some(set) = images.iter().find(|set| set.name == name) else {
         let meant = Suggestion::of(name, images.iter().map(|set| set.name.as_str()));
         return Err(ScheduleError::NoSet { name: name.to_owned(), meant });
@@ -220,7 +220,8 @@ mod tests {
 
     #[test]
     fn entries_of_images_show_whole_sets_and_number_them() {
-        let image = |values: [f64; 2]| Arc::new(Image::new([1, 2], values.to_vec()).unwrap());
+        let size = ImageSize::new(1, 2);
+        let image = |values: [f64; 2]| Arc::new(Image::new(size, values.to_vec()).unwrap());
         let images = [image([0.0, 1.0]), image([1.0, 0.0]), image([0.5, 0.5])];
         let set = |name: &str, images: &[Arc<Image>]| NamedImages {
             name: name.to_owned(),
@@ -229,7 +230,7 @@ mod tests {
         };
         let sets = [set("ends", &images[..2]), set("middle", &images[2..])];
         let read = |text: &str, size| read_image_schedule("--schedule", text, &sets, size);
-        let found = read("middle*3steps ends*1", [1, 2]).unwrap();
+        let found = read("middle*3steps ends*1", size).unwrap();
         let spell = |number, image: &Arc<Image>, steps| Spell {
             image: Some(image.clone()),
             ..Spell::of(Schedule::of_set(number), steps)
@@ -240,14 +241,14 @@ mod tests {
             let faults = read(text, size).unwrap_err();
             assert_eq!(faults.list.into_iter().map(|fault| fault.message).collect::<Vec<_>>(), [expected]);
         };
-        check("end*1", [1, 2], "no set of images is called `end`");
-        check("00*1", [1, 2], "no set of images is called `00`");
-        check("ends*0", [1, 2], "the duration `0` is too short");
-        check("ends*1", [2, 1], "the images `ends` have 1 x 2 pixels");
+        check("end*1", size, "no set of images is called `end`");
+        check("00*1", size, "no set of images is called `00`");
+        check("ends*0", size, "the duration `0` is too short");
+        check("ends*1", ImageSize::new(2, 1), "the images `ends` have 1 x 2 pixels");
         // Two images of six million env steps each.
-        check("ends*6000000steps", [1, 2], "the schedule of 12000000 env steps is too long");
+        check("ends*6000000steps", size, "the schedule of 12000000 env steps is too long");
         let five: Vec<NamedImages> = (0..5).map(|i| set(&format!("s{i}"), &images[..1])).collect();
-        let faults = read_image_schedule("", "s0*1 s1*1 s2*1 s3*1 s4*1", &five, [1, 2]).unwrap_err();
+        let faults = read_image_schedule("", "s0*1 s1*1 s2*1 s3*1 s4*1", &five, size).unwrap_err();
         assert_eq!(faults.list[0].message, "the schedule shows too many sets of images");
     }
 

@@ -6,6 +6,16 @@ use crate::compile::Compiled;
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_swarm::{RowHold, RowVerdict, SwarmTrace, WaveTest};
 
+/// A row of a test in a thread of its swarm; a swarm that is no wave machine has only thread 0.
+#[derive(Clone, Copy, Debug)]
+pub struct ThreadRow {
+    row: usize,
+    thread: usize,
+}
+
+/// The rows that end with so many cycles.
+pub type RowEnds = BTreeMap<usize, Vec<ThreadRow>>;
+
 /// When the rows of a test begin and end.
 #[derive(Clone, Debug)]
 pub(super) enum TestTiming {
@@ -84,15 +94,15 @@ impl<'a> TimedTest<'a> {
         verdicts
     }
 
-    /// For each number of cycles, the rows whose last result is that of the last of them, each with its thread.
-    pub fn row_ends(self) -> BTreeMap<usize, Vec<(usize, usize)>> {
-        let mut ends: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
+    /// For each number of cycles, the rows whose last result is that of the last of them.
+    pub fn row_ends(self) -> RowEnds {
+        let mut ends = RowEnds::new();
         match self.timing {
             TestTiming::Holds(row_holds) => {
                 let mut end = 0;
                 for (row, row_hold) in row_holds.iter().enumerate() {
                     end += row_hold.hold;
-                    ends.insert(end, vec![(row, 0)]);
+                    ends.insert(end, vec![ThreadRow { row, thread: 0 }]);
                 }
             }
             TestTiming::Waves => {
@@ -100,7 +110,7 @@ impl<'a> TimedTest<'a> {
                 for thread in 0..waves.machine.period as usize {
                     for row in 0..self.rows.len() {
                         if let Some(last) = waves.last_cycle(row, thread) {
-                            ends.entry(last + 1).or_default().push((row, thread));
+                            ends.entry(last + 1).or_default().push(ThreadRow { row, thread });
                         }
                     }
                 }
@@ -110,7 +120,7 @@ impl<'a> TimedTest<'a> {
     }
 
     /// Whether a row passes whose last result is that of a trace's last cycle.
-    pub fn passes(self, trace: &SwarmTrace, (row, thread): (usize, usize)) -> bool {
+    pub fn passes(self, trace: &SwarmTrace, ThreadRow { row, thread }: ThreadRow) -> bool {
         match self.timing {
             TestTiming::Holds(row_holds) => nbc_swarm::passes(self.test, &self.rows[row], &row_holds[row], trace),
             TestTiming::Waves => self.waves(self.rows).row(trace, row, thread).is_none_or(|verdict| verdict.passed),

@@ -2,7 +2,7 @@
 
 use crate::report;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, suggest};
-use nbc_base::model::Behavior;
+use nbc_base::model::{Behavior, ImageSize};
 use nbc_base::source::Span;
 use nbc_circuit::properties::NoSteps;
 use nbc_circuit::waves::WaveError;
@@ -359,7 +359,7 @@ pub(super) enum ScheduleError {
     /// A set of images that is not declared.
     NoSet { name: String, meant: Suggestion },
     /// A set of images that the body does not sense.
-    ImageSize { name: String, found: [usize; 2], expected: [usize; 2] },
+    ImageSize { name: String, found: ImageSize, expected: ImageSize },
     /// One set of images too many.
     TooManySets { most: usize },
     /// A duration that is not a number of cycles or env steps.
@@ -408,11 +408,10 @@ impl ScheduleError {
                 let message = format!("no set of images is called `{name}`");
                 return Diagnostic::new(Code::Unknown, message, span, "not declared").with_near(&meant);
             }
-            Self::ImageSize { name, found, expected } => {
-                let size = |[rows, columns]: [usize; 2]| format!("{rows} x {columns} pixels");
-                let message = format!("the images `{name}` have {}", size(found));
-                (message, format!("the body senses images of {}", size(expected)))
-            }
+            Self::ImageSize { name, found, expected } => (
+                format!("the images `{name}` have {found} pixels"),
+                format!("the body senses images of {expected} pixels"),
+            ),
             Self::TooManySets { most } => {
                 ("the schedule shows too many sets of images".to_owned(), format!("expected at most {most}"))
             }

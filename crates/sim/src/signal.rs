@@ -103,7 +103,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use nbc_base::model::{Image, Material, Pattern};
+    use nbc_base::model::{Image, ImageSize, Material, Pattern};
 
     #[test]
     fn the_papers_signals_are_the_papers_to_the_last_bit() {
@@ -131,11 +131,11 @@ mod tests {
     #[test]
     fn each_voxel_that_sees_has_the_target_of_its_place() {
         let mut materials = Palette::paper().materials().to_vec();
-        let dark = Response { image: Some([2, 2]), ..Response::of(0, 1.6, 0.6) };
+        let dark = Response { image: Some(ImageSize::new(2, 2)), ..Response::of(0, 1.6, 0.6) };
         materials.push(Material { name: "dark".to_owned(), kind: MaterialKind::Sensor(dark) });
         let body = Body::parse(&["93", "99"], &Arc::new(Palette::new(materials))).unwrap();
         let signals = Signals::new(body.palette(), &Constants::default()).of(&body, &Constants::default());
-        let image = Image::new([2, 2], vec![0.0, 1.0, 1.0, 0.25]).unwrap();
+        let image = Image::new(ImageSize::new(2, 2), vec![0.0, 1.0, 1.0, 0.25]).unwrap();
         let spell = Spell { image: Some(Arc::new(image)), ..Spell::of(Pattern::default(), 1) };
         let targets: Vec<f64> = signals.targets(0, &spell).collect();
         assert_eq!(targets[9..], [1.0, 1.6, 0.6, 1.6 - 0.25]);

@@ -201,7 +201,7 @@ mod tests {
     use super::*;
     use crate::evolve::{Rivals, Search};
     use nbc_base::model::{
-        Axis, Count, Evolution, Genome, Image, Material, MaterialKind, Palette, Response, SearchObjective,
+        Axis, Count, Evolution, Genome, Image, ImageSize, Material, MaterialKind, Palette, Response, SearchObjective,
     };
 
     const A: usize = 0;
@@ -214,7 +214,7 @@ mod tests {
     /// Images of two sets, a few steps each.
     fn schedule(images: &[(usize, [u8; 9])]) -> Schedule {
         let spell = |&(set, pixels): &(usize, [u8; 9])| {
-            let image = Image::new([3, 3], pixels.map(|pixel| f64::from(pixel) / 4.0).to_vec()).unwrap();
+            let image = Image::new(ImageSize::new(3, 3), pixels.map(|pixel| f64::from(pixel) / 4.0).to_vec()).unwrap();
             Spell { image: Some(Arc::new(image)), ..Spell::of(number(set), 40) }
         };
         Schedule { spells: images.iter().map(spell).collect() }
@@ -223,7 +223,7 @@ mod tests {
     fn evolution(shown: ImageOrder) -> Evolution {
         let mut materials = Palette::paper().materials()[..4].to_vec();
         let sensor = |name: &str, absent, present| {
-            let response = Response { image: Some([3, 3]), ..Response::of(0, absent, present) };
+            let response = Response { image: Some(ImageSize::new(3, 3)), ..Response::of(0, absent, present) };
             Material { name: name.to_owned(), kind: MaterialKind::Sensor(response) }
         };
         materials.extend([sensor("dark", 1.6, 0.6), sensor("light", 0.6, 1.6)]);

@@ -7,8 +7,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use nbc::{Search, evaluate, evaluate_bodies};
 use nbc_base::model::{
-    Body, CYCLE_STEPS, Evolution, FaultKind, Image, Material, MaterialKind, Palette, Pattern, Response, Schedule,
-    Setting, Spell, Trajectory, Trial,
+    Body, CYCLE_STEPS, Evolution, FaultKind, Image, ImageSize, Material, MaterialKind, Palette, Pattern, Response,
+    Schedule, Setting, Spell, Trajectory, Trial,
 };
 use nbc_sim::{
     Constants, DeviceError, Flock, LaneBackend, Meter, Monitor, OpenClBackend, OpenClDevice, SelfTest, Simulator,
@@ -326,7 +326,7 @@ fn the_self_test_passes_and_detects_other_physics() {
 fn a_device_shows_images_as_the_lanes_do() {
     let Some((device, _turn)) = self::device() else { return };
     let sensor = |name: &str, absent, present| {
-        let response = Response { image: Some([3, 2]), ..Response::of(0, absent, present) };
+        let response = Response { image: Some(ImageSize::new(3, 2)), ..Response::of(0, absent, present) };
         Material { name: name.to_owned(), kind: MaterialKind::Sensor(response) }
     };
     let mut materials = Palette::paper().materials().to_vec();
@@ -334,7 +334,7 @@ fn a_device_shows_images_as_the_lanes_do() {
     let palette = Arc::new(Palette::new(materials));
     let image = |turn: usize| {
         let pixels = (0..6).map(|at| ((at * 5 + turn) % 6) as f64 / 5.0).collect();
-        Some(Arc::new(Image::new([3, 2], pixels).unwrap()))
+        Some(Arc::new(Image::new(ImageSize::new(3, 2), pixels).unwrap()))
     };
     let bodies = [&["94", "39", "3a"][..], &["aa9", "343", "999"], &["343", "454", "363"], &["94", "39", "3a"]];
     let trial = |(n, rows): (usize, &&[&str])| {

@@ -1,6 +1,7 @@
 //! Images: stimuli whose value varies over the body.
 
 use std::cmp::Ordering;
+use std::fmt;
 use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
@@ -13,24 +14,69 @@ use super::ImageError;
 #[derive(Clone, Debug, Serialize, Deserialize)]
 #[serde(try_from = "Vec<Vec<f64>>", into = "Vec<Vec<f64>>")]
 pub struct Image {
-    rows: usize,
-    columns: usize,
+    size: ImageSize,
     pixels: Vec<f64>,
 }
 
-impl Image {
+/// The numbers of rows and of columns of an image. As data it is a list of both.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(from = "[usize; 2]", into = "[usize; 2]")]
+pub struct ImageSize {
+    /// From the top.
+    pub rows: usize,
+    /// From the left.
+    pub columns: usize,
+}
+
+impl ImageSize {
     /// The most rows or columns of an image.
     pub const MAX_SIDE: usize = 256;
 
-    /// An image of that many rows and columns, row by row from the top.
+    /// That many rows and columns.
+    pub fn new(rows: usize, columns: usize) -> Self {
+        Self { rows, columns }
+    }
+
+    /// The number of pixels.
+    pub fn pixels(self) -> usize {
+        self.rows * self.columns
+    }
+
+    /// Whether images can have this size.
+    pub fn is_valid(self) -> bool {
+        [self.rows, self.columns].iter().all(|side| (1..=Self::MAX_SIDE).contains(side))
+    }
+}
+
+impl fmt::Display for ImageSize {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} x {}", self.rows, self.columns)
+    }
+}
+
+impl From<[usize; 2]> for ImageSize {
+    fn from([rows, columns]: [usize; 2]) -> Self {
+        Self { rows, columns }
+    }
+}
+
+impl From<ImageSize> for [usize; 2] {
+    fn from(size: ImageSize) -> Self {
+        [size.rows, size.columns]
+    }
+}
+
+impl Image {
+    /// An image of that size, row by row from the top.
     ///
     /// # Errors
     /// [`ImageError`] names the first error.
-    pub fn new([rows, columns]: [usize; 2], pixels: Vec<f64>) -> Result<Self, ImageError> {
-        if !Self::is_size([rows, columns]) {
-            return Err(ImageError::Size { rows, columns, most: Self::MAX_SIDE });
+    pub fn new(size: ImageSize, pixels: Vec<f64>) -> Result<Self, ImageError> {
+        let ImageSize { rows, columns } = size;
+        if !size.is_valid() {
+            return Err(ImageError::Size { rows, columns, most: ImageSize::MAX_SIDE });
         }
-        if pixels.len() != rows * columns {
+        if pixels.len() != size.pixels() {
             return Err(ImageError::Pixels { found: pixels.len(), rows, columns });
         }
         match pixels.iter().position(|pixel| !(0.0..=1.0).contains(pixel)) {
@@ -38,18 +84,13 @@ impl Image {
                 let (row, column) = (at / columns + 1, at % columns + 1);
                 Err(ImageError::Range { row, column, found: pixels[at].to_string() })
             }
-            None => Ok(Self { rows, columns, pixels }),
+            None => Ok(Self { size, pixels }),
         }
     }
 
-    /// Whether images can have that many rows and columns.
-    pub fn is_size(size: [usize; 2]) -> bool {
-        size.iter().all(|side| (1..=Self::MAX_SIDE).contains(side))
-    }
-
-    /// The number of rows and of columns.
-    pub fn size(&self) -> [usize; 2] {
-        [self.rows, self.columns]
+    /// Its size.
+    pub fn size(&self) -> ImageSize {
+        self.size
     }
 
     /// All values in reading order.
@@ -70,11 +111,12 @@ impl Image {
             let share = move |pixel: usize| (pixel, to.min((pixel + 1) * of) - from.max(pixel * of));
             (from / of..to.div_ceil(of)).map(share)
         };
-        let area = self.rows * self.columns;
+        let ImageSize { rows, columns } = self.size;
+        let area = rows * columns;
         let mut sum = 0.0;
-        for (y, high) in parts(row, height, self.rows) {
-            for (x, wide) in parts(column, width, self.columns) {
-                let pixel = self.pixels[y * self.columns + x];
+        for (y, high) in parts(row, height, rows) {
+            for (x, wide) in parts(column, width, columns) {
+                let pixel = self.pixels[y * columns + x];
                 if high * wide == area {
                     return pixel;
                 }
@@ -85,8 +127,8 @@ impl Image {
     }
 
     /// The size and the bits of the values, which have a total order.
-    fn key(&self) -> ([usize; 2], impl Iterator<Item = u64>) {
-        (self.size(), self.pixels.iter().map(|pixel| pixel.to_bits()))
+    fn key(&self) -> (ImageSize, impl Iterator<Item = u64>) {
+        (self.size, self.pixels.iter().map(|pixel| pixel.to_bits()))
     }
 }
 
@@ -97,14 +139,14 @@ impl TryFrom<Vec<Vec<f64>>> for Image {
         let columns = rows.first().map_or(0, Vec::len);
         match rows.iter().position(|row| row.len() != columns) {
             Some(row) => Err(ImageError::Ragged { row: row + 1, found: rows[row].len(), expected: columns }),
-            None => Self::new([rows.len(), columns], rows.concat()),
+            None => Self::new(ImageSize::new(rows.len(), columns), rows.concat()),
         }
     }
 }
 
 impl From<Image> for Vec<Vec<f64>> {
     fn from(image: Image) -> Self {
-        image.pixels.chunks(image.columns).map(<[f64]>::to_vec).collect()
+        image.pixels.chunks(image.size.columns).map(<[f64]>::to_vec).collect()
     }
 }
 
@@ -148,7 +190,7 @@ mod tests {
     #[test]
     fn a_body_of_the_images_size_senses_its_pixels_to_the_bit() {
         let values: Vec<f64> = (0..49).map(|at| f64::from(at) / 48.0).collect();
-        let image = Image::new([7, 7], values.clone()).unwrap();
+        let image = Image::new(ImageSize::new(7, 7), values.clone()).unwrap();
         let sensed: Vec<f64> = (0..49).map(|at| image.over([at / 7, at % 7], [7, 7])).collect();
         assert!(sensed.iter().zip(&values).all(|(one, other)| one.to_bits() == other.to_bits()));
     }

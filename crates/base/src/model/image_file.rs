@@ -1,7 +1,7 @@
 //! Files of images: rows of numbers as CSV, portable graymaps, PNG, and the files of MNIST.
 
-use super::Image;
 use super::wording::ImageFileError;
+use super::{Image, ImageSize};
 
 /// An image, and what its file says that it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,8 @@ pub struct ImageFile<'a> {
     pub bytes: &'a [u8],
     /// The bytes of a file of labels beside it, if there is one.
     pub labels: Option<&'a [u8]>,
-    /// The rows and columns of each image.
-    pub size: [usize; 2],
+    /// The size of each image.
+    pub size: ImageSize,
     /// The number of the file that stands for 1; without it, the greatest that its format has.
     pub white: Option<f64>,
 }
@@ -65,10 +65,6 @@ impl ImageFile<'_> {
         Image::new(self.size, pixels).map_err(ImageFileError::Image)
     }
 
-    fn pixels(&self) -> usize {
-        self.size[0] * self.size[1]
-    }
-
     /// A line for each image: its pixels as numbers, or all of them as the bits of one number, then its label. The
     /// first line may name the columns. Text after `#` is a comment.
     fn csv(&self) -> Result<Vec<LabeledImage>, ImageFileError> {
@@ -88,7 +84,7 @@ impl ImageFile<'_> {
         mut cells: Vec<&str>,
         labels: Option<usize>,
     ) -> Result<LabeledImage, ImageFileError> {
-        let (found, pixels) = (cells.len(), self.pixels());
+        let (found, pixels) = (cells.len(), self.size.pixels());
         let are_bits = cells[0].starts_with("0x") || cells[0].starts_with("0b");
         let expected = if are_bits { 1 } else { pixels };
         let label = match found {
@@ -117,22 +113,22 @@ impl ImageFile<'_> {
         let mut head = || words.next().and_then(|word| std::str::from_utf8(word).ok()?.parse::<usize>().ok());
         let head = [head(), head(), head()];
         let [Some(columns), Some(rows), Some(greatest @ 1..=65535)] = head else { return Err(damaged("its head")) };
-        self.check_size([rows, columns])?;
+        self.check_size(ImageSize { rows, columns })?;
         let numbers: Vec<f64> = match kind {
             b"P2" => {
                 let number = |word: &[u8]| std::str::from_utf8(word).ok()?.parse::<u16>().ok().map(f64::from);
-                let numbers: Option<Vec<f64>> = words.by_ref().take(self.pixels()).map(number).collect();
+                let numbers: Option<Vec<f64>> = words.by_ref().take(self.size.pixels()).map(number).collect();
                 numbers.ok_or(damaged("a pixel"))?
             }
             b"P5" => {
                 let wide = if greatest > 255 { 2 } else { 1 };
                 // One blank ends the head.
-                let bytes = self.bytes.get(words.at + 1..).unwrap_or(&[]).chunks_exact(wide).take(self.pixels());
+                let bytes = self.bytes.get(words.at + 1..).unwrap_or(&[]).chunks_exact(wide).take(self.size.pixels());
                 bytes.map(|bytes| bytes.iter().fold(0.0, |sum, &byte| sum * 256.0 + f64::from(byte))).collect()
             }
             _ => return Err(damaged("its head")),
         };
-        if numbers.len() < self.pixels() {
+        if numbers.len() < self.size.pixels() {
             return Err(damaged("its pixels"));
         }
         Ok(LabeledImage { label: None, image: self.image(&numbers, self.white.unwrap_or(greatest as f64), None)? })
@@ -162,8 +158,8 @@ impl ImageFile<'_> {
         if !self.bytes.starts_with(&IDX_IMAGES) {
             return Err(damaged("its head"));
         }
-        self.check_size([rows, columns])?;
-        let pixels = self.bytes[IDX_HEADERS[0]..].chunks_exact(self.pixels());
+        self.check_size(ImageSize { rows, columns })?;
+        let pixels = self.bytes[IDX_HEADERS[0]..].chunks_exact(self.size.pixels());
         if pixels.len() != count {
             return Err(damaged("its pixels"));
         }
@@ -182,7 +178,7 @@ impl ImageFile<'_> {
         pixels.enumerate().map(image).collect()
     }
 
-    fn check_size(&self, found: [usize; 2]) -> Result<(), ImageFileError> {
+    fn check_size(&self, found: ImageSize) -> Result<(), ImageFileError> {
         if found == self.size { Ok(()) } else { Err(ImageFileError::Size { found, expected: self.size }) }
     }
 }
@@ -240,13 +236,13 @@ impl<'a> Iterator for Words<'a> {
 mod tests {
     use super::*;
 
-    fn read(name: &str, bytes: &[u8], size: [usize; 2], white: Option<f64>) -> Result<Vec<LabeledImage>, String> {
+    fn read(name: &str, bytes: &[u8], size: ImageSize, white: Option<f64>) -> Result<Vec<LabeledImage>, String> {
         ImageFile { name, bytes, labels: None, size, white }.read().map_err(|error| error.to_string())
     }
 
     /// The pixels of each image, and its label.
     fn check(name: &str, bytes: &[u8], white: Option<f64>, expected: &[(&[f64], Option<&str>)]) {
-        let found = read(name, bytes, [2, 2], white).unwrap();
+        let found = read(name, bytes, ImageSize::new(2, 2), white).unwrap();
         let found: Vec<(&[f64], Option<&str>)> =
             found.iter().map(|one| (one.image.pixels(), one.label.as_deref())).collect();
         assert_eq!(found, expected, "{name}");
@@ -284,7 +280,7 @@ mod tests {
             name: "train-images-idx3-ubyte",
             bytes: &file,
             labels: Some(&labels),
-            size: [2, 2],
+            size: ImageSize::new(2, 2),
             white: None,
         };
         let found = read.read().unwrap();
@@ -334,22 +330,25 @@ mod tests {
         let whole = png(ColorType::Grayscale, BitDepth::Eight, &[0, 255, 51, 0]);
         let read = |bytes: &[u8], size| read("a.png", bytes, size, None).map(|_| ());
         let size = "its images have 2 rows and 2 columns, expected 3 and 2";
-        assert_eq!(read(&whole, [3, 2]), Err(size.to_owned()));
+        assert_eq!(read(&whole, ImageSize::new(3, 2)), Err(size.to_owned()));
         let damaged = |what: &str| Err(format!("it is a damaged PNG file: {what} not complete"));
-        assert_eq!(read(&whole[..20], [2, 2]), damaged("its head is"));
-        assert_eq!(read(&whole[..45], [2, 2]), damaged("its pixels are"));
+        assert_eq!(read(&whole[..20], ImageSize::new(2, 2)), damaged("its head is"));
+        assert_eq!(read(&whole[..45], ImageSize::new(2, 2)), damaged("its pixels are"));
     }
 
     #[test]
     #[cfg(not(feature = "pictures"))]
     fn a_build_without_pictures_reads_no_png() {
-        assert_eq!(read("a.png", b"", [2, 2], None), Err("this program was built without PNG".to_owned()));
+        assert_eq!(
+            read("a.png", b"", ImageSize::new(2, 2), None),
+            Err("this program was built without PNG".to_owned())
+        );
     }
 
     #[test]
     fn what_is_wrong_with_a_file_is_named() {
         let check = |name: &str, bytes: &[u8], expected: &str| {
-            assert_eq!(read(name, bytes, [2, 2], None), Err(expected.to_owned()));
+            assert_eq!(read(name, bytes, ImageSize::new(2, 2), None), Err(expected.to_owned()));
         };
         check("a.txt", b"", "it has none of the formats of images");
         check("a.csv", b"# nothing\n", "it has no images");

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{Image, MaterialError, MaterialNumber, Pattern};
+use super::{ImageSize, MaterialError, MaterialNumber, Pattern};
 
 /// A declared material: a name and a response.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -45,9 +45,9 @@ pub struct Drive {
 pub struct Response {
     /// The stimulus it senses, counted from 0.
     pub stimulus: usize,
-    /// The rows and columns of the image it senses, if its stimulus is one. Its width is then between those for absent
+    /// The size of the image it senses, if its stimulus is one. Its width is then between those for absent
     /// and present, by the value of the image at its place.
-    pub image: Option<[usize; 2]>,
+    pub image: Option<ImageSize>,
     /// Width while the stimulus is absent, as a fraction of the rest width.
     pub absent: f64,
     /// Width while the stimulus is present, as a fraction of the rest width.
@@ -76,7 +76,7 @@ impl MaterialKind {
                 (2, period.into(), [phase, low, high].map(f64::to_bits))
             }
             Self::Sensor(Response { stimulus, image, absent, present }) => {
-                let image = image.map_or(0, |[rows, columns]| (rows as u64) << 32 | columns as u64);
+                let image = image.map_or(0, |size| (size.rows as u64) << 32 | size.columns as u64);
                 (3, stimulus as u64, [absent.to_bits(), present.to_bits(), image])
             }
         }
@@ -110,7 +110,7 @@ struct Record {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     stimulus: Option<usize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    image: Option<[usize; 2]>,
+    image: Option<ImageSize>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     absent: Option<f64>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -226,8 +226,8 @@ impl Record {
         if let Some(stimulus) = self.stimulus.filter(|stimulus| !(1..=Pattern::MAX_STIMULI).contains(stimulus)) {
             return bad("stimulus", stimulus.to_string(), MaterialNumber::Stimulus { most: Pattern::MAX_STIMULI });
         }
-        if let Some([rows, columns]) = self.image.filter(|&size| !Image::is_size(size)) {
-            return bad("image", format!("[{rows}, {columns}]"), MaterialNumber::Image { most: Image::MAX_SIDE });
+        if let Some(ImageSize { rows, columns }) = self.image.filter(|size| !size.is_valid()) {
+            return bad("image", format!("[{rows}, {columns}]"), MaterialNumber::Image { most: ImageSize::MAX_SIDE });
         }
         for (field, width) in [("absent", self.absent), ("present", self.present)] {
             if let Some(width) = width.filter(|width| !is_width(*width)) {

@@ -48,7 +48,7 @@ pub use evolution::{
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use ground::{GroundProfile, GroundShape};
-pub use image::Image;
+pub use image::{Image, ImageSize};
 pub use image_file::{ImageFile, LabeledImage};
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use objective::SearchObjective;

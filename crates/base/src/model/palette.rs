@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Function, Material, MaterialKind, PaletteError, Response};
+use super::{Drive, Function, ImageSize, Material, MaterialKind, PaletteError, Response};
 
 /// The materials of a body: code 0 is empty, code `k` is the `k`-th material.
 ///
@@ -80,8 +80,8 @@ impl Palette {
         sensed.fold(2, usize::max)
     }
 
-    /// The rows and columns of the images that bodies of these materials sense; none if they sense no image.
-    pub fn image(&self) -> Option<[usize; 2]> {
+    /// The size of the images that bodies of these materials sense; none if they sense no image.
+    pub fn image(&self) -> Option<ImageSize> {
         self.materials.iter().find_map(|material| match material.kind {
             MaterialKind::Sensor(response) => response.image,
             _ => None,

@@ -4,6 +4,7 @@ use std::io::Cursor;
 
 use png::{BitDepth, ColorType, Decoder, Transformations};
 
+use super::ImageSize;
 use super::wording::ImageFileError;
 
 /// The weights of red, green and blue in gray, in thousandths (ITU-R BT.601).
@@ -11,14 +12,14 @@ const WEIGHTS: [u32; 3] = [299, 587, 114];
 
 /// The gray values of a picture of that size, row by row from the top, and the greatest value that its format has.
 /// Palettes and fewer than eight bits are expanded to eight bits. Transparent pixels are black.
-pub(super) fn gray(bytes: &[u8], size: [usize; 2]) -> Result<(Vec<f64>, f64), ImageFileError> {
+pub(super) fn gray(bytes: &[u8], size: ImageSize) -> Result<(Vec<f64>, f64), ImageFileError> {
     let damaged = |what| ImageFileError::Damaged { format: "PNG", what };
     let mut decoder = Decoder::new(Cursor::new(bytes));
     decoder.set_transformations(Transformations::EXPAND);
     let mut reader = decoder.read_info().map_err(|_| damaged("its head"))?;
     // The size limits what the pixels take in memory.
     let (columns, rows) = reader.info().size();
-    let found = [rows as usize, columns as usize];
+    let found = ImageSize::new(rows as usize, columns as usize);
     if found != size {
         return Err(ImageFileError::Size { found, expected: size });
     }

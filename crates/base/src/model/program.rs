@@ -4,8 +4,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::{
-    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Image, Instance, Material,
-    NamedWorld, Pattern, Schedule, Spell,
+    Base, Behavior, Circuit, CircuitId, CircuitTest, Claim, Column, Enumeration, Evolution, Image, ImageSize, Instance,
+    Material, NamedWorld, Pattern, Schedule, Spell,
 };
 use crate::source::Span;
 
@@ -14,8 +14,8 @@ use crate::source::Span;
 pub struct Program {
     /// The stimuli, in the order that numbers them.
     pub stimuli: Vec<String>,
-    /// The rows and columns of those stimuli that are images, by their numbers.
-    pub image_sizes: BTreeMap<usize, [usize; 2]>,
+    /// The sizes of those stimuli that are images, by their numbers.
+    pub image_sizes: BTreeMap<usize, ImageSize>,
     /// The sets of images.
     pub images: Vec<NamedImages>,
     /// The materials, in the order of their numbers in bodies.

@@ -5,6 +5,8 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
+use super::ImageSize;
+
 /// The reason why rows of text are not a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BodyError {
@@ -246,10 +248,10 @@ pub enum ImageFileError {
     },
     /// Images of another size.
     Size {
-        /// Their rows and columns.
-        found: [usize; 2],
-        /// Those of the stimulus.
-        expected: [usize; 2],
+        /// Theirs.
+        found: ImageSize,
+        /// That of the stimulus.
+        expected: ImageSize,
     },
     /// A file that ends too early, or does not begin as its format does.
     Damaged {
@@ -277,7 +279,8 @@ impl fmt::Display for ImageFileError {
                 let place = line.map_or(String::new(), |line| format!("line {line}: "));
                 write!(f, "{place}the pixel is {found}, expected 0 to {white}")
             }
-            Self::Size { found: [rows, columns], expected: [high, wide] } => {
+            Self::Size { found: ImageSize { rows, columns }, expected } => {
+                let (high, wide) = (expected.rows, expected.columns);
                 write!(f, "its images have {rows} rows and {columns} columns, expected {high} and {wide}")
             }
             Self::Damaged { format, what } => {

@@ -7,6 +7,7 @@ use batsat::{BasicSolver, Lit, SolverInterface, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
+use crate::clause::{Clause, Literal};
 use crate::network::{Gate, Network, Signal, word};
 use crate::proof::method::Method;
 use crate::proof::patterns::random_word;
@@ -40,7 +41,7 @@ pub struct Comparison {
 
 impl Comparison {
     /// A comparison with this network where all clauses hold: of each, an input has the given value.
-    pub fn within(network: &Network, clauses: &[Vec<(usize, bool)>]) -> Self {
+    pub fn within(network: &Network, clauses: &[Clause]) -> Self {
         let mut sweep = SatSweep::new(network.inputs);
         clauses.iter().for_each(|clause| sweep.assume(clause));
         let signals = sweep.add(network);
@@ -128,7 +129,7 @@ impl SatSweep {
     }
 
     /// Requires that one of these inputs has the given value. Signals that are merged later are equal only then.
-    pub fn assume(&mut self, clause: &[(usize, bool)]) {
+    pub fn assume(&mut self, clause: &[Literal]) {
         let clause: Vec<_> = clause.iter().map(|&(input, value)| (input as Signal + 2, value)).collect();
         self.cones.clause(&clause);
         self.assumed.push(clause);

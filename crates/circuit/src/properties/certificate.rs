@@ -6,6 +6,7 @@ use std::collections::BTreeSet;
 use batsat::{BasicSolver, Lit, SolverInterface, lbool};
 
 use crate::and_graph::AndLiteral;
+use crate::clause::{Clause, Literal};
 use crate::properties::system::TransitionSystem;
 
 /// Why a property holds in every step.
@@ -22,7 +23,7 @@ pub enum InductiveProof {
     /// An invariant: in every step, a register of each clause has the given value.
     Invariant {
         /// The clauses.
-        clauses: Vec<Vec<(usize, bool)>>,
+        clauses: Vec<Clause>,
         /// Other properties that hold in every step, and without which the clauses might not.
         given: BTreeSet<usize>,
     },
@@ -41,9 +42,8 @@ impl InductiveProof {
                     && holds_after(system, &required, *steps)
             }
             Self::Invariant { clauses, given } => {
-                let starts = |clause: &Vec<(usize, bool)>| {
-                    clause.iter().any(|&(at, value)| system.registers[at].start == Some(value))
-                };
+                let starts =
+                    |clause: &Clause| clause.iter().any(|&(at, value)| system.registers[at].start == Some(value));
                 !given.contains(&property) && clauses.iter().all(starts) && is_kept(system, property, clauses, given)
             }
         }
@@ -83,21 +83,16 @@ fn holds_after(system: &TransitionSystem, required: &[AndLiteral], steps: usize)
 }
 
 /// Whether clauses that hold in a step hold in the next one, and exclude a violation.
-fn is_kept(
-    system: &TransitionSystem,
-    property: usize,
-    clauses: &[Vec<(usize, bool)>],
-    given: &BTreeSet<usize>,
-) -> bool {
+fn is_kept(system: &TransitionSystem, property: usize, clauses: &[Clause], given: &BTreeSet<usize>) -> bool {
     let mut written = Written::default();
     written.steps(system, 2);
     written.constrain(system, 0);
     given.iter().for_each(|&other| written.require(0, system.bad[other] ^ 1));
-    let literals = |clause: &[(usize, bool)]| -> Vec<AndLiteral> {
+    let literals = |clause: &[Literal]| -> Vec<AndLiteral> {
         clause.iter().map(|&(at, value)| system.register(at) ^ usize::from(!value)).collect()
     };
     clauses.iter().for_each(|clause| written.clause(0, &literals(clause)));
-    let is_violated = |written: &mut Written, clause: &Vec<(usize, bool)>| {
+    let is_violated = |written: &mut Written, clause: &Clause| {
         let opposite: Vec<Lit> = literals(clause).into_iter().map(|literal| !written.literal(1, literal)).collect();
         written.can(&opposite)
     };

@@ -10,11 +10,9 @@ use std::collections::BTreeSet;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
+use crate::clause::{Clause, Literal};
 use crate::proof::SatSweep;
 use crate::reachable::cycle::{Cycle, filled};
-
-/// One of these registers has this value.
-pub(super) type Clause = Vec<(usize, bool)>;
 
 /// Cycles of the simulation, of 64 runs at a time.
 const CYCLES: usize = 256;
@@ -89,7 +87,7 @@ fn candidates(histories: &[Vec<u64>]) -> Vec<Clause> {
     if registers > MOST_REGISTERS {
         return Vec::new();
     }
-    let literal = |(at, value): (usize, bool), cycle: usize| histories[at][cycle] ^ filled(!value);
+    let literal = |(at, value): Literal, cycle: usize| histories[at][cycle] ^ filled(!value);
     let holds =
         |clause: &Clause| (0..CYCLES).all(|cycle| clause.iter().fold(0, |any, &one| any | literal(one, cycle)) == !0);
     let exclusive = |a: usize, b: usize| holds(&vec![(a, false), (b, false)]);

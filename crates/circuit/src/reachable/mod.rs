@@ -8,12 +8,13 @@ mod invariant;
 mod why;
 
 use crate::cells::CellLibrary;
+use crate::clause::Clause;
 use crate::formats::{Design, Forcing, RegisterKind};
 use crate::network::{Network, Signal, View};
 use crate::options::MapOptions;
 use crate::proof::Comparison;
 use crate::reachable::cycle::Cycle;
-use crate::reachable::invariant::{Clause, Invariant};
+use crate::reachable::invariant::Invariant;
 use crate::synth::{CareSet, reduce_within};
 use crate::{NetId, Netlist};
 pub use why::WhyEveryState;

@@ -1,10 +1,12 @@
 //! The patterns in which a network must be right, if not in all.
 
+use crate::clause::Clause;
+
 /// Conditions on the inputs of a network: only where all hold does it matter what the network computes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct CareSet {
     /// Of each clause, an input has the given value.
-    pub clauses: Vec<Vec<(usize, bool)>>,
+    pub clauses: Vec<Clause>,
     /// Words of 64 patterns that fulfill the conditions, `words[input][word]`.
     pub words: Vec<Vec<u64>>,
 }

@@ -11,7 +11,7 @@ use crate::check::wording::{Expected, ImagesError, ValueError};
 use crate::check::world::ProgramFiles;
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::{ImageFile, LabeledImage, NamedImages};
+use nbc_base::model::{ImageFile, ImageSize, LabeledImage, NamedImages};
 use nbc_base::source::{FileError, Span};
 
 /// The most images of a set.
@@ -21,12 +21,12 @@ const MOST_IMAGES: u32 = 100_000;
 #[derive(Clone, Copy)]
 pub(crate) struct Stimuli<'a> {
     pub(crate) names: &'a NameTable,
-    pub(crate) image_sizes: &'a BTreeMap<usize, [usize; 2]>,
+    pub(crate) image_sizes: &'a BTreeMap<usize, ImageSize>,
 }
 
 impl Stimuli<'_> {
     /// The number of a stimulus, and its rows and columns if it is an image.
-    pub(crate) fn resolve(self, name: &NameSyntax, home: Home) -> Result<(usize, Option<[usize; 2]>), Diagnostic> {
+    pub(crate) fn resolve(self, name: &NameSyntax, home: Home) -> Result<(usize, Option<ImageSize>), Diagnostic> {
         let stimulus = self.names.resolve(name, home)?;
         Ok((stimulus, self.image_sizes.get(&stimulus).copied()))
     }
@@ -86,7 +86,7 @@ pub(crate) fn images(
 fn read(
     path: &str,
     span: Span,
-    (size, white): ([usize; 2], Option<f64>),
+    (size, white): (ImageSize, Option<f64>),
     files: ProgramFiles<'_>,
 ) -> Result<Vec<LabeledImage>, Diagnostic> {
     let name = beside(&files.sources.file(span.file).name, path);

@@ -131,6 +131,13 @@ impl<T: Copy> NameTable<T> {
     }
 }
 
+/// A member's enumeration in the program, and its position there.
+#[derive(Clone, Copy)]
+pub(crate) struct MemberPlace {
+    pub(crate) enumeration: usize,
+    pub(crate) member: usize,
+}
+
 /// The names of all declarations. A material, set of images, schedule or swarm with errors has a name, but no position
 /// in the program.
 pub(crate) struct Names {
@@ -143,9 +150,9 @@ pub(crate) struct Names {
     /// Nothing refers to a library but by its name.
     pub(crate) libraries: NameTable<()>,
     pub(crate) circuits: NameTable,
-    /// With positions in the program, and those of their members.
+    /// With positions in the program.
     pub(crate) enumerations: NameTable,
-    pub(crate) members: NameTable<(usize, usize)>,
+    pub(crate) members: NameTable<MemberPlace>,
     /// With their values.
     pub(crate) integers: NameTable<i64>,
     pub(crate) files: NameTable,

@@ -1,6 +1,6 @@
 //! What the bodies of circuits can name beside nets and parameters.
 
-use crate::check::names::{Home, NameTable, Names};
+use crate::check::names::{Home, MemberPlace, NameTable, Names};
 use crate::check::wording::ValueError;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Enumeration, EnumerationMember, Program};
@@ -13,7 +13,7 @@ pub(crate) struct Vocabulary<'a> {
     /// Enumerations by their position in the program.
     pub(crate) enumerations: &'a NameTable,
     /// Members by the positions of their enumeration and of themselves.
-    pub(crate) members: &'a NameTable<(usize, usize)>,
+    pub(crate) members: &'a NameTable<MemberPlace>,
     pub(crate) integers: &'a NameTable<i64>,
     /// Files by their position in the program.
     pub(crate) files: &'a NameTable,
@@ -36,7 +36,7 @@ impl<'a> Vocabulary<'a> {
 
     /// The enumeration and the value of a member.
     pub(crate) fn member(&self, name: &str, home: Home) -> Option<(usize, &EnumerationMember)> {
-        let (enumeration, member) = self.members.find(name, home)?;
+        let MemberPlace { enumeration, member } = self.members.find(name, home)?;
         Some((enumeration, &self.all[enumeration].members[member]))
     }
 

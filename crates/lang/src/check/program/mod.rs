@@ -15,7 +15,7 @@ use crate::check::images::{Stimuli, images};
 use crate::check::library::library;
 use crate::check::load::{Loaded, beside};
 use crate::check::material::material;
-use crate::check::names::{Home, Names};
+use crate::check::names::{Home, MemberPlace, Names};
 use crate::check::recursion;
 use crate::check::schedule::{DeclaredImages, schedule};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
@@ -27,7 +27,7 @@ use crate::syntax::tree::{self, DeclarationKind, NameSyntax, Number, RecordKeywo
 use nbc_base::budget::WorkBudget;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
-    CircuitId, Column, Evolution, Image, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern, Program,
+    CircuitId, Column, Evolution, ImageSize, Instance, LibrarySource, NamedFile, NamedWorld, Origin, Pattern, Program,
     SearchObjective, Stimulation,
 };
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
@@ -59,14 +59,14 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
 }
 
 /// The rows and columns of an image.
-fn image_size(sides: &[Number; 2]) -> Result<[usize; 2], Diagnostic> {
-    let most = Image::MAX_SIDE;
-    let mut size = [0; 2];
-    for (side, number) in size.iter_mut().zip(sides) {
+fn image_size(sides: &[Number; 2]) -> Result<ImageSize, Diagnostic> {
+    let most = ImageSize::MAX_SIDE;
+    let side = |number: &Number| {
         let found = number.text.parse::<usize>().ok().filter(|found| (1..=most).contains(found));
-        *side = found.ok_or_else(|| ImagesError::Size { most }.at(number.span))?;
-    }
-    Ok(size)
+        found.ok_or_else(|| ImagesError::Size { most }.at(number.span))
+    };
+    let [rows, columns] = sides;
+    Ok(ImageSize::new(side(rows)?, side(columns)?))
 }
 
 /// A program under construction.
@@ -298,11 +298,11 @@ impl<'a> Assembly<'a> {
 
     fn enumeration(&mut self, source: &tree::EnumerationSyntax, home: Home) {
         let Some(checked) = enumeration::enumeration(source, &mut self.faults) else { return };
-        let place = self.program.enumerations.len();
-        let declared = self.names.enumerations.declare(&source.name, place, home);
+        let enumeration = self.program.enumerations.len();
+        let declared = self.names.enumerations.declare(&source.name, enumeration, home);
         self.note(declared);
-        for (at, member) in source.members.iter().enumerate() {
-            let declared = self.names.members.declare(&member.name, (place, at), home);
+        for (member, source) in source.members.iter().enumerate() {
+            let declared = self.names.members.declare(&source.name, MemberPlace { enumeration, member }, home);
             self.note(declared);
         }
         self.program.enumerations.push(checked);

@@ -243,7 +243,8 @@ mod tests {
     use crate::scene::SceneObject;
     use crate::signal::Signals;
     use nbc_base::model::{
-        Body, GroundProfile, Image, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting, Spell, Trial,
+        Body, GroundProfile, Image, ImageSize, Material, MaterialKind, Palette, Pattern, Response, Schedule, Setting,
+        Spell, Trial,
     };
     use std::sync::Arc;
 
@@ -353,7 +354,7 @@ mod tests {
     fn seeing() -> Arc<Palette> {
         let mut materials = Palette::paper().materials().to_vec();
         let sensor = |name: &str, absent, present| {
-            let response = Response { image: Some([3, 3]), ..Response::of(0, absent, present) };
+            let response = Response { image: Some(ImageSize::new(3, 3)), ..Response::of(0, absent, present) };
             Material { name: name.to_owned(), kind: MaterialKind::Sensor(response) }
         };
         materials.extend([sensor("dark", 1.6, 0.6), sensor("light", 0.6, 1.6)]);
@@ -364,7 +365,7 @@ mod tests {
     fn a_robot_that_sees_is_one_with_a_target_for_each_voxel() {
         let image = |turn: usize| {
             let pixels = (0..9).map(|at| ((at * 5 + turn) % 9) as f64 / 8.0).collect();
-            Some(Arc::new(Image::new([3, 3], pixels).unwrap()))
+            Some(Arc::new(Image::new(ImageSize::new(3, 3), pixels).unwrap()))
         };
         let spells = [0, 4].map(|turn| Spell { image: image(turn), ..Spell::of(Pattern::PAIRS[3], 30) });
         let body = Body::parse(&["a49", "3a4", "393"], &seeing()).unwrap();
