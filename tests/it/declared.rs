@@ -15,7 +15,7 @@ use nbc_swarm::evolve_generation;
 use crate::support::bench::SHORT;
 
 /// Generations within which a change has an effect.
-const GENERATIONS: u32 = 4;
+const GENERATIONS: u32 = 6;
 
 const DECLARATIONS: &str = "
 schedule other(s1, s2) {
@@ -29,7 +29,7 @@ evolution base {
     box:         3 x 3
     variable:    short
     fixed:       1 cycles
-    batch:       5
+    batch:       3
     newcomers:   1
     generations: 9
     seed:        3
@@ -91,7 +91,7 @@ fn changes() -> Vec<Change> {
             run.descriptors = vec![count(Count::Active, 3), Axis::Behavior, count(Count::Sensory, 2)];
         }),
         ("batch: 4", |run| run.batch = 4),
-        ("newcomers: 3", |run| run.newcomers = 3),
+        ("newcomers: 2", |run| run.newcomers = 2),
         ("seed: 8", |run| run.seeds = vec![8]),
         ("as: code", |run| run.rules = Rules::CODE),
         ("as: sigmoid", |run| run.rules = Matter::Sigmoid.into()),
@@ -122,7 +122,7 @@ fn changes() -> Vec<Change> {
 #[test]
 fn each_field_is_read_and_nothing_else_changes() {
     let base = declared("");
-    assert_eq!((base.width, base.height, base.batch, base.newcomers, base.fixed_steps), (3, 3, 5, 1, 84));
+    assert_eq!((base.width, base.height, base.batch, base.newcomers, base.fixed_steps), (3, 3, 3, 1, 84));
     assert_eq!((base.rules, base.niche), (Rules::PAPER, Niche::Dominance), "the paper's are the usual ones");
     let seeds: Change = ("seed: [5, 2, 9]", |run| run.seeds = vec![5, 2, 9]);
     let range: Change = ("seed: 4..6", |run| run.seeds = vec![4, 5, 6]);

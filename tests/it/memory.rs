@@ -187,7 +187,7 @@ pub fn libraries() -> [CellLibrary; 3] {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 64, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn registers_and_latches_work_with_any_data_and_delays(elements in elements(), seed: u64) {

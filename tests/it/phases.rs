@@ -104,7 +104,7 @@ fn works_at_the_least_times(elements: &[Element], netlist: &Netlist, random: &mu
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 32, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 16, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn rows_settle_within_the_static_hold_and_registers_work_at_the_least_times(elements in elements(), seed: u64) {

@@ -107,7 +107,7 @@ fn small_texts_that_would_make_much_are_refused_and_the_page_goes_on() {
 fn work_is_limited_and_can_be_stopped() {
     let (_folder, server) = served();
     let mut page = server.page();
-    let evolve = json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
+    let evolve = json!({ "do": "evolve", "body": null, "box": [3, 2], "generations": 1000, "seed": 1 });
     let running: Vec<u64> = (0..4).map(|_| page.begin(evolve.clone())).collect();
     let refused = page.ask(evolve).unwrap_err();
     assert_eq!(refused["code"], "busy");

@@ -233,11 +233,10 @@ fn a_page_that_does_not_read_does_not_hold_up_its_swarm() {
     page.compile("latch.nb", LATCH);
     let id = page.begin(json!({ "do": "run", "speed": null }));
     page.wait(id).unwrap();
-    // Nothing is read meanwhile: requests are sent, and answered into the buffers.
-    let last = (0..1500).map(|_| page.begin(json!({ "do": "files" }))).last().unwrap();
+    // Nothing is read meanwhile: requests are sent, and their answers are more than the buffers hold.
+    let last = (0..100).map(|_| page.begin(json!({ "do": "robots", "path": null }))).last().unwrap();
+    page.frame(|frame| frame.now >= 40);
     page.wait(last).unwrap();
-    let cycles = page.frame(|frame| frame.now >= 40).now;
-    assert!(cycles >= 40);
 }
 
 #[test]
