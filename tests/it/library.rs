@@ -6,7 +6,7 @@ use nbc_sim::Simulator;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-const SWITCHES: usize = 25;
+const SWITCHES: usize = 15;
 /// Cycles by which a hold may exceed the clock.
 const SLACK: u32 = 3;
 

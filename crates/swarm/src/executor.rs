@@ -100,7 +100,7 @@ mod tests {
         let evolution = Evolution { objective, ..crate::evolve::tests::evolution() };
         let (search, protocol) = (Search::new(&evolution, 3), Arc::new(EvaluationProtocol::of(&evolution)));
         let task = |candidate| Task::Evaluation(Arc::clone(&protocol), EvaluationTask::of(&search, candidate));
-        search.ask().iter().take(3).map(task).collect()
+        search.ask().iter().take(2).map(task).collect()
     }
 
     #[test]

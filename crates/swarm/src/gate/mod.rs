@@ -272,7 +272,7 @@ mod tests {
             rivals: Rivals::none(2),
             expected: None,
         };
-        let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(4).map(task).collect();
+        let tasks: Vec<EvaluationTask> = Search::new(&evolution, 5).ask().iter().take(3).map(task).collect();
         let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
         let scores = |behaviors: &[Behavior]| {
             let protocol = EvaluationProtocol { behaviors: behaviors.to_vec(), ..EvaluationProtocol::of(&evolution) };
