@@ -1,7 +1,7 @@
 //! Conditions on inputs or registers.
 
 /// An input or a register, by its index, with a value.
-pub type Literal = (usize, bool);
+pub type ValuedBit = (usize, bool);
 
 /// At least one of these has its value.
-pub type Clause = Vec<Literal>;
+pub type Clause = Vec<ValuedBit>;

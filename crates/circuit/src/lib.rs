@@ -45,7 +45,7 @@ mod wording;
 
 pub use blocks::{BlockId, Blocks, keeps_state};
 pub use cells::{CellKind, CellLibrary};
-pub use clause::{Clause, Literal};
+pub use clause::{Clause, ValuedBit};
 pub use delayed::Delayed;
 pub use elaborate::{
     Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, elaborate_watched,

@@ -2,7 +2,7 @@
 //! changes.
 
 use crate::Oscillation;
-use crate::clause::Literal;
+use crate::clause::ValuedBit;
 use crate::netlist::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
@@ -60,7 +60,7 @@ impl Logic {
     }
 
     /// Lets the cells without a start value settle while the others are held.
-    fn begin(&mut self, held: &[Literal]) {
+    fn begin(&mut self, held: &[ValuedBit]) {
         for _ in 0..self.cells.len() + 2 {
             for &(slot, start) in held {
                 self.values[slot] = start;

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use nbc_base::diag::counted;
 use nbc_circuit::properties::{InductiveProof, PropertyVerdict, TransitionSystem};
-use nbc_circuit::{Clause, Literal};
+use nbc_circuit::{Clause, ValuedBit};
 
 /// A property and what is known of it.
 #[derive(Clone, Debug, Serialize)]
@@ -62,7 +62,7 @@ impl PropertyReport {
             }
             PropertyVerdict::Proved(InductiveProof::Invariant { clauses, given }) => {
                 let clause = |clause: &Clause| {
-                    let literal = |&(at, value): &Literal| {
+                    let literal = |&(at, value): &ValuedBit| {
                         let name = &system.registers[at].name;
                         if value { name.clone() } else { format!("not {name}") }
                     };

@@ -14,6 +14,7 @@ mod ground;
 mod ground_file;
 mod image;
 mod image_file;
+mod image_size;
 mod material;
 mod objective;
 mod palette;
@@ -48,8 +49,9 @@ pub use evolution::{
 pub use function::Function;
 pub use genotype::{Activation, Genotype, Link, NodeId, NodeKind};
 pub use ground::{GroundProfile, GroundShape};
-pub use image::{Image, ImageSize};
+pub use image::Image;
 pub use image_file::{ImageFile, LabeledImage};
+pub use image_size::ImageSize;
 pub use material::{Drive, Material, MaterialKind, Response};
 pub use objective::SearchObjective;
 pub use palette::Palette;

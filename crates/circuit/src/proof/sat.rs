@@ -7,7 +7,7 @@ use batsat::{BasicSolver, Lit, SolverInterface, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::clause::{Clause, Literal};
+use crate::clause::{Clause, ValuedBit};
 use crate::network::{Gate, Network, Signal, word};
 use crate::proof::method::Method;
 use crate::proof::patterns::random_word;
@@ -129,7 +129,7 @@ impl SatSweep {
     }
 
     /// Requires that one of these inputs has the given value. Signals that are merged later are equal only then.
-    pub fn assume(&mut self, clause: &[Literal]) {
+    pub fn assume(&mut self, clause: &[ValuedBit]) {
         let clause: Vec<_> = clause.iter().map(|&(input, value)| (input as Signal + 2, value)).collect();
         self.cones.clause(&clause);
         self.assumed.push(clause);

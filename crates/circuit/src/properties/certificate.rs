@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 use batsat::{BasicSolver, Lit, SolverInterface, lbool};
 
 use crate::and_graph::AndLiteral;
-use crate::clause::{Clause, Literal};
+use crate::clause::{Clause, ValuedBit};
 use crate::properties::system::TransitionSystem;
 
 /// Why a property holds in every step.
@@ -88,7 +88,7 @@ fn is_kept(system: &TransitionSystem, property: usize, clauses: &[Clause], given
     written.steps(system, 2);
     written.constrain(system, 0);
     given.iter().for_each(|&other| written.require(0, system.bad[other] ^ 1));
-    let literals = |clause: &[Literal]| -> Vec<AndLiteral> {
+    let literals = |clause: &[ValuedBit]| -> Vec<AndLiteral> {
         clause.iter().map(|&(at, value)| system.register(at) ^ usize::from(!value)).collect()
     };
     clauses.iter().for_each(|clause| written.clause(0, &literals(clause)));

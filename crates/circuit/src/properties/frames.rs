@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use batsat::Lit;
 
-use crate::clause::Literal;
+use crate::clause::ValuedBit;
 use crate::properties::cubes::{Cube, contains, excludes_start};
 use crate::properties::solver::Solved;
 use crate::properties::system::{SystemRun, TransitionSystem};
@@ -274,7 +274,7 @@ impl Frames {
 
     /// Whether a state outside of the cube in the set of so many steps leads into the cube. `is_new` says that the set
     /// contains states of the cube.
-    fn reaches(&mut self, system: &TransitionSystem, frame: usize, cube: &[Literal], is_new: bool) -> Reached {
+    fn reaches(&mut self, system: &TransitionSystem, frame: usize, cube: &[ValuedBit], is_new: bool) -> Reached {
         let mut assumed = self.active[frame..].to_vec();
         assumed.push(self.constrained);
         let mut outside = None;
@@ -297,7 +297,7 @@ impl Frames {
                 let needed = cube.iter().zip(&nexts).filter(|(_, next)| self.step.solver.is_needed(**next));
                 let mut smaller: Cube = needed.map(|(&literal, _)| literal).collect();
                 if !excludes_start(system, &smaller) {
-                    let differs = |&&(at, value): &&Literal| system.registers[at].start == Some(!value);
+                    let differs = |&&(at, value): &&ValuedBit| system.registers[at].start == Some(!value);
                     smaller.extend(cube.iter().find(differs));
                     smaller.sort_unstable();
                 }
@@ -356,14 +356,14 @@ impl Frames {
         self.cubes[frame].push(cube);
     }
 
-    fn leave_out(&mut self, system: &TransitionSystem, frame: usize, cube: &[Literal]) {
+    fn leave_out(&mut self, system: &TransitionSystem, frame: usize, cube: &[ValuedBit]) {
         let mut clause = vec![!self.active[frame]];
         clause.extend(self.outside(system, cube));
         self.step.solver.clause(&clause);
     }
 
     /// The clause of all states that are not in a cube.
-    fn outside(&mut self, system: &TransitionSystem, cube: &[Literal]) -> Vec<Lit> {
+    fn outside(&mut self, system: &TransitionSystem, cube: &[ValuedBit]) -> Vec<Lit> {
         cube.iter().map(|&(at, value)| !self.step.literal(system, 0, register_of(system, at, value))).collect()
     }
 

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::clause::Literal;
+use crate::clause::ValuedBit;
 use crate::properties::cubes::Cube;
 use crate::properties::solver::Solved;
 use crate::properties::system::TransitionSystem;
@@ -46,7 +46,7 @@ pub(super) fn needed(
         let used: Vec<usize> = (0..cubes.len()).filter(|&at| step.solver.is_needed(active[at])).collect();
         for at in used {
             if kept.insert(at) {
-                let next = |&(at, value): &Literal| system.registers[at].next ^ usize::from(!value);
+                let next = |&(at, value): &ValuedBit| system.registers[at].next ^ usize::from(!value);
                 open.push(cubes[at].iter().map(|one| step.literal(system, 0, next(one))).collect());
             }
         }

@@ -7,7 +7,7 @@ use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::and_graph::AndLiteral;
-use crate::clause::Literal;
+use crate::clause::ValuedBit;
 use crate::properties::cubes::{Cube, excludes_start};
 use crate::properties::solver::Solved;
 use crate::properties::system::TransitionSystem;
@@ -53,7 +53,7 @@ fn retain_kept(system: &TransitionSystem, cubes: &mut Vec<Cube>, work: &mut u64,
     system.constraints.iter().for_each(|&constraint| step.require(system, 0, constraint));
     let mut entered = Vec::new();
     for cube in &*cubes {
-        let outside = |&(at, value): &Literal| step.literal(system, 0, system.register(at) ^ usize::from(value));
+        let outside = |&(at, value): &ValuedBit| step.literal(system, 0, system.register(at) ^ usize::from(value));
         let outside: Vec<_> = cube.iter().map(outside).collect();
         step.solver.clause(&outside);
         let this = step.solver.fresh();
@@ -126,7 +126,7 @@ impl History {
     /// many.
     fn candidates(&self, system: &TransitionSystem) -> Vec<Cube> {
         let registers =
-            |cube: &[Literal]| -> Cube { cube.iter().map(|&(place, value)| (self.relevant[place], value)).collect() };
+            |cube: &[ValuedBit]| -> Cube { cube.iter().map(|&(place, value)| (self.relevant[place], value)).collect() };
         let mut cubes: Vec<Cube> = Vec::new();
         let mut varying = Vec::new();
         for place in 0..self.relevant.len() {
@@ -151,7 +151,7 @@ impl History {
     }
 
     /// Whether no run was in a cube, whose registers are places in the list.
-    fn is_never(&self, cube: &[Literal]) -> bool {
+    fn is_never(&self, cube: &[ValuedBit]) -> bool {
         self.counts.iter().enumerate().all(|(at, &counts)| {
             cube.iter().fold(counts, |all, &(place, value)| all & (self.values[place][at] ^ everywhere(!value))) == 0
         })

@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::clause::{Clause, Literal};
+use crate::clause::{Clause, ValuedBit};
 use crate::proof::SatSweep;
 use crate::reachable::cycle::{Cycle, filled};
 
@@ -87,7 +87,7 @@ fn candidates(histories: &[Vec<u64>]) -> Vec<Clause> {
     if registers > MOST_REGISTERS {
         return Vec::new();
     }
-    let literal = |(at, value): Literal, cycle: usize| histories[at][cycle] ^ filled(!value);
+    let literal = |(at, value): ValuedBit, cycle: usize| histories[at][cycle] ^ filled(!value);
     let holds =
         |clause: &Clause| (0..CYCLES).all(|cycle| clause.iter().fold(0, |any, &one| any | literal(one, cycle)) == !0);
     let exclusive = |a: usize, b: usize| holds(&vec![(a, false), (b, false)]);
