@@ -345,7 +345,8 @@ fn what_library_add_has_measured_is_kept_when_it_is_stopped() {
     let add = ["library", "add", "left.yaml", "right.yaml", "other.yaml", "--into", "robots"];
     // One after the other, so that the last is left.
     let mut command = bench.command(&add);
-    let child = command.env("RAYON_NUM_THREADS", "1").stderr(std::process::Stdio::piped()).spawn().unwrap();
+    let command = command.env("RAYON_NUM_THREADS", "1").stdout(std::process::Stdio::null());
+    let child = command.stderr(std::process::Stdio::piped()).spawn().unwrap();
     let kept = bench.path().join("robots/measured.jsonl");
     until("nothing is measured", || fs::read_to_string(&kept).is_ok_and(|text| text.ends_with('\n')));
     signal("INT", child.id());

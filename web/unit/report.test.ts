@@ -4,7 +4,7 @@ import { test } from "node:test";
 import { pathTo } from "../src/live/schematic_parts";
 import { Nets } from "../src/report/nets";
 import { fittest } from "../src/report/niches";
-import { gaitOf } from "../src/report/data";
+import { gaitOf, isUnstable } from "../src/report/data";
 import { outlineAt } from "../src/robots/gait";
 
 /** Two robots after each other, the second of which reads its own net, too. */
@@ -54,4 +54,18 @@ test("a recorded body walks from frame to frame", () => {
 test("the path to a sheet begins with the whole", () => {
   const sheet = (outer: number | null) => ({ name: "", about: "", outer, svg: "" });
   assert.deepEqual(pathTo([sheet(null), sheet(0), sheet(1)], 2), [0, 1, 2]);
+});
+
+test("a robot is unstable from its fault on, or at the end of what was recorded before it", () => {
+  const swarm = { pace: 12, cycles: 3 };
+  assert.ok(!isUnstable(null, 3, swarm));
+  assert.deepEqual(
+    [1.9, 2, 3].map(time => isUnstable(24, time, swarm)),
+    [false, true, true],
+  );
+  assert.deepEqual(
+    [2.9, 3].map(time => isUnstable(41, time, swarm)),
+    [false, true],
+  );
+  assert.ok(isUnstable(5, 0, { pace: 12, cycles: 0 }), "in the first cycle");
 });

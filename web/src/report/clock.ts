@@ -68,6 +68,6 @@ export class Clock {
   #show(): void {
     this.#play.textContent = this.playing ? "Pause" : "Play";
     this.#scrub.value = String(this.time);
-    this.#text.textContent = `cycle ${this.cycle + 1} of ${this.cycles}`;
+    this.#text.textContent = this.cycles > 0 ? `cycle ${this.cycle + 1} of ${this.cycles}` : "no whole cycle";
   }
 }

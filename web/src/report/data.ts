@@ -21,6 +21,15 @@ export function gaitOf({ corners: points, frames }: Recorded, posesPerCycle: num
   return { posesPerCycle, cycles, points, origin: 0, coordinates };
 }
 
+/** Whether a robot has become unstable by a time in cycles. A cycle that the fault ended was not recorded whole. */
+export function isUnstable(
+  fault: number | null,
+  time: number,
+  { pace, cycles }: Pick<RecordedSwarm, "pace" | "cycles">,
+): boolean {
+  return fault !== null && time * pace >= Math.min(fault, cycles * pace);
+}
+
 /** A robot of a circuit. */
 export interface Cell {
   net: string;

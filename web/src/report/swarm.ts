@@ -7,7 +7,7 @@ import { drawWalk } from "../live/walk";
 import type { VoxelLook } from "../protocol";
 import { outlineAt, type Gait } from "../robots/gait";
 import { Clock } from "./clock";
-import { gaitOf, type RecordedRobot, type RecordedSwarm } from "./data";
+import { gaitOf, isUnstable, type RecordedRobot, type RecordedSwarm } from "./data";
 import { Schematic } from "./schematic";
 import { drawPresence, part } from "./shown";
 import { Waveform } from "./waveform";
@@ -94,7 +94,7 @@ export class SwarmPlayer {
   }
 
   #drawLane(pen: Pen, robot: RecordedRobot, top: number, height: number): void {
-    const { pace, cells } = this.swarm;
+    const { cells } = this.swarm;
     const { time, cycle } = this.#clock;
     const label = Math.min(96, this.#stage.width * 0.28);
     const area = { left: label, top, width: this.#stage.width - label, height };
@@ -116,7 +116,7 @@ export class SwarmPlayer {
     pen.fillStyle = colors.value.ink;
     pen.fillText(`${net} = ${gate}`, 4, middle - 8, label - 8);
     robot.sensed.forEach((bits, i) => drawPresence(pen, i, Number(bits[cycle]), 5, middle));
-    if (robot.fault !== null && time * pace >= robot.fault) {
+    if (isUnstable(robot.fault, time, this.swarm)) {
       pen.fillStyle = colors.value.bad;
       pen.fillText("unstable", 4, middle + 34, label - 8);
     }

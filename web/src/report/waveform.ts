@@ -94,7 +94,7 @@ export class Waveform {
   }
 
   #x(cycle: number): number {
-    return this.#label + (Math.min(cycle, this.clock.cycles) / this.clock.cycles) * this.#span;
+    return this.#label + (Math.min(cycle, this.clock.cycles) / Math.max(1, this.clock.cycles)) * this.#span;
   }
 
   #drawUpright(pen: Pen, bottom: number, cycles: number[], color: string, width: number): void {
