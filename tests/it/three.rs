@@ -73,7 +73,7 @@ fn a_search_for_some_behaviors_scores_bodies_as_those() {
 }
 
 #[test]
-fn an_archive_of_classes_gives_robots_for_all_behaviors_of_a_class() {
+fn an_archive_of_classes_gives_a_robot_of_a_behavior_whose_class_it_has() {
     let bench = bench();
     evolve(&bench, "rows", "out", &[]);
     let add = |behavior: &str| {

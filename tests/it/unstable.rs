@@ -225,7 +225,7 @@ fn hardening_ends_at_a_signal() {
     let bench = boom();
     let asked = ["build", "boom.nb", "--harden", "friction=1%", "--worlds", "1000000"];
     let program = bench.command(&asked).stdout(Stdio::null()).spawn().unwrap();
-    // Some of the worlds are done by then.
+    // All worlds take minutes; by then it is at work.
     std::thread::sleep(Duration::from_secs(2));
     let begun = Instant::now();
     signal("TERM", program.id());

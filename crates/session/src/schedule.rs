@@ -20,8 +20,8 @@ pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule,
     read(name, text, |file| parse(file, stimuli))
 }
 
-/// Reads a schedule whose entries name sets of images, to a body that senses images of a size. Each
-/// image of a set is shown for the time of the entry.
+/// Reads a schedule whose entries name sets of images, to a body that senses images of a size. Each image
+/// of a set is shown for the time of the entry.
 ///
 /// # Errors
 /// As [`read_schedule`], and when there is no such set, it has images of another size, or there are more than four.

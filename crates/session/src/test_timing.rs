@@ -6,14 +6,14 @@ use crate::compile::Compiled;
 use nbc_base::model::{CircuitTest, TestRow};
 use nbc_swarm::{RowHold, RowVerdict, SwarmTrace, WaveTest};
 
-/// A row of a test in a thread of its swarm; a swarm that is no wave machine has only thread 0.
+/// A row of a test in a thread of its swarm; only wave machines have more than thread 0.
 #[derive(Clone, Copy, Debug)]
 pub struct ThreadRow {
     row: usize,
     thread: usize,
 }
 
-/// The rows that end with so many cycles.
+/// The rows that end with a cycle, by the number of cycles until then.
 pub type RowEnds = BTreeMap<usize, Vec<ThreadRow>>;
 
 /// When the rows of a test begin and end.

@@ -233,7 +233,7 @@ fn a_page_that_does_not_read_does_not_hold_up_its_swarm() {
     page.compile("latch.nb", LATCH);
     let id = page.begin(json!({ "do": "run", "speed": null }));
     page.wait(id).unwrap();
-    // Nothing is read meanwhile: requests are sent, and their answers are more than the buffers hold.
+    // Nothing is read while large answers are asked for.
     let last = (0..100).map(|_| page.begin(json!({ "do": "robots", "path": null }))).last().unwrap();
     page.frame(|frame| frame.now >= 40);
     page.wait(last).unwrap();

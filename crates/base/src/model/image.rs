@@ -39,7 +39,7 @@ impl Image {
         }
     }
 
-    /// Its size.
+    /// The numbers of its rows and columns.
     pub fn size(&self) -> ImageSize {
         self.size
     }
