@@ -5,6 +5,7 @@
 //! reading what its body is known to do, in the task's own order, until something is missing; that is then simulated.
 //! Results and counts are the same whatever was known before, or is simulated together.
 
+use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Work;
@@ -13,7 +14,7 @@ use crate::evolve::{CandidateOutcome, Scores};
 use crate::noise::RobotNoise;
 use crate::walks::{LongWalk, WalkMemory, Walks};
 use nbc_base::model::{Body, Direction, Displacements, Fault, MaterialKind, Pattern, Schedule, Setting, Spell};
-use nbc_sim::{Flock, Simulator, Snapshot};
+use nbc_sim::{Simulator, Snapshot};
 
 /// The most robots at once, so that many bodies need no more memory.
 const MOST_AT_ONCE: usize = 4096;
@@ -43,12 +44,11 @@ pub(crate) fn evaluate(
         if wanted.is_empty() {
             break;
         }
-        course.walk_fixed(simulator, &mut walkers, &wanted);
+        course.walk(simulator, &mut walkers, &wanted);
     }
-    let is_long =
-        |&(task, walker): &(&EvaluationTask, usize)| matches!(course.next(task, &walkers[walker]), Next::Long);
-    let long: BTreeSet<usize> = tasks.iter().filter(|one| is_long(one)).map(|&(_, walker)| walker).collect();
-    course.walk_long(simulator, &mut walkers, &long.into_iter().collect::<Vec<_>>());
+    for walker in &mut walkers {
+        walker.walks.long = walker.walks.long.or_else(|| course.ended(walker));
+    }
     memory.keep(protocol, bodies.into_iter().zip(walkers.iter().map(|walker| &walker.walks)));
     let result = |(task, walker): (&EvaluationTask, usize)| match course.next(task, &walkers[walker]) {
         Next::Done(evaluated) => evaluated,
@@ -65,69 +65,84 @@ pub fn fixed_displacements(
     bodies: &[Body],
     steps: u32,
 ) -> Vec<Result<Displacements, Fault>> {
-    let mut walkers: Vec<Walker> = bodies.iter().map(|body| Walker::new(body.clone())).collect();
-    let patterns = |(number, walker): (usize, &Walker)| walker.different().into_iter().map(move |one| (number, one));
-    let wanted: Vec<(usize, Pattern)> = walkers.iter().enumerate().flat_map(patterns).collect();
-    walk(simulator, setting, &mut walkers, &wanted, steps, |_, _, _, _| {});
-    let walked = |walker: &Walker| {
-        let each = walker.sensed.iter().map(|pattern| walker.walks.fixed[pattern]);
+    let walkers: Vec<Walker> = bodies.iter().map(|body| Walker::new(body.clone())).collect();
+    let pairs = |(n, walker): (usize, &Walker)| walker.different().into_iter().map(move |pattern| (n, pattern));
+    let different: Vec<(usize, Pattern)> = (0..).zip(&walkers).flat_map(pairs).collect();
+    let leg = |&(n, pattern): &(usize, Pattern)| Leg::fixed(&walkers[n].body, pattern, steps);
+    let ends = advance(simulator, setting, &different.iter().map(leg).collect::<Vec<_>>());
+    let moved: BTreeMap<(usize, Pattern), Result<f64, Fault>> =
+        different.into_iter().zip(ends.iter().map(LegEnd::moved)).collect();
+    let walked = |(n, walker): (usize, &Walker)| {
+        let each = walker.sensed.iter().map(|&pattern| moved[&(n, pattern)]);
         let each = each.collect::<Result<Vec<f64>, Fault>>()?;
         Ok(Displacements::try_from(each).expect("one for each pattern of two or three stimuli"))
     };
-    walkers.iter().map(walked).collect()
+    walkers.iter().enumerate().map(walked).collect()
 }
 
-/// The simulations under constant patterns that are needed next: one for each body that is not decided. If so many
-/// robots at a time leave room, the room is for those that will probably be needed soonest.
+/// The simulations that are made next, of those that are needed now: one of each body that is not decided. First come
+/// those of the bodies that will probably need most, and only as many as fill the robots that are simulated at once,
+/// for the others can wait for those that follow. If all leave room, it is for those that will probably be needed
+/// soonest.
 fn wanted(
     course: &Course,
     tasks: &[(&EvaluationTask, usize)],
     walkers: &[Walker],
     at_once: usize,
-) -> Vec<(usize, Pattern)> {
-    let (mut wanted, mut likely, mut unlikely) = (BTreeSet::new(), Vec::new(), Vec::new());
+) -> Vec<(usize, Walk)> {
+    let (mut needed, mut likely, mut unlikely) = (BTreeMap::new(), Vec::new(), Vec::new());
     for &(task, walker) in tasks {
-        if let Next::Fixed { missing, likely: many } = course.next(task, &walkers[walker]) {
-            wanted.insert((walker, missing[0]));
-            let later = (1..).zip(&missing[1..]).map(|(place, &pattern)| (place, walker, pattern));
-            let (soon, late): (Vec<_>, Vec<_>) = later.partition(|(place, ..)| *place < many);
-            likely.extend(soon);
-            unlikely.extend(late);
-        }
+        let (walk, legs) = match course.next(task, &walkers[walker]) {
+            Next::Done(_) => continue,
+            Next::Long { legs } => (Walk::Long, legs),
+            Next::Fixed { missing, likely: many, legs } => {
+                let later = (1..).zip(&missing[1..]).map(|(place, &pattern)| (place, walker, Walk::Fixed(pattern)));
+                let (soon, late): (Vec<_>, Vec<_>) = later.partition(|(place, ..)| *place < many);
+                likely.extend(soon);
+                unlikely.extend(late);
+                (Walk::Fixed(missing[0]), legs)
+            }
+        };
+        let most = needed.entry((walker, walk)).or_insert(legs);
+        *most = legs.max(*most);
     }
-    let room = wanted.len().next_multiple_of(at_once);
+    let mut needed: Vec<((usize, Walk), usize)> = needed.into_iter().collect();
+    needed.sort_by_key(|&(_, legs)| Reverse(legs));
+    let room = (needed.len() / at_once).max(usize::from(!needed.is_empty())) * at_once;
     likely.sort_unstable();
     unlikely.sort_unstable();
-    for (_, walker, pattern) in likely.into_iter().chain(unlikely) {
+    let perhaps = likely.into_iter().chain(unlikely).map(|(_, walker, walk)| (walker, walk));
+    let mut wanted = BTreeSet::new();
+    for walk in needed.into_iter().map(|(walk, _)| walk).chain(perhaps) {
         if wanted.len() == room {
             break;
         }
-        wanted.insert((walker, pattern));
+        wanted.insert(walk);
     }
     wanted.into_iter().collect()
 }
 
-/// Simulates walkers under constant patterns from a fresh start, passing the end of each simulation to `keep`.
-fn walk(
-    simulator: &Simulator,
-    setting: &Setting,
-    walkers: &mut [Walker],
-    wanted: &[(usize, Pattern)],
-    env_steps: u32,
-    keep: impl Fn(&mut Walker, Pattern, &dyn Flock, usize),
-) {
-    for wanted in wanted.chunks(MOST_AT_ONCE) {
-        let bodies: Vec<Body> = wanted.iter().map(|&(walker, _)| walkers[walker].body.clone()).collect();
+/// Simulates each leg.
+fn advance(simulator: &Simulator, setting: &Setting, legs: &[Leg]) -> Vec<LegEnd> {
+    let mut ends = Vec::with_capacity(legs.len());
+    for legs in legs.chunks(MOST_AT_ONCE) {
+        let bodies: Vec<Body> = legs.iter().map(|leg| leg.body.clone()).collect();
         let mut flock = simulator.flock(setting, &bodies);
-        let before: Vec<f64> = (0..flock.len()).map(|place| flock.center(place)[0]).collect();
-        flock.advance(&wanted.iter().map(|&(_, pattern)| pattern).collect::<Vec<_>>(), env_steps);
-        for (place, (&(walker, pattern), before)) in wanted.iter().zip(before).enumerate() {
-            let walker = &mut walkers[walker];
-            let walked = flock.fault(place).map_or_else(|| Ok(flock.center(place)[0] - before), Err);
-            walker.walks.fixed.insert(pattern, walked);
-            keep(walker, pattern, &*flock, place);
+        for (place, leg) in legs.iter().enumerate() {
+            if let Some(from) = leg.from {
+                flock.restore(place, from);
+            }
         }
+        let starts: Vec<f64> = (0..legs.len()).map(|place| flock.center(place)[0]).collect();
+        flock.advance_under(&legs.iter().map(|leg| leg.spell.clone()).collect::<Vec<_>>());
+        ends.extend((0..).zip(starts).map(|(place, start)| LegEnd {
+            start,
+            end: flock.center(place)[0],
+            fault: flock.fault(place),
+            state: flock.snapshot(place),
+        }));
     }
+    ends
 }
 
 /// The place of the pattern under which a body should be simulated next. If its parent is known, that is one after
@@ -143,24 +158,77 @@ fn most_telling(task: &EvaluationTask, walker: &Walker, known: &[Option<f64>], l
     (0..keys.len()).min_by(order).unwrap_or(0)
 }
 
+/// A simulation of a body under one pattern.
+struct Leg<'a> {
+    body: &'a Body,
+    /// The state from which it goes on; if there is none, it starts afresh.
+    from: Option<&'a Snapshot>,
+    spell: Spell,
+}
+
+impl<'a> Leg<'a> {
+    fn fixed(body: &'a Body, pattern: Pattern, env_steps: u32) -> Self {
+        Self { body, from: None, spell: Spell::of(pattern, env_steps) }
+    }
+}
+
+/// How a leg went.
+struct LegEnd {
+    /// Where the body was before it, in voxels.
+    start: f64,
+    /// Where it was after it.
+    end: f64,
+    fault: Option<Fault>,
+    state: Snapshot,
+}
+
+impl LegEnd {
+    /// The displacement in voxels.
+    fn moved(&self) -> Result<f64, Fault> {
+        self.fault.map_or_else(|| Ok(self.end - self.start), Err)
+    }
+}
+
+/// A simulation that a body may need.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+enum Walk {
+    /// Under one pattern, from a fresh start.
+    Fixed(Pattern),
+    /// The next stretch of the long simulation.
+    Long,
+}
+
+/// How far a body has come in the long simulation.
+struct Trail {
+    /// Where it was at the start and after each stretch, in voxels.
+    places: Vec<f64>,
+    fault: Option<Fault>,
+    state: Snapshot,
+}
+
 /// A body with what is known of it.
 struct Walker {
     body: Body,
     /// What it senses of each pattern.
     sensed: Vec<Pattern>,
     walks: Walks,
-    /// Its state where the long simulation leaves the fixed one.
-    start: Option<Snapshot>,
+    /// The long simulation so far, if it was begun here.
+    trail: Option<Trail>,
 }
 
 impl Walker {
     fn new(body: Body) -> Self {
-        Self { sensed: sensed_patterns(&body), body, walks: Walks::default(), start: None }
+        Self { sensed: sensed_patterns(&body), body, walks: Walks::default(), trail: None }
     }
 
     /// What it senses of a pattern.
     fn senses(&self, pattern: Pattern) -> Pattern {
         self.sensed[pattern.number(self.sensed.len().ilog2() as usize)]
+    }
+
+    /// The stretches of the long simulation that were simulated here.
+    fn stretches_done(&self) -> usize {
+        self.trail.as_ref().map_or(0, |trail| trail.places.len() - 1)
     }
 
     /// The patterns that it tells apart, in their order.
@@ -188,11 +256,11 @@ impl Walker {
 /// What an evaluation needs next.
 #[derive(Debug)]
 enum Next {
-    /// Simulations under these constant patterns, in this order, until the body is decided: so many of them, if it
-    /// walks as its parent does.
-    Fixed { missing: Vec<Pattern>, likely: usize },
-    /// The long simulation.
-    Long,
+    /// Simulations under these constant patterns, in this order, until the body is decided: `likely` of them, if it
+    /// walks as its parent does, and `legs` with those of the long simulation.
+    Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },
+    /// The long simulation, of which so many stretches are left.
+    Long { legs: usize },
     /// Nothing.
     Done(Evaluated),
 }
@@ -267,9 +335,12 @@ impl<'a> Course<'a> {
             }
         }
         if !missing.is_empty() {
-            return Next::Fixed { likely: likely.unwrap_or(missing.len()), missing };
+            let legs = likely.unwrap_or(missing.len() + self.stretches.len());
+            return Next::Fixed { likely: likely.unwrap_or(missing.len()), missing, legs };
         }
-        let Some(LongWalk { walked, env_steps: long }) = walker.walks.long else { return Next::Long };
+        let Some(LongWalk { walked, env_steps: long }) = walker.walks.long.or_else(|| self.ended(walker)) else {
+            return Next::Long { legs: self.stretches.len() - walker.stretches_done() };
+        };
         let outcome = walked.map_or_else(
             |outcome| outcome,
             |sum| {
@@ -291,60 +362,43 @@ impl<'a> Course<'a> {
         Next::Done(Evaluated { outcome, work: Work { env_steps, left_out } })
     }
 
-    /// Simulates walkers under constant patterns.
-    fn walk_fixed(&self, simulator: &Simulator, walkers: &mut [Walker], wanted: &[(usize, Pattern)]) {
-        let first = self.stretches.first().filter(|_| self.is_continued).map(|&(pattern, _)| pattern);
-        let keep = |walker: &mut Walker, pattern: Pattern, flock: &dyn Flock, place: usize| {
-            if first.is_some_and(|first| walker.senses(first) == pattern) {
-                walker.start = Some(flock.snapshot(place));
+    /// Makes these simulations of walkers.
+    fn walk(&self, simulator: &Simulator, walkers: &mut [Walker], wanted: &[(usize, Walk)]) {
+        let leg = |&(walker, walk): &(usize, Walk)| {
+            let walker = &walkers[walker];
+            match walk {
+                Walk::Fixed(pattern) => Leg::fixed(&walker.body, pattern, self.protocol.fixed_steps),
+                Walk::Long => {
+                    let (pattern, env_steps) = self.stretches[walker.stretches_done()];
+                    let from = walker.trail.as_ref().map(|trail| &trail.state);
+                    Leg { body: &walker.body, from, spell: Spell::of(pattern, env_steps) }
+                }
             }
         };
-        walk(simulator, &self.setting, walkers, wanted, self.protocol.fixed_steps, keep);
+        let ends = advance(simulator, &self.setting, &wanted.iter().map(leg).collect::<Vec<_>>());
+        let first = self.stretches.first().filter(|_| self.is_continued).map(|&(pattern, _)| pattern);
+        for (&(walker, walk), leg) in wanted.iter().zip(ends) {
+            let walker = &mut walkers[walker];
+            if let Walk::Fixed(pattern) = walk {
+                walker.walks.fixed.insert(pattern, leg.moved());
+            }
+            if walk == Walk::Long || first.is_some_and(|first| walk == Walk::Fixed(walker.senses(first))) {
+                let before = walker.trail.take().map_or_else(|| vec![leg.start], |trail| trail.places);
+                let places = before.into_iter().chain([leg.end]).collect();
+                walker.trail = Some(Trail { places, fault: leg.fault, state: leg.state });
+            }
+        }
     }
 
-    /// Simulates these walkers through the long simulation, until it is known that they have no result.
-    fn walk_long(&self, simulator: &Simulator, walkers: &mut [Walker], which: &[usize]) {
-        if self.is_continued {
-            // The state of a body that is known from before is not.
-            let first = self.stretches[0].0;
-            let afresh = which.iter().filter(|&&walker| walkers[walker].start.is_none());
-            let afresh: Vec<_> = afresh.map(|&walker| (walker, walkers[walker].senses(first))).collect();
-            self.walk_fixed(simulator, walkers, &afresh);
-        }
-        let mut open = which.to_vec();
-        let bodies: Vec<Body> = open.iter().map(|&walker| walkers[walker].body.clone()).collect();
-        let mut flock = simulator.flock(&self.setting, &bodies);
-        // Where each was at the start and after each stretch.
-        let mut trails: Vec<Vec<f64>> = (0..open.len()).map(|place| vec![flock.center(place)[0]]).collect();
-        if self.is_continued {
-            for (place, &walker) in open.iter().enumerate() {
-                let start = walkers[walker].start.as_ref().expect("it was simulated above if not before");
-                flock.restore(place, start);
-            }
-        }
-        let (mut env_steps, mut stretches) = (0, self.stretches.iter());
-        if self.is_continued {
-            stretches.next();
-            trails.iter_mut().enumerate().for_each(|(place, trail)| trail.push(flock.center(place)[0]));
-        }
-        loop {
-            for (place, (trail, &walker)) in trails.iter_mut().zip(&open).enumerate() {
-                let walker = &mut walkers[walker];
-                let walked = match flock.fault(place) {
-                    Some(fault) => Some(Err(CandidateOutcome::Faulty(fault))),
-                    None => self.walked(walker, trail),
-                };
-                walker.walks.long = walked.map(|walked| LongWalk { walked, env_steps });
-            }
-            let keep: Vec<bool> = open.iter().map(|&walker| walkers[walker].walks.long.is_none()).collect();
-            flock.retain(&keep);
-            let mut keep = keep.iter();
-            (open, trails) = open.into_iter().zip(trails).filter(|_| keep.next() == Some(&true)).unzip();
-            let Some(&(pattern, steps)) = stretches.next().filter(|_| !open.is_empty()) else { break };
-            flock.advance(&vec![pattern; open.len()], steps);
-            env_steps += steps;
-            trails.iter_mut().enumerate().for_each(|(place, trail)| trail.push(flock.center(place)[0]));
-        }
+    /// The long simulation, as far as it is known that it needs no further stretch.
+    fn ended(&self, walker: &Walker) -> Option<LongWalk> {
+        let places = walker.trail.as_ref().map_or(&[][..], |trail| &trail.places);
+        let walked = match walker.trail.as_ref().and_then(|trail| trail.fault) {
+            Some(fault) => Err(CandidateOutcome::Faulty(fault)),
+            None => self.walked(walker, places)?,
+        };
+        let own = self.stretches[..walker.stretches_done()].iter().skip(usize::from(self.is_continued));
+        Some(LongWalk { walked, env_steps: own.map(|&(_, steps)| steps).sum() })
     }
 
     /// The sum of distances in the long simulation with these places at the start and after each stretch so far; `None`
@@ -353,7 +407,7 @@ impl<'a> Course<'a> {
         let mut sum = 0.0;
         for &(pattern, begin, end) in &self.spells {
             let moved = trail.get(end)? - trail[begin];
-            let fixed = walker.walks.fixed[&walker.senses(pattern)].ok()?;
+            let fixed = walker.walks.fixed.get(&walker.senses(pattern))?.ok()?;
             if Direction::of(moved) != Direction::of(fixed) {
                 return Some(Err(CandidateOutcome::Inconsistent));
             }
@@ -569,6 +623,30 @@ mod tests {
             }
         }
         assert!(measured > 0);
+    }
+
+    #[test]
+    fn as_many_are_simulated_as_fill_the_lanes_those_first_that_need_most() {
+        let search = Search::new(&evolution(&PAPER), 1);
+        let protocol = EvaluationProtocol::of(search.evolution());
+        let course = Course::new(&protocol);
+        let task =
+            |candidate: Candidate| EvaluationTask { body: candidate.body, rivals: Rivals::none(2), expected: None };
+        let tasks: Vec<EvaluationTask> = search.ask().into_iter().map(task).collect();
+        let walkers: Vec<Walker> = tasks.iter().map(|task| Walker::new(task.body.clone())).collect();
+        let tasks: Vec<(&EvaluationTask, usize)> = tasks.iter().zip(0..).collect();
+        let needs = |walker: &Walker| walker.different().len();
+        let all: usize = walkers.iter().map(needs).sum();
+        for (at_once, expected) in [(3, 6), (8, 8), (10, 10), (all + 10, all)] {
+            let found = wanted(&course, &tasks, &walkers, at_once);
+            assert_eq!(found.len(), expected, "{at_once} at once");
+            let made: BTreeSet<usize> = found.iter().map(|&(walker, _)| walker).collect();
+            assert_eq!(made.len(), expected.min(walkers.len()));
+            let left = walkers.iter().enumerate().filter(|(n, _)| !made.contains(n)).map(|(_, walker)| needs(walker));
+            let least = made.iter().map(|&n| needs(&walkers[n])).min();
+            assert!(left.max() <= least);
+        }
+        assert!(all > 10 && wanted(&course, &[], &walkers, 8).is_empty());
     }
 
     #[test]

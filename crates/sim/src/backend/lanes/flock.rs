@@ -33,7 +33,7 @@ impl LaneFlock {
     /// The best grouping of these runs.
     fn grouping<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> LaneGrouping {
         let candidates: Vec<LaneRequest> =
-            runs.map(|run| LaneRequest { size: run.lattice.size(), body: run.body }).collect();
+            runs.map(|run| LaneRequest { lattice: &run.lattice, body: run.body }).collect();
         let kernel = self.world.kernel;
         LaneGrouping::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
     }

@@ -2,15 +2,21 @@
 
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 use crate::backend::lanes::kernel::Kernel;
+use crate::lattice::Lattice;
+
+/// How many of the next groups each group exchanges robots with. Those farther off have other boxes or other bodies.
+const NEIGHBORS: usize = 16;
+
+/// How often all groups exchange robots at most. The first time saves most.
+const EXCHANGES: usize = 4;
 
 /// A robot that needs a lane.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct LaneRequest {
-    /// Columns and rows of its box.
-    pub size: (usize, usize),
+#[derive(Clone, Copy, Debug)]
+pub struct LaneRequest<'a> {
+    /// Its voxels.
+    pub lattice: &'a Lattice,
     /// The number of its body: equal bodies have one number.
     pub body: usize,
 }
@@ -25,11 +31,11 @@ pub struct LaneGrouping {
 }
 
 impl LaneGrouping {
-    /// The best division into groups of at most `lanes` robots.
+    /// A good division into groups of at most `lanes` robots. A group costs what the union of its robots' voxels does.
     ///
-    /// Robots are sorted by box, large ones first, and within a box rare bodies before frequent ones; groups are
-    /// consecutive robots. So lanes next to large robots go to unique bodies, and equal bodies stay together, which is
-    /// faster.
+    /// Robots are sorted by box, large ones first, within a box rare bodies before frequent ones, and then by voxels.
+    /// The groups are the cheapest of consecutive robots, so lanes next to large robots go to unique bodies, and equal
+    /// bodies stay together, which is faster. Then groups exchange robots as long as that makes them cheaper.
     pub fn of(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> Self {
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for robot in robots {
@@ -37,68 +43,145 @@ impl LaneGrouping {
         }
         let mut order: Vec<usize> = (0..robots.len()).collect();
         order.sort_by_key(|&i| {
-            let LaneRequest { size: (columns, rows), body } = robots[i];
-            (Reverse(columns * rows), columns, counts[&body], body, i)
+            let LaneRequest { lattice, body } = robots[i];
+            let ((columns, rows), voxels) = (lattice.size(), lattice.voxels().len());
+            (Reverse(columns * rows), columns, counts[&body], Reverse(voxels), body, i)
         });
-        let ordered: Vec<LaneRequest> = order.iter().map(|&i| robots[i]).collect();
-        let (cuts, cost) = divide(&ordered, kernel, lanes);
+        let costs = Costs::new(robots, kernel);
+        let mut groups = costs.divide(&order, lanes);
+        for _ in 0..EXCHANGES {
+            if !costs.exchange(&mut groups) {
+                break;
+            }
+        }
         let mut groups: Vec<(u64, Vec<usize>)> =
-            cuts.into_iter().map(|group| (cost_of(&ordered[group.clone()], kernel), order[group].to_vec())).collect();
+            groups.into_iter().map(|group| (costs.of(group.iter().copied()), group)).collect();
         groups.sort_by_key(|(cost, _)| Reverse(*cost));
-        Self { groups: groups.into_iter().map(|(_, group)| group).collect(), cost }
+        Self { cost: groups.iter().map(|(cost, _)| cost).sum(), groups: groups.into_iter().map(|(_, g)| g).collect() }
     }
 }
 
-/// The cheapest division of a sequence of robots into groups, and its cost, by dynamic programming over prefixes.
-fn divide(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> (Vec<Range<usize>>, u64) {
-    let mut best: Vec<(u64, usize)> = vec![(0, 0)];
-    for end in 1..=robots.len() {
-        let groups = end.saturating_sub(lanes)..end;
-        let found = groups.map(|start| (best[start].0 + cost_of(&robots[start..end], kernel), start)).min();
-        best.push(found.expect("a group has a robot at least"));
-    }
-    let (mut cuts, mut end) = (Vec::new(), robots.len());
-    while end > 0 {
-        let start = best[end].1;
-        cuts.push(start..end);
-        end = start;
-    }
-    (cuts, best[robots.len()].0)
+/// What groups of robots cost.
+struct Costs {
+    kernel: Kernel,
+    /// The number of each robot's body.
+    bodies: Vec<usize>,
+    /// The voxels of each robot as bits of a box that holds each of them.
+    voxels: Vec<Vec<u64>>,
 }
 
-/// The cost of a substep of these robots in one batch.
-fn cost_of(robots: &[LaneRequest], kernel: Kernel) -> u64 {
-    let most = |side: fn(&LaneRequest) -> usize| robots.iter().map(side).max().unwrap_or(0) as u64;
-    let alike = robots.windows(2).all(|pair| pair[0].body == pair[1].body);
-    most(|robot| robot.size.0) * most(|robot| robot.size.1) * kernel.cost(robots.len(), alike)
+impl Costs {
+    fn new(robots: &[LaneRequest], kernel: Kernel) -> Self {
+        let most = |side: fn((usize, usize)) -> usize| robots.iter().map(|robot| side(robot.lattice.size())).max();
+        let (columns, rows) = (most(|size| size.0).unwrap_or(0), most(|size| size.1).unwrap_or(0));
+        let bits = |robot: &LaneRequest| {
+            let mut bits = vec![0u64; (columns * rows).div_ceil(64)];
+            for voxel in robot.lattice.voxels() {
+                let place = voxel.row * columns + voxel.column;
+                bits[place / 64] |= 1 << (place % 64);
+            }
+            bits
+        };
+        let bodies = robots.iter().map(|robot| robot.body).collect();
+        Self { kernel, bodies, voxels: robots.iter().map(bits).collect() }
+    }
+
+    /// The cost of a substep of these robots in one batch.
+    fn of(&self, robots: impl ExactSizeIterator<Item = usize> + Clone) -> u64 {
+        let words = self.voxels.first().map_or(0, Vec::len);
+        let union = |word: usize| robots.clone().fold(0, |bits, robot| bits | self.voxels[robot][word]);
+        let voxels: u32 = (0..words).map(|word| union(word).count_ones()).sum();
+        let alike = robots.clone().zip(robots.clone().skip(1)).all(|(a, b)| self.bodies[a] == self.bodies[b]);
+        u64::from(voxels) * self.kernel.cost(robots.len(), alike)
+    }
+
+    /// The cheapest division of a sequence of robots into groups, by dynamic programming over prefixes.
+    fn divide(&self, robots: &[usize], lanes: usize) -> Vec<Vec<usize>> {
+        let mut best: Vec<(u64, usize)> = vec![(0, 0)];
+        for end in 1..=robots.len() {
+            let starts = end.saturating_sub(lanes)..end;
+            let found = starts.map(|start| (best[start].0 + self.of(robots[start..end].iter().copied()), start)).min();
+            best.push(found.expect("a group has a robot at least"));
+        }
+        let (mut groups, mut end) = (Vec::new(), robots.len());
+        while end > 0 {
+            let start = best[end].1;
+            groups.push(robots[start..end].to_vec());
+            end = start;
+        }
+        groups
+    }
+
+    /// Exchanges two robots of neighboring groups wherever both groups together are cheaper then; returns whether any
+    /// were.
+    fn exchange(&self, groups: &mut [Vec<usize>]) -> bool {
+        let mut costs: Vec<u64> = groups.iter().map(|group| self.of(group.iter().copied())).collect();
+        let mut found = false;
+        for one in 0..groups.len() {
+            for other in one + 1..groups.len().min(one + 1 + NEIGHBORS) {
+                let sizes = [groups[one].len(), groups[other].len()];
+                for (a, b) in (0..sizes[0]).flat_map(|a| (0..sizes[1]).map(move |b| (a, b))) {
+                    let (robot, instead) = (groups[one][a], groups[other][b]);
+                    if self.bodies[robot] == self.bodies[instead] {
+                        continue;
+                    }
+                    let with = |group: &[usize], place: usize, robot: usize| {
+                        self.of((0..group.len()).map(|i| if i == place { robot } else { group[i] }))
+                    };
+                    let now = [with(&groups[one], a, instead), with(&groups[other], b, robot)];
+                    if now[0] + now[1] < costs[one] + costs[other] {
+                        (groups[one][a], groups[other][b]) = (instead, robot);
+                        [costs[one], costs[other]] = now;
+                        found = true;
+                    }
+                }
+            }
+        }
+        found
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::InstructionSet;
+    use crate::constants::Constants;
+    use nbc_base::model::{Body, Palette};
 
-    fn check(robots: &[(usize, usize)], lanes: usize, expected: &[&[usize]]) {
-        let robots: Vec<LaneRequest> =
-            robots.iter().map(|&(side, body)| LaneRequest { size: (side, side), body }).collect();
+    /// Robots of these bodies, with their numbers, in groups of at most so many.
+    fn check(robots: &[(&Body, usize)], lanes: usize, expected: &[&[usize]]) {
+        let lattices: Vec<Lattice> = robots.iter().map(|(body, _)| Lattice::new(body, &Constants::default())).collect();
+        let requests = lattices.iter().zip(robots).map(|(lattice, &(_, body))| LaneRequest { lattice, body });
         let kernel = Kernel::of(InstructionSet::Avx512, 8);
-        assert_eq!(LaneGrouping::of(&robots, kernel, lanes).groups, expected);
+        assert_eq!(LaneGrouping::of(&requests.collect::<Vec<_>>(), kernel, lanes).groups, expected);
     }
 
     #[test]
     fn equal_bodies_stay_together_and_the_large_robots_lanes_are_filled_with_the_others() {
-        let robots = [vec![(5, 0); 8], vec![(7, 1), (7, 2), (7, 3), (5, 4), (5, 5)]].concat();
-        check(&robots, 8, &[&[8, 9, 10, 11, 12], &[0, 1, 2, 3, 4, 5, 6, 7]]);
+        let (five, seven) = (Body::patchwork(5, 0), Body::patchwork(7, 0));
+        let others = vec![(&seven, 1), (&seven, 2), (&seven, 3), (&five, 4), (&five, 5)];
+        check(&[vec![(&five, 0); 8], others].concat(), 8, &[&[8, 9, 10, 11, 12], &[0, 1, 2, 3, 4, 5, 6, 7]]);
     }
 
     #[test]
     fn a_giant_is_alone() {
-        check(&[vec![(5, 0); 4], vec![(20, 1)]].concat(), 8, &[&[4], &[0, 1, 2, 3]]);
+        let (five, twenty) = (Body::patchwork(5, 0), Body::patchwork(20, 0));
+        check(&[vec![(&five, 0); 4], vec![(&twenty, 1)]].concat(), 8, &[&[4], &[0, 1, 2, 3]]);
     }
 
     #[test]
     fn no_group_has_more_robots_than_lanes() {
-        check(&[(5, 0); 5], 2, &[&[3, 4], &[1, 2], &[0]]);
+        let five = Body::patchwork(5, 0);
+        check(&[(&five, 0); 5], 2, &[&[3, 4], &[1, 2], &[0]]);
         check(&[], 8, &[]);
+    }
+
+    #[test]
+    fn bodies_of_one_shape_share_a_group() {
+        let [left, right] =
+            [["3000", "3000", "3333"], ["0003", "0003", "3333"]].map(|rows| Body::parse(&rows, &Palette::paper()));
+        let (left, right) = (left.unwrap(), right.unwrap());
+        let robots = [(&left, 0), (&right, 1), (&left, 2), (&right, 3), (&right, 4), (&left, 5)];
+        check(&robots, 3, &[&[3, 4, 1], &[0, 5, 2]]);
     }
 }

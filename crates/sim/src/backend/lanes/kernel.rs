@@ -118,7 +118,7 @@ impl Kernel {
         Self { set, lanes }
     }
 
-    /// The cost of a substep of this many robots per voxel of their box: 100 for eight different bodies with AVX-512
+    /// The cost of a substep of this many robots per voxel of any of them: 100 for eight different bodies with AVX-512
     /// (docs/performance.md). `alike` means that all have the same body.
     pub(crate) fn cost(self, robots: usize, alike: bool) -> u64 {
         let (different, same) = match (self.set, robots) {

@@ -76,14 +76,17 @@ impl Scenes {
             let request = |&n: &usize| {
                 let is_same = |other: &&usize| all.scenes[**other].lattice == all.scenes[n].lattice;
                 let body = *members.iter().find(is_same).expect("a scene is like itself");
-                LaneRequest { size: all.scenes[n].lattice.size(), body }
+                LaneRequest { lattice: &all.scenes[n].lattice, body }
             };
             let requests: Vec<LaneRequest> = members.iter().map(request).collect();
             let most = threads::lanes_for(requests.len(), kernel.lanes());
-            for group in LaneGrouping::of(&requests, kernel, most).groups {
+            let groups = LaneGrouping::of(&requests, kernel, most).groups.into_iter().map(|group| {
                 let is_alike = group.iter().all(|&at| requests[at].body == requests[group[0]].body);
-                let members: Vec<usize> = group.iter().map(|&at| members[at]).collect();
-                all.open(&members, is_alike, kernel);
+                (group.iter().map(|&at| members[at]).collect(), is_alike)
+            });
+            let groups: Vec<(Vec<usize>, bool)> = groups.collect();
+            for (group, is_alike) in groups {
+                all.open(&group, is_alike, kernel);
             }
         }
         all
