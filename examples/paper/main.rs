@@ -14,7 +14,7 @@ use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use nbc_base::model::{Behavior, Direction, Pattern};
-use nbc_session::report::{self, BehaviorGroup, GroupComparison, History, SeedRun};
+use nbc_session::report::{self, BehaviorGroup, GroupComparison, History, ProgressLine, SeedRun};
 use nbc_session::store::Checkpoint;
 use nbc_swarm::evolve::{Champion, Elite};
 use serde::Deserialize;
@@ -25,6 +25,13 @@ type Fallible<T> = Result<T, Box<dyn Error>>;
 struct Run {
     results: SeedRun,
     end: End,
+}
+
+impl Run {
+    /// What it had after some generation.
+    fn line(&self, generation: u32) -> Option<&ProgressLine> {
+        self.results.progress.iter().find(|line| line.generation == generation)
+    }
 }
 
 /// Fields of the last line of a run's `progress.jsonl`.
@@ -49,6 +56,10 @@ struct PublishedRobot {
 
 /// The generations of the paper's runs.
 const LONG: u32 = 3000;
+/// Those of the runs in `out/paper`.
+const SHORT: u32 = 300;
+/// The generations at which runs are compared with what they become.
+const MILESTONES: [u32; 5] = [100, SHORT, 500, 1000, LONG];
 /// The index of the least distance under a constant pattern among the fitnesses of `objective: distance`.
 const LEAST_DISTANCE: usize = 1;
 
@@ -67,19 +78,19 @@ fn main() -> Fallible<()> {
         print_runs(&[first, second, third, fourth, ("5x5, as: code", &code)]);
         print_least_distances(&runs);
         print_published(&boxes, &runs, &long)?;
-        let with_long = [small, medium, large, &long];
-        print_mirrors(&with_long);
-        print_difficulties(&with_long);
-        print_means(&with_long);
-        print_growth(small, &long);
-        let going_on = [("7x7", read("long/paper7")?), ("10x10", read("long/paper10")?)];
-        print_unfinished(&going_on);
-        let [(_, wide), (_, widest)] = going_on;
-        for (short, grown) in [(medium, finished(wide)), (large, finished(widest))] {
-            if !grown.is_empty() {
-                print_growth(short, &grown);
-            }
-        }
+        let (wide, widest) = (read("long/paper7")?, read("long/paper10")?);
+        let whole = [("5x5", &long), ("7x7", &wide), ("10x10", &widest)];
+        let short = whole.map(|(name, runs)| Moment::of(name.to_owned(), runs, SHORT));
+        let late = whole.map(|(name, runs)| {
+            let generation = common_milestone(runs);
+            Moment::of(format!("{name}, {}", grouped(generation)), runs, generation)
+        });
+        let moments: Vec<Moment> = short.into_iter().chain(late).collect();
+        print_mirrors(&moments);
+        print_difficulties(&moments);
+        print_means(&moments);
+        print_growth(&whole);
+        print_unfinished(&whole[1..]);
         rules::print_distances(small, &code);
         rules::print_matters(&[
             ("nothing", "paper/paper5"),
@@ -182,12 +193,12 @@ fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>], long: &BTreeMap
 }
 
 /// In each group, the behavior that starts to the left beside its mirror image.
-fn print_mirrors(boxes: &[&BTreeMap<u64, Run>]) {
-    println!("\n| group | 5x5 | 7x7 | 10x10 | 5x5, 3,000 |\n|---|---|---|---|---|");
-    let starting = |runs: &BTreeMap<u64, Run>, direction: Direction| {
-        groups(runs, |champion| champion.behavior.direction(Pattern::PAIRS[0]) == direction)
+fn print_mirrors(moments: &[Moment]) {
+    print_header("group", moments);
+    let starting = |moment: &Moment, direction: Direction| {
+        moment.groups(|champion| champion.behavior.direction(Pattern::PAIRS[0]) == direction)
     };
-    let sides = boxes.iter().map(|runs| [Direction::Left, Direction::Right].map(|side| starting(runs, side)));
+    let sides = moments.iter().map(|one| [Direction::Left, Direction::Right].map(|side| starting(one, side)));
     let sides: Vec<[Vec<BehaviorGroup>; 2]> = sides.collect();
     for place in 0..8 {
         print!("| {}", sides[0][0][place].name);
@@ -201,12 +212,12 @@ fn print_mirrors(boxes: &[&BTreeMap<u64, Run>]) {
 
 /// The paper's order of difficulty: a value for each run is the mean of its groups. The last line compares the robots
 /// that follow the first stimulus with those that follow the second.
-fn print_difficulties(boxes: &[&BTreeMap<u64, Run>]) {
-    println!("\n| compared | 5x5 | 7x7 | 10x10 | 5x5, 3,000 |\n|---|---|---|---|---|");
-    let compared: Vec<Vec<GroupComparison>> = boxes
+fn print_difficulties(moments: &[Moment]) {
+    print_header("compared", moments);
+    let compared: Vec<Vec<GroupComparison>> = moments
         .iter()
-        .map(|runs| {
-            let eight = groups(runs, |_| true);
+        .map(|moment| {
+            let eight = moment.groups(|_| true);
             let sides = [1, 2].map(|place| eight[place].clone());
             let next = |pair: &GroupComparison| pair.groups[1] == pair.groups[0] + 1;
             let order = report::compare_groups(&by_difficulty(&eight)).into_iter().filter(next);
@@ -228,12 +239,12 @@ const RUNS: usize = 10;
 const T: f64 = 2.262;
 
 /// The mean distance of each group over its runs, with its 95 % interval, in voxels.
-fn print_means(boxes: &[&BTreeMap<u64, Run>]) {
-    println!("\n| group | 5x5 | 7x7 | 10x10 | 5x5, 3,000 |\n|---|---|---|---|---|");
-    let boxes: Vec<Vec<BehaviorGroup>> = boxes.iter().map(|runs| groups(runs, |_| true)).collect();
+fn print_means(moments: &[Moment]) {
+    print_header("group", moments);
+    let groups: Vec<Vec<BehaviorGroup>> = moments.iter().map(|moment| moment.groups(|_| true)).collect();
     for place in 0..8 {
-        print!("| {}", boxes[0][place].name);
-        for groups in &boxes {
+        print!("| {}", groups[0][place].name);
+        for groups in &groups {
             let values = &groups[place].values;
             assert_eq!(values.len(), RUNS, "a mean is of all runs");
             let count = RUNS as f64;
@@ -246,7 +257,7 @@ fn print_means(boxes: &[&BTreeMap<u64, Run>]) {
 }
 
 /// The generations that each run has which has not the paper's number.
-fn print_unfinished(boxes: &[(&str, BTreeMap<u64, Run>)]) {
+fn print_unfinished(boxes: &[(&str, &BTreeMap<u64, Run>)]) {
     println!();
     for (name, runs) in boxes {
         let last = |run: &Run| run.results.progress.last().map_or(0, |line| line.generation);
@@ -265,28 +276,76 @@ fn by_difficulty(groups: &[BehaviorGroup]) -> Vec<BehaviorGroup> {
     .collect()
 }
 
-/// The groups of behaviors of several runs, of some of their champions.
-fn groups(runs: &BTreeMap<u64, Run>, chosen: impl Fn(&Champion) -> bool) -> Vec<BehaviorGroup> {
-    let champions = |run: &Run| run.results.champions().into_iter().filter(&chosen).collect();
-    let champions: BTreeMap<u64, Vec<Champion>> = runs.iter().map(|(&seed, run)| (seed, champions(run))).collect();
-    report::behavior_groups(&champions)
+/// The last milestone that all of these runs have.
+fn common_milestone(runs: &BTreeMap<u64, Run>) -> u32 {
+    let has = |generation: &u32| runs.values().all(|run| run.line(*generation).is_some());
+    MILESTONES.into_iter().rev().find(has).unwrap_or(SHORT)
 }
 
-/// What the long runs gain over the shorter ones of the same seeds: niches, and the mean distances by difficulty.
-fn print_growth(short: &BTreeMap<u64, Run>, long: &BTreeMap<u64, Run>) {
-    println!(
-        "\n| seed | generations | niches | no stimulus | one | both | XOR and XNOR |\n|---|---|---|---|---|---|---|"
-    );
-    for (seed, grown) in long {
-        for run in short.get(seed).into_iter().chain([grown]) {
-            let Some(last) = run.results.progress.last() else { continue };
-            print!("| {seed} | {} | {:.1} % |", last.generation, 100.0 * last.coverage);
-            let champions = BTreeMap::from([(*seed, run.results.champions())]);
-            let difficulties = by_difficulty(&report::behavior_groups(&champions));
-            difficulties.iter().for_each(|group| print!(" {:.1} |", group.values[0]));
-            println!();
+/// The champions that several runs had after some generation.
+struct Moment {
+    name: String,
+    champions: BTreeMap<u64, Vec<Champion>>,
+}
+
+impl Moment {
+    fn of(name: String, runs: &BTreeMap<u64, Run>, generation: u32) -> Self {
+        let champions = |(&seed, run): (&u64, &Run)| {
+            let best = run.line(generation).into_iter().flat_map(|line| &line.best);
+            let champion = |(&behavior, &fitness)| Champion { behavior, fitness, niches: 0 };
+            (seed, best.map(champion).collect())
+        };
+        Self { name, champions: runs.iter().map(champions).collect() }
+    }
+
+    /// The groups of behaviors, of some of the champions.
+    fn groups(&self, chosen: impl Fn(&Champion) -> bool) -> Vec<BehaviorGroup> {
+        let some = |champions: &Vec<Champion>| champions.iter().filter(|one| chosen(one)).cloned().collect();
+        report::behavior_groups(&self.champions.iter().map(|(&seed, champions)| (seed, some(champions))).collect())
+    }
+}
+
+/// The head of a table with a column for each moment.
+fn print_header(first: &str, moments: &[Moment]) {
+    let names: Vec<&str> = moments.iter().map(|moment| moment.name.as_str()).collect();
+    println!("\n| {first} | {} |\n|---{}|", names.join(" | "), "|---".repeat(names.len()));
+}
+
+/// Medians of the runs at some generations: niches, and the mean distances by difficulty, where a behavior that was not
+/// found counts as 0; and how many runs have the paper's order. The last line of a box is of the runs that have ended,
+/// if others have not.
+fn print_growth(boxes: &[(&str, &BTreeMap<u64, Run>)]) {
+    println!("\n| box | runs | generations | niches | no stimulus | one | both | XOR and XNOR | runs in order |");
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for &(name, runs) in boxes {
+        for generation in MILESTONES {
+            let lines: Vec<&ProgressLine> = runs.values().filter_map(|run| run.line(generation)).collect();
+            if lines.is_empty() || (lines.len() < runs.len() && generation < LONG) {
+                continue;
+            }
+            let median = |value: &dyn Fn(&ProgressLine) -> f64| Spread::of(lines.iter().copied().map(value)).median;
+            let coverage = 100.0 * median(&|line| line.coverage);
+            print!("| {name} | {} | {} | {coverage:.1} % |", lines.len(), grouped(generation));
+            (0..4).for_each(|group| print!(" {:.1} |", median(&|line| mean_distances(line)[group])));
+            let in_order = |line: &&&ProgressLine| mean_distances(line).is_sorted_by(|a, b| a > b);
+            println!(" {} |", lines.iter().filter(in_order).count());
         }
     }
+}
+
+/// A number of generations with a comma after the thousands.
+fn grouped(generation: u32) -> String {
+    let thousands = generation / 1000;
+    if thousands == 0 { generation.to_string() } else { format!("{thousands},{:03}", generation % 1000) }
+}
+
+/// The mean distance of the champions of each difficulty.
+fn mean_distances(line: &ProgressLine) -> [f64; 4] {
+    std::array::from_fn(|difficulty| {
+        let own: Vec<Behavior> = Behavior::all(2).filter(|&one| report::difficulty_of(one) == difficulty).collect();
+        let best = |behavior: &Behavior| line.best.get(behavior).map_or(0.0, |fitness| fitness[0]);
+        own.iter().map(best).sum::<f64>() / own.len() as f64
+    })
 }
 
 /// The largest second fitness of each seed's robots with a behavior, in voxels.

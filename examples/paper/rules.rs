@@ -7,7 +7,7 @@ use nbc_base::model::Behavior;
 use nbc_session::report::{self, BehaviorGroup};
 use serde::Deserialize;
 
-use crate::{Fallible, Run, Spread, folders, groups};
+use crate::{Fallible, Moment, Run, SHORT, Spread, folders};
 
 /// The generation at which the differences are compared. Runs that have fewer are left out, and not counted.
 const GENERATION: u32 = 100;
@@ -24,7 +24,8 @@ struct Line {
 /// The groups of behaviors by the rules of the paper's text and by those of its code.
 pub fn print_distances(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
     println!("\n| group | text | code | p | A12 |\n|---|---|---|---|---|");
-    let both = groups(text, |_| true).into_iter().zip(groups(code, |_| true));
+    let [text, code] = [("text", text), ("code", code)].map(|(name, runs)| Moment::of(name.to_owned(), runs, SHORT));
+    let both = text.groups(|_| true).into_iter().zip(code.groups(|_| true));
     for pair in both.map(<[BehaviorGroup; 2]>::from) {
         let [ours, theirs] = [&pair[0], &pair[1]].map(|group| Spread::of(group.values.iter().copied()).median);
         for comparison in report::compare_groups(&pair) {
