@@ -256,8 +256,8 @@ impl Walker {
 /// What an evaluation needs next.
 #[derive(Debug)]
 enum Next {
-    /// Simulations under these constant patterns, in this order, until the body is decided: `likely` of them, if it
-    /// walks as its parent does, and `legs` with those of the long simulation.
+    /// Simulations under these constant patterns, in this order, until the body is decided. If it walks as its parent
+    /// does, it needs `likely` of them, and `legs` simulations in all, each stretch of the long one counted.
     Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },
     /// The long simulation, of which so many stretches are left.
     Long { legs: usize },

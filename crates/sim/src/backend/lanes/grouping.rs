@@ -6,10 +6,10 @@ use std::collections::BTreeMap;
 use crate::backend::lanes::kernel::Kernel;
 use crate::lattice::Lattice;
 
-/// How many of the next groups each group exchanges robots with. Those farther off have other boxes or other bodies.
+/// How many of the next groups each group exchanges robots with, so that large swarms are grouped quickly. Not tuned.
 const NEIGHBORS: usize = 16;
 
-/// How often all groups exchange robots at most. The first time saves most.
+/// How often all groups exchange robots at most. Not tuned.
 const EXCHANGES: usize = 4;
 
 /// A robot that needs a lane.
@@ -35,7 +35,7 @@ impl LaneGrouping {
     ///
     /// Robots are sorted by box, large ones first, within a box rare bodies before frequent ones, and then by voxels.
     /// The groups are the cheapest of consecutive robots, so lanes next to large robots go to unique bodies, and equal
-    /// bodies stay together, which is faster. Then groups exchange robots as long as that makes them cheaper.
+    /// bodies stay together, which is faster. Then near groups exchange robots where that makes them cheaper.
     pub fn of(robots: &[LaneRequest], kernel: Kernel, lanes: usize) -> Self {
         let mut counts: BTreeMap<usize, usize> = BTreeMap::new();
         for robot in robots {
