@@ -77,8 +77,8 @@ fn main() -> Fallible<()> {
         let [first, second, third, fourth] = named;
         print_runs(&[first, second, third, fourth, ("5x5, as: code", &code)]);
         print_least_distances(&runs);
-        print_published(&boxes, &runs, &long)?;
         let (wide, widest) = (read("long/paper7")?, read("long/paper10")?);
+        print_published(&boxes, &runs, &[&long, &wide, &widest])?;
         let whole = [("5x5", &long), ("7x7", &wide), ("10x10", &widest)];
         let short = whole.map(|(name, runs)| Moment::of(name.to_owned(), runs, SHORT));
         let late = whole.map(|(name, runs)| {
@@ -179,15 +179,15 @@ fn print_least_distances(boxes: &[BTreeMap<u64, Run>]) {
     }
 }
 
-/// The published robots beside ours, by the second fitness. The long runs are of the first box.
-fn print_published(boxes: &[usize], runs: &[BTreeMap<u64, Run>], long: &BTreeMap<u64, Run>) -> Fallible<()> {
+/// The published robots beside ours of the short and the long runs, by the second fitness.
+fn print_published(boxes: &[usize], short: &[BTreeMap<u64, Run>], long: &[&BTreeMap<u64, Run>]) -> Fallible<()> {
     let published: Published = serde_json::from_str(include_str!("../../tests/golden/paper_robots.json"))?;
     println!("\n| behavior | box | published | best run | median run | best long run |\n|---|---|---|---|---|---|");
     for PublishedRobot { behavior, min_displacement, body } in published.robots {
         let Some(place) = boxes.iter().position(|&side| side == body.len()) else { continue };
-        let Spread { median, most, .. } = least_distances(&runs[place], behavior);
-        print!("| {behavior} | {0}x{0} | {min_displacement:.2} | {most:.2} | {median:.2} |", body.len());
-        if place == 0 { println!(" {:.2} |", least_distances(long, behavior).most) } else { println!(" |") }
+        let Spread { median, most, .. } = least_distances(&short[place], behavior);
+        print!("| {behavior} | {0}x{0} | {min_displacement:.2} | {most:.2} | {median:.2}", body.len());
+        println!(" | {:.2} |", least_distances(long[place], behavior).most);
     }
     Ok(())
 }
@@ -326,8 +326,9 @@ fn print_growth(boxes: &[(&str, &BTreeMap<u64, Run>)]) {
             let median = |value: &dyn Fn(&ProgressLine) -> f64| Spread::of(lines.iter().copied().map(value)).median;
             let coverage = 100.0 * median(&|line| line.coverage);
             print!("| {name} | {} | {} | {coverage:.1} % |", lines.len(), grouped(generation));
-            (0..4).for_each(|group| print!(" {:.1} |", median(&|line| mean_distances(line)[group])));
-            let in_order = |line: &&&ProgressLine| mean_distances(line).is_sorted_by(|a, b| a > b);
+            (0..4).for_each(|group| print!(" {:.1} |", median(&|line| line.mean_fitness(group))));
+            let in_order =
+                |line: &&&ProgressLine| (0..4).is_sorted_by(|a, b| line.mean_fitness(*a) > line.mean_fitness(*b));
             println!(" {} |", lines.iter().filter(in_order).count());
         }
     }
@@ -337,15 +338,6 @@ fn print_growth(boxes: &[(&str, &BTreeMap<u64, Run>)]) {
 fn grouped(generation: u32) -> String {
     let thousands = generation / 1000;
     if thousands == 0 { generation.to_string() } else { format!("{thousands},{:03}", generation % 1000) }
-}
-
-/// The mean distance of the champions of each difficulty.
-fn mean_distances(line: &ProgressLine) -> [f64; 4] {
-    std::array::from_fn(|difficulty| {
-        let own: Vec<Behavior> = Behavior::all(2).filter(|&one| report::difficulty_of(one) == difficulty).collect();
-        let best = |behavior: &Behavior| line.best.get(behavior).map_or(0.0, |fitness| fitness[0]);
-        own.iter().map(best).sum::<f64>() / own.len() as f64
-    })
 }
 
 /// The largest second fitness of each seed's robots with a behavior, in voxels.

@@ -1,25 +1,13 @@
 //! The paper's text against its authors' code: the distances of both, and which differences make the code slower.
 
 use std::collections::BTreeMap;
-use std::fs;
 
-use nbc_base::model::Behavior;
-use nbc_session::report::{self, BehaviorGroup};
-use serde::Deserialize;
+use nbc_session::report::{self, BehaviorGroup, ProgressLine};
 
-use crate::{Fallible, Moment, Run, SHORT, Spread, folders};
+use crate::{Fallible, Moment, Run, SHORT, Spread, read};
 
 /// The generation at which the differences are compared. Runs that have fewer are left out, and not counted.
 const GENERATION: u32 = 100;
-
-/// A line of a run's `progress.jsonl`.
-#[derive(Deserialize)]
-struct Line {
-    generation: u32,
-    coverage: f64,
-    /// For each behavior found, both fitnesses of its champion.
-    best: BTreeMap<Behavior, [f64; 2]>,
-}
 
 /// The groups of behaviors by the rules of the paper's text and by those of its code.
 pub fn print_distances(text: &BTreeMap<u64, Run>, code: &BTreeMap<u64, Run>) {
@@ -41,7 +29,8 @@ pub fn print_matters(runs: &[(&str, &str)]) -> Fallible<()> {
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut text: Option<Vec<f64>> = None;
     for (name, folder) in runs {
-        let lines = lines(folder)?;
+        let own = read(folder)?;
+        let lines: Vec<&ProgressLine> = own.values().filter_map(|run| run.line(GENERATION)).collect();
         let niches: Vec<f64> = lines.iter().map(|line| 100.0 * line.coverage).collect();
         let behaviors = Spread::of(lines.iter().map(|line| line.best.len() as f64));
         print!("| {name} | {} | {behaviors:.0} | {:.1} % |", lines.len(), Spread::of(niches.iter().copied()));
@@ -50,31 +39,12 @@ pub fn print_matters(runs: &[(&str, &str)]) -> Fallible<()> {
             Some(text) => print!(" {:.5} |", p(text, &niches)),
         }
         for difficulty in 0..4 {
-            let mean = |line: &Line| {
-                let own = || Behavior::all(2).filter(|&one| report::difficulty_of(one) == difficulty);
-                let distances = own().map(|one| line.best.get(&one).map_or(0.0, |fitness| fitness[0]));
-                distances.sum::<f64>() / own().count() as f64
-            };
-            print!(" {:.1} |", Spread::of(lines.iter().map(mean)).median);
+            print!(" {:.1} |", Spread::of(lines.iter().map(|line| line.mean_fitness(difficulty))).median);
         }
         println!();
         text.get_or_insert(niches);
     }
     Ok(())
-}
-
-/// The line of that generation of each run in a folder of `out`.
-fn lines(folder: &str) -> Fallible<Vec<Line>> {
-    let mut found = Vec::new();
-    for folder in folders(folder)? {
-        for line in fs::read_to_string(folder.join("progress.jsonl"))?.lines() {
-            let line: Line = serde_json::from_str(line)?;
-            if line.generation == GENERATION {
-                found.push(line);
-            }
-        }
-    }
-    Ok(found)
 }
 
 /// The Mann-Whitney test of two sets of values: exact, unless some are equal.

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::discovery::Discovery;
-use crate::groups::{DIFFICULTIES, difficulty_of, group_of};
+use crate::groups::{DIFFICULTIES, group_of};
 use crate::history::ProgressLine;
 use crate::progress::{Course, Series};
 use nbc_base::model::{Axis, Behavior, CYCLE_STEPS, Count, Function, Image, Pattern, Schedule, SearchObjective, Spell};
@@ -128,10 +128,8 @@ impl EvolutionResults {
         ];
         if self.stimuli == 2 {
             let series = |(difficulty, name): (usize, &&str)| {
-                let own: Vec<Behavior> = Behavior::all(2).filter(|one| difficulty_of(*one) == difficulty).collect();
-                let best = |line: &ProgressLine, one| line.best.get(one).map_or(0.0, |fitness| fitness[0]);
-                let mean = |line: &ProgressLine| own.iter().map(|one| best(line, one)).sum::<f64>() / own.len() as f64;
-                Series { name: (*name).to_owned(), runs: runs(&mean) }
+                let runs = runs(&|line| line.mean_fitness(difficulty));
+                Series { name: (*name).to_owned(), runs }
             };
             courses.push(Course {
                 title: "champions by the stimuli that they follow".to_owned(),

@@ -63,8 +63,8 @@ pub(super) const DIFFICULTIES: [&str; 4] = ["none", "one", "both", "XOR and XNOR
 pub(super) fn group_of(behavior: Behavior) -> usize {
     let first = behavior.direction(Pattern::PAIRS[0]);
     let letter = |pattern| if behavior.direction(pattern) == first { 'X' } else { 'Y' };
-    let name: String = behavior.patterns().map(letter).collect();
-    GROUPS.iter().position(|group| group.0 == name).expect("there are eight such names")
+    let is_own = |name: &str| behavior.patterns().map(letter).eq(name.chars());
+    GROUPS.iter().position(|&(name, ..)| is_own(name)).expect("there are eight such names")
 }
 
 /// The place of a behavior of two stimuli in the paper's order of difficulty, from 0 for the easiest to 3.

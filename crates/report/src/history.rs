@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Deserializer};
 
+use crate::groups::difficulty_of;
 use nbc_base::model::Behavior;
 
 /// The fields read from a line of `progress.jsonl`.
@@ -18,6 +19,16 @@ pub struct ProgressLine {
     /// The behaviors found so far, each with the fitnesses of its champion.
     #[serde(default, deserialize_with = "best")]
     pub best: BTreeMap<Behavior, [f64; 2]>,
+}
+
+impl ProgressLine {
+    /// The mean of the champions' first fitness over the behaviors of two stimuli of one difficulty, 0 to 3 in the
+    /// paper's order. One that was not found counts as 0.
+    pub fn mean_fitness(&self, difficulty: usize) -> f64 {
+        let own: Vec<Behavior> = Behavior::all(2).filter(|&one| difficulty_of(one) == difficulty).collect();
+        let best = |behavior| self.best.get(behavior).map_or(0.0, |fitness| fitness[0]);
+        own.iter().map(best).sum::<f64>() / own.len() as f64
+    }
 }
 
 /// The entries of an object whose names are behaviors.
