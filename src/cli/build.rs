@@ -141,6 +141,10 @@ fn describe_passes(source: Netlist) -> String {
     text
 }
 
+/// A line of the timing of a circuit whose registers have a form without a proof.
+const UNPROVED_REGISTERS: &str =
+    "unproved that its registers store what they stored before they became latches of another form\n";
+
 fn describe_timing(mapping: &Mapping) -> String {
     let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;
     let timing = mapping.timing();
@@ -154,7 +158,8 @@ fn describe_timing(mapping: &Mapping) -> String {
     let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()).describe();
     let memory: String =
         MemoryTimes::all(mapped, &timing, clocks(mapped, library)).iter().map(MemoryTimes::describe).collect();
-    settles + &phases + &memory + &loads
+    let unproved = if mapping.unproved_registers { UNPROVED_REGISTERS } else { "" };
+    settles + &phases + unproved + &memory + &loads
 }
 
 /// The nets of rings of inverters.
@@ -204,6 +209,7 @@ fn describe(mapping: &Mapping, hardened: Hardened) -> serde_json::Value {
         "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()),
         "waves": waves.as_ref().map(WaveTiming::of),
         "proved": true,
+        "unproved_registers": mapping.unproved_registers,
         "hardened": (!hardened.tried.is_empty()).then_some(hardened),
         "races": races.map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
     })

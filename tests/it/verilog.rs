@@ -167,6 +167,7 @@ fn an_asynchronous_reset_needs_no_edge_of_the_clock() {
     for (out, more) in [("a.nb", &[][..]), ("a.blif", &[]), ("b.nb", &["--registers", "expand"])] {
         let ran = bench.run(&[&["synth", "counter.v", "--cells", "nand,not", "-o", out], more].concat());
         assert_eq!(ran.status, 0, "{}", ran.err);
+        assert_eq!(ran.out.contains(" but for the cells of its registers,"), !more.is_empty(), "{}", ran.out);
         let name = format!("test_{out}.nb");
         match out.strip_suffix(".nb") {
             Some(_) => {

@@ -60,7 +60,10 @@ impl Compiled {
 pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
     let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
     match prove(&source, &netlist) {
-        Ok(proof) => Ok(Mapping { source, netlist, cells: cells.clone(), proof, registers: None, waves: None }),
+        Ok(proof) => {
+            let cells = cells.clone();
+            Ok(Mapping { source, netlist, cells, proof, registers: None, unproved_registers: false, waves: None })
+        }
         Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
     }
 }

@@ -18,6 +18,8 @@ pub struct Mapping {
     pub proof: Proof,
     /// The registers, if they were to be pulsed latches or latches of one robot.
     pub registers: Option<PulsedRegisters>,
+    /// Whether no proof was found that registers of another form store the same, because latches are not recognized.
+    pub unproved_registers: bool,
     /// The wave machine, if the circuit was to be one.
     pub waves: Option<WaveMachine>,
 }
@@ -40,10 +42,11 @@ impl Mapping {
     /// # Panics
     /// When they store something else, which is a fault of the compiler.
     fn with(self, netlist: Netlist, registers: PulsedRegisters) -> Self {
-        if let Some(Err(error)) = prove_forms(&self.netlist, &netlist, &registers.pulses) {
+        let proof = prove_forms(&self.netlist, &netlist, &registers.pulses);
+        if let Some(Err(error)) = &proof {
             panic!("the registers of `{}` differ from those of its source: {error}", self.source.name);
         }
-        Self { netlist, registers: Some(registers), ..self }
+        Self { netlist, registers: Some(registers), unproved_registers: proof.is_none(), ..self }
     }
 
     /// When each net has settled; the hold of a wave machine is the length of a step.

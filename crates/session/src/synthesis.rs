@@ -42,6 +42,8 @@ pub struct Synthesis {
     pub removed: Removed,
     /// What was assumed of its states; `None` if the result is right in every state by request.
     pub states: Option<AssumedStates>,
+    /// Whether no proof was found that the cells of its registers store what they store ([`prove_expanded`]).
+    pub unproved_registers: bool,
     /// The cells that a robot for each of the functions would save; negative if it needs more.
     pub what_if: Vec<(Function, i64)>,
 }
@@ -73,9 +75,9 @@ impl Synthesis {
         {
             panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
         }
-        let (Made { design, source, result }, states) =
+        let (Made { design, source, result, unproved_registers }, states) =
             if options.reachable_only { whole.within_reach(options)? } else { (whole, None) };
-        let mut synthesis = Self { design, result, removed, states, what_if: Vec::new() };
+        let mut synthesis = Self { design, result, removed, states, unproved_registers, what_if: Vec::new() };
         for &function in &options.what_if {
             let mut more = options.cells.clone();
             more.insert(function, CellKind::uniform(1, 1.0));
@@ -136,20 +138,21 @@ struct Made {
     /// Its logic, with its registers if they are expanded.
     source: Netlist,
     result: Design,
+    unproved_registers: bool,
 }
 
 impl Made {
     fn of(design: Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
         let source = if options.expand { registers::expand(&design) } else { design.logic.clone() };
-        if options.expand
-            && let Some(Err(error)) = prove_expanded(&design, &source)
-        {
+        let proof = if options.expand { prove_expanded(&design, &source) } else { None };
+        if let Some(Err(error)) = &proof {
             panic!("the registers of `{}` as cells differ from those of its file: {error}", design.logic.name);
         }
+        let unproved_registers = options.expand && proof.is_none() && !design.registers.is_empty();
         let logic = synthesize(source.clone(), &options.cells, &options.map)?.netlist;
         let registers = if options.expand { Vec::new() } else { design.registers.clone() };
         let ascending = design.ascending.clone();
-        Ok(Self { design, source, result: Design { logic, registers, ascending } })
+        Ok(Self { design, source, result: Design { logic, registers, ascending }, unproved_registers })
     }
 
     /// The same design where only reachable states count, if that saves cells.

@@ -33,7 +33,7 @@ pub struct SynthesisReport {
     what_if: BTreeMap<String, i64>,
 }
 
-/// What the proof begins with.
+/// What the proof begins with, and what it leaves out.
 #[derive(Debug, Serialize)]
 struct ProofReport {
     /// `file`, or `yosys` for its netlist.
@@ -49,6 +49,9 @@ struct ProofReport {
     /// Why it compared nothing.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_simulated: Option<&'static str>,
+    /// Whether the cells of registers are not proved to store what they store.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    unproved_registers: bool,
     /// All this in words.
     #[serde(skip)]
     words: String,
@@ -79,7 +82,7 @@ struct StatesReport {
 impl SynthesisReport {
     /// The report of a synthesis that took so many seconds; `origin` is what its proof begins with.
     pub fn of(synthesis: &Synthesis, origin: ProofOrigin, seconds: f64) -> Self {
-        let Synthesis { design, result, removed, states, what_if } = synthesis;
+        let Synthesis { design, result, removed, states, unproved_registers, what_if } = synthesis;
         Self {
             cells: synthesis.cells(),
             by_function: result.logic.by_function(),
@@ -91,7 +94,7 @@ impl SynthesisReport {
             unreachable: states.as_ref().map(StatesReport::of),
             // A circuit that is not proved is never reported.
             proved: true,
-            proof: ProofReport::of(origin),
+            proof: ProofReport::of(origin, *unproved_registers),
             seconds,
             what_if: what_if.iter().map(|&(function, saved)| (function.name().to_owned(), saved)).collect(),
         }
@@ -121,17 +124,19 @@ impl SynthesisReport {
 }
 
 impl ProofReport {
-    fn of(origin: ProofOrigin) -> Self {
-        let words = origin.to_string();
-        let ProofOrigin::Yosys { version, simulated } = origin else {
-            return Self { from: "file", version: None, simulator: None, steps: None, not_simulated: None, words };
+    fn of(origin: ProofOrigin, unproved_registers: bool) -> Self {
+        let left_out = if unproved_registers { " but for the cells of its registers" } else { "" };
+        let words = format!("{origin}{left_out}");
+        let (from, version, simulated) = match origin {
+            ProofOrigin::Yosys { version, simulated } => ("yosys", Some(version), Some(simulated)),
+            _ => ("file", None, None),
         };
         let steps = match simulated {
-            Simulated::Equal { steps } => Some(steps),
+            Some(Simulated::Equal { steps }) => Some(steps),
             _ => None,
         };
-        let (simulator, not_simulated) = (steps.map(|_| "iverilog"), simulated.why_not());
-        Self { from: "yosys", version: Some(version), simulator, steps, not_simulated, words }
+        let (simulator, not_simulated) = (steps.map(|_| "iverilog"), simulated.and_then(Simulated::why_not));
+        Self { from, version, simulator, steps, not_simulated, unproved_registers, words }
     }
 }
 

@@ -42,7 +42,8 @@ pub(super) fn map_waves(
     let cuts = step.state.into_iter().map(|bit| bit.name).collect();
     let proof = Proof { method: certificate.method, cuts };
     let netlist = machine.netlist.clone();
-    Ok(Mapping { source, netlist, cells, proof, registers: None, waves: Some(machine) })
+    let waves = Some(machine);
+    Ok(Mapping { source, netlist, cells, proof, registers: None, unproved_registers: false, waves })
 }
 
 /// The steps of a wave machine that the rows of a test are: the first is before the first edge of the clock, and each

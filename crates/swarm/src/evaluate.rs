@@ -1,10 +1,10 @@
 //! Evaluation of candidates by the paper's protocol, and the loop of asking, evaluating and telling (paper, Methods;
 //! docs/physics.md 10).
 
+use crate::distance::WalkMemory;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::gate::GateObjective;
-use crate::walks::WalkMemory;
 use crate::{Work, distance, gate, seeing};
 use nbc_base::model::{Body, Evolution, SearchObjective};
 use nbc_sim::Simulator;

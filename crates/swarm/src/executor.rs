@@ -1,7 +1,7 @@
 //! The interface to what does tasks: the simulator of this program, or workers on other machines.
 
+use crate::distance::WalkMemory;
 use crate::evaluate::{evaluate_remembering, evaluate_tasks};
-use crate::walks::WalkMemory;
 use crate::{SwarmBits, Task, TaskResult, measure, screen};
 use nbc_sim::Simulator;
 

@@ -33,7 +33,6 @@ mod swarm_task;
 mod task;
 mod trace;
 mod verdict;
-mod walks;
 mod weak;
 mod wording;
 mod work;

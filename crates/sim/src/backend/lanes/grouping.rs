@@ -119,21 +119,29 @@ impl Costs {
         let mut found = false;
         for one in 0..groups.len() {
             for other in one + 1..groups.len().min(one + 1 + NEIGHBORS) {
-                let sizes = [groups[one].len(), groups[other].len()];
-                for (a, b) in (0..sizes[0]).flat_map(|a| (0..sizes[1]).map(move |b| (a, b))) {
-                    let (robot, instead) = (groups[one][a], groups[other][b]);
-                    if self.bodies[robot] == self.bodies[instead] {
-                        continue;
-                    }
-                    let with = |group: &[usize], place: usize, robot: usize| {
-                        self.of((0..group.len()).map(|i| if i == place { robot } else { group[i] }))
-                    };
-                    let now = [with(&groups[one], a, instead), with(&groups[other], b, robot)];
-                    if now[0] + now[1] < costs[one] + costs[other] {
-                        (groups[one][a], groups[other][b]) = (instead, robot);
-                        [costs[one], costs[other]] = now;
-                        found = true;
-                    }
+                found |= self.exchange_between(groups, &mut costs, [one, other]);
+            }
+        }
+        found
+    }
+
+    /// The same of these two groups.
+    fn exchange_between(&self, groups: &mut [Vec<usize>], costs: &mut [u64], [one, other]: [usize; 2]) -> bool {
+        let with = |group: &[usize], place: usize, robot: usize| {
+            self.of((0..group.len()).map(|i| if i == place { robot } else { group[i] }))
+        };
+        let mut found = false;
+        for a in 0..groups[one].len() {
+            for b in 0..groups[other].len() {
+                let (robot, instead) = (groups[one][a], groups[other][b]);
+                if self.bodies[robot] == self.bodies[instead] {
+                    continue;
+                }
+                let now = [with(&groups[one], a, instead), with(&groups[other], b, robot)];
+                if now[0] + now[1] < costs[one] + costs[other] {
+                    (groups[one][a], groups[other][b]) = (instead, robot);
+                    [costs[one], costs[other]] = now;
+                    found = true;
                 }
             }
         }

@@ -5,19 +5,23 @@
 //! reading what its body is known to do, in the task's own order, until something is missing; that is then simulated.
 //! Results and counts are the same whatever was known before, or is simulated together.
 
+mod leg;
+mod plan;
+mod walker;
+mod walks;
+
+pub(crate) use walks::WalkMemory;
+
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::Work;
-use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
-use crate::evolve::{CandidateOutcome, Scores};
+use crate::distance::leg::{Leg, LegEnd, advance};
+use crate::distance::plan::{Next, SimulationPlan, Walk};
+use crate::distance::walker::Walker;
+use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::noise::RobotNoise;
-use crate::walks::{LongWalk, WalkMemory, Walks};
-use nbc_base::model::{Body, Direction, Displacements, Fault, MaterialKind, Pattern, Schedule, Setting, Spell};
-use nbc_sim::{Simulator, Snapshot};
-
-/// The most robots at once, so that many bodies need no more memory.
-const MOST_AT_ONCE: usize = 4096;
+use nbc_base::model::{Body, Displacements, Fault, Pattern, Setting};
+use nbc_sim::Simulator;
 
 /// The result of each task.
 pub(crate) fn evaluate(
@@ -26,7 +30,7 @@ pub(crate) fn evaluate(
     protocol: &EvaluationProtocol,
     tasks: &[EvaluationTask],
 ) -> Vec<Evaluated> {
-    let course = Course::new(protocol);
+    let plan = SimulationPlan::new(protocol);
     let noise = RobotNoise::new(&protocol.world.noise, 0);
     let mut numbers: BTreeMap<&Body, usize> = BTreeMap::new();
     let (mut bodies, mut walkers) = (Vec::new(), Vec::new());
@@ -40,17 +44,17 @@ pub(crate) fn evaluate(
     memory.recall(protocol, bodies.iter().copied().zip(walkers.iter_mut().map(|walker| &mut walker.walks)));
     let tasks: Vec<(&EvaluationTask, usize)> = tasks.iter().map(|task| (task, numbers[&task.body])).collect();
     loop {
-        let wanted = wanted(&course, &tasks, &walkers, simulator.at_once());
+        let wanted = wanted(&plan, &tasks, &walkers, simulator.at_once());
         if wanted.is_empty() {
             break;
         }
-        course.walk(simulator, &mut walkers, &wanted);
+        plan.walk(simulator, &mut walkers, &wanted);
     }
     for walker in &mut walkers {
-        walker.walks.long = walker.walks.long.or_else(|| course.ended(walker));
+        walker.walks.long = plan.long(walker);
     }
     memory.keep(protocol, bodies.into_iter().zip(walkers.iter().map(|walker| &walker.walks)));
-    let result = |(task, walker): (&EvaluationTask, usize)| match course.next(task, &walkers[walker]) {
+    let result = |(task, walker): (&EvaluationTask, usize)| match plan.next(task, &walkers[walker]) {
         Next::Done(evaluated) => evaluated,
         next => panic!("all that an evaluation needs was simulated, except {next:?}"),
     };
@@ -85,14 +89,14 @@ pub fn fixed_displacements(
 /// for the others can wait for those that follow. If all leave room, it is for those that will probably be needed
 /// soonest.
 fn wanted(
-    course: &Course,
+    plan: &SimulationPlan,
     tasks: &[(&EvaluationTask, usize)],
     walkers: &[Walker],
     at_once: usize,
 ) -> Vec<(usize, Walk)> {
     let (mut needed, mut likely, mut unlikely) = (BTreeMap::new(), Vec::new(), Vec::new());
     for &(task, walker) in tasks {
-        let (walk, legs) = match course.next(task, &walkers[walker]) {
+        let (walk, legs) = match plan.next(task, &walkers[walker]) {
             Next::Done(_) => continue,
             Next::Long { legs } => (Walk::Long, legs),
             Next::Fixed { missing, likely: many, legs } => {
@@ -122,326 +126,17 @@ fn wanted(
     wanted.into_iter().collect()
 }
 
-/// Simulates each leg.
-fn advance(simulator: &Simulator, setting: &Setting, legs: &[Leg]) -> Vec<LegEnd> {
-    let mut ends = Vec::with_capacity(legs.len());
-    for legs in legs.chunks(MOST_AT_ONCE) {
-        let bodies: Vec<Body> = legs.iter().map(|leg| leg.body.clone()).collect();
-        let mut flock = simulator.flock(setting, &bodies);
-        for (place, leg) in legs.iter().enumerate() {
-            if let Some(from) = leg.from {
-                flock.restore(place, from);
-            }
-        }
-        let starts: Vec<f64> = (0..legs.len()).map(|place| flock.center(place)[0]).collect();
-        flock.advance_under(&legs.iter().map(|leg| leg.spell.clone()).collect::<Vec<_>>());
-        ends.extend((0..).zip(starts).map(|(place, start)| LegEnd {
-            start,
-            end: flock.center(place)[0],
-            fault: flock.fault(place),
-            state: flock.snapshot(place),
-        }));
-    }
-    ends
-}
-
-/// The place of the pattern under which a body should be simulated next. If its parent is known, that is one after
-/// which it would be dropped if it walked half as far as its parent; of several the one under which its parent walked
-/// least.
-fn most_telling(task: &EvaluationTask, walker: &Walker, known: &[Option<f64>], left: &[Pattern]) -> usize {
-    let key = |&pattern: &Pattern| {
-        let expected = walker.expected(task, pattern)?;
-        Some((task.rivals.admit_any(&walker.with(known, pattern, expected / 2.0)), expected.abs()))
-    };
-    let keys: Vec<(bool, f64)> = left.iter().map_while(key).collect();
-    let order = |&a: &usize, &b: &usize| keys[a].0.cmp(&keys[b].0).then(keys[a].1.total_cmp(&keys[b].1));
-    (0..keys.len()).min_by(order).unwrap_or(0)
-}
-
-/// A simulation of a body under one pattern.
-struct Leg<'a> {
-    body: &'a Body,
-    /// The state from which it goes on; if there is none, it starts afresh.
-    from: Option<&'a Snapshot>,
-    spell: Spell,
-}
-
-impl<'a> Leg<'a> {
-    fn fixed(body: &'a Body, pattern: Pattern, env_steps: u32) -> Self {
-        Self { body, from: None, spell: Spell::of(pattern, env_steps) }
-    }
-}
-
-/// How a leg went.
-struct LegEnd {
-    /// Where the body was before it, in voxels.
-    start: f64,
-    /// Where it was after it.
-    end: f64,
-    fault: Option<Fault>,
-    state: Snapshot,
-}
-
-impl LegEnd {
-    /// The displacement in voxels.
-    fn moved(&self) -> Result<f64, Fault> {
-        self.fault.map_or_else(|| Ok(self.end - self.start), Err)
-    }
-}
-
-/// A simulation that a body may need.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Walk {
-    /// Under one pattern, from a fresh start.
-    Fixed(Pattern),
-    /// The next stretch of the long simulation.
-    Long,
-}
-
-/// How far a body has come in the long simulation.
-struct Trail {
-    /// Where it was at the start and after each stretch, in voxels.
-    places: Vec<f64>,
-    fault: Option<Fault>,
-    state: Snapshot,
-}
-
-/// A body with what is known of it.
-struct Walker {
-    body: Body,
-    /// What it senses of each pattern.
-    sensed: Vec<Pattern>,
-    walks: Walks,
-    /// The long simulation so far, if it was begun here.
-    trail: Option<Trail>,
-}
-
-impl Walker {
-    fn new(body: Body) -> Self {
-        Self { sensed: sensed_patterns(&body), body, walks: Walks::default(), trail: None }
-    }
-
-    /// What it senses of a pattern.
-    fn senses(&self, pattern: Pattern) -> Pattern {
-        self.sensed[pattern.number(self.sensed.len().ilog2() as usize)]
-    }
-
-    /// The stretches of the long simulation that were simulated here.
-    fn stretches_done(&self) -> usize {
-        self.trail.as_ref().map_or(0, |trail| trail.places.len() - 1)
-    }
-
-    /// The patterns that it tells apart, in their order.
-    fn different(&self) -> Vec<Pattern> {
-        let mut different = self.sensed.clone();
-        different.sort_unstable();
-        different.dedup();
-        different
-    }
-
-    /// The displacement of its parent under a pattern that it tells apart: the smallest, if the parent tells more
-    /// apart.
-    fn expected(&self, task: &EvaluationTask, pattern: Pattern) -> Option<f64> {
-        let same = self.sensed.iter().zip(task.expected.as_deref()?).filter(|(own, _)| **own == pattern);
-        same.map(|(_, &moved)| moved).min_by(|a, b| a.abs().total_cmp(&b.abs()))
-    }
-
-    /// What is known of its displacements, with that under a pattern that it tells apart.
-    fn with(&self, known: &[Option<f64>], pattern: Pattern, moved: f64) -> Vec<Option<f64>> {
-        let each = self.sensed.iter().zip(known);
-        each.map(|(&own, &known)| if own == pattern { Some(moved) } else { known }).collect()
-    }
-}
-
-/// What an evaluation needs next.
-#[derive(Debug)]
-enum Next {
-    /// Simulations under these constant patterns, in this order, until the body is decided. If it walks as its parent
-    /// does, it needs `likely` of them, and `legs` simulations in all, each stretch of the long one counted.
-    Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },
-    /// The long simulation, of which so many stretches are left.
-    Long { legs: usize },
-    /// Nothing.
-    Done(Evaluated),
-}
-
-/// The simulations of a protocol.
-struct Course<'a> {
-    protocol: &'a EvaluationProtocol,
-    setting: Setting,
-    /// The long simulation as a robot senses it: patterns, and the env steps of each.
-    stretches: Vec<(Pattern, u32)>,
-    /// Where the spells of the long simulation begin and end, as numbers of stretches done.
-    spells: Vec<(Pattern, usize, usize)>,
-    /// Whether the first stretch is a whole fixed simulation.
-    is_continued: bool,
-}
-
-impl<'a> Course<'a> {
-    fn new(protocol: &'a EvaluationProtocol) -> Self {
-        // Under a constant pattern there is nothing to miss.
-        let sensed = RobotNoise::new(&protocol.world.noise, 0).sensed(&protocol.variable);
-        let ends = |schedule: &Schedule| {
-            let end = |at: &mut u32, steps: u32| {
-                *at += steps;
-                Some(*at)
-            };
-            schedule.spells.iter().map(|spell| spell.steps).scan(0, end).collect::<Vec<u32>>()
-        };
-        let is_long = |spell: &Spell| spell.steps >= protocol.fixed_steps && protocol.fixed_steps > 0;
-        let is_continued = sensed.spells.first().is_some_and(is_long);
-        let start = is_continued.then_some(protocol.fixed_steps);
-        let cuts: BTreeSet<u32> = ends(&sensed).into_iter().chain(ends(&protocol.variable)).chain(start).collect();
-        let cuts: Vec<u32> = std::iter::once(0).chain(cuts.into_iter().filter(|&cut| cut > 0)).collect();
-        let of_cut = |cut: u32| cuts.binary_search(&cut).expect("each end is a cut");
-        let pattern_at = |step: u32| {
-            let spell = ends(&sensed).into_iter().position(|end| step < end).expect("a stretch is in a spell");
-            sensed.spells[spell].pattern
-        };
-        let stretches = cuts.windows(2).map(|two| (pattern_at(two[0]), two[1] - two[0])).collect();
-        let mut at = 0;
-        let spell = |(spell, end): (&Spell, u32)| {
-            let begin = std::mem::replace(&mut at, end);
-            (spell.pattern, of_cut(begin), of_cut(end))
-        };
-        let spells = protocol.variable.spells.iter().zip(ends(&protocol.variable)).map(spell).collect();
-        Self { protocol, setting: setting(&protocol.world), stretches, spells, is_continued }
-    }
-
-    /// What a task needs next, or its result.
-    fn next(&self, task: &EvaluationTask, walker: &Walker) -> Next {
-        let mut known = vec![None; walker.sensed.len()];
-        let (mut env_steps, mut left) = (0, walker.different());
-        let (mut missing, mut likely) = (Vec::new(), None);
-        while !left.is_empty() {
-            let pattern = left.remove(most_telling(task, walker, &known, &left));
-            let walked = walker.walks.fixed.get(&pattern).copied();
-            if let (Some(walked), []) = (walked, &missing[..]) {
-                env_steps += u64::from(self.protocol.fixed_steps);
-                match walked {
-                    Err(fault) => return self.done(CandidateOutcome::Faulty(fault), env_steps),
-                    Ok(moved) => known = walker.with(&known, pattern, moved),
-                }
-                if !task.rivals.admit_any(&known) {
-                    return self.done(CandidateOutcome::Surpassed, env_steps);
-                }
-                continue;
-            }
-            missing.extend(walked.is_none().then_some(pattern));
-            let moved = walked.and_then(Result::ok).or_else(|| walker.expected(task, pattern));
-            known = moved.map_or(known.clone(), |moved| walker.with(&known, pattern, moved));
-            if likely.is_none() && !task.rivals.admit_any(&known) {
-                likely = Some(missing.len());
-            }
-        }
-        if !missing.is_empty() {
-            let legs = likely.unwrap_or(missing.len() + self.stretches.len());
-            return Next::Fixed { likely: likely.unwrap_or(missing.len()), missing, legs };
-        }
-        let Some(LongWalk { walked, env_steps: long }) = walker.walks.long.or_else(|| self.ended(walker)) else {
-            return Next::Long { legs: self.stretches.len() - walker.stretches_done() };
-        };
-        let outcome = walked.map_or_else(
-            |outcome| outcome,
-            |sum| {
-                let displacement = Displacements::try_from(known.into_iter().flatten().collect::<Vec<f64>>());
-                let displacement = displacement.expect("there is one for each pattern");
-                let least = displacement.iter().map(|d| d.abs()).fold(f64::INFINITY, f64::min);
-                CandidateOutcome::Measured(Scores {
-                    fitness: [sum, least],
-                    behavior: displacement.behavior(),
-                    displacement,
-                })
-            },
-        );
-        self.done(outcome, env_steps + u64::from(long))
-    }
-
-    fn done(&self, outcome: CandidateOutcome, env_steps: u64) -> Next {
-        let left_out = self.protocol.distance_steps() - env_steps;
-        Next::Done(Evaluated { outcome, work: Work { env_steps, left_out } })
-    }
-
-    /// Makes these simulations of walkers.
-    fn walk(&self, simulator: &Simulator, walkers: &mut [Walker], wanted: &[(usize, Walk)]) {
-        let leg = |&(walker, walk): &(usize, Walk)| {
-            let walker = &walkers[walker];
-            match walk {
-                Walk::Fixed(pattern) => Leg::fixed(&walker.body, pattern, self.protocol.fixed_steps),
-                Walk::Long => {
-                    let (pattern, env_steps) = self.stretches[walker.stretches_done()];
-                    let from = walker.trail.as_ref().map(|trail| &trail.state);
-                    Leg { body: &walker.body, from, spell: Spell::of(pattern, env_steps) }
-                }
-            }
-        };
-        let ends = advance(simulator, &self.setting, &wanted.iter().map(leg).collect::<Vec<_>>());
-        let first = self.stretches.first().filter(|_| self.is_continued).map(|&(pattern, _)| pattern);
-        for (&(walker, walk), leg) in wanted.iter().zip(ends) {
-            let walker = &mut walkers[walker];
-            if let Walk::Fixed(pattern) = walk {
-                walker.walks.fixed.insert(pattern, leg.moved());
-            }
-            if walk == Walk::Long || first.is_some_and(|first| walk == Walk::Fixed(walker.senses(first))) {
-                let before = walker.trail.take().map_or_else(|| vec![leg.start], |trail| trail.places);
-                let places = before.into_iter().chain([leg.end]).collect();
-                walker.trail = Some(Trail { places, fault: leg.fault, state: leg.state });
-            }
-        }
-    }
-
-    /// The long simulation, as far as it is known that it needs no further stretch.
-    fn ended(&self, walker: &Walker) -> Option<LongWalk> {
-        let places = walker.trail.as_ref().map_or(&[][..], |trail| &trail.places);
-        let walked = match walker.trail.as_ref().and_then(|trail| trail.fault) {
-            Some(fault) => Err(CandidateOutcome::Faulty(fault)),
-            None => self.walked(walker, places)?,
-        };
-        let own = self.stretches[..walker.stretches_done()].iter().skip(usize::from(self.is_continued));
-        Some(LongWalk { walked, env_steps: own.map(|&(_, steps)| steps).sum() })
-    }
-
-    /// The sum of distances in the long simulation with these places at the start and after each stretch so far; `None`
-    /// if it has not ended. In each spell the direction must be that of the fixed simulations.
-    fn walked(&self, walker: &Walker, trail: &[f64]) -> Option<Result<f64, CandidateOutcome>> {
-        let mut sum = 0.0;
-        for &(pattern, begin, end) in &self.spells {
-            let moved = trail.get(end)? - trail[begin];
-            let fixed = walker.walks.fixed.get(&walker.senses(pattern))?.ok()?;
-            if Direction::of(moved) != Direction::of(fixed) {
-                return Some(Err(CandidateOutcome::Inconsistent));
-            }
-            sum += moved.abs();
-        }
-        Some(Ok(sum))
-    }
-}
-
-/// What a body senses of each pattern: the stimuli of its sensors.
-fn sensed_patterns(body: &Body) -> Vec<Pattern> {
-    let palette = body.palette();
-    let mut sensed = vec![false; palette.inputs()];
-    for &code in body.codes() {
-        // A fourth stimulus is always absent.
-        if let Some(MaterialKind::Sensor(response)) = palette.kind(code)
-            && response.image.is_none()
-            && let Some(sensed) = sensed.get_mut(response.stimulus)
-        {
-            *sensed = true;
-        }
-    }
-    let of_pattern = |pattern: Pattern| Pattern::of(sensed.iter().enumerate().map(|(i, &on)| on && pattern.has(i)));
-    Pattern::all(palette.inputs()).map(of_pattern).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::evolve::{Candidate, Rivals, Search};
+    use crate::evaluation::setting;
+    use crate::evolve::{Candidate, CandidateOutcome, Rivals, Scores, Search};
     use crate::{Executor, LocalExecutor, Task, TaskResult};
-    use nbc_base::model::{Evolution, Palette, PhysicsWorld, Trajectory, Trial, WorldNoise};
+    use nbc_base::model::{
+        Direction, Evolution, Palette, PhysicsWorld, Schedule, Spell, Trajectory, Trial, WorldNoise,
+    };
     use nbc_sim::{Kernel, LaneBackend, Monitor};
 
     /// A search in which many bodies are dropped, with a long simulation of these spells.
@@ -629,7 +324,7 @@ mod tests {
     fn as_many_are_simulated_as_fill_the_lanes_those_first_that_need_most() {
         let search = Search::new(&evolution(&PAPER), 1);
         let protocol = EvaluationProtocol::of(search.evolution());
-        let course = Course::new(&protocol);
+        let plan = SimulationPlan::new(&protocol);
         let task =
             |candidate: Candidate| EvaluationTask { body: candidate.body, rivals: Rivals::none(2), expected: None };
         let tasks: Vec<EvaluationTask> = search.ask().into_iter().map(task).collect();
@@ -638,7 +333,7 @@ mod tests {
         let needs = |walker: &Walker| walker.different().len();
         let all: usize = walkers.iter().map(needs).sum();
         for (at_once, expected) in [(3, 6), (8, 8), (10, 10), (all + 10, all)] {
-            let found = wanted(&course, &tasks, &walkers, at_once);
+            let found = wanted(&plan, &tasks, &walkers, at_once);
             assert_eq!(found.len(), expected, "{at_once} at once");
             let made: BTreeSet<usize> = found.iter().map(|&(walker, _)| walker).collect();
             assert_eq!(made.len(), expected.min(walkers.len()));
@@ -646,7 +341,7 @@ mod tests {
             let least = made.iter().map(|&n| needs(&walkers[n])).min();
             assert!(left.max() <= least);
         }
-        assert!(all > 10 && wanted(&course, &[], &walkers, 8).is_empty());
+        assert!(all > 10 && wanted(&plan, &[], &walkers, 8).is_empty());
     }
 
     #[test]
@@ -664,14 +359,5 @@ mod tests {
             let each: Vec<f64> = walked.iter().map(|one| one.com_x[84] - one.com_x[0]).collect();
             assert_eq!(found.unwrap(), Displacements::try_from(each).unwrap());
         }
-    }
-
-    #[test]
-    fn a_body_of_three_senses_has_eight_patterns() {
-        let body = |rows: &[&str]| Body::parse(rows, &Palette::three()).unwrap();
-        let patterns =
-            |body: Body| sensed_patterns(&body).iter().map(|one| one.digits(3)).collect::<Vec<_>>().join(" ");
-        assert_eq!(patterns(body(&["3a4", "373"])), "000 001 000 001 100 101 100 101");
-        assert_eq!(Walker::new(body(&["3a4", "576"])).different().len(), 8);
     }
 }
