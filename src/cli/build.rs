@@ -143,7 +143,7 @@ fn describe_passes(source: Netlist) -> String {
 
 /// A line of the timing of a circuit whose registers have a form without a proof.
 const UNPROVED_REGISTERS: &str =
-    "unproved that its registers store what they stored before they became latches of another form\n";
+    "registers are not proved to store what they stored before they became latches of another form\n";
 
 fn describe_timing(mapping: &Mapping) -> String {
     let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;

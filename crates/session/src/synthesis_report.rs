@@ -92,7 +92,7 @@ impl SynthesisReport {
             latches: design.registers.len(),
             removed: RemovedReport::of(removed),
             unreachable: states.as_ref().map(StatesReport::of),
-            // A circuit that is not proved is never reported.
+            // A circuit whose logic is not proved is never reported.
             proved: true,
             proof: ProofReport::of(origin, *unproved_registers),
             seconds,
