@@ -138,10 +138,11 @@ fn finished(mut runs: BTreeMap<u64, Run>) -> BTreeMap<u64, Run> {
     runs
 }
 
-/// The folders of runs in a folder of `out`; none if it is not there.
+/// The folders of runs in a folder of `out`.
 fn folders(name: &str) -> Fallible<Vec<PathBuf>> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("out").join(name);
-    let Ok(seeds) = std::fs::read_dir(folder) else { return Ok(Vec::new()) };
+    let missing = |error| format!("{}: {error}; docs/paper.md says how to unpack the archives", folder.display());
+    let seeds = std::fs::read_dir(&folder).map_err(missing)?;
     Ok(seeds.map(|seed| Ok(seed?.path())).collect::<Result<_, std::io::Error>>()?)
 }
 
