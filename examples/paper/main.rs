@@ -1,7 +1,7 @@
 //! Prints the tables of docs/paper.md from the runs in `out/paper` and `out/long`:
 //!
 //!     cargo run --release --example paper
-//!     cargo run --release --example paper -- transfer mutants gates    only these parts, which simulate for minutes
+//!     cargo run --release --example paper -- transfer mutants gates    only these parts, which simulate for hours
 
 mod complexity;
 mod gates;
