@@ -8,10 +8,10 @@ use crate::claims::DecidedClaim;
 use crate::property_report::PropertyReport;
 use crate::swarm_run::RunEnd;
 use crate::test::TestRun;
-use nbc_base::model::{CircuitTest, Stimulation, TestRow};
+use nbc_base::model::{CircuitTest, Property, PropertyKind, Stimulation, TestRow};
 use nbc_base::source::Sources;
 use nbc_circuit::formats::AigerModel;
-use nbc_circuit::properties::PropertyVerdict;
+use nbc_circuit::properties::{EmptyProof, PropertySearch};
 use nbc_lang::syntax;
 
 /// A claim, or the properties of a model.
@@ -35,11 +35,12 @@ pub struct ClaimReport {
 impl ClaimReport {
     /// What is known of a claim.
     pub fn of(decided: &DecidedClaim) -> Self {
-        let DecidedClaim { claim, system, verdicts, tests, work } = decided;
+        let DecidedClaim { claim, system, verdicts, empty, tests, work } = decided;
         let known = claim.wanted().zip(verdicts).zip(tests).enumerate();
         let properties = known.map(|(number, ((property, verdict), test))| PropertyReport {
             line: Some(property.line),
             test: test.as_ref().map(text_of_test),
+            empty: empty[number].map(|why| why_empty(why, property, &claim.properties)),
             ..PropertyReport::of(system, number, property.text.clone(), verdict)
         });
         Self {
@@ -53,14 +54,16 @@ impl ClaimReport {
     }
 
     /// What is known of the properties of a model.
-    pub fn of_model(file: &str, model: &AigerModel, verdicts: &[PropertyVerdict], work: u64) -> Self {
-        let known = model.properties.iter().zip(verdicts).enumerate();
+    pub fn of_model(file: &str, model: &AigerModel, search: &PropertySearch) -> Self {
+        let verdicts = search.verdicts();
+        let known = model.properties.iter().zip(&verdicts).enumerate();
         let properties = known.map(|(number, (name, verdict))| PropertyReport {
+            empty: search.empty_proof(number).map(|_| "no step satisfies the constraints".to_owned()),
             witness: Some(model.witness(number, verdict)),
             ..PropertyReport::of(&model.system, number, name.clone(), verdict)
         });
         let (line, circuit, title) = (None, None, None);
-        Self { file: file.to_owned(), line, circuit, title, properties: properties.collect(), work }
+        Self { file: file.to_owned(), line, circuit, title, properties: properties.collect(), work: search.work() }
     }
 
     /// Notes runs in physics of the test that refutes a property.
@@ -93,6 +96,17 @@ impl ClaimReport {
         };
         self.properties.iter().for_each(|property| text += &property.text());
         text
+    }
+}
+
+/// Why the proof of a property says nothing, in words.
+fn why_empty(why: EmptyProof, property: &Property, all: &[Property]) -> String {
+    let is_assumed = all.iter().any(|other| other.kind == PropertyKind::Assume);
+    let under = if is_assumed { " under the assumptions" } else { "" };
+    match why {
+        EmptyProof::NoStep => "no step satisfies the assumptions".to_owned(),
+        EmptyProof::NeverChecked if property.has_condition => format!("its condition is never true{under}"),
+        EmptyProof::NeverChecked => format!("no run is long enough{under}"),
     }
 }
 

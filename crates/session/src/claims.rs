@@ -8,7 +8,7 @@ use nbc_base::model::{Base, CircuitId, CircuitTest, Claim, Program, Property, Pr
 use nbc_base::source::Span;
 use nbc_circuit::elaborate::elaborate_environment;
 use nbc_circuit::properties::{
-    EnvironmentStep, Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem,
+    EmptyProof, EnvironmentStep, Monitored, PropertySearch, PropertyVerdict, SearchBudget, SystemRun, TransitionSystem,
 };
 use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate_reference, elaborate_watched};
 
@@ -30,6 +30,8 @@ pub struct DecidedClaim {
     pub system: TransitionSystem,
     /// What is known.
     pub verdicts: Vec<PropertyVerdict>,
+    /// Why proofs say nothing.
+    pub empty: Vec<Option<EmptyProof>>,
     /// For each property that is refuted, a test whose last row shows it. The circuit passes it as it is.
     pub tests: Vec<Option<CircuitTest>>,
     /// The work, as [`SearchBudget`] counts it.
@@ -63,8 +65,8 @@ impl ClaimSearch {
         };
         let environment = claim.environment.map(|place| environment(program, place)).transpose()?;
         let monitored = Monitored::of(&circuit, &monitor, &claim.properties, environment.as_ref(), &cancel);
-        let Monitored { system, ports, given, clock } = monitored.map_err(fault)?;
-        let search = PropertySearch::new(system, budget, cancel);
+        let Monitored { system, checks, ports, given, clock } = monitored.map_err(fault)?;
+        let search = PropertySearch::new(system, budget, cancel).with_checks(checks);
         Ok(Self { claim: claim.clone(), search, ports: RunPorts { ports, given, clock }, circuit, monitor })
     }
 
@@ -92,8 +94,9 @@ impl ClaimSearch {
             PropertyVerdict::Proved(_) | PropertyVerdict::Undecided { .. } => None,
         };
         let tests = properties.iter().zip(&verdicts).map(shown).collect();
+        let empty = (0..verdicts.len()).map(|property| self.search.empty_proof(property)).collect();
         let (system, work) = (self.search.system().clone(), self.search.work());
-        DecidedClaim { claim: self.claim, system, verdicts, tests, work }
+        DecidedClaim { claim: self.claim, system, verdicts, empty, tests, work }
     }
 
     /// The test that a run is: its outputs are those of the cells, one time step after the other.

@@ -36,7 +36,7 @@ impl Equivalence {
             let circuit = [&test.circuit, other][at].to_string();
             vec![ClaimError::NoSteps { circuit, why }.at(test.span)]
         })?;
-        let Monitored { system, ports, given, clock } = monitored;
+        let Monitored { system, ports, given, clock, .. } = monitored;
         Ok(Self { system, ports: RunPorts { ports, given, clock }, circuits, cancel })
     }
 

@@ -15,7 +15,9 @@ pub struct ModelSearch {
 impl ModelSearch {
     /// A search that has done nothing yet; `file` is where the model comes from.
     pub fn new(file: String, model: AigerModel, budget: SearchBudget, cancel: CancelFlag) -> Self {
-        let search = PropertySearch::new(model.system.clone(), budget, cancel);
+        let mut checks = model.system.clone();
+        checks.bad.fill(1);
+        let search = PropertySearch::new(model.system.clone(), budget, cancel).with_checks(checks);
         Self { file, model, search }
     }
 
@@ -26,6 +28,6 @@ impl ModelSearch {
 
     /// What is known now.
     pub fn finish(self) -> ClaimReport {
-        ClaimReport::of_model(&self.file, &self.model, &self.search.verdicts(), self.search.work())
+        ClaimReport::of_model(&self.file, &self.model, &self.search)
     }
 }

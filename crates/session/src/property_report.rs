@@ -30,6 +30,9 @@ pub struct PropertyReport {
     /// The properties without which this proof does not hold, as their numbers, counted from 0.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<usize>,
+    /// Why the proof says nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub empty: Option<String>,
     /// A test that shows what refutes it, as text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub test: Option<String>,
@@ -51,6 +54,7 @@ impl PropertyReport {
             steps: None,
             invariant: None,
             with: Vec::new(),
+            empty: None,
             test: None,
             witness: None,
             physics: None,
@@ -82,6 +86,9 @@ impl PropertyReport {
     /// What the verdict is based on, in words.
     pub fn how(&self) -> String {
         let steps = counted(self.steps.unwrap_or(0), "step");
+        if let Some(why) = &self.empty {
+            return format!("but empty: {why}");
+        }
         match (self.verdict, &self.invariant) {
             ("refuted", _) => format!("after {steps}"),
             ("undecided", _) => format!("it holds in the first {steps}"),

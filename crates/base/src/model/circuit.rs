@@ -293,7 +293,7 @@ impl Size {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SizeKind {
     /// A number as written.
-    Literal(i64),
+    Literal(i128),
     /// A parameter or loop variable, by slot.
     Variable(u32),
     /// The number of bits needed for that many different values.
@@ -520,14 +520,14 @@ impl fmt::Display for Instance {
 
 impl SizeKind {
     /// The number of bits needed for `things` different values; zero for one value.
-    pub fn log2(things: i64) -> i64 {
-        if things <= 1 { 0 } else { i64::from(i64::BITS - (things - 1).leading_zeros()) }
+    pub fn log2(things: i128) -> i128 {
+        if things <= 1 { 0 } else { i128::from(i128::BITS - (things - 1).leading_zeros()) }
     }
 }
 
 impl SizeOperator {
     /// The result; `None` if it is too large or there is none.
-    pub fn apply(self, left: i64, right: i64) -> Option<i64> {
+    pub fn apply(self, left: i128, right: i128) -> Option<i128> {
         match self {
             Self::Add => left.checked_add(right),
             Self::Subtract => left.checked_sub(right),

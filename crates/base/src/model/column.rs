@@ -13,6 +13,9 @@ pub struct Column {
     pub name: String,
     /// The width in bits, at least 1.
     pub width: usize,
+    /// The number of its words, if it is an array.
+    #[serde(skip)]
+    pub words: Option<usize>,
     /// The enumeration whose members its values are.
     #[serde(skip)]
     pub members: Option<Arc<Enumeration>>,
@@ -21,7 +24,7 @@ pub struct Column {
 impl Column {
     /// A port whose values are numbers.
     pub fn new(name: impl Into<String>, width: usize) -> Self {
-        Self { name: name.into(), width, members: None }
+        Self { name: name.into(), width, words: None, members: None }
     }
 
     /// The ports that have these bits, named as [`Column::bits`] names them: a run from `a[3]` down to `a[0]` is one

@@ -16,7 +16,7 @@ use nbc_base::source::Span;
 pub(super) struct ModuleKey {
     pub(super) circuit: CircuitId,
     /// The values of its parameters.
-    pub(super) arguments: Vec<i64>,
+    pub(super) arguments: Vec<i128>,
     /// The inputs that have their default values, by their places.
     pub(super) absent: Vec<u32>,
 }
@@ -125,7 +125,7 @@ impl<'a> Builder<'a> {
 
     /// The module of a circuit with numbers for its first parameters; it is named at `place`.
     pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<ModuleId> {
-        let mut given: Vec<_> = arguments.iter().map(|&value| i64::try_from(value).ok()).collect();
+        let mut given: Vec<_> = arguments.iter().map(|&value| i128::try_from(value).ok()).collect();
         given.resize(self.circuit(circuit).parameters.len(), None);
         let arguments = self.arguments(circuit, given, &[], place)?;
         self.build(ModuleKey { circuit, arguments, absent: Vec::new() })
@@ -180,12 +180,12 @@ impl<'a> Builder<'a> {
     /// The ports of a module, as columns of a test.
     pub(super) fn columns(&self, id: ModuleId) -> (Vec<Column>, Vec<Column>) {
         let module = self.module(id);
-        let columns = |ports: &[ModulePort]| ports.iter().map(|port| self.column(module.circuit, port)).collect();
+        let columns = |ports: &[ModulePort]| ports.iter().map(|port| self.column(module, port)).collect();
         let (inputs, outputs) = (columns(&module.inputs), columns(&module.outputs));
         (inputs, outputs)
     }
 
-    /// The net of that name which is no port and no array, and where it is declared; `None` if there are several, as of
+    /// The net of that name which is no port, and where it is declared; `None` if there are several, as of
     /// a loop.
     pub(super) fn inner_net(&self, id: ModuleId, name: &str) -> Option<(Column, Span)> {
         let module = self.module(id);
@@ -193,17 +193,17 @@ impl<'a> Builder<'a> {
         let mut named = (ports..module.nets.len()).filter(|&net| module.nets[net].name == name);
         let net = named.next().filter(|_| named.next().is_none())?;
         let found = &module.nets[net];
-        let is_plain = found.width.is_some() && found.words.is_none();
-        is_plain.then(|| (self.column(module.circuit, &module.port(net)), found.span))
+        found.width.is_some().then(|| (self.column(module, &module.port(net)), found.span))
     }
 
-    fn column(&self, circuit: CircuitId, port: &ModulePort) -> Column {
-        let circuit = self.circuit(circuit);
+    fn column(&self, module: &Module, port: &ModulePort) -> Column {
+        let circuit = self.circuit(module.circuit);
         let net = circuit.nets[..circuit.inputs + circuit.outputs].get(port.net as usize);
         let members = net.and_then(|net| self.program.enumerations.get(net.members?));
         Column {
             name: port.name.clone(),
             width: port.width as usize,
+            words: module.nets[port.net as usize].words.map(|words| words as usize),
             members: members.map(|members| Arc::new(members.clone())),
         }
     }
@@ -337,7 +337,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
 
     /// Adds an array of so many words of this width, or another net.
     pub(super) fn give_array(&mut self, net: usize, width: u32, words: Option<u32>) {
-        let bits = i64::from(width) * i64::from(words.unwrap_or(1));
+        let bits = i128::from(width) * i128::from(words.unwrap_or(1));
         if Limit::Width.permit(bits as u64).is_err() {
             let span = self.module.nets[net].span;
             self.fault(RangeError::NetWidth { width: bits, most: Limit::Width.most() }.at(span));

@@ -11,7 +11,7 @@ pub(super) struct Scope {
     pub(super) first_net: u32,
     pub(super) nets: u32,
     /// Parameters, loop variables and integers with names.
-    pub(super) variables: Vec<i64>,
+    pub(super) variables: Vec<i128>,
     /// The loop variables as a suffix of names.
     pub(super) turn: String,
 }

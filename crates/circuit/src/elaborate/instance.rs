@@ -13,10 +13,10 @@ impl Builder<'_> {
     pub(super) fn arguments(
         &mut self,
         circuit: CircuitId,
-        given: Vec<Option<i64>>,
+        given: Vec<Option<i128>>,
         operands: &[Option<u32>],
         span: Span,
-    ) -> Option<Vec<i64>> {
+    ) -> Option<Vec<i128>> {
         self.take(Limit::Steps, cost(self.circuit(circuit)), span)?;
         match arguments(self.circuit(circuit), given, operands, span) {
             Ok(arguments) => Some(arguments),
@@ -40,14 +40,14 @@ pub(super) fn cost(circuit: &Circuit) -> u64 {
 /// A value for each parameter.
 pub(super) fn arguments(
     circuit: &Circuit,
-    mut given: Vec<Option<i64>>,
+    mut given: Vec<Option<i128>>,
     operands: &[Option<u32>],
     span: Span,
-) -> Result<Vec<i64>, Diagnostic> {
+) -> Result<Vec<i128>, Diagnostic> {
     for (net, width) in circuit.nets.iter().zip(operands) {
         let kind = net.width.map(|size| circuit.sizes[size.0 as usize].kind);
         if let (Some(SizeKind::Variable(slot)), Some(width)) = (kind, width) {
-            given[slot as usize].get_or_insert(i64::from(*width));
+            given[slot as usize].get_or_insert(i128::from(*width));
         }
     }
     let mut values = Vec::new();
@@ -66,7 +66,7 @@ pub(super) fn arguments(
 }
 
 /// The widths of the output ports of a circuit with these parameters.
-pub(super) fn output_widths(circuit: &Circuit, arguments: &[i64]) -> Option<Vec<u32>> {
+pub(super) fn output_widths(circuit: &Circuit, arguments: &[i128]) -> Option<Vec<u32>> {
     let ports = &circuit.nets[circuit.inputs..circuit.inputs + circuit.outputs];
     let width = |net: &nbc_base::model::Net| match net.width {
         Some(width) => size::value(&circuit.sizes, width, arguments).ok().and_then(|width| u32::try_from(width).ok()),

@@ -105,7 +105,7 @@ impl ModuleBuilder<'_, '_> {
         own: Option<u32>,
         frame: u32,
     ) -> Vec<Option<u32>> {
-        let mut given: Vec<Option<i64>> =
+        let mut given: Vec<Option<i128>> =
             arguments.iter().map(|size| size.and_then(|size| self.size(size, frame))).collect();
         let callee = self.builder.circuit(callee);
         if self.take(Limit::Steps, instance::cost(callee)).is_none() {
@@ -117,11 +117,11 @@ impl ModuleBuilder<'_, '_> {
         };
         for (net, width) in operands.iter().enumerate() {
             if let (Some(slot), Some(width)) = (slot_of(net), width) {
-                given[slot].get_or_insert(i64::from(*width));
+                given[slot].get_or_insert(i128::from(*width));
             }
         }
         if let (1, Some(slot), Some(own)) = (callee.outputs, slot_of(callee.inputs), own) {
-            given[slot].get_or_insert(i64::from(own));
+            given[slot].get_or_insert(i128::from(own));
         }
         let mut values = Vec::new();
         for (parameter, given) in callee.parameters.iter().zip(given) {

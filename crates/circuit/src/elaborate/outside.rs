@@ -36,8 +36,8 @@ impl ModuleBuilder<'_, '_> {
         }
         let span = self.span(index);
         let fault = match (least == most, is_word) {
-            (true, true) => RangeError::NoSuchWord { net, word: least as i64, words: count }.at(span),
-            (true, false) => RangeError::NoSuchBit { net, bit: least as i64, width: count }.at(span),
+            (true, true) => RangeError::NoSuchWord { net, word: least as i128, words: count }.at(span),
+            (true, false) => RangeError::NoSuchBit { net, bit: least as i128, width: count }.at(span),
             (false, _) => ElaborateError::IndexOutside { net, count, most, is_word }.at(span),
         };
         self.fault(fault);

@@ -5,12 +5,12 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Size, SizeId, SizeKind};
 
 /// The value of a size, from its leaves to its root without recursion.
-pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i64]) -> Result<i64, Diagnostic> {
+pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i128]) -> Result<i128, Diagnostic> {
     let first = Size::first_part(sizes, root);
     if first == root {
         return Ok(leaf(sizes[root.0 as usize].kind, variables));
     }
-    let mut done: Vec<i64> = Vec::new();
+    let mut done: Vec<i128> = Vec::new();
     for at in first.0..=root.0 {
         let size = sizes[at as usize];
         let value = match size.kind {
@@ -26,7 +26,7 @@ pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i64]) -> Result<i
     Ok(done.pop().expect("a size has a value"))
 }
 
-fn leaf(kind: SizeKind, variables: &[i64]) -> i64 {
+fn leaf(kind: SizeKind, variables: &[i128]) -> i128 {
     match kind {
         SizeKind::Literal(value) => value,
         SizeKind::Variable(slot) => variables[slot as usize],

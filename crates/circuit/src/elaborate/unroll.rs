@@ -13,7 +13,7 @@ use nbc_base::source::Span;
 
 impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls loops: fills the list of statements to build.
-    pub(super) fn unroll(&mut self, variables: Vec<i64>) {
+    pub(super) fn unroll(&mut self, variables: Vec<i128>) {
         let body = &self.circuit.body;
         if let Some(root) = self.open_frame(None, body, variables, String::new()) {
             self.unroll_block(root, body);
@@ -21,7 +21,7 @@ impl<'a> ModuleBuilder<'a, '_> {
     }
 
     /// A block in one turn of the loops around it, if there is room for it.
-    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i64>, turn: String) -> Option<u32> {
+    fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i128>, turn: String) -> Option<u32> {
         let first_net = self.module.nets.len() as u32;
         let nets = &self.circuit.nets[block.nets.start as usize..block.nets.end as usize];
         let names: usize = nets.iter().map(|net| net.name.len() + turn.len()).sum();
@@ -146,7 +146,7 @@ impl<'a> ModuleBuilder<'a, '_> {
     }
 
     /// The value of a size in a frame; reports an error.
-    pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i64> {
+    pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i128> {
         let first = Size::first_part(&self.circuit.sizes, size);
         self.take(Limit::Steps, u64::from(size.0 - first.0))?;
         match size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables) {
@@ -179,7 +179,7 @@ impl<'a> ModuleBuilder<'a, '_> {
             self.fault(RangeError::AscendingSlice { net, ends: [high, low], is_literal }.at(span));
             return None;
         }
-        if low < 0 || high >= i64::from(width) {
+        if low < 0 || high >= i128::from(width) {
             let bit = if low < 0 { low } else { high };
             self.fault(RangeError::NoSuchBit { net, bit, width }.at(span));
             return None;
@@ -188,7 +188,7 @@ impl<'a> ModuleBuilder<'a, '_> {
     }
 }
 
-fn set_variable(variables: &mut Vec<i64>, slot: u32, value: i64) {
+fn set_variable(variables: &mut Vec<i128>, slot: u32, value: i128) {
     let slot = slot as usize;
     variables.resize(variables.len().max(slot + 1), 0);
     variables[slot] = value;

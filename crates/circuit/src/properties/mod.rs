@@ -32,6 +32,6 @@ pub use beside::EnvironmentStep;
 pub use certificate::InductiveProof;
 pub use machine::StepClock;
 pub use monitor::Monitored;
-pub use search::{PropertySearch, PropertyVerdict, SearchBudget};
+pub use search::{EmptyProof, PropertySearch, PropertyVerdict, SearchBudget};
 pub use system::{SystemRegister, SystemRun, TransitionSystem};
 pub use wording::NoSteps;

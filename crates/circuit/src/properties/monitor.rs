@@ -18,6 +18,8 @@ use nbc_base::source::CancelFlag;
 pub struct Monitored {
     /// The system. Its properties are those that are no assumptions, in order.
     pub system: TransitionSystem,
+    /// The same, where each property is violated in every step in which it could be.
+    pub checks: TransitionSystem,
     /// The input ports of the circuit but for the clock.
     pub ports: Vec<usize>,
     /// For each of them, the literal of the system that it has.
@@ -55,7 +57,8 @@ impl Monitored {
                 return Err(NoSteps::EnvironmentClock);
             }
         }
-        Assembly::of((circuit, machine), environment, &monitor, properties)
+        let assemble = |checks| Assembly::of((circuit, machine), environment, &monitor, properties, checks);
+        Ok(Self { checks: assemble(true)?.system, ..assemble(false)? })
     }
 }
 
@@ -97,6 +100,7 @@ impl Assembly {
         environment: Option<&EnvironmentStep>,
         monitor: &ClockStep,
         properties: &[Property],
+        checks: bool,
     ) -> Result<Monitored, NoSteps> {
         let clock = machine.clock.map(|clock| clock.input);
         let ports: Vec<usize> = (0..machine.inputs).filter(|&port| Some(port) != clock).collect();
@@ -156,9 +160,13 @@ impl Assembly {
         for property in properties {
             let begins = property.before.checked_sub(1).map_or(1, |last| started[last]);
             let condition = if property.has_condition { next() } else { 1 };
-            let value = next();
+            let is_never = property.kind == PropertyKind::Never;
+            let mut value = next();
+            if checks && property.kind != PropertyKind::Assume {
+                value = usize::from(is_never);
+            }
             let active = assembly.graph.and(begins, condition);
-            let wrong = assembly.graph.and(active, value ^ usize::from(property.kind != PropertyKind::Never));
+            let wrong = assembly.graph.and(active, value ^ usize::from(!is_never));
             if property.kind == PropertyKind::Assume {
                 constraints.push(wrong ^ 1);
                 continue;
@@ -182,7 +190,7 @@ impl Assembly {
         registers.iter_mut().zip(nexts).for_each(|(register, next)| register.next = next);
         let given = ports.iter().map(|&port| inputs[port]).collect();
         let system = TransitionSystem { inputs: names, registers, ands: graph.ands, bad, constraints };
-        Ok(Monitored { system, ports, given, clock: machine.clock })
+        Ok(Monitored { system, checks: TransitionSystem::default(), ports, given, clock: machine.clock })
     }
 
     fn register(&mut self, name: &str, start: Option<bool>) -> AndLiteral {

@@ -61,7 +61,7 @@ impl Monitored {
             constraints: Vec::new(),
         };
         let given = (0..ports.len()).map(|at| 2 * (at + 1)).collect();
-        Ok(Self { system, ports, given, clock })
+        Ok(Self { system, checks: TransitionSystem::default(), ports, given, clock })
     }
 }
 

@@ -42,6 +42,15 @@ pub enum PropertyVerdict {
     },
 }
 
+/// Why a proof says nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EmptyProof {
+    /// The constraints do not hold in any first step.
+    NoStep,
+    /// No step of any run is one in which the property could be violated.
+    NeverChecked,
+}
+
 /// How much a search may do. Work is counted in calls of the solver, clauses that it learned, and hundreds of values
 /// that it derived.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,6 +91,10 @@ pub struct PropertySearch {
     known: Option<Vec<Cube>>,
     /// A run that violates a property, while shorter ones are looked for, and the work at which that ends.
     longer: Option<(usize, SystemRun, u64)>,
+    /// What is searched once all properties are decided, to find empty proofs: its first property is violated in
+    /// every step, the others in each step in which those of this system could be.
+    checks: Option<TransitionSystem>,
+    checked: Option<Box<Self>>,
 }
 
 impl PropertySearch {
@@ -103,7 +116,19 @@ impl PropertySearch {
             frames_work: 0,
             known: None,
             longer: None,
+            checks: None,
+            checked: None,
         }
+    }
+
+    /// The search, which then also finds empty proofs. For each property, `checks` has what is 1 in a step in which it
+    /// could be violated.
+    #[must_use]
+    pub fn with_checks(mut self, mut checks: TransitionSystem) -> Self {
+        let is_needed = !checks.constraints.is_empty() || checks.bad.iter().any(|&check| check != 1);
+        checks.bad.insert(0, 1);
+        self.checks = is_needed.then_some(checks);
+        self
     }
 
     /// The system.
@@ -132,12 +157,21 @@ impl PropertySearch {
 
     /// Whether all properties are decided, or the budget has ended.
     pub fn is_done(&self) -> bool {
-        self.open.is_empty() || self.work() >= self.budget.work || self.cancel.is_raised()
+        let is_checked = self.checks.is_none() && self.checked.as_ref().is_none_or(|checked| checked.is_done());
+        self.cancel.is_raised() || self.has_decided() && is_checked
+    }
+
+    fn has_decided(&self) -> bool {
+        self.open.is_empty() || self.work() >= self.budget.work
     }
 
     /// Does a portion of the search.
     pub fn advance(&mut self) {
         if self.is_done() {
+            return;
+        }
+        if self.has_decided() {
+            self.look_for_empty_proofs();
             return;
         }
         if self.longer.is_some() {
@@ -153,6 +187,32 @@ impl PropertySearch {
             self.look_further();
         } else {
             self.look_for_invariant();
+        }
+    }
+
+    fn look_for_empty_proofs(&mut self) {
+        if let Some(checks) = self.checks.take() {
+            let budget = SearchBudget { steps: self.budget.steps, ..SearchBudget::SHORT };
+            let mut checked = Self::new(checks, budget, self.cancel.clone());
+            checked.open.retain(|&at| at == 0 || self.is_proved(at - 1));
+            self.checked = Some(Box::new(checked));
+        }
+        if let Some(checked) = &mut self.checked {
+            checked.advance();
+        }
+    }
+
+    fn is_proved(&self, property: usize) -> bool {
+        matches!(self.verdicts.get(&property), Some(PropertyVerdict::Proved(_)))
+    }
+
+    /// Why the proof of a property is empty; `None` if it is not, or this is not known.
+    pub fn empty_proof(&self, property: usize) -> Option<EmptyProof> {
+        let checked = self.checked.as_ref().filter(|_| self.is_proved(property))?;
+        match (checked.is_proved(0), checked.is_proved(property + 1)) {
+            (true, _) => Some(EmptyProof::NoStep),
+            (_, true) => Some(EmptyProof::NeverChecked),
+            _ => None,
         }
     }
 

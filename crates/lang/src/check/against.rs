@@ -2,7 +2,7 @@
 //! names do, whatever their order; where no name is the same, their order decides.
 
 use crate::check::wording::CircuitError;
-use crate::syntax::tree::NameSyntax;
+use crate::syntax::tree::{self, NameSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
     Block, Circuit, CircuitId, Column, Expression, ExpressionId, ExpressionKind, Net, NetSlot, Size, SizeId, SizeKind,
@@ -12,6 +12,17 @@ use nbc_base::source::Span;
 
 /// The input and the output ports of a circuit.
 pub(crate) type PortLists<'a> = (&'a [Column], &'a [Column]);
+
+/// A port of another circuit, which is named at `place`, as a port of one with this body.
+pub(crate) fn port(column: &Column, place: Span, body: &mut tree::BodySyntax) -> tree::Port {
+    let mut size = |value: usize| {
+        body.sizes.push(tree::SizeSyntax { kind: tree::SizeSyntaxKind::Literal(value.to_string()), span: place });
+        tree::SizeSyntaxId(body.sizes.len() as u32 - 1)
+    };
+    let width = size(column.width / column.words.unwrap_or(1));
+    let words = column.words.map(size);
+    tree::Port { words, ..tree::Port::new(NameSyntax { text: column.name.clone(), span: place }, Some(width)) }
+}
 
 /// The reference of a test against another circuit, with the ports of the tested one: a call of that other circuit with
 /// these values of its parameters.
@@ -69,14 +80,14 @@ fn call(
     [inputs, outputs]: [Vec<usize>; 2],
 ) -> Circuit {
     let mut sizes = Vec::new();
-    let mut size = |value: i64| {
+    let mut size = |value: i128| {
         sizes.push(Size { kind: SizeKind::Literal(value), span });
         SizeId(sizes.len() as u32 - 1)
     };
     let net = |port: &Column| Net {
         name: port.name.clone(),
         span,
-        width: Some(size(port.width as i64)),
+        width: Some(size(port.width as i128)),
         words: None,
         default: None,
         members: None,
@@ -84,7 +95,7 @@ fn call(
         is_text: false,
     };
     let nets: Vec<Net> = own_inputs.iter().chain(own_outputs).map(net).collect();
-    let arguments = arguments.iter().map(|value| value.map(|value| size(value as i64))).collect();
+    let arguments = arguments.iter().map(|value| value.map(|value| size(value as i128))).collect();
     let operand = |&place: &usize| Expression { kind: ExpressionKind::Net(NetSlot(place as u32)), span };
     let mut expressions: Vec<Expression> = inputs.iter().map(operand).collect();
     let operands = (0..inputs.len() as u32).map(|at| Some(ExpressionId(at))).collect();

@@ -1,6 +1,7 @@
 //! Bits of nets and words of arrays: those that integers select, and those that the values of nets select. An array in
 //! an environment is a memory.
 
+use crate::check::constant;
 use crate::check::circuit::{Binding, CircuitChecker};
 use crate::check::names::Home;
 use crate::check::wording::ArrayError;
@@ -166,7 +167,7 @@ impl CircuitChecker<'_> {
             let kind = match &size.kind {
                 SizeSyntaxKind::Group(_) => continue,
                 SizeSyntaxKind::Literal(digits) => {
-                    ExpressionKind::Unsized(FreeNumber::Literal(digits.parse().unwrap_or(u128::MAX)))
+                    ExpressionKind::Unsized(FreeNumber::Literal(constant::unsized_number(digits).unwrap_or(u128::MAX)))
                 }
                 SizeSyntaxKind::Name(name) => {
                     let name = tree::NameSyntax { text: name.clone(), span: size.span };

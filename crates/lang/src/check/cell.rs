@@ -28,11 +28,8 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
         }
         _ => {}
     }
-    if let Some(members) = &column.members
-        && let Some(member) = members.member(&word.text)
-    {
-        let bits = members.bits(member.value).into_iter().map(Some).collect();
-        return Ok(RowCell::Bits(bits, Base::Member));
+    if let Some(bits) = member(word, column) {
+        return Ok(RowCell::Bits(bits.into_iter().map(Some).collect(), Base::Member));
     }
     if let Some(bits) = number(word, column)? {
         return Ok(RowCell::Bits(bits, Base::Plain));
@@ -47,6 +44,12 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
     } else {
         Err(wrong_width(word, &counted(bits.len(), "bit"), column))
     }
+}
+
+/// The bits of the member of the column's enumeration with that name.
+fn member(word: &NameSyntax, column: &Column) -> Option<Vec<bool>> {
+    let members = column.members.as_ref()?;
+    Some(members.bits(members.member(&word.text)?.value))
 }
 
 /// The bits of a number without a width, if the word is one. Several digits of 0 and 1 are bits.
@@ -64,8 +67,8 @@ fn number(word: &NameSyntax, column: &Column) -> Result<Option<Vec<Option<bool>>
 
 /// As [`cell`], for an input, whose bits are all known.
 pub(crate) fn input_cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
-    let is_number = constant::unsized_number(&word.text).is_some();
-    if constant::is_unknown(&word.text) || (!is_number && with_any_bits(&word.text).is_some()) {
+    let is_value = member(word, column).is_some() || constant::unsized_number(&word.text).is_some();
+    if !is_value && (constant::is_unknown(&word.text) || with_any_bits(&word.text).is_some()) {
         return Err(CellError::NotAnInput { word: word.text.clone() }.at(word.span));
     }
     cell(word, column)

@@ -18,7 +18,7 @@ use nbc_base::source::Span;
 
 /// The kind of an output of an environment that writes text, and its width: whether it writes, and the character.
 const TEXT: &str = "text";
-const TEXT_BITS: i64 = 9;
+const TEXT_BITS: i128 = 9;
 
 /// The interface of circuits, enough to check calls.
 #[derive(Clone, Debug, Default)]

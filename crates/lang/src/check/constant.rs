@@ -59,6 +59,11 @@ pub(crate) fn sized(word: &str) -> Option<(Option<u32>, u128)> {
     unsized_number(word).map(|value| (None, value))
 }
 
+/// The value of a number where an integer stands.
+pub(crate) fn integer<T: TryFrom<u128>>(word: &str) -> Option<T> {
+    T::try_from(unsized_number(word)?).ok()
+}
+
 /// The value of a number without a width: `12`, `0x1f`, `0b101`.
 pub(crate) fn unsized_number(word: &str) -> Option<u128> {
     let (digits, base) = match word.as_bytes().get(1) {

@@ -96,7 +96,7 @@ pub(crate) fn integer(
     home: Home,
     declared: Vocabulary<'_>,
     faults: &mut Vec<Diagnostic>,
-) -> Option<i64> {
+) -> Option<i128> {
     let value = size::value(&source.sizes, |name, place| declared.integer(name, place, home));
     value.map_err(|fault| faults.push(fault)).ok()
 }

@@ -202,7 +202,7 @@ impl<'a> CircuitChecker<'a> {
 
     fn size_of_number(&mut self, (number, span): (FreeNumber, Span)) -> Option<SizeId> {
         match number {
-            FreeNumber::Literal(value) => Some(self.push_size(SizeKind::Literal(i64::try_from(value).ok()?), span)),
+            FreeNumber::Literal(value) => Some(self.push_size(SizeKind::Literal(i128::try_from(value).ok()?), span)),
             FreeNumber::Size(size) => Some(self.copy_of_size(size)),
         }
     }

@@ -1,6 +1,7 @@
 //! Circuits named by tests and swarms, with numbers for their parameters.
 
 use crate::check::circuit::Headers;
+use crate::check::constant;
 use crate::check::expression::parameter_place;
 use crate::check::names::Home;
 use crate::check::vocabulary::Vocabulary;
@@ -43,7 +44,7 @@ fn with_numbers(
     source: &tree::InstanceSyntax,
     circuit: &str,
     parameters: &[String],
-    named: impl Fn(&str, Span) -> Option<Result<i64, Diagnostic>>,
+    named: impl Fn(&str, Span) -> Option<Result<i128, Diagnostic>>,
 ) -> Result<Instance, Diagnostic> {
     let mut values = vec![None; parameters.len()];
     for (place, argument) in source.arguments.iter().enumerate() {
@@ -65,11 +66,11 @@ fn with_numbers(
 
 fn number(
     size: &tree::SizeSyntax,
-    named: impl Fn(&str, Span) -> Option<Result<i64, Diagnostic>>,
+    named: impl Fn(&str, Span) -> Option<Result<i128, Diagnostic>>,
 ) -> Result<u64, Diagnostic> {
     let named = match &size.kind {
         SizeSyntaxKind::Literal(digits) => {
-            return digits.parse::<u32>().map(u64::from).map_err(|_| ValueError::TooLarge.at(size.span));
+            return constant::integer(digits).ok_or_else(|| ValueError::TooLarge.at(size.span));
         }
         SizeSyntaxKind::Name(name) => named(name, size.span).transpose()?,
         _ => None,

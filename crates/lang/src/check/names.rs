@@ -154,7 +154,7 @@ pub(crate) struct Names {
     pub(crate) enumerations: NameTable,
     pub(crate) members: NameTable<MemberPlace>,
     /// With their values.
-    pub(crate) integers: NameTable<i64>,
+    pub(crate) integers: NameTable<i128>,
     pub(crate) files: NameTable,
     pub(crate) swarms: NameTable<Option<usize>>,
     /// With positions among the declarations.

@@ -2,6 +2,7 @@
 
 use std::ops::RangeInclusive;
 
+use crate::check::constant;
 use crate::check::wording::{Bounds, Expected, ValueError};
 use crate::syntax::tree::{Number, Quantity, ValueKind, ValueSyntax};
 use nbc_base::diag::{Diagnostic, Suggestion};
@@ -87,7 +88,7 @@ pub(crate) fn count(value: &ValueSyntax, range: RangeInclusive<u32>) -> Result<u
 pub(crate) fn seed(quantity: &Quantity) -> Result<u64, Diagnostic> {
     bare(quantity)?;
     let text = &quantity.number.text;
-    text.parse().map_err(|_| outside(text.clone(), Bounds::Seed { most: u64::MAX }, quantity.span()))
+    constant::integer(text).ok_or_else(|| outside(text.clone(), Bounds::Seed { most: u64::MAX }, quantity.span()))
 }
 
 /// A number without a unit.
@@ -119,7 +120,14 @@ pub(crate) fn percent(quantity: &Quantity) -> Result<f64, Diagnostic> {
 
 /// A number as written.
 pub(crate) fn number(number: &Number) -> Result<f64, Diagnostic> {
-    let value: f64 = number.text.parse().expect("the grammar lets numbers through only");
+    let text = number.text.trim_start_matches('-');
+    let is_decimal = text.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.');
+    let value: f64 = if is_decimal {
+        number.text.parse().expect("the grammar lets numbers through only")
+    } else {
+        let value = constant::unsized_number(text).map_or(f64::INFINITY, |value| value as f64);
+        if text == number.text { value } else { -value }
+    };
     if value.is_finite() { Ok(value) } else { Err(outside(number.text.clone(), Bounds::Smaller, number.span)) }
 }
 

@@ -1,6 +1,7 @@
 //! Sizes of circuits: integers over parameters and loop variables.
 
 use crate::check::circuit::{Binding, CircuitChecker};
+use crate::check::constant;
 use crate::check::wording::{NameError, ValueError};
 use crate::syntax::tree;
 use nbc_base::diag::{Diagnostic, Suggestion};
@@ -56,11 +57,11 @@ impl CircuitChecker<'_> {
     }
 
     fn literal(&mut self, digits: &str, span: Span) -> SizeKind {
-        let value = digits.parse::<u32>().unwrap_or_else(|_| {
+        let value = constant::integer(digits).unwrap_or_else(|| {
             self.diagnostics.push(ValueError::TooLarge.at(span));
             1
         });
-        SizeKind::Literal(value.into())
+        SizeKind::Literal(value)
     }
 
     fn number(&mut self, name: &str, span: Span) -> SizeKind {
@@ -101,13 +102,13 @@ impl CircuitChecker<'_> {
 /// The value of the last of some sizes, where only names that `known` knows are defined.
 pub(crate) fn value(
     sizes: &[tree::SizeSyntax],
-    known: impl Fn(&str, Span) -> Option<Result<i64, Diagnostic>>,
-) -> Result<i64, Diagnostic> {
-    let mut values: Vec<i64> = Vec::with_capacity(sizes.len());
+    known: impl Fn(&str, Span) -> Option<Result<i128, Diagnostic>>,
+) -> Result<i128, Diagnostic> {
+    let mut values: Vec<i128> = Vec::with_capacity(sizes.len());
     for size in sizes {
         let at = |id: tree::SizeSyntaxId| values[id.0 as usize];
         let value = match &size.kind {
-            tree::SizeSyntaxKind::Literal(digits) => digits.parse::<u32>().ok().map(i64::from),
+            tree::SizeSyntaxKind::Literal(digits) => constant::integer(digits),
             tree::SizeSyntaxKind::Name(name) => Some(known(name, size.span).ok_or_else(|| {
                 NameError::UnknownNumber { name: name.clone(), meant: Suggestion::None }.at(size.span)
             })??),

@@ -57,17 +57,17 @@ impl CircuitChecker<'_> {
 
     /// A pattern: bits, a member of an enumeration, or a number.
     fn pattern(&mut self, word: &tree::NameSyntax) -> Option<TablePattern> {
-        if let Some(bits) = constant::pattern(&word.text) {
-            return Some(TablePattern::Bits(bits));
-        }
-        if let Some(value) = constant::unsized_number(&word.text) {
-            return Some(TablePattern::Number(value));
-        }
         let declared = self.declared;
         if let Some((place, member)) = declared.member(&word.text, self.home) {
             declared.members.refer_to(&word.text, word.span, self.home);
             let bits = declared.all[place].bits(member.value);
             return Some(TablePattern::Bits(bits.into_iter().map(Some).collect()));
+        }
+        if let Some(bits) = constant::pattern(&word.text) {
+            return Some(TablePattern::Bits(bits));
+        }
+        if let Some(value) = constant::unsized_number(&word.text) {
+            return Some(TablePattern::Number(value));
         }
         let meant = Suggestion::of(&word.text, declared.members.all());
         self.diagnostics.push(TableError::NotAPattern { word: word.text.clone(), meant }.at(word.span));

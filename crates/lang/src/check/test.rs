@@ -1,6 +1,7 @@
 //! Tests: columns are ports, rows are bits.
 
 use crate::check::cell::{RowCell, cell, input_cell};
+use crate::check::constant;
 use crate::check::names::duplicate;
 use crate::check::quantity;
 use crate::check::wording::{CellError, NameError, RowError};
@@ -61,7 +62,7 @@ fn count(items: &[TestItem]) -> u64 {
         TestItem::Row(row) => 1 + u64::from(row.inputs.iter().any(|word| word.text == "^")),
         TestItem::Repeat { times, rows, .. } => {
             // What is no number has an error of its own.
-            times.text.parse().map_or(1, |times: u64| times.saturating_mul(count(rows)))
+            constant::integer(&times.text).map_or(1, |times: u64| times.saturating_mul(count(rows)))
         }
     });
     rows.fold(0, u64::saturating_add)
@@ -178,7 +179,7 @@ impl Columns<'_> {
                     }
                 }
                 TestItem::Repeat { times, rows, .. } => {
-                    let Some(times) = times.text.parse::<usize>().ok().filter(|times| *times > 0) else {
+                    let Some(times) = constant::integer::<usize>(&times.text).filter(|times| *times > 0) else {
                         faults.push(RowError::NoTimes { text: times.text.clone() }.at(times.span));
                         continue;
                     };
@@ -204,7 +205,7 @@ impl Columns<'_> {
                 RowCell::Pulse => return Err(CellError::PulsedOutput.at(word.span)),
             },
         };
-        let most = source.most.text.parse::<u64>().ok().filter(|most| *most > 0);
+        let most = constant::integer::<u64>(&source.most.text).filter(|most| *most > 0);
         let most = most.filter(|most| Limit::Repetitions.permit(*most).is_ok());
         let most =
             most.ok_or_else(|| RowError::TooManyRows { most: Limit::Repetitions.most() }.at(source.most.span))?;

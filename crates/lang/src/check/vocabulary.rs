@@ -14,7 +14,7 @@ pub(crate) struct Vocabulary<'a> {
     pub(crate) enumerations: &'a NameTable,
     /// Members by the positions of their enumeration and of themselves.
     pub(crate) members: &'a NameTable<MemberPlace>,
-    pub(crate) integers: &'a NameTable<i64>,
+    pub(crate) integers: &'a NameTable<i128>,
     /// Files by their position in the program.
     pub(crate) files: &'a NameTable,
     /// The enumerations of the program.
@@ -44,11 +44,11 @@ impl<'a> Vocabulary<'a> {
     ///
     /// # Errors
     /// When the value of the member is too wide for an integer.
-    pub(crate) fn integer(&self, name: &str, place: Span, home: Home) -> Option<Result<i64, Diagnostic>> {
+    pub(crate) fn integer(&self, name: &str, place: Span, home: Home) -> Option<Result<i128, Diagnostic>> {
         if let Some((_, member)) = self.member(name, home) {
             self.members.refer_to(name, place, home);
             let too_wide = |_| ValueError::WideMember { member: name.to_owned() }.at(place);
-            return Some(i64::try_from(member.value).map_err(too_wide));
+            return Some(i128::try_from(member.value).map_err(too_wide));
         }
         let value = self.integers.find(name, home)?;
         self.integers.refer_to(name, place, home);

@@ -88,7 +88,7 @@ fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::name | Rule::sensed => "a name",
         Rule::text => "a string in quotes",
-        Rule::number | Rule::digits | Rule::number_without_width => "a number",
+        Rule::number | Rule::digits => "a number",
         Rule::unit => "a unit",
         Rule::quantity => "a number with its unit",
         Rule::record => "`{`",

@@ -80,8 +80,8 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
         blank(&mut source, hole.start - offset..hole.end - offset);
     }
     let mut recovered = None;
-    if NbParser::parse(Rule::declaration, &source).is_err() {
-        let found = recover::recover(file, &source, offset);
+    if let Err(error) = NbParser::parse(Rule::declaration, &source) {
+        let found = recover::recover(file, &source, offset, expected::place(&error));
         let parts = source.clone();
         for range in &found.broken {
             blank(&mut source, range.clone());

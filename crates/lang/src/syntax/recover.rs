@@ -24,12 +24,12 @@ pub(crate) struct Recovered {
     pub(crate) kept: Vec<(PartKind, Range<usize>)>,
 }
 
-/// The parts of a declaration, which begins at `offset` of its file.
-pub(crate) fn recover(file: FileId, source: &str, offset: usize) -> Recovered {
+/// The parts of a declaration, which begins at `offset` of its file and follows the grammar up to `reached`.
+pub(crate) fn recover(file: FileId, source: &str, offset: usize, reached: usize) -> Recovered {
     let tokens: Vec<_> = tokens(source).filter(|token| token.kind != TokenKind::Comment).collect();
     let all = 0..tokens.len();
     let found = Recovered { errors: Vec::new(), broken: Vec::new(), kept: Vec::new() };
-    let mut recovery = Recovery { file, source, offset, tokens, found };
+    let mut recovery = Recovery { file, source, offset, reached, tokens, found };
     recovery.part(PartKind::Declaration, all);
     recovery.found
 }
@@ -50,6 +50,7 @@ struct Recovery<'a> {
     file: FileId,
     source: &'a str,
     offset: usize,
+    reached: usize,
     tokens: Vec<Token>,
     found: Recovered,
 }
@@ -96,7 +97,12 @@ impl Recovery<'_> {
         }
         let at = self.found.broken.len();
         for block in blocks {
-            for unit in self.units(&block) {
+            let units = self.units(&block);
+            for (unit, next) in units.iter().cloned().zip(units.iter().skip(1).map(Some).chain([None])) {
+                if next.is_some_and(|next| self.is_passed(next)) {
+                    self.found.kept.push((block.holds, self.bytes(&unit)));
+                    continue;
+                }
                 // A table without one of its rows has another meaning.
                 keep &= self.part(block.holds, unit) || block.holds != PartKind::TableRow;
             }
@@ -107,13 +113,26 @@ impl Recovery<'_> {
         keep
     }
 
+    /// Whether the declaration follows the grammar into this part, so that the one before it has no error. A part may
+    /// read like the end of an incomplete one before it up to its first `=` or `:`.
+    fn is_passed(&self, part: &Range<usize>) -> bool {
+        let sign = part.clone().find(|&at| matches!(self.word(at), "=" | ":"));
+        let second = (part.start + 1).min(part.end - 1);
+        self.reached > self.tokens[sign.unwrap_or(second)].range.start
+    }
+
     /// The blocks of a part that hold other parts.
     fn blocks(&self, kind: PartKind, tokens: &Range<usize>) -> Vec<PartBlock> {
         let mut blocks = Vec::new();
         let mut at = tokens.start;
+        let tables = match kind {
+            PartKind::Statement | PartKind::Property => self.tables(tokens),
+            _ => Vec::new(),
+        };
         while at < tokens.end {
+            let is_table = tables.contains(&at).then_some(PartKind::TableRow);
             if self.word(at) == "{"
-                && let Some(holds) = self.holds(kind, tokens.start, at)
+                && let Some(holds) = self.holds(kind, tokens.start, at).or(is_table)
             {
                 let end = self.closing(at, tokens.end);
                 let mut start = at + 1;
@@ -150,37 +169,35 @@ impl Recovery<'_> {
             (PartKind::Statement, "for") => Some(PartKind::Statement),
             (PartKind::Row, "repeat") => Some(PartKind::Row),
             (PartKind::Field, _) => Some(PartKind::Field),
-            (PartKind::Statement | PartKind::Property, _) if self.is_table(at) || self.is_match(start, at) => {
-                Some(PartKind::TableRow)
-            }
             _ => None,
         }
     }
 
-    /// Whether the brace at `at` follows `table(…)`.
-    fn is_table(&self, at: usize) -> bool {
-        let mut depth = 0;
-        for back in (0..at).rev() {
-            match self.word(back) {
-                ")" => depth += 1,
-                "(" => depth -= 1,
+    /// The braces in a part that hold the rows of a `table` or `match`.
+    fn tables(&self, part: &Range<usize>) -> Vec<usize> {
+        let mut tables = Vec::new();
+        // Each open bracket, with the heads of tables in it that have no rows so far.
+        let mut open: Vec<(usize, usize)> = vec![(part.start, 0)];
+        for at in part.clone() {
+            let (before, here, next) = (self.word(at.wrapping_sub(1)), self.word(at), self.word(at + 1));
+            let ends_operand = at > part.start && !continues_after(before) && !matches!(before, "(" | "[" | "{");
+            let heads = &mut open.last_mut().expect("the part itself is open").1;
+            match here {
+                "match" if !ends_operand && !matches!(next, "=" | "," | ")") => *heads += 1,
+                "table" if next == "(" => *heads += 1,
+                "{" if ends_operand && *heads > 0 => {
+                    *heads -= 1;
+                    tables.push(at);
+                }
                 _ => {}
             }
-            if depth <= 0 {
-                return depth == 0 && self.word(back) == "(" && back > 0 && self.word(back - 1) == "table";
+            match here {
+                "(" | "[" | "{" => open.push((at, 0)),
+                ")" | "]" | "}" if open.len() > 1 => _ = open.pop(),
+                _ => {}
             }
         }
-        false
-    }
-
-    /// Whether the brace at `at` follows `match` and an expression, in a part that begins at `start`.
-    fn is_match(&self, start: usize, at: usize) -> bool {
-        let Some(word) = (start..at).rfind(|&back| self.word(back) == "match") else { return false };
-        let mut open = Vec::new();
-        for place in word + 1..at {
-            bracket(&mut open, self.word(place), place, |&open| self.word(open));
-        }
-        open.is_empty() && at > word + 1 && !matches!(self.word(word + 1), "=" | "," | ")")
+        tables
     }
 
     /// The brace that closes the one at `at`.
@@ -245,16 +262,19 @@ impl Recovery<'_> {
 
 /// Whether a line that begins with `here` continues the one that ends with `before`.
 fn continues(before: &str, here: &str) -> bool {
-    let infix = |word: &str| {
-        let words = ["and", "nand", "or", "nor", "xor", "xnor", "then", "else", "init", "in"];
-        let signs = [
-            "=", "=>", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|",
-            "^", "?", ":", ":=", ",",
-        ];
-        words.contains(&word) || signs.contains(&word)
-    };
-    infix(before)
-        || infix(here)
-        || matches!(before, "not" | "if" | "net" | "for" | "~" | "!")
-        || matches!(here, "{" | "x")
+    continues_after(before) || is_infix(here) || matches!(here, "{" | "x")
+}
+
+/// Whether an expression, or a statement, continues after a word or sign.
+fn continues_after(before: &str) -> bool {
+    is_infix(before) || matches!(before, "not" | "if" | "net" | "for" | "match" | "~" | "!")
+}
+
+fn is_infix(word: &str) -> bool {
+    let words = ["and", "nand", "or", "nor", "xor", "xnor", "then", "else", "init", "in"];
+    let signs = [
+        "=", "=>", "+", "-", "*", "/", "%", "**", "<<", ">>", "..", "==", "!=", "<", "<=", ">", ">=", "&", "|", "^",
+        "?", ":", ":=", ",",
+    ];
+    words.contains(&word) || signs.contains(&word)
 }

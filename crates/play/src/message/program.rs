@@ -74,7 +74,7 @@ pub(crate) struct PortEntry {
 impl PortEntry {
     /// The ports of columns.
     pub(crate) fn of(columns: &[Column]) -> Vec<Self> {
-        let one = |Column { name, width, members }: &Column| {
+        let one = |Column { name, width, members, .. }: &Column| {
             let digits = |value: u128| format!("{value:0width$b}", width = *width);
             let members = members.as_ref().map(|known| &known.members);
             let members = members.map(|all| all.iter().map(|one| [one.name.clone(), digits(one.value)]).collect());

@@ -270,23 +270,23 @@ pub(super) enum RangeError {
     /// A number that is too large, or divided by zero.
     Overflow,
     /// A width of a net that is below 1 or above the limit.
-    NetWidth { width: i64, most: u64 },
+    NetWidth { width: i128, most: u64 },
     /// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
-    AscendingSlice { net: String, ends: [i64; 2], is_literal: bool },
+    AscendingSlice { net: String, ends: [i128; 2], is_literal: bool },
     /// A loop that would have to count down; `is_literal` where both ends are written as digits.
-    DescendingLoop { ends: [i64; 2], is_literal: bool },
+    DescendingLoop { ends: [i128; 2], is_literal: bool },
     /// A bit that the net does not have.
-    NoSuchBit { net: String, bit: i64, width: u32 },
+    NoSuchBit { net: String, bit: i128, width: u32 },
     /// A word that the array does not have.
-    NoSuchWord { net: String, word: i64, words: u32 },
+    NoSuchWord { net: String, word: i128, words: u32 },
     /// A start value that does not fit into its net.
-    StartValue { value: i64, width: u32 },
+    StartValue { value: i128, width: u32 },
     /// A computed constant below zero.
-    NegativeConstant { value: i64 },
+    NegativeConstant { value: i128 },
     /// A constant that does not fit into its width.
     ConstantWidth { value: u128, width: u32 },
     /// A value repeated a negative number of times, or to more bits than a net has.
-    Repetitions { times: i64, most: u64 },
+    Repetitions { times: i128, most: u64 },
 }
 
 impl RangeError {

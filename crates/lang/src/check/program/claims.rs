@@ -1,7 +1,8 @@
 //! The claims of a program: properties of all steps of a circuit, as a circuit that watches its ports.
 
-use crate::check::against::PortLists;
+use crate::check::against::{self, PortLists};
 use crate::check::circuit::monitor;
+use crate::check::constant;
 use crate::check::expression::{BEFORE, first_leaf};
 use crate::check::program::Assembly;
 use crate::check::uses::{NameKind, NameUse};
@@ -9,8 +10,8 @@ use crate::check::vocabulary::Vocabulary;
 use crate::check::wording::PropertyError;
 use crate::syntax::tree::{self, ExpressionSyntaxId, ExpressionSyntaxKind, NameSyntax, PropertySyntax};
 use nbc_base::budget::Limit;
-use nbc_base::diag::Diagnostic;
-use nbc_base::model::{Claim, InnerNet, Instance, Program, Property, PropertyKind};
+use nbc_base::diag::{Code, Diagnostic};
+use nbc_base::model::{Claim, Column, InnerNet, Instance, Program, Property, PropertyKind};
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
 
@@ -28,7 +29,7 @@ impl<'a> Assembly<'a> {
     ) -> Option<Claim> {
         let circuit = self.instance(&source.circuit, program)?;
         let (inputs, outputs) = self.ports(&circuit, source.circuit.name.span, inspector)?;
-        let before = self.faults.len();
+        let (before, first_use) = (self.faults.len(), self.inner.len());
         let environment = match &source.environment {
             Some(name) => Some(self.environment(name, &circuit, (&inputs, &outputs), program, inspector)?.0),
             None => None,
@@ -44,6 +45,8 @@ impl<'a> Assembly<'a> {
         if self.faults[before..].iter().any(Diagnostic::is_error) || is_broken {
             return None;
         }
+        let read = &self.inner[first_use..];
+        self.faults.retain(|fault| fault.code != Code::Unused || !read.iter().any(|net| fault.labels[0].span == net.declared));
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
         let monitor = Box::new(monitor);
@@ -62,7 +65,7 @@ impl<'a> Assembly<'a> {
             if source.kind != PropertyKind::Always {
                 faults.push(PropertyError::Within { kind: source.kind }.at(number.span));
             }
-            let steps = number.text.parse::<u64>().ok();
+            let steps = constant::integer::<u64>(&number.text);
             let steps = steps.filter(|&steps| steps > 0 && Limit::PropertySteps.permit(steps).is_ok());
             let wrong = || PropertyError::Steps { text: number.text.clone(), most: Limit::PropertySteps.most() };
             steps.unwrap_or_else(|| {
@@ -123,20 +126,15 @@ impl<'a> Assembly<'a> {
         let mut body = source.body.clone();
         let place = source.circuit.name.span;
         let name = |text: String, span: Span| NameSyntax { text, span };
-        let mut port = |text: String, width: usize| {
-            let kind = tree::SizeSyntaxKind::Literal(width.to_string());
-            body.sizes.push(tree::SizeSyntax { kind, span: place });
-            tree::Port::new(name(text, place), Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)))
-        };
+        let port = |column: &Column, body: &mut tree::BodySyntax| against::port(column, place, body);
         let seen = inputs.iter().chain(outputs).chain(inner.iter().map(|net| &net.column));
-        let seen = seen.map(|column| (column.name.clone(), column.width));
-        let seen = seen.chain([(CLOCK.to_owned(), 1)]).map(|(text, width)| port(text, width)).collect();
+        let seen = seen.chain([&Column::new(CLOCK, 1)]).map(|column| port(column, &mut body)).collect();
         let mut said = Vec::new();
         for (at, property) in source.properties.iter().enumerate() {
             let condition = property.condition.map(|value| (format!("condition {}", at + 1), value));
             let value = (format!("property {}", at + 1), property.value);
             for (text, value) in condition.into_iter().chain([value]) {
-                said.push(port(text.clone(), 1));
+                said.push(port(&Column::new(text.as_str(), 1), &mut body));
                 let span = source.body.expressions[value.0 as usize].span;
                 let target =
                     tree::TargetSyntax { name: name(text, span), index: None, second: None, start: None, span };

@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::analysis::Analysis;
 use crate::check::circuit::{Header, Headers, circuit};
+use crate::check::constant;
 use crate::check::declarations::Declarations;
 use crate::check::derived::{CheckState, order};
 use crate::check::enumeration;
@@ -62,7 +63,7 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
 fn image_size(sides: &[Number; 2]) -> Result<ImageSize, Diagnostic> {
     let most = ImageSize::MAX_SIDE;
     let side = |number: &Number| {
-        let found = number.text.parse::<usize>().ok().filter(|found| (1..=most).contains(found));
+        let found = constant::integer::<usize>(&number.text).filter(|found| (1..=most).contains(found));
         found.ok_or_else(|| ImagesError::Size { most }.at(number.span))
     };
     let [rows, columns] = sides;

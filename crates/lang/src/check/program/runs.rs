@@ -309,12 +309,7 @@ impl<'a> Assembly<'a> {
         program: &Program,
     ) -> Option<Circuit> {
         let mut body = body.clone();
-        let mut port = |column: &Column| {
-            let kind = tree::SizeSyntaxKind::Literal(column.width.to_string());
-            body.sizes.push(tree::SizeSyntax { kind, span: tested.span });
-            let name = NameSyntax { text: column.name.clone(), span: tested.span };
-            tree::Port::new(name, Some(tree::SizeSyntaxId(body.sizes.len() as u32 - 1)))
-        };
+        let mut port = |column: &Column| against::port(column, tested.span, &mut body);
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { is_environment: false, name, parameters: Vec::new(), inputs, outputs, body };

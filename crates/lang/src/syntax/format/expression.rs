@@ -179,7 +179,9 @@ fn table(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>
     let width = rows.iter().map(|row| pattern(row).len()).max().unwrap_or(0);
     let inputs_end = inputs.last().map_or(span.start, |last| written.body.expressions[last.0 as usize].span.end);
     let mut lines = RowLines { written, at: inputs_end, count: 0 };
-    let head = &written.source[inputs_end as usize..rows.first().map_or(inputs_end, |row| row.span.start) as usize];
+    let head_end = rows.first().map_or(inputs_end, |row| row.span.start);
+    // There is no source of an index, which has one line.
+    let head = written.source.get(inputs_end as usize..head_end as usize).unwrap_or_default();
     // A table whose first row has a line of its own stays as its author laid it out.
     if head.find('{').is_some_and(|brace| head[brace..].contains('\n')) {
         pieces.push(LayoutPiece::Force);
