@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import pickle
 import subprocess
@@ -169,6 +170,43 @@ def test_evolutions():
         nbc.evaluate(BODY, nbc.Evolution())
     with pytest.raises(TypeError, match="of type str"):
         nbc.evaluate(BODY, "gates")
+
+
+def test_a_robot_has_its_own_materials():
+    """The codes 5 and 7 of the paper are exchanged, so that the same digits are another body."""
+    nand = next(robot for robot in nbc.library() if robot.name == "nand_5x5")
+    paper = nbc.PAPER_MATERIALS
+    swapped = (*paper[:4], paper[6], paper[5], paper[4], paper[7])
+    codes = np.array([0, 1, 2, 3, 4, 7, 6, 5, 8], dtype=np.uint8)[nand.body]
+    other = dataclasses.replace(nand, body=codes, materials=swapped)
+    for schedule in ("00*10", "11*10"):
+        expected = nbc.simulate([nand], schedule).com
+        for given in (None, swapped):
+            np.testing.assert_array_equal(nbc.simulate([other], schedule, materials=given).com, expected)
+            with nbc.Flock([other], materials=given) as flock:
+                flock.advance(schedule[:2], 840)
+                np.testing.assert_array_equal(flock.com, expected[:, -1])
+    assert nbc.invalid([other]) == [""]
+    few = [{"name": "bone", "kind": "rigid"}, *paper[1:3]]
+    calls = [
+        (lambda: nbc.simulate([nand, other], "00*1"), r"bodies\[1\]: code 5 is not the same material in bodies\[0\]"),
+        (lambda: nbc.simulate([other, codes], "00*1"), r"bodies\[1\]: code 5 is not the same material in bodies\[0\]"),
+        (lambda: nbc.simulate([other], "00*1", materials=paper), "bodies.* code 5 is not the same material in `mater"),
+        (lambda: nbc.Flock([codes, other], materials=paper), r"bodies\[1\]: code 5 is not the same material"),
+        (lambda: nbc.invalid([other], materials=few), "not the same material in `materials`"),
+        (lambda: nbc.evaluate([other]), "code 5 is not the same material in the evolution"),
+        (lambda: nbc.evaluate([other], nbc.Evolution(objective="gate")), "code 5 is not the same material in the evo"),
+        (lambda: nbc.evogym.to_structure(other, as_actuators=True), "code 5 .* in the paper's materials"),
+        (lambda: nbc.evogym.actions(other, "00*1"), "code 5 is not the same material in the paper's materials"),
+    ]
+    for use, message in calls:
+        with pytest.raises(ValueError, match=message):
+            use()
+    # Codes that are the same materials in both may be in one call, whichever comes first.
+    three = next(robot for robot in nbc.library("three") if robot.function == "and3")
+    both = nbc.simulate([nand, three, nand.body], "001*1")
+    np.testing.assert_array_equal(both.com[0], both.com[2])
+    np.testing.assert_array_equal(both.com[1], nbc.simulate([three], "001*1").com[0])
 
 
 def test_one_invalid_body_does_not_stop_the_others(walkers):

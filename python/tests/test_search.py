@@ -245,7 +245,9 @@ def test_archives_go_to_pyribs_and_back(done):
     np.testing.assert_array_equal(best["solution"], row["body"].ravel())
     np.testing.assert_array_equal(best["measures"], row["niche"])
     names = [name for name, _ in archive.axes]
-    assert nbc.Archive.from_ribs(there, names, archive.materials) == archive
+    assert nbc.Archive.from_ribs(there, names) == nbc.Archive.from_ribs(there, names, archive.materials) == archive
+    with pytest.raises(ValueError, match="the archive: code . is not the same material in `materials`"):
+        nbc.Archive.from_ribs(there, names, archive.materials[::-1])
     with pytest.raises(ValueError, match="2 axes are named, expected 4"):
         nbc.Archive.from_ribs(there, ["voxels", "behavior"])
     pytest.importorskip("pandas")

@@ -216,7 +216,7 @@ def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress:
         progress: see `simulate`.
 
     Raises:
-        TypeError, ValueError: as `simulate`, and for bodies of another box.
+        TypeError, ValueError: as `simulate`, and for bodies of another box, or robots of other materials.
         Interrupted: on Ctrl-C, with the results so far.
 
     >>> import nbc
@@ -225,11 +225,11 @@ def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress:
     >>> result.behavior.tolist()
     ['RRRL']
     """
-    packed = pack(bodies)
+    if not isinstance(evolution, (Evolution, type(None))):
+        raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
+    packed = pack(bodies, (evolution or Evolution()).fields["palette"], "the evolution")
     if evolution is None:
         evolution = Evolution(shape=next(((int(h), int(w)) for h, w in packed.shapes if h and w), None))
-    if not isinstance(evolution, Evolution):
-        raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
     with reporting(progress, " env steps") as report:
         try:
             return of_arrays(_nbc.evaluate(packed.codes, packed.shapes, evolution._native, report), packed.errors)

@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
-from .bodies import PAPER_MATERIALS, Material, Robot, _robot, rows
+from .bodies import PAPER_MATERIALS, Material, Robot, _robot, check_materials, pack_materials, rows
 from .errors import Interrupted, MissingRobotWarning
 from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
 from .names import unknown
@@ -120,7 +120,7 @@ class Archive:
     def to_ribs(self) -> Any:
         """The elites as a ``GridArchive`` of pyribs: solutions are the codes of bodies in reading order, the objective
         is the first fitness, and the measures are the bins of `axes`. Its extra fields have the rest, and the ``width``
-        of each body. Of several elites in a niche it has the one with the greatest first fitness.
+        and the ``materials`` of each body. Of several elites in a niche it has the one with the greatest first fitness.
 
         Raises:
             ValueError: for an archive with the axis ``class``, of which not all behaviors have a bin.
@@ -134,29 +134,29 @@ class Archive:
             solution_dim=int(np.prod(self.elites["body"].shape[1:])),
             dims=[bins for _, bins in self.axes],
             ranges=[(-0.5, bins - 0.5) for _, bins in self.axes],
-            extra_fields={**types, "function": ((), object), "width": ((), np.int64)},
+            extra_fields={**types, "function": ((), object), "materials": ((), object), "width": ((), np.int64)},
         )
         if len(self):
             extra = {name: self.elites[name].astype(of) for name, (_, of) in types.items()}
             bodies = self.elites["body"]
             archive.add(bodies.reshape(len(self), -1), self.elites["fitness"][:, 0], self.elites["niche"],
                         function=np.array(self._functions, dtype=object), width=np.full(len(self), bodies.shape[2]),
-                        **extra)
+                        materials=np.full(len(self), pack_materials(self.materials), dtype=object), **extra)
         return archive
 
     @classmethod
-    def from_ribs(cls, archive: Any, axes: Sequence[str], materials: Sequence[Material] = PAPER_MATERIALS) -> Archive:
+    def from_ribs(cls, archive: Any, axes: Sequence[str], materials: Optional[Sequence[Material]] = None) -> Archive:
         """The archive of a ``GridArchive`` that `to_ribs` made, and that may have got more elites since.
 
         Args:
             archive: the archive of pyribs.
             axes: the name of each of its measures.
-            materials: the materials of the codes.
+            materials: the materials of the codes; by default those that `to_ribs` wrote, which must agree with them.
 
         Raises:
             ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures.
         """
-        missing = [name for name in (*_EXTRA, "function", "width") if name not in archive.field_list]
+        missing = [name for name in (*_EXTRA, "function", "materials", "width") if name not in archive.field_list]
         if missing:
             raise ValueError(f"the archive has no field `{missing[0]}`; `to_ribs` makes archives with it")
         if len(axes) != len(archive.dims):
@@ -172,7 +172,14 @@ class Archive:
         width = int(widths[0]) if len(widths) else 1
         codes = found["solution"].astype(np.uint8)
         arrays["body"] = codes.reshape(len(codes), codes.shape[1] // width, width)[order]
-        return cls(arrays, tuple(zip(axes, (int(bins) for bins in archive.dims))), materials)
+        texts = sorted(set(found["materials"]))
+        if len(texts) > 1:
+            raise ValueError("the bodies have different materials, expected the same for all")
+        own = json.loads(texts[0]) if texts else PAPER_MATERIALS
+        if texts and materials is not None:
+            check_materials(codes, own, materials, "the archive", "`materials`")
+        axis_bins = tuple(zip(axes, (int(bins) for bins in archive.dims)))
+        return cls(arrays, axis_bins, own if materials is None else materials)
 
     def _patterns(self) -> int:
         """The patterns of its stimuli, 4 or 8."""

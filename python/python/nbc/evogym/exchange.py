@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
-from ..bodies import OneBody, read
+from ..bodies import PAPER_MATERIALS, OneBody, Robot, check_materials, read
 from ..numbers import array_of
 from ..physics import CYCLE_STEPS, Schedule, pack_schedule
 
@@ -48,7 +48,8 @@ def to_structure(
         The structure, shape (H, W), and the connections, shape (2, edges).
 
     Raises:
-        ValueError: for a body with materials that Evolution Gym does not have, at the first of them.
+        ValueError: for a body with materials that Evolution Gym does not have, at the first of them, and for a robot of
+            materials that are not the paper's.
 
     >>> import nbc
     >>> structure, joined = nbc.evogym.to_structure(["33", "12"])
@@ -97,6 +98,8 @@ def actions(body: OneBody, schedule: Schedule) -> npt.NDArray[np.float64]:
 
 def _paper_codes(body: OneBody) -> npt.NDArray[np.int64]:
     codes = read(body, "body").astype(np.int64)
+    if isinstance(body, Robot):
+        check_materials(codes, body.materials, PAPER_MATERIALS, "body", "the paper's materials")
     for row, column in np.argwhere(codes > 8).tolist():
         code = int(codes[row, column])
         raise ValueError(f"row {row + 1}, column {column + 1}: {code} is not one of the paper's materials")
