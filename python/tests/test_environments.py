@@ -213,7 +213,7 @@ def test_observations_are_arrays_of_their_own():
     ("action", "error", "message"),
     [
         (np.ones(3), ValueError, "the action has 3 values, expected 7"),
-        ([1, 1, np.nan, 1, 1, 1, 1], ValueError, "the action at 2 is nan, which is not finite"),
+        ([1, 1, np.nan, 1, 1, 1, 1], ValueError, "the action at 2 is nan, expected a finite number"),
         (np.ones(7) + 1j, TypeError, "dtype complex128, expected numbers"),
         ("abc", TypeError, "expected numbers"),
         (None, TypeError, "dtype object, expected numbers"),
@@ -237,6 +237,7 @@ def test_wrong_actions_are_refused_with_their_numbers(action, error, message):
         (lambda: TaskEnv("Walker-v0", [[3, 3]], [[], []]), "of the object `robot` do not join it into one piece"),
         (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": []}), "there are 0 goals"),
         (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": "abc"}), "the goals are 'abc'"),
+        (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": [30, 20.7]}), "the goal at 1 is 20.7"),
         (lambda: TaskEnv("Catcher-v0", BODY).reset(options={"goals": [1]}), "there are 1 goals, expected two numbers"),
     ],
 )

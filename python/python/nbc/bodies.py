@@ -202,7 +202,10 @@ def pack(bodies: Bodies, materials: Optional[Sequence[Material]] = None, owner: 
 
 
 def _common_materials(
-    bodies: Union[npt.NDArray[Any], Sequence[OneBody]], codes: Sequence[Codes], given: Optional[Sequence[Material]], owner: str
+    bodies: Union[npt.NDArray[Any], Sequence[OneBody]],
+    codes: Sequence[Codes],
+    given: Optional[Sequence[Material]],
+    owner: str,
 ) -> Sequence[Material]:
     """The materials in which all bodies can be read: those that are given, or else the most that a robot has."""
     common = PAPER_MATERIALS if given is None else given
@@ -320,7 +323,7 @@ def _of_rows(body: Sequence[str], name: str) -> Codes:
 
 
 def _check_integers(array: npt.NDArray[Any], name: str) -> None:
-    if array.size and not np.issubdtype(array.dtype, np.integer):
+    if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} has the dtype {array.dtype}, expected integers")
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-__all__ = ["array_of", "count", "is_array", "seconds"]
+__all__ = ["array_of", "count", "finite", "is_array", "real", "seconds", "whole"]
 
 
 def count(value: Any, name: str, least: int = 0, most: int = 2**31) -> int:
@@ -59,6 +59,39 @@ def array_of(value: Any) -> npt.NDArray[Any]:
     if hasattr(value, "__dlpack__"):
         return np.from_dlpack(value)
     return np.asarray(value)
+
+
+def real(values: Any, name: str) -> npt.NDArray[np.float64]:
+    """Numbers as floats, of an array of any library."""
+    array = array_of(values)
+    if array.dtype.kind not in "biuf":
+        raise TypeError(f"{name} has the dtype {array.dtype}, expected numbers")
+    return np.asarray(array, dtype=np.float64, order="C")
+
+
+def finite(values: Any, name: str) -> npt.NDArray[np.float64]:
+    """Numbers as floats, none of them NaN or infinite."""
+    array = real(values, name)
+    _check(array, np.isfinite(array), name, "a finite number")
+    return array
+
+
+def whole(values: Any, name: str, least: int = 0, most: int = 2**62) -> npt.NDArray[np.int64]:
+    """Whole numbers in a range, which may be floats such as 3.0."""
+    array = array_of(values)
+    if array.size and array.dtype.kind not in "iuf":
+        raise TypeError(f"{name} has the dtype {array.dtype}, expected whole numbers")
+    fits = (array >= least) & (array <= most) & (array.dtype.kind != "f" or np.floor(array) == array)
+    _check(array, fits, name, f"a whole number from {least} to {most}")
+    return array.astype(np.int64)
+
+
+def _check(array: npt.NDArray[Any], fits: npt.NDArray[np.bool_], name: str, expected: str) -> None:
+    """Raises ValueError for the first value that does not fit."""
+    if not np.all(fits):
+        place = tuple(np.argwhere(~fits)[0].tolist())
+        where = f" at {place[0] if len(place) == 1 else place}" if place else ""
+        raise ValueError(f"{name}{where} is {array[place]}, expected {expected}")
 
 
 def _shown(value: object) -> str:

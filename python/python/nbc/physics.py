@@ -14,7 +14,7 @@ from . import _nbc
 from .bodies import Bodies, Material, pack
 from .errors import Interrupted, report_invalid
 from .names import meant
-from .numbers import array_of, count, is_array
+from .numbers import array_of, count, is_array, real
 from .progress import Progress, reporting
 
 __all__ = ["CYCLE_STEPS", "Flock", "Schedule", "Trajectories", "simulate"]
@@ -393,12 +393,10 @@ def _pattern(pattern: Any) -> str:
 
 
 def _image(image: Any) -> List[List[float]]:
-    array = np.asarray(image)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"{image!r} is neither a pattern such as '01' nor an image of numbers")
+    array = real(image, "an image of the schedule")
     if array.ndim != 2:
         raise ValueError(f"an image of the schedule has the shape {array.shape}, expected (rows, columns)")
-    rows: List[List[float]] = array.astype(float).tolist()
+    rows: List[List[float]] = array.tolist()
     return rows
 
 

@@ -16,7 +16,7 @@ from .bodies import PAPER_MATERIALS, Material, Robot, _robot, check_materials, p
 from .errors import Interrupted, MissingRobotWarning
 from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
 from .names import unknown
-from .numbers import array_of, count, seconds
+from .numbers import array_of, count, real, seconds, whole
 from .progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -53,6 +53,14 @@ _EXTRA = ("fitness", "behavior", "displacement", "generation", "evaluations")
 def _ribs_type(column: np.dtype[Any]) -> Any:
     """The type of a column in pyribs: objects instead of texts of a fixed length."""
     return object if column.base.kind == "U" else column.base
+
+
+def _behaviors(words: Any, patterns: int) -> npt.NDArray[np.str_]:
+    """Behaviors with a letter for each pattern."""
+    for word in letters(words):
+        if len(word) != patterns:
+            raise ValueError(f"the behavior `{word}` has {len(word)} letters, expected {patterns}")
+    return np.array(letters(words), dtype=f"U{patterns}")
 
 
 class Archive:
@@ -154,7 +162,8 @@ class Archive:
             materials: the materials of the codes; by default those that `to_ribs` wrote, which must agree with them.
 
         Raises:
-            ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures.
+            ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures, and
+                for solutions that are not whole codes of the materials.
         """
         missing = [name for name in (*_EXTRA, "function", "materials", "width") if name not in archive.field_list]
         if missing:
@@ -162,24 +171,30 @@ class Archive:
         if len(axes) != len(archive.dims):
             raise ValueError(f"{len(axes)} axes are named, expected {len(archive.dims)}, one for each measure")
         found = archive.data()
-        # In order of their niches, as archives are.
-        order = np.argsort(found["index"])
-        arrays = {name: found[name][order] for name in (*_EXTRA, "function")}
-        arrays["niche"] = np.rint(found["measures"][order]).astype(np.uint16)
-        widths = np.unique(found["width"])
-        if len(widths) > 1:
-            raise ValueError(f"the bodies have the widths {widths.tolist()}, expected one")
-        width = int(widths[0]) if len(widths) else 1
-        codes = found["solution"].astype(np.uint8)
-        arrays["body"] = codes.reshape(len(codes), codes.shape[1] // width, width)[order]
-        texts = sorted(set(found["materials"]))
+        size, texts = len(found["index"]), sorted(set(found["materials"]))
         if len(texts) > 1:
             raise ValueError("the bodies have different materials, expected the same for all")
         own = json.loads(texts[0]) if texts else PAPER_MATERIALS
-        if texts and materials is not None:
-            check_materials(codes, own, materials, "the archive", "`materials`")
+        common = own if materials is None else materials
+        codes = whole(found["solution"], "the solution", most=len(common)).reshape(size, -1)
+        check_materials(codes, own, common, "the archive", "`materials`")
+        widths = np.unique(whole(found["width"], "the width", least=1)).tolist() or [1]
+        if len(widths) > 1 or codes.shape[1] % widths[0]:
+            raise ValueError(f"bodies of {codes.shape[1]} codes have the widths {widths}, expected one that fits")
+        arrays = {
+            "niche": archive.int_to_grid_index(found["index"]),
+            "fitness": real(found["fitness"], "the fitness"),
+            "behavior": _behaviors(found["behavior"], found["displacement"].shape[1]),
+            "displacement": real(found["displacement"], "the displacement"),
+            "body": codes.reshape(size, -1, widths[0]),
+            "generation": whole(found["generation"], "the generation", most=2**32 - 1),
+            "evaluations": whole(found["evaluations"], "the evaluations"),
+            "function": found["function"],
+        }
+        # In order of their niches, as archives are.
+        order = np.argsort(found["index"])
         axis_bins = tuple(zip(axes, (int(bins) for bins in archive.dims)))
-        return cls(arrays, axis_bins, own if materials is None else materials)
+        return cls({name: column[order] for name, column in arrays.items()}, axis_bins, common)
 
     def _patterns(self) -> int:
         """The patterns of its stimuli, 4 or 8."""
@@ -277,8 +292,7 @@ class Search:
             found = np.shape(array_of(getattr(evaluation, name)))
             if found != shape:
                 raise ValueError(f"{name} has the shape {found}, expected {shape}")
-        numbers = (np.ascontiguousarray(array_of(evaluation.fitness), dtype=np.float64),
-                   np.ascontiguousarray(array_of(evaluation.displacement), dtype=np.float64))
+        numbers = real(evaluation.fitness, "fitness"), real(evaluation.displacement, "displacement")
         self._native.tell(candidates._native, letters(evaluation.outcome), *numbers, letters(evaluation.behavior))
 
     def step(self) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
-from ..numbers import array_of, count
+from ..numbers import count, finite, whole
 from .world import EvoWorld, WorldObject
 
 __all__ = ["EvoSim", "Scenes"]
@@ -202,21 +202,14 @@ def targets_of(actions: npt.ArrayLike) -> npt.NDArray[np.float64]:
     Raises:
         TypeError, ValueError: for what are no numbers, and those that are not finite.
     """
-    array = array_of(actions)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"the actions have the dtype {array.dtype}, expected numbers")
-    targets = array.astype(np.float64)
-    if not np.isfinite(targets).all():
-        place = tuple(np.argwhere(~np.isfinite(targets))[0].tolist())
-        where = place[0] if len(place) == 1 else place
-        raise ValueError(f"the action at {where} is {targets[place]}, which is not finite")
-    return targets
+    return finite(actions, "the action")
 
 
 def _packed(each: WorldObject) -> Tuple[npt.NDArray[np.uint8], int, int, List[Tuple[int, int]]]:
     if not each.is_joined():
         raise ValueError(f"the connections of the object `{each.name}` do not join it into one piece")
-    return np.ascontiguousarray(each.structure, dtype=np.uint8), each.pos[0], each.pos[1], each.apart
+    codes = whole(each.structure, f"the structure of `{each.name}`", most=5)
+    return np.ascontiguousarray(codes, dtype=np.uint8), each.pos[0], each.pos[1], each.apart
 
 
 class EvoSim:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 
 from ..registration import EPISODES
 from ..names import unknown
-from ..numbers import array_of
+from ..numbers import array_of, whole
 from .sim import VOXEL_SIZE, Scenes
 from .world import EvoWorld
 
@@ -560,11 +560,12 @@ def _read_goals(goals: Any, task: Task) -> List[int]:
     """Goals that are given."""
     array = array_of(goals)
     least, expected = (2, "two numbers") if task.falls else (1, "a list of numbers")
-    if array.ndim != 1 or array.dtype.kind not in "iuf" or not np.isfinite(array).all():
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
         raise ValueError(f"the goals are {goals!r}, expected {expected}")
     if len(array) < least or (task.falls and len(array) > least):
         raise ValueError(f"there are {len(array)} goals, expected {expected}")
-    return [int(each) for each in array]
+    numbers: List[int] = whole(array, "the goal", least=-(2**31), most=2**31).tolist()
+    return numbers
 
 
 def _draw_place(random: Any) -> List[int]:

@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ..numbers import count
+from ..numbers import array_of, count, real, whole
 from .exchange import connections
 
 __all__ = [
@@ -59,7 +59,7 @@ def get_uniform(x: int) -> npt.NDArray[np.float64]:
 
 def draw(pd: npt.ArrayLike) -> int:
     """A number drawn from a distribution, which need not add up to 1, by Python's ``random``."""
-    return _drawn(_sums(np.asarray(pd, dtype=float)))
+    return _drawn(_sums(real(pd, "the distribution")))
 
 
 def _sums(weights: npt.NDArray[np.float64]) -> List[float]:
@@ -90,7 +90,7 @@ def sample_robot(
         ValueError: for wrong arguments, and when no body in one piece is found after `MOST_DRAWN` drawn voxels, because
             the shape is too large for so many empty ones.
     """
-    weights = np.array([0.6, 0.2, 0.2, 0.2, 0.2]) if pd is None else np.asarray(pd, dtype=float)
+    weights = np.array([0.6, 0.2, 0.2, 0.2, 0.2]) if pd is None else real(pd, "pd")
     if weights.shape != (5,):
         raise ValueError(f"pd has the shape {weights.shape}, expected (5,)")
     if weights[3] + weights[4] <= 0:
@@ -108,7 +108,7 @@ def sample_robot(
 
 def is_connected(robot: npt.NDArray[Any]) -> bool:
     """Whether a body has a voxel and all its voxels are joined by their sides."""
-    left = {(int(row), int(column)) for row, column in np.argwhere(np.asarray(robot) != 0)}
+    left = {(int(row), int(column)) for row, column in np.argwhere(array_of(robot) != 0)}
     if not left:
         return False
     open_places = [left.pop()]
@@ -123,17 +123,17 @@ def is_connected(robot: npt.NDArray[Any]) -> bool:
 
 def has_actuator(robot: npt.NDArray[Any]) -> bool:
     """Whether a body has an actuator."""
-    return bool(np.isin(robot, (3, 4)).any())
+    return bool(np.isin(array_of(robot), (3, 4)).any())
 
 
 def get_full_connectivity(robot: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
     """The connections of all neighbors, shape (2, edges)."""
-    return connections(np.asarray(robot))
+    return connections(array_of(robot))
 
 
 def hashable(robot: npt.NDArray[Any]) -> str:
     """The codes of a body as a text."""
-    return "".join(str(int(code)) for code in np.asarray(robot).flat)
+    return "".join(map(str, whole(robot, "the robot").flat))
 
 
 class Pair(NamedTuple):

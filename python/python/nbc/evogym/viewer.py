@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..names import meant
+from ..numbers import real, whole
 from .picture import Hidden, paint
 from .sim import EvoSim
 from .utils import Timer
@@ -81,8 +82,8 @@ class EvoViewer:
 
     def set_resolution(self, resolution: Tuple[int, int]) -> None:
         """Sets the width and height of pictures in pixels."""
-        width, height = _pair(resolution, "resolution", least=1)
-        self.resolution = (int(width), int(height))
+        width, height = whole(_pair(resolution, "resolution"), "resolution", least=1, most=10_000).tolist()
+        self.resolution = (width, height)
 
     def set_target_rps(self, target_rps: Optional[int]) -> None:
         """Sets the pictures per second in a window, at least 2; None for as many as there can be."""
@@ -235,7 +236,7 @@ def _pair(value: Any, name: str, least: Optional[float] = None) -> Tuple[float, 
         raise TypeError(f"{name} is of type {type(value).__name__}, expected a tuple of two numbers")
     if len(value) != 2:
         raise TypeError(f"{name} has {len(value)} values, expected two")
-    first, second = float(value[0]), float(value[1])
+    first, second = real(value, name).tolist()
     if not np.isfinite([first, second]).all() or (least is not None and min(first, second) < least):
         raise ValueError(f"{name} is {value}, expected finite numbers{'' if least is None else ' above 0'}")
     return first, second
