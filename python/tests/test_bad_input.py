@@ -29,8 +29,6 @@ BODY = np.full((1, 2, 3), 3, dtype=np.uint8)
         (BODY.astype(complex), TypeError, "dtype complex128"),
         (BODY.astype(bool), TypeError, "dtype bool"),
         (BODY.astype(str), TypeError, "dtype <U"),
-        (np.ma.array(BODY, mask=BODY == 3), TypeError, "masked arrays are not read; `filled` makes a plain"),
-        ([np.ma.array(BODY[0])], TypeError, "masked arrays are not read"),
         (BODY.astype(int) * 100, ValueError, "300 is not a material code"),
         (-BODY.astype(int), ValueError, "-3 is not a material code"),
         (BODY * 4, ValueError, r"bodies\[0\]: row 1, column 1: 12 is not a material code; expected 0 to 8"),
@@ -124,6 +122,60 @@ def test_a_schedule_has_diagnostics_with_places():
     assert second.span.start_byte == 12 + 3 and "write stimuli" in second.help
     copy = pickle.loads(pickle.dumps(caught.value))
     assert copy.diagnostics == caught.value.diagnostics and str(copy) == str(caught.value)
+
+
+MASKED = np.ma.array(BODY, mask=BODY == 3)
+EVOLUTION = nbc.Evolution(shape=(2, 3), fixed="1 cycles", batch=2)
+
+
+def _tell(**fields):
+    search = nbc.Search(EVOLUTION)
+    candidates = search.ask()
+    search.tell(candidates, dataclasses.replace(search.evaluate(candidates), **fields))
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: nbc.simulate(MASKED, "00*1"),
+        lambda: nbc.simulate([BODY[0], MASKED[0]], "00*1"),
+        lambda: nbc.simulate([list(MASKED[0])], "00*1"),
+        lambda: nbc.simulate(BODY, [(MASKED[0], 1)]),
+        lambda: nbc.simulate(BODY, [(list(MASKED[0]), 1)]),
+        lambda: nbc.simulate(BODY, [("00", MASKED[0, 0])]),
+        lambda: nbc.Flock(MASKED),
+        lambda: nbc.Flock(BODY).advance(np.ma.array([[0, 1]])),
+        lambda: nbc.evaluate(MASKED),
+        lambda: nbc.invalid(MASKED),
+        lambda: nbc.rows(MASKED[0]),
+        lambda: _tell(fitness=np.ma.zeros((2, 2))),
+        lambda: _tell(behavior=np.ma.array(["", ""])),
+        lambda: nbc.learn({"a": [0, 1], "q": np.ma.array([0, 1], mask=[True, True])}),
+        lambda: nbc.learn({"a": [0, 1], "q": [0, np.ma.masked]}),
+        lambda: nbc.evogym.to_structure(MASKED[0]),
+        lambda: nbc.evogym.from_structure(MASKED[0]),
+        lambda: nbc.evogym.from_structure(BODY[0], np.ma.zeros((2, 2), dtype=int)),
+        lambda: nbc.evogym.EvoWorld().add_from_array("robot", MASKED[0], 0, 0),
+        lambda: nbc.evogym.hashable(MASKED[0]),
+        lambda: nbc.evogym.is_connected(MASKED[0]),
+        lambda: nbc.evogym.has_actuator(MASKED[0]),
+        lambda: nbc.evogym.get_full_connectivity(MASKED[0]),
+        lambda: nbc.evogym.draw(np.ma.ones(3)),
+        lambda: nbc.evogym.sample_robot((2, 2), np.ma.ones(5)),
+        lambda: nbc.evogym.save_gif(os.devnull, [np.ma.zeros((2, 2, 3), dtype=np.uint8)]),
+        lambda: nbc.evogym.Scenes([_world()]).step(np.ma.ones(6)),
+        lambda: nbc.evogym.EvoSim(_world()).set_action("robot", np.ma.ones(6)),
+    ],
+)
+def test_masked_arrays_are_refused(call):
+    with pytest.raises(TypeError, match="masked arrays are not read; `filled` makes a plain array of one"):
+        call()
+
+
+def _world():
+    world = nbc.evogym.EvoWorld()
+    world.add_from_array("robot", BODY[0], 0, 0)
+    return world
 
 
 def test_a_closed_flock_is_refused():

@@ -312,6 +312,10 @@ def test_robots_are_those_that_the_program_adds(program, tmp_path):
     assert nbc.library(tmp_path / "mine") == (found[0],) and path.endswith(f"{found[0].name}.yaml")
     with pytest.raises(ValueError, match="did you mean `nand`"):
         search.robots(["nandd"])
+    with pytest.raises(ValueError, match="max_error is nan, expected 0 to 1"):
+        search.robots(max_error=float("nan"))
+    with pytest.raises(TypeError, match="behaviors is 'nand', expected a list of texts"):
+        search.robots("nand")
     missing = next(word for word in ["RRRL", "LRRL", "RLLR"] if word not in search.archive.elites["behavior"])
     with pytest.warns(nbc.MissingRobotWarning, match=f"{missing} .* none: no elite of this behavior"):
         assert search.robots([missing]) == []

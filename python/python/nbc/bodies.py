@@ -297,7 +297,7 @@ def read(body: OneBody, name: str) -> Codes:
     try:
         array = array_of(body)
     except ValueError as error:
-        raise ValueError(f"{name}: the rows have different lengths") from error
+        raise ValueError(f"{name}: {error}") from error
     if array.ndim != 2:
         raise ValueError(f"{name}: the body has the shape {array.shape}, expected (H, W)")
     if max(array.shape) > MOST_SIDE:

@@ -12,8 +12,8 @@ import numpy.typing as npt
 from . import _nbc
 from .bodies import Bodies, pack
 from .errors import Interrupted, report_invalid
-from .names import Genome, Sought, Symmetry
-from .numbers import array_of, count
+from .names import Genome, Sought, Symmetry, texts
+from .numbers import amount, array_of, count
 from .physics import fault_array
 from .progress import Progress, reporting
 
@@ -270,7 +270,7 @@ def _copied(text: str) -> Evolution:
 
 def _box(shape: Sequence[int]) -> str:
     """The field of the language for rows and columns."""
-    if isinstance(shape, str) or len(shape) != 2:
+    if not isinstance(shape, Sequence) or isinstance(shape, str) or len(shape) != 2:
         raise ValueError(f"shape is {shape!r}, expected rows and columns, such as (5, 7)")
     rows, columns = (count(side, f"shape[{number}]") for number, side in enumerate(shape))
     return f"{columns} x {rows}"
@@ -285,14 +285,12 @@ def _no_box(box: Any) -> str:
     return f"box=({columns}, {rows}), columns first, is now shape=({rows}, {columns}), rows first as in all shapes"
 
 
-def _listed(texts: Sequence[str], name: str) -> str:
-    if isinstance(texts, str) or not all(isinstance(text, str) for text in texts):
-        raise TypeError(f"{name} is {texts!r}, expected a list of texts")
-    return f"[{', '.join(texts)}]"
+def _listed(values: Sequence[str], name: str) -> str:
+    return f"[{', '.join(texts(values, name))}]"
 
 
 def _variation(vary: Mapping[str, float]) -> str:
     if not isinstance(vary, Mapping):
         raise TypeError(f"vary is of type {type(vary).__name__}, expected a mapping")
-    shares = {key: np.format_float_positional(float(share), trim="-") for key, share in vary.items()}
+    shares = {key: np.format_float_positional(amount(share, f"vary[{key!r}]"), trim="-") for key, share in vary.items()}
     return "{ " + ", ".join(f"{key}: {share}" for key, share in shares.items()) + " }"

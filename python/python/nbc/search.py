@@ -15,8 +15,8 @@ from . import _nbc
 from .bodies import PAPER_MATERIALS, Material, Robot, _robot, check_materials, pack_materials, rows
 from .errors import Interrupted, MissingRobotWarning
 from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
-from .names import unknown
-from .numbers import array_of, count, real, seconds, whole
+from .names import texts, unknown
+from .numbers import amount, array_of, count, real, whole
 from .progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -346,11 +346,11 @@ class Search:
         choosing: _nbc._Choosing = {
             "tries": count(tries, "tries", least=1),
             "finalists": count(finalists, "finalists", least=1),
-            "max_error": float(max_error),
-            "wide_margin": float(wide_margin),
+            "max_error": amount(max_error, "max_error", most=1.0),
+            "wide_margin": amount(wide_margin, "wide_margin"),
         }
         with reporting(progress, " screenings") as report:
-            found = json.loads(self._native.robots(list(behaviors), choosing, report))
+            found = json.loads(self._native.robots(texts(behaviors, "behaviors"), choosing, report))
         if found["reasons"] and (behaviors or not found["robots"]):
             text = "there is no robot for some behaviors\n" + "".join(found["reasons"])
             warnings.warn(text, MissingRobotWarning, stacklevel=2)
@@ -386,7 +386,7 @@ def evolve(
         NbcError: when the checkpoint is damaged, belongs to another declaration or seed, or cannot be written, before
             anything is simulated.
     """
-    every, path = seconds(checkpoint_every, "checkpoint_every"), None if checkpoint is None else os.fspath(checkpoint)
+    every, path = amount(checkpoint_every, "checkpoint_every"), None if checkpoint is None else os.fspath(checkpoint)
     most = None if generations is None else count(generations, "generations")
     if path is not None and os.path.exists(path):
         search = Search.resume(path, evolution)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
-from ..numbers import count, finite, whole
+from ..numbers import amount, count, finite, whole
 from .world import EvoWorld, WorldObject
 
 __all__ = ["EvoSim", "Scenes"]
@@ -126,7 +126,7 @@ class Scenes:
         columns = [self.places(scenes, each)[1] for each in terrain]
         grounds = np.stack(columns, axis=1) if columns else np.empty((len(numbers), 0), dtype=np.uintp)
         sight = count(sight_dist, "sight_dist", most=4096)
-        return self._native.surface(numbers, objects, grounds, sight, float(sight_range), bool(above))
+        return self._native.surface(numbers, objects, grounds, sight, amount(sight_range, "sight_range"), bool(above))
 
     def extents(self, scenes: Sequence[int], name: str) -> _Points:
         """The width and the height of an object in each of some worlds, and the area of the convex hull of its points,

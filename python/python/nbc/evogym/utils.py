@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ..numbers import array_of, count, real, whole
+from ..numbers import amount, array_of, count, real, whole
 from .exchange import connections
 
 __all__ = [
@@ -52,9 +52,8 @@ MOST_DRAWN = 300_000
 
 def get_uniform(x: int) -> npt.NDArray[np.float64]:
     """A uniform distribution over ``x`` values."""
-    if x <= 0:
-        raise ValueError(f"x is {x}, expected a positive number")
-    return np.full(x, 1 / x)
+    size = count(x, "x", least=1)
+    return np.full(size, 1 / size)
 
 
 def draw(pd: npt.ArrayLike) -> int:
@@ -207,7 +206,8 @@ class Timer:
         """Args:
             target_step_frequency: rounds per second; None for as many as there can be.
         """
-        self._period = 0.0 if target_step_frequency is None else 1 / target_step_frequency
+        often = np.inf if target_step_frequency is None else target_step_frequency
+        self._period = 1 / amount(often, "target_step_frequency", 1e-6)
         self._last = self._second = time.monotonic()
         self._rounds = 0
 

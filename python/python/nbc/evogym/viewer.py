@@ -110,8 +110,8 @@ class EvoViewer:
             if name in ("padding", "scale"):
                 setattr(self, f"_{name}", _pair(value, name))
             elif name.startswith("lock_") and name[5:] in self._locks:
-                if value is True or not isinstance(value, (bool, int, float)):
-                    raise ValueError(f"{name} is {value!r}, expected a number or False")
+                if value is True or not isinstance(value, (bool, int, float)) or not np.isfinite(value):
+                    raise ValueError(f"{name} is {value!r}, expected a finite number or False")
                 self._locks[name[5:]] = value
             else:
                 known = ("padding", "scale", *(f"lock_{each}" for each in self._locks))
