@@ -96,6 +96,15 @@ def test_wrong_arguments_are_refused(arguments, error, message):
         nbc.learn({"a": [0, 1], "q": [0, 1]}, **arguments)
 
 
+def test_any_name_is_that_of_a_circuit(tmp_path):
+    """The circuit of a program has an identifier for it."""
+    path = tmp_path / "my-data.csv"
+    path.write_text(VOTES)
+    learned = nbc.learn(path)
+    assert (learned.name, learned.circuit.name) == ("my-data", "my_data")
+    assert [nbc.learn(path, name=name).circuit.name for name in ("2nd", "test", "é")] == ["n_2nd", "n_test", "n__"]
+
+
 def test_a_progress_function_can_end_learning(tmp_path):
     class Stop(Exception):
         pass

@@ -58,7 +58,8 @@ class Learned:
         """
         if self.source is None:
             raise ValueError(f"the circuit `{self.name}` is too large for a program; write it to a .blif file")
-        return loads(self.source, f"{self.name}.nb").circuits[self.name]
+        (circuit,) = loads(self.source, f"{self.name}.nb").circuits.values()
+        return circuit
 
     def __str__(self) -> str:
         return self.text
