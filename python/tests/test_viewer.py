@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
 import sys
 
 import numpy as np
@@ -105,6 +108,41 @@ def test_a_window_needs_a_display(sim, monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "none of them")
     with pytest.raises(RuntimeError, match='a window cannot be opened: .* draws pictures without a display'):
         evogym.EvoViewer(sim).render("screen")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+@pytest.mark.parametrize(("before", "status"), [("", -signal.SIGTERM), ("pygame.init()", 1)])
+def test_a_script_with_a_window_ends_at_a_signal(before, status):
+    """By the signal itself, or by the event that SDL makes of it where the script has begun it."""
+    pytest.importorskip("pygame")
+    code = f"""
+import numpy as np, pygame
+from nbc.evogym import EvoSim, EvoViewer, EvoWorld
+{before}
+world = EvoWorld()
+world.add_from_array("robot", np.full((2, 2), 3), 0, 0)
+viewer = EvoViewer(EvoSim(world), resolution=(60, 30))
+viewer.render("human")
+print("shown", flush=True)
+while True:
+    viewer.render("human")
+"""
+    silent = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    # Another test may have shown a window in this process.
+    silent.pop("SDL_NO_SIGNAL_HANDLERS", None)
+    script = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=silent)
+    assert any(line == "shown\n" for line in script.stdout)
+    script.send_signal(signal.SIGTERM)
+    assert script.wait(timeout=20) == status
+
+
+def test_the_button_of_a_window_ends_a_script(sim, no_display):
+    viewer = evogym.EvoViewer(sim, resolution=(60, 30))
+    viewer.render("human")
+    no_display.event.post(no_display.event.Event(no_display.QUIT))
+    with pytest.raises(SystemExit, match="the window was closed"):
+        viewer.render("human")
+    assert no_display.display.get_surface() is None
 
 
 def test_an_environment_shows_each_env_step(no_display):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from typing import Any, Dict, Literal, Optional, Tuple, Union
 
@@ -140,6 +141,7 @@ class EvoViewer:
         Raises:
             ImportError: for a window, where pygame is not installed.
             RuntimeError: for a window, where there is no display.
+            SystemExit: after the window was closed, by its button or by a signal that pygame took.
         """
         check_mode(mode)
         self._track()
@@ -211,6 +213,8 @@ class _Window:
                 "draws pictures without it"
             ) from None
         self.size, self._pygame = size, pygame
+        # SIGTERM ends the process; SDL would make an event of it.
+        os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
         try:
             pygame.display.init()
             self._surface = pygame.display.set_mode(size)
@@ -223,8 +227,10 @@ class _Window:
     def show(self, picture: npt.NDArray[np.uint8]) -> None:
         self._pygame.surfarray.blit_array(self._surface, picture.swapaxes(0, 1))
         self._pygame.display.flip()
-        # Otherwise the desktop takes the window for one that hangs.
-        self._pygame.event.pump()
+        # Looking for events keeps the desktop from taking the window for one that hangs. Others are left to the script.
+        if self._pygame.event.get(self._pygame.QUIT):
+            self.close()
+            raise SystemExit("the window was closed")
 
     def close(self) -> None:
         self._pygame.display.quit()
