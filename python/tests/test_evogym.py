@@ -127,3 +127,6 @@ def test_a_shape_that_is_too_large_to_be_in_one_piece_is_given_up():
     with pytest.raises(ValueError, match=r"no body of the shape \(60, 60\) in one piece was found"):
         evogym.sample_robot((60, 60))
     assert evogym.sample_robot((60, 60), [0, 1, 1, 1, 1])[0].all()
+    assert (evogym.sample_robot((20, 20), [0, 0, 0, 1, 1, 2])[0] == 5).any()
+    with pytest.raises(ValueError, match=r"pd has the shape \(7,\), expected \(5,\), or \(6,\) with fixed voxels"):
+        evogym.sample_robot((5, 5), [1] * 7)

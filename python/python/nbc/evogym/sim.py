@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
+from ..names import meant
 from ..numbers import amount, count, finite, whole
 from .world import EvoWorld, WorldObject
 
@@ -245,8 +246,8 @@ class EvoSim:
         """Becomes the simulation of another world, from its state of now."""
         self.world, self.scenes = world, scenes
         self._objects = {each.name: each for each in world.ordered()}
-        places = {name: scenes.actuators(0, name) for name in self._objects}
-        self._robots = {name: (first, end) for name, (first, end) in places.items() if end > first}
+        # Any object may be named in actions, with as many targets as it has actuators.
+        self._robots = {name: scenes.actuators(0, name) for name in self._objects}
         self._targets = np.ones(max((end for _, end in self._robots.values()), default=0))
         # The scene that goes back to earlier states.
         self._past: Optional[Scenes] = None
@@ -345,5 +346,5 @@ class EvoSim:
 
     def _robot(self, name: str) -> Tuple[int, int]:
         if name not in self._robots:
-            raise ValueError(f"the world has no robot `{name}`")
+            raise ValueError(f"the world has no object `{name}`{meant(name, self._robots)}")
         return self._robots[name]

@@ -83,15 +83,16 @@ def sample_robot(
 
     Args:
         robot_shape: rows and columns.
-        pd: the weights of the five codes; by default 0.6 for empty and 0.2 for the others.
+        pd: the weights of the codes 0 to 4, or 0 to 5 with fixed voxels; by default 0.6 for empty and 0.2 for the
+            others.
 
     Raises:
         ValueError: for wrong arguments, and when no body in one piece is found after `MOST_DRAWN` drawn voxels, because
             the shape is too large for so many empty ones.
     """
     weights = np.array([0.6, 0.2, 0.2, 0.2, 0.2]) if pd is None else real(pd, "pd")
-    if weights.shape != (5,):
-        raise ValueError(f"pd has the shape {weights.shape}, expected (5,)")
+    if weights.shape not in ((5,), (6,)):
+        raise ValueError(f"pd has the shape {weights.shape}, expected (5,), or (6,) with fixed voxels")
     if weights[3] + weights[4] <= 0:
         raise ValueError("pd gives no actuator")
     rows, columns = (count(side, "a side of robot_shape", least=1, most=1000) for side in robot_shape)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 from functools import lru_cache
 from importlib import resources
 from typing import Any, Dict, List, Mapping, Optional, Tuple
@@ -18,6 +19,8 @@ from .utils import Pair, get_full_connectivity, is_connected
 __all__ = ["EvoWorld", "WorldObject"]
 
 _LETTERS = ".RSHVF"
+DATA_PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "sim_files")
+"""The folder in which scripts look for the worlds of tasks. They are not files, but `EvoWorld.from_json` knows them."""
 
 
 class WorldObject:
@@ -188,16 +191,10 @@ class EvoWorld:
 
     def add_from_json(self, file_path: str) -> None:
         """Adds the objects of such a file, or none of them if one cannot be added."""
-        with open(file_path, encoding="utf-8") as file:
-            data = json.load(file)
         before = dict(self.objects)
         try:
-            width = count(data["grid_width"], "grid_width", least=1)
-            for name, found in data["objects"].items():
-                self.add_object(_read_object(name, found, width))
-        except (KeyError, TypeError, AttributeError) as error:
-            self.objects = before
-            raise ValueError(f"{file_path} is not a world of Evolution Gym: {error!r} was expected in it") from None
+            for each in _objects_of(file_path):
+                self.add_object(each)
         except ValueError:
             self.objects = before
             raise
@@ -304,6 +301,20 @@ def _task_worlds() -> Dict[str, Any]:
     text = resources.files(__package__).joinpath("worlds.json").read_text(encoding="utf-8")
     found: Dict[str, Any] = json.loads(text)["worlds"]
     return found
+
+
+def _objects_of(file_path: str) -> List[WorldObject]:
+    """The objects of a file of Evolution Gym's design tool."""
+    folder, name = os.path.split(os.path.abspath(file_path))
+    if folder == DATA_PATH:
+        return list(EvoWorld.of_task(name.removesuffix(".json")).objects.values())
+    with open(file_path, encoding="utf-8") as file:
+        data = json.load(file)
+    try:
+        width = count(data["grid_width"], "grid_width", least=1)
+        return [_read_object(name, found, width) for name, found in data["objects"].items()]
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"{file_path} is not a world of Evolution Gym: {error!r} was expected in it") from None
 
 
 def _read_object(name: str, found: Mapping[str, Any], width: int) -> WorldObject:
