@@ -124,10 +124,9 @@ impl Batch {
     }
 }
 
-/// The palette of these materials, as JSON; the paper's if there are none.
-pub fn palette(materials: Option<&str>) -> PyResult<Arc<Palette>> {
-    let Some(text) = materials else { return Ok(Palette::paper()) };
-    let read: Result<Palette, _> = serde_json::from_str(text);
+/// The palette of these materials, as JSON.
+pub fn palette(materials: &str) -> PyResult<Arc<Palette>> {
+    let read: Result<Palette, _> = serde_json::from_str(materials);
     read.map(Arc::new).map_err(|error| bad_value(format!("materials: {}", offering(without_place(&error.to_string())))))
 }
 
@@ -142,7 +141,7 @@ pub fn invalid_bodies(
     py: Python<'_>,
     codes: PyReadonlyArray1<'_, u8>,
     shapes: PyReadonlyArray2<'_, u64>,
-    materials: Option<&str>,
+    materials: &str,
 ) -> PyResult<Vec<String>> {
     let palette = palette(materials)?;
     at_once(py, || {
@@ -222,7 +221,7 @@ pub fn draw_body(
     title: &str,
     codes: PyReadonlyArray1<'_, u8>,
     shapes: PyReadonlyArray2<'_, u64>,
-    materials: Option<&str>,
+    materials: &str,
     safe_colors: bool,
 ) -> PyResult<String> {
     at_once(py, || {

@@ -66,7 +66,7 @@ impl Flock {
         py: Python<'_>,
         codes: PyReadonlyArray1<'_, u8>,
         shapes: PyReadonlyArray2<'_, u64>,
-        materials: Option<&str>,
+        materials: &str,
         world_width: usize,
         start_x: Option<usize>,
     ) -> PyResult<Self> {

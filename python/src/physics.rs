@@ -153,7 +153,7 @@ impl Ending {
 pub struct TrialArguments<'py> {
     codes: PyReadonlyArray1<'py, u8>,
     shapes: PyReadonlyArray2<'py, u64>,
-    materials: Option<String>,
+    materials: String,
     schedule: ScheduleWords,
     world_width: usize,
     start_x: Option<usize>,
@@ -179,7 +179,7 @@ impl TrialArguments<'_> {
     /// When a material or the schedule is invalid, and `MemoryError`.
     fn read(self, py: Python<'_>) -> PyResult<Experiment> {
         at_once(py, || {
-            let palette = palette(self.materials.as_deref())?;
+            let palette = palette(&self.materials)?;
             let experiment = Experiment {
                 schedule: self.schedule.read(py, &palette)?,
                 batch: Batch::read(&self.codes, &self.shapes, &palette)?,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import os
 import pickle
 import subprocess
@@ -28,8 +29,6 @@ BODY = np.full((1, 2, 3), 3, dtype=np.uint8)
         (BODY.astype(complex), TypeError, "dtype complex128"),
         (BODY.astype(bool), TypeError, "dtype bool"),
         (BODY.astype(str), TypeError, "dtype <U"),
-        (np.ma.array(BODY, mask=BODY == 3), TypeError, "masked arrays are not read; `filled` makes a plain"),
-        ([np.ma.array(BODY[0])], TypeError, "masked arrays are not read"),
         (BODY.astype(int) * 100, ValueError, "300 is not a material code"),
         (-BODY.astype(int), ValueError, "-3 is not a material code"),
         (BODY * 4, ValueError, r"bodies\[0\]: row 1, column 1: 12 is not a material code; expected 0 to 8"),
@@ -125,6 +124,60 @@ def test_a_schedule_has_diagnostics_with_places():
     assert copy.diagnostics == caught.value.diagnostics and str(copy) == str(caught.value)
 
 
+MASKED = np.ma.array(BODY, mask=BODY == 3)
+EVOLUTION = nbc.Evolution(shape=(2, 3), fixed="1 cycles", batch=2)
+
+
+def _tell(**fields):
+    search = nbc.Search(EVOLUTION)
+    candidates = search.ask()
+    search.tell(candidates, dataclasses.replace(search.evaluate(candidates), **fields))
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: nbc.simulate(MASKED, "00*1"),
+        lambda: nbc.simulate([BODY[0], MASKED[0]], "00*1"),
+        lambda: nbc.simulate([list(MASKED[0])], "00*1"),
+        lambda: nbc.simulate(BODY, [(MASKED[0], 1)]),
+        lambda: nbc.simulate(BODY, [(list(MASKED[0]), 1)]),
+        lambda: nbc.simulate(BODY, [("00", MASKED[0, 0])]),
+        lambda: nbc.Flock(MASKED),
+        lambda: nbc.Flock(BODY).advance(np.ma.array([[0, 1]])),
+        lambda: nbc.evaluate(MASKED),
+        lambda: nbc.invalid(MASKED),
+        lambda: nbc.rows(MASKED[0]),
+        lambda: _tell(fitness=np.ma.zeros((2, 2))),
+        lambda: _tell(behavior=np.ma.array(["", ""])),
+        lambda: nbc.learn({"a": [0, 1], "q": np.ma.array([0, 1], mask=[True, True])}),
+        lambda: nbc.learn({"a": [0, 1], "q": [0, np.ma.masked]}),
+        lambda: nbc.evogym.to_structure(MASKED[0]),
+        lambda: nbc.evogym.from_structure(MASKED[0]),
+        lambda: nbc.evogym.from_structure(BODY[0], np.ma.zeros((2, 2), dtype=int)),
+        lambda: nbc.evogym.EvoWorld().add_from_array("robot", MASKED[0], 0, 0),
+        lambda: nbc.evogym.hashable(MASKED[0]),
+        lambda: nbc.evogym.is_connected(MASKED[0]),
+        lambda: nbc.evogym.has_actuator(MASKED[0]),
+        lambda: nbc.evogym.get_full_connectivity(MASKED[0]),
+        lambda: nbc.evogym.draw(np.ma.ones(3)),
+        lambda: nbc.evogym.sample_robot((2, 2), np.ma.ones(5)),
+        lambda: nbc.evogym.save_gif(os.devnull, [np.ma.zeros((2, 2, 3), dtype=np.uint8)]),
+        lambda: nbc.evogym.Scenes([_world()]).step(np.ma.ones(6)),
+        lambda: nbc.evogym.EvoSim(_world()).set_action("robot", np.ma.ones(6)),
+    ],
+)
+def test_masked_arrays_are_refused(call):
+    with pytest.raises(TypeError, match="masked arrays are not read; `filled` makes a plain array of one"):
+        call()
+
+
+def _world():
+    world = nbc.evogym.EvoWorld()
+    world.add_from_array("robot", BODY[0], 0, 0)
+    return world
+
+
 def test_a_closed_flock_is_refused():
     flock = nbc.Flock(BODY)
     flock.close()
@@ -169,6 +222,43 @@ def test_evolutions():
         nbc.evaluate(BODY, nbc.Evolution())
     with pytest.raises(TypeError, match="of type str"):
         nbc.evaluate(BODY, "gates")
+
+
+def test_a_robot_has_its_own_materials():
+    """The codes 5 and 7 of the paper are exchanged, so that the same digits are another body."""
+    nand = next(robot for robot in nbc.library() if robot.name == "nand_5x5")
+    paper = nbc.PAPER_MATERIALS
+    swapped = (*paper[:4], paper[6], paper[5], paper[4], paper[7])
+    codes = np.array([0, 1, 2, 3, 4, 7, 6, 5, 8], dtype=np.uint8)[nand.body]
+    other = dataclasses.replace(nand, body=codes, materials=swapped)
+    for schedule in ("00*10", "11*10"):
+        expected = nbc.simulate([nand], schedule).com
+        for given in (None, swapped):
+            np.testing.assert_array_equal(nbc.simulate([other], schedule, materials=given).com, expected)
+            with nbc.Flock([other], materials=given) as flock:
+                flock.advance(schedule[:2], 840)
+                np.testing.assert_array_equal(flock.com, expected[:, -1])
+    assert nbc.invalid([other]) == [""]
+    few = [{"name": "bone", "kind": "rigid"}, *paper[1:3]]
+    calls = [
+        (lambda: nbc.simulate([nand, other], "00*1"), r"bodies\[1\]: code 5 is not the same material in bodies\[0\]"),
+        (lambda: nbc.simulate([other, codes], "00*1"), r"bodies\[1\]: code 5 is not the same material in bodies\[0\]"),
+        (lambda: nbc.simulate([other], "00*1", materials=paper), "bodies.* code 5 is not the same material in `mater"),
+        (lambda: nbc.Flock([codes, other], materials=paper), r"bodies\[1\]: code 5 is not the same material"),
+        (lambda: nbc.invalid([other], materials=few), "not the same material in `materials`"),
+        (lambda: nbc.evaluate([other]), "code 5 is not the same material in the evolution"),
+        (lambda: nbc.evaluate([other], nbc.Evolution(objective="gate")), "code 5 is not the same material in the evo"),
+        (lambda: nbc.evogym.to_structure(other, as_actuators=True), "code 5 .* in the paper's materials"),
+        (lambda: nbc.evogym.actions(other, "00*1"), "code 5 is not the same material in the paper's materials"),
+    ]
+    for use, message in calls:
+        with pytest.raises(ValueError, match=message):
+            use()
+    # Codes that are the same materials in both may be in one call, whichever comes first.
+    three = next(robot for robot in nbc.library("three") if robot.function == "and3")
+    both = nbc.simulate([nand, three, nand.body], "001*1")
+    np.testing.assert_array_equal(both.com[0], both.com[2])
+    np.testing.assert_array_equal(both.com[1], nbc.simulate([three], "001*1").com[0])
 
 
 def test_one_invalid_body_does_not_stop_the_others(walkers):

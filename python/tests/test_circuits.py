@@ -242,7 +242,7 @@ def test_a_search_ends_with_its_budget():
     for budget in (dict(work=2000), dict(steps=3, work=100), dict(seconds=0)):
         (found,) = wide.prove(**budget)
         assert found.verdict == "undecided" and found.test is None and not found.proved
-    with pytest.raises(ValueError, match="seconds is -1.0"):
+    with pytest.raises(ValueError, match="seconds is -1, expected 0 or more"):
         wide.prove(seconds=-1)
     with pytest.raises(nbc.NbcError) as caught:
         nbc.loads("circuit ring(a) -> (q) { q = not q }\nprove ring { never q }").prove()

@@ -4,7 +4,9 @@ the manner of its tutorials."""
 from __future__ import annotations
 
 import copy
+import importlib
 import json
+import os
 import pickle
 import subprocess
 import sys
@@ -18,6 +20,7 @@ gymnasium = pytest.importorskip("gymnasium")
 from nbc import evogym, registration  # noqa: E402
 from nbc.evogym import EvoSim, EvoViewer, EvoWorld, Pair, Timer, WorldObject, envs, sample_robot  # noqa: E402
 from nbc.evogym.envs import BenchmarkBase, EvoGymBase, TaskEnv  # noqa: E402
+from nbc.evogym.tasks import Moment, Thing  # noqa: E402
 
 BODY = np.array([[3, 3, 3], [4, 1, 4], [3, 0, 3]])
 FLOOR = [0.5] * 5 + [0.05905426578275783] + [0.5] * 2 + [0.05905426578275783] + [0.5] * 2
@@ -213,7 +216,7 @@ def test_observations_are_arrays_of_their_own():
     ("action", "error", "message"),
     [
         (np.ones(3), ValueError, "the action has 3 values, expected 7"),
-        ([1, 1, np.nan, 1, 1, 1, 1], ValueError, "the action at 2 is nan, which is not finite"),
+        ([1, 1, np.nan, 1, 1, 1, 1], ValueError, "the action at 2 is nan, expected a finite number"),
         (np.ones(7) + 1j, TypeError, "dtype complex128, expected numbers"),
         ("abc", TypeError, "expected numbers"),
         (None, TypeError, "dtype object, expected numbers"),
@@ -237,6 +240,7 @@ def test_wrong_actions_are_refused_with_their_numbers(action, error, message):
         (lambda: TaskEnv("Walker-v0", [[3, 3]], [[], []]), "of the object `robot` do not join it into one piece"),
         (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": []}), "there are 0 goals"),
         (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": "abc"}), "the goals are 'abc'"),
+        (lambda: TaskEnv("BidirectionalWalker-v0", BODY).reset(options={"goals": [30, 20.7]}), "the goal at 1 is 20.7"),
         (lambda: TaskEnv("Catcher-v0", BODY).reset(options={"goals": [1]}), "there are 1 goals, expected two numbers"),
     ],
 )
@@ -358,6 +362,121 @@ except ImportError:
     assert (done.returncode, done.stdout) == (0, "EvoSim\n"), done.stderr
 
 
+MODULES = {
+    "walk": "WalkingFlat SoftBridge Duck", "climb": "Climb0 Climb1 Climb2", "flip": "Flipping",
+    "jump": "StationaryJump", "balance": "Balance BalanceJump", "multi_goal": "BiWalk WalkToX",
+    "traverse": "StairsBase StepsUp StepsDown WalkingBumpy WalkingBumpy2 VerticalBarrier FloatingPlatform Gaps"
+    " BlockSoup",
+    "manipulate": "CarrySmallRect CarrySmallRectToTable PushSmallRect PushSmallRectOnOppositeSide ThrowSmallRect"
+    " CatchSmallRect ToppleBeam SlideBeam LiftSmallRect",
+    "change_shape": "MaximizeShape MinimizeShape MaximizeXShape MaximizeYShape",
+    "base": "EvoGymBase BenchmarkBase EvoWorld EvoViewer EvoSim WorldObject sample_robot",
+}
+
+
+@pytest.mark.parametrize("name", MODULES)
+def test_the_modules_of_evolution_gym_are_here(name):
+    module = importlib.import_module(f"nbc.evogym.envs.{name}")
+    for each in MODULES[name].split():
+        assert getattr(module, each) is getattr(envs, each) and each in module.__all__
+    assert "BenchmarkBase" in module.__all__ and "EvoWorld" in module.__all__
+
+
+def test_an_environment_keeps_what_those_of_evolution_gym_keep():
+    def kept(task):
+        return {name for name in ("sight_dist", "goals", "current_goal", "num_flips", "offsetx", "offsety")
+                if hasattr(TaskEnv(task, BODY), name)}
+
+    assert {task: kept(task) for task in evogym.TASKS if kept(task)} == {
+        **{task: {"sight_dist"} for task in (
+            "CaveCrawler-v0", "Jumper-v0", "UpStepper-v0", "DownStepper-v0", "ObstacleTraverser-v0",
+            "ObstacleTraverser-v1", "Hurdler-v0", "GapJumper-v0", "PlatformJumper-v0", "Traverser-v0", "Climber-v2")},
+        "BidirectionalWalker-v0": {"goals", "current_goal"}, "Flipper-v0": {"num_flips"},
+        "Catcher-v0": {"offsetx", "offsety"},
+    }
+    sights = [TaskEnv(f"{name}", BODY).sight_dist for name in ("UpStepper-v0", "Jumper-v0", "Climber-v2")]
+    assert sights == [5, 2, 3]
+    walker, catcher, flipper = (TaskEnv(f"{name}-v0", BODY) for name in ("BidirectionalWalker", "Catcher", "Flipper"))
+    walker.reset(options={"goals": [35, 20]})
+    assert [goal.x_goal for goal in walker.goals] == [35, 20] and walker.current_goal == 0
+    walker.step(np.ones(7))
+    assert walker.current_goal == copy.copy(walker).current_goal == 1
+    assert (catcher.offsetx, catcher.offsety) == (0, 0)
+    catcher.reset(options={"goals": [-3, 2]})
+    assert (catcher.offsetx, catcher.offsety) == (-3, 2) and catcher.sim.world is catcher.world
+
+    def turned(turn):
+        return Moment(Thing(np.ones((1, 8)), np.array([turn]), None), {}, flipper._worlds)
+
+    for before, after, flips in ((6.0, 0.1, 1), (0.1, 6.0, 0), (0.1, 6.0, -1), (0.1, 0.2, -1)):
+        flipper.task.judge(turned(before), turned(after))
+        assert flipper.num_flips == flips
+    flipper.reset()
+    assert flipper.num_flips == 0
+    with pytest.raises(AttributeError, match="`TaskEnv` has no attribute `num_flip`"):
+        flipper.num_flip
+
+
+class OnOwnGround(envs.WalkingBumpy2):
+    """A task in a world of one's own."""
+
+    def __init__(self, body):
+        self.world = EvoWorld.from_json(os.path.join(self.DATA_PATH, "UpStepper-v0.json"))
+        self.world.add_from_array("robot", body, 1, 1)
+        envs.BenchmarkBase.__init__(self, self.world)
+        self.sight_dist = 4
+
+
+class OnOwnStairs(envs.StairsBase):
+    """The base of stairs in a world of one's own."""
+
+    def __init__(self, body):
+        world = EvoWorld.of_task("UpStepper-v0")
+        world.add_from_array("robot", body, 1, 1)
+        super().__init__(world=world)
+
+    def step(self, action):
+        before = self.object_pos_at_time(self.get_time(), "robot")
+        super().step({"robot": action, "ground": []})
+        return self.get_reward(before, self.object_pos_at_time(self.get_time(), "robot"))
+
+
+def test_a_subclass_of_a_task_has_its_own_world():
+    own, stairs, task = OnOwnGround(BODY), OnOwnStairs(BODY), TaskEnv("UpStepper-v0", BODY)
+    assert own.sight_dist == 4 and own.sim.world is own.world
+    observed = [env.reset()[0] for env in (own, task, stairs)]
+    np.testing.assert_array_equal(*observed[:2])
+    np.testing.assert_allclose(*observed[1:], atol=1e-12)
+    for targets in np.random.default_rng(1).uniform(0.6, 1.6, (20, 7)):
+        (seen, reward, *_), (expected, way, *_) = own.step(targets), task.step(targets)
+        np.testing.assert_array_equal(seen, expected)
+        assert reward == way == pytest.approx(stairs.step(targets), abs=1e-12)
+    with pytest.raises(ValueError, match="there is no world 'UpStepper-v7'"):
+        EvoWorld.from_json(os.path.join(own.DATA_PATH, "UpStepper-v7.json"))
+
+
+def test_a_closed_environment_can_still_be_used():
+    env = gymnasium.make("nbc/Walker-v0", body=BODY)
+    first, _ = env.reset()
+    env.step(np.ones(7))
+    env.close()
+    assert env.unwrapped.get_time() == 1 and env.unwrapped.sim.object_pos_at_time(1, "robot").size
+    np.testing.assert_array_equal(env.reset()[0], first)
+
+
+def test_actions_may_name_objects_without_actuators(hills):
+    world = EvoWorld.from_json(hills)
+    world.add_from_array("robot", BODY, 3, 1)
+    world.add_from_array("still", np.array([[1, 2]]), 10, 5)
+    env = EvoGymBase(world)
+    assert env.get_dim_action_space("still") == 0 and env.get_actuator_indices("still").size == 0
+    assert env.step({"robot": np.ones(7), "still": np.empty(0)}) is False
+    with pytest.raises(ValueError, match="the action has 1 values, expected 0 for still"):
+        env.step({"still": [1.0]})
+    with pytest.raises(ValueError, match="the world has no object `stil`; did you mean `still`?"):
+        env.step({"stil": []})
+
+
 def test_the_names_of_evolution_gym_are_here():
     """All but those that docs/evolution-gym.md says are left out."""
     theirs = pytest.importorskip("evogym")
@@ -369,12 +488,12 @@ def test_the_names_of_evolution_gym_are_here():
 
     assert missing(theirs, evogym) == set()
     assert missing(theirs.utils, evogym.utils) <= {"_is_in_bounds", "_recursive_search"}
-    between = {"ClimbBase", "Goal", "GoalBase", "PackageBase", "ShapeBase", "StairsBase", "WalkToX"}
+    between = {"ClimbBase", "Goal", "GoalBase", "PackageBase", "ShapeBase"}
     assert missing(their_envs, envs) - set(dir(evogym)) == between
     for one, other in ((theirs.EvoWorld, EvoWorld), (theirs.WorldObject, WorldObject), (theirs.EvoViewer, EvoViewer),
                        (their_envs.EvoGymBase, EvoGymBase), (their_envs.BenchmarkBase, BenchmarkBase)):
         lacks = {name for name in dir(one) if not name.startswith("_") and not hasattr(other, name)}
-        assert lacks == ({"DATA_PATH"} if one is their_envs.BenchmarkBase else set())
+        assert lacks == set()
     reached = {name for name in vars(theirs.EvoSim) if not name.startswith("_")}
     assert {name for name in reached if not hasattr(EvoSim, name)} == set()
 

@@ -38,7 +38,7 @@ def test_a_robot_of_three_stimuli_walks_under_eight_patterns(root):
     assert (robot.behavior, robot.function, robot.displacement.shape) == ("LLLLLLLR", "and3", (8,))
     assert robot.materials == nbc.THREE_MATERIALS and nbc.THREE_MATERIALS[:8] == nbc.PAPER_MATERIALS
     schedules = [f"{pattern:03b}*10" for pattern in range(8)]
-    walked = [nbc.simulate([robot], each, materials=robot.materials).displacement[0, 0] for each in schedules]
+    walked = [nbc.simulate([robot], each).displacement[0, 0] for each in schedules]
     assert walked == robot.displacement.tolist()
     run = nbc.load(root / "library/three.nb").evolutions["three_gates"]
     assert run.axes == (("voxels", 3), ("active", 3), ("class", 14))

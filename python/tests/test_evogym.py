@@ -43,15 +43,16 @@ def test_what_evolution_gym_lacks_is_refused(body, message):
     [
         ([[3, 4]], None, ValueError, "column 2: 4 is a vertical actuator"),
         ([[5, 5]], None, ValueError, "5 is a fixed voxel, such as terrain"),
-        ([[3, 9]], None, ValueError, "9 is not a voxel of Evolution Gym"),
-        ([[3, -1]], None, ValueError, "-1 is not a voxel"),
-        ([[3.5]], None, ValueError, "expected whole numbers"),
-        ([[np.nan]], None, ValueError, "expected whole numbers"),
+        ([[3, 9]], None, ValueError, r"the structure at \(0, 1\) is 9, expected a whole number from 0 to 5"),
+        ([[3, -1]], None, ValueError, r"the structure at \(0, 1\) is -1"),
+        ([[3.5]], None, ValueError, "is 3.5, expected a whole number"),
+        ([[np.nan]], None, ValueError, "is nan, expected a whole number"),
         ([["3"]], None, TypeError, "dtype"),
         ([3, 3], None, ValueError, r"shape \(2,\)"),
         ([[0, 0]], None, ValueError, "no voxels"),
         ([[3, 3]], [[], []], ValueError, "row 1, column 1 and row 1, column 2 are not connected"),
-        ([[3, 3]], [[0, 0], [1, 5]], ValueError, "connected, but are not neighboring"),
+        ([[3, 3]], [[0, 0], [1, 5]], ValueError, r"the connection at \(1, 1\) is 5, expected .* from 0 to 1"),
+        ([[3, 3, 3]], [[0, 0], [1, 2]], ValueError, "connected, but are not neighboring"),
         ([[3, 3]], [0, 1], ValueError, r"shape \(2,\), expected \(2, edges\)"),
     ],
 )
@@ -126,3 +127,6 @@ def test_a_shape_that_is_too_large_to_be_in_one_piece_is_given_up():
     with pytest.raises(ValueError, match=r"no body of the shape \(60, 60\) in one piece was found"):
         evogym.sample_robot((60, 60))
     assert evogym.sample_robot((60, 60), [0, 1, 1, 1, 1])[0].all()
+    assert (evogym.sample_robot((20, 20), [0, 0, 0, 1, 1, 2])[0] == 5).any()
+    with pytest.raises(ValueError, match=r"pd has the shape \(7,\), expected \(5,\), or \(6,\) with fixed voxels"):
+        evogym.sample_robot((5, 5), [1] * 7)

@@ -59,7 +59,7 @@ def test_wrong_rows_are_refused(tmp_path):
         nbc.learn(tmp_path / "votes.txt")
     with pytest.raises(nbc.NbcError, match="leave none to learn from"):
         nbc.learn({"a": [0, 1], "q": [1, 0]}, hold_out=99)
-    with pytest.raises(ValueError, match="not whole"):
+    with pytest.raises(ValueError, match="`a` at 1 is 0.5, expected a whole number"):
         nbc.learn({"a": [0, 0.5], "q": [1, 0]})
     with pytest.raises(ValueError, match="same length"):
         nbc.learn({"a": [0, 1], "q": [1]})
@@ -69,12 +69,40 @@ def test_wrong_rows_are_refused(tmp_path):
         nbc.learn({"a": np.zeros((2, 2, 2), dtype=int), "q": [0, 1]})
     with pytest.raises(TypeError, match="dtype"):
         nbc.learn({"a": ["x", "y"], "q": [0, 1]})
-    with pytest.raises(TypeError, match="sequence of ports"):
+    with pytest.raises(TypeError, match="target is 'q', expected a list of texts"):
         nbc.learn({"a": [0, 1], "q": [0, 1]}, target="q")
-    with pytest.raises(ValueError, match="invalid hold_out"):
-        nbc.learn({"a": [0, 1], "q": [0, 1]}, hold_out=100)
+    with pytest.raises(TypeError, match="rows is of type list, expected a file, a frame or a mapping"):
+        nbc.learn([[0, 1]])
     with pytest.raises(ValueError, match="unrecognized circuit format"):
         nbc.learn({"a": [0, 1], "q": [0, 1]}, tmp_path / "q.txt", hold_out=0)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "error", "message"),
+    [
+        ({"hold_out": 100}, ValueError, "hold_out is 100"),
+        ({"hold_out": float("nan")}, ValueError, "hold_out is nan, expected 0 to 100"),
+        ({"hold_out": "5"}, TypeError, "hold_out is '5', expected a number"),
+        ({"group": 0}, ValueError, "group is 0, expected 1 to 1000000"),
+        ({"group": 10**6 + 1}, ValueError, "group is 1000001, expected 1 to 1000000"),
+        ({"gates": -1}, ValueError, "gates is -1, expected 0 to"),
+        ({"seed": 2**64}, ValueError, "seed is 18446744073709551616, expected 0 to"),
+        ({"name": 3}, TypeError, "name is 3, expected a text"),
+        ({"target": [1]}, TypeError, r"target is \[1\], expected a list of texts"),
+    ],
+)
+def test_wrong_arguments_are_refused(arguments, error, message):
+    with pytest.raises(error, match=message):
+        nbc.learn({"a": [0, 1], "q": [0, 1]}, **arguments)
+
+
+def test_any_name_is_that_of_a_circuit(tmp_path):
+    """The circuit of a program has an identifier for it."""
+    path = tmp_path / "my-data.csv"
+    path.write_text(VOTES)
+    learned = nbc.learn(path)
+    assert (learned.name, learned.circuit.name) == ("my-data", "my_data")
+    assert [nbc.learn(path, name=name).circuit.name for name in ("2nd", "test", "é")] == ["n_2nd", "n_test", "n__"]
 
 
 def test_a_progress_function_can_end_learning(tmp_path):

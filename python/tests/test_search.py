@@ -245,7 +245,9 @@ def test_archives_go_to_pyribs_and_back(done):
     np.testing.assert_array_equal(best["solution"], row["body"].ravel())
     np.testing.assert_array_equal(best["measures"], row["niche"])
     names = [name for name, _ in archive.axes]
-    assert nbc.Archive.from_ribs(there, names, archive.materials) == archive
+    assert nbc.Archive.from_ribs(there, names) == nbc.Archive.from_ribs(there, names, archive.materials) == archive
+    with pytest.raises(ValueError, match="the archive: code . is not the same material in `materials`"):
+        nbc.Archive.from_ribs(there, names, archive.materials[::-1])
     with pytest.raises(ValueError, match="2 axes are named, expected 4"):
         nbc.Archive.from_ribs(there, ["voxels", "behavior"])
     pytest.importorskip("pandas")
@@ -264,6 +266,37 @@ def test_archives_that_do_not_fit_pyribs_are_refused():
         nbc.Search(classes).archive.to_ribs()
 
 
+@pytest.mark.parametrize(
+    ("field", "change", "message"),
+    [
+        ("solution", lambda codes: codes + 0.7, r"solution at \(0, 0\) is \d.7, expected a whole number from 0 to 8"),
+        ("solution", lambda codes: codes + 300, r"the solution at \(0, 0\) is 30"),
+        ("solution", lambda codes: codes - 10, r"the solution at \(0, 0\) is -"),
+        ("solution", lambda codes: codes * np.nan, r"the solution at \(0, 0\) is nan"),
+        ("width", lambda widths: widths * 0, "the width at 0 is 0, expected a whole number from 1"),
+        ("width", lambda widths: widths + 1, r"bodies of 9 codes have the widths \[4\]"),
+        ("generation", lambda numbers: numbers.astype(int) - 10, "the generation at 0 is -"),
+        ("fitness", lambda scores: scores.astype(str), "the fitness has the dtype"),
+        ("behavior", lambda words: words + "R", "has 5 letters, expected 4"),
+    ],
+)
+def test_elites_of_pyribs_are_never_rounded(done, field, change, message):
+    archives = pytest.importorskip("ribs.archives")
+    there = done.archive.to_ribs()
+    data = dict(there.data())
+    data[field] = change(data[field].astype(float) if field == "solution" else data[field])
+    solutions, objectives, measures = (data.pop(name) for name in ("solution", "objective", "measures"))
+    for name in ("index", "threshold"):
+        data.pop(name)
+    types = {name: (each.shape[1:], object if each.dtype.kind == "U" else each.dtype) for name, each in data.items()}
+    other = archives.GridArchive(
+        solution_dim=9, dims=there.dims, ranges=[(-0.5, bins - 0.5) for bins in there.dims], extra_fields=types
+    )
+    other.add(solutions, objectives, measures, **data)
+    with pytest.raises((ValueError, TypeError), match=message):
+        nbc.Archive.from_ribs(other, [name for name, _ in done.archive.axes])
+
+
 def test_robots_are_those_that_the_program_adds(program, tmp_path):
     search = nbc.evolve(nbc.Evolution(shape=(3, 3), generations=1, batch=16), seed=2)
     behavior = str(search.archive.elites["behavior"][0])
@@ -279,6 +312,10 @@ def test_robots_are_those_that_the_program_adds(program, tmp_path):
     assert nbc.library(tmp_path / "mine") == (found[0],) and path.endswith(f"{found[0].name}.yaml")
     with pytest.raises(ValueError, match="did you mean `nand`"):
         search.robots(["nandd"])
+    with pytest.raises(ValueError, match="max_error is nan, expected 0 to 1"):
+        search.robots(max_error=float("nan"))
+    with pytest.raises(TypeError, match="behaviors is 'nand', expected a list of texts"):
+        search.robots("nand")
     missing = next(word for word in ["RRRL", "LRRL", "RLLR"] if word not in search.archive.elites["behavior"])
     with pytest.warns(nbc.MissingRobotWarning, match=f"{missing} .* none: no elite of this behavior"):
         assert search.robots([missing]) == []

@@ -94,4 +94,4 @@ def test_images_that_do_not_fit_are_refused(spots):
     refused([(np.zeros((2, 3)), 1)], "2 x 3 pixels, but the materials sense 2 x 2")
     refused([(image + 1.5, 1)], "row 1, column 1: the pixel is 1.5, expected 0 to 1")
     refused([(np.zeros(4), 1)], r"has the shape \(4,\), expected \(rows, columns\)")
-    refused([([["a", "b"]], 1)], "neither a pattern such as '01' nor an image", TypeError)
+    refused([([["a", "b"]], 1)], "an image of the schedule has the dtype <U1, expected numbers", TypeError)

@@ -36,5 +36,7 @@ def test_wrong_syntheses_are_refused(root, tmp_path):
         nbc.synthesize(file, cells=["nand"], library="shipped")
     with pytest.raises(ValueError, match="invalid registers"):
         nbc.synthesize(file, registers="none")
+    with pytest.raises(TypeError, match="cells is 'nand', expected a list of texts"):
+        nbc.synthesize(file, cells="nand")
     with pytest.raises(TypeError, match="needs a file"):
         nbc.synthesize()

@@ -180,7 +180,7 @@ def test_a_simulation_has_a_past_and_can_be_pickled():
         ([("a", [[3, 3]], 0, 0), ("a", [[3]], 5, 0)], "the world has an object `a` already"),
         ([("a", [[3, 3]], 0, 0), ("b", [[5]], 1, 0)], "the objects `b` and `a` overlap"),
         ([("a", [[3, 0, 3]], 0, 0)], "the object `a` is not in one piece"),
-        ([("a", [[3, 7]], 0, 0)], "row 1, column 2: 7 is not a voxel, expected 0 to 5"),
+        ([("a", [[3, 7]], 0, 0)], r"the structure at \(0, 1\) is 7, expected a whole number from 0 to 5"),
         ([("a", [[3]], -1, 0)], "x is -1, expected 0 to"),
         ([("a", [[5]], 0, 0)], "nothing in the world can move"),
         ([("a", [[5]], 0, 2**30), ("b", [[3]], 0, 0)], "a world has at most 4096 columns and rows"),
@@ -192,6 +192,13 @@ def test_worlds_that_cannot_be_are_refused(objects, message):
         for each in objects:
             world.add_from_array(*each)
         evogym.EvoSim(world)
+
+
+def _with(each):
+    world = evogym.EvoWorld()
+    world.add_object(each)
+    world.add_from_array("robot", BODY, 10, 10)
+    return world
 
 
 def test_files_of_the_design_tool_are_read(tmp_path):
@@ -211,6 +218,20 @@ def test_files_of_the_design_tool_are_read(tmp_path):
     assert world.objects["step"].apart == [(0, 1)] and world.objects["step"].get_connections().shape == (2, 0)
     with pytest.raises(ValueError, match="the connections of the object `step` do not join it into one piece"):
         evogym.EvoSim(world)
+    text = path.read_text()
+    for good, wrong, message in (
+        ('"types": [5,', '"types": [4.7,', "the types of `step` at 0 is 4.7, expected a whole number from 0 to 5"),
+        ('"types": [5,', '"types": [', "the object `step` has 2 voxels with 1 types"),
+        ('"indices": [1,', '"indices": [1.5,', "the indices of `step` at 0 is 1.5"),
+        ('"1": [],', '"1": [2.5],', "is not a world of Evolution Gym"),
+        ('"grid_width": 4', '"grid_width": 0', "grid_width is 0, expected 1 to"),
+    ):
+        path.write_text(text.replace(good, wrong))
+        with pytest.raises(ValueError, match=message):
+            evogym.EvoWorld.from_json(str(path))
+    step.structure = np.array([[2.5, 0], [5, 5]])
+    with pytest.raises(ValueError, match=r"the structure of `step` at \(0, 0\) is 2.5"):
+        evogym.EvoSim(_with(step))
     path.write_text('{"robots": 3}')
     with pytest.raises(ValueError, match="is not a world of Evolution Gym"):
         evogym.EvoWorld.from_json(str(path))
@@ -223,7 +244,7 @@ def test_wrong_actions_are_refused():
         scenes.step(np.ones(6))
     with pytest.raises(ValueError, match="the actions have 8 targets, expected 7"):
         scenes.step(np.ones(8))
-    with pytest.raises(ValueError, match="the action at 6 is nan, which is not finite"):
+    with pytest.raises(ValueError, match="the action at 6 is nan, expected a finite number"):
         scenes.step([1, 1, 1, 1, 1, 1, np.nan])
 
 

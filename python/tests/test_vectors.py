@@ -121,6 +121,7 @@ def test_a_vector_can_be_pickled_and_copied():
     ("use", "error", "message"),
     [
         (lambda many: many.reset(seed=[1]), ValueError, "there are 1 seeds, expected 2, one for each world"),
+        (lambda many: many.reset(seed=[1.5, 2]), TypeError, "the seed is 1.5, expected a whole number"),
         (lambda many: many.reset(options={"reset_mask": [0, 1]}), TypeError, "dtype int64, expected booleans"),
         (lambda many: many.reset(options={"reset_mask": [True]}), ValueError, r"shape \(1,\), expected \(2,\)"),
         (lambda many: many.reset(options={"reset_mask": [False] * 2}), ValueError, "no True, so no world is reset"),
@@ -128,7 +129,7 @@ def test_a_vector_can_be_pickled_and_copied():
         (lambda many: many.reset(options={"goals": [1]}), ValueError, "there are 1 goals, expected two numbers"),
         (lambda many: many.reset(options={"goals": [-1000, 0]}), ValueError, "x is -979, expected 0 to"),
         (lambda many: many.step(np.ones((2, 6))), ValueError, r"the shape \(2, 6\), expected \(2, 7\)"),
-        (lambda many: many.step([[np.inf] * 7] * 2), ValueError, r"action at \(0, 0\) is inf, which is not finite"),
+        (lambda many: many.step([[np.inf] * 7] * 2), ValueError, r"action at \(0, 0\) is inf, expected a finite"),
     ],
 )
 def test_what_a_vector_cannot_do_is_refused_and_leaves_it_whole(use, error, message):

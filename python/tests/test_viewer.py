@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import signal
+import subprocess
 import sys
 
 import numpy as np
@@ -68,10 +71,12 @@ def test_a_camera_follows_objects(sim):
         (lambda viewer: viewer.render("image"), ValueError, "the render mode is 'image', expected one of 'img'"),
         (lambda viewer: viewer.set_pos([1, 2]), TypeError, "pos is of type list, expected a tuple of two numbers"),
         (lambda viewer: viewer.set_pos((1, np.nan)), ValueError, "expected finite numbers"),
-        (lambda viewer: viewer.set_resolution((0, 5)), ValueError, "resolution is .* expected finite numbers above 0"),
+        (lambda viewer: viewer.set_resolution((0, 5)), ValueError, "resolution at 0 is 0.0, expected a whole"),
+        (lambda viewer: viewer.set_resolution((60.5, 50)), ValueError, "resolution at 0 is 60.5, expected a whole"),
         (lambda viewer: viewer.set_target_rps(1), ValueError, "target_rps is 1, expected at least 2, or None"),
         (lambda viewer: viewer.track_objects("robt"), ValueError, "no object `robt`; did you mean `robot`?"),
-        (lambda viewer: viewer.set_tracking_settings(lock_x=True), ValueError, "expected a number or False"),
+        (lambda viewer: viewer.set_tracking_settings(lock_x=True), ValueError, "expected a finite number or False"),
+        (lambda viewer: viewer.set_tracking_settings(lock_x=np.nan), ValueError, "lock_x is nan"),
         (lambda viewer: viewer.set_tracking_settings(zoom=2), ValueError, "there is no setting `zoom`"),
     ],
 )
@@ -103,6 +108,41 @@ def test_a_window_needs_a_display(sim, monkeypatch):
     monkeypatch.setenv("SDL_VIDEODRIVER", "none of them")
     with pytest.raises(RuntimeError, match='a window cannot be opened: .* draws pictures without a display'):
         evogym.EvoViewer(sim).render("screen")
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no signals")
+@pytest.mark.parametrize(("before", "status"), [("", -signal.SIGTERM), ("pygame.init()", 1)])
+def test_a_script_with_a_window_ends_at_a_signal(before, status):
+    """By the signal itself, or by the event that SDL makes of it where the script has begun it."""
+    pytest.importorskip("pygame")
+    code = f"""
+import numpy as np, pygame
+from nbc.evogym import EvoSim, EvoViewer, EvoWorld
+{before}
+world = EvoWorld()
+world.add_from_array("robot", np.full((2, 2), 3), 0, 0)
+viewer = EvoViewer(EvoSim(world), resolution=(60, 30))
+viewer.render("human")
+print("shown", flush=True)
+while True:
+    viewer.render("human")
+"""
+    silent = {**os.environ, "SDL_VIDEODRIVER": "dummy", "SDL_AUDIODRIVER": "dummy"}
+    # Another test may have shown a window in this process.
+    silent.pop("SDL_NO_SIGNAL_HANDLERS", None)
+    script = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True, env=silent)
+    assert any(line == "shown\n" for line in script.stdout)
+    script.send_signal(signal.SIGTERM)
+    assert script.wait(timeout=20) == status
+
+
+def test_the_button_of_a_window_ends_a_script(sim, no_display):
+    viewer = evogym.EvoViewer(sim, resolution=(60, 30))
+    viewer.render("human")
+    no_display.event.post(no_display.event.Event(no_display.QUIT))
+    with pytest.raises(SystemExit, match="the window was closed"):
+        viewer.render("human")
+    assert no_display.display.get_surface() is None
 
 
 def test_an_environment_shows_each_env_step(no_display):
@@ -138,7 +178,7 @@ def test_films_are_saved(sim, tmp_path):
     assert (film.n_frames, film.size, film.info["duration"], film.info["loop"]) == (3, (80, 40), 40, 0)
     with pytest.raises(ValueError, match="the film has no pictures"):
         evogym.save_gif(tmp_path / "none.gif", [])
-    with pytest.raises(ValueError, match="fps is 0, expected a positive number"):
+    with pytest.raises(ValueError, match="fps is 0, expected 0.01 or more"):
         evogym.save_gif(tmp_path / "none.gif", pictures, fps=0)
 
 

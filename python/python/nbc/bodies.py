@@ -31,7 +31,9 @@ OneBody = Union["Robot", npt.NDArray[Any], Sequence[str], Sequence[Sequence[int]
 Bodies = Union[npt.NDArray[Any], Sequence[OneBody]]
 """Bodies: an integer array of shape (N, H, W), or a sequence of bodies of any sizes, each an integer array of shape
 (H, W), rows of digits such as ``["343", "303"]``, or a `Robot`. Row 0 is on top. Code 0 is empty, code k is the k-th
-material. Arrays may be of numpy or of any library whose arrays have ``__array__`` or ``__dlpack__``, such as JAX.
+material: of a robot its own, of others that of the argument ``materials``, by default the paper's. A code that would
+be two materials in one call is a ValueError. Arrays may be of numpy or of any library whose arrays have ``__array__``
+or ``__dlpack__``, such as JAX.
 
 All shapes of the package are (rows, columns), as those of numpy."""
 
@@ -79,9 +81,9 @@ class Robot:
         return hash((self.name, self.body.tobytes()))
 
     def _repr_svg_(self) -> str:
-        packed = pack([self.body])
+        packed = pack([self])
         title = f"{self.name}: {self.function}, {self.behavior}"
-        return _nbc.draw_body(title, packed.codes, packed.shapes, pack_materials(self.materials), False)
+        return _nbc.draw_body(title, packed.codes, packed.shapes, packed.materials, False)
 
 
 def library(name: Union[str, "os.PathLike[str]"] = "shipped") -> Tuple[Robot, ...]:
@@ -133,8 +135,8 @@ def invalid(bodies: Bodies, *, materials: Optional[Sequence[Material]] = None) -
     >>> nbc.invalid([["333"], ["33"], ["330", "003"]])
     ['', 'the body has 2 actuators, expected at least 3', 'the body is not in one piece']
     """
-    packed = pack(bodies)
-    reasons = _nbc.invalid_bodies(packed.codes, packed.shapes, pack_materials(materials))
+    packed = pack(bodies, materials)
+    reasons = _nbc.invalid_bodies(packed.codes, packed.shapes, packed.materials)
     return [packed.errors.get(number, reason) for number, reason in enumerate(reasons)]
 
 
@@ -156,6 +158,8 @@ class Packed:
     """All codes in reading order, body after body."""
     shapes: npt.NDArray[np.uint64]
     """The rows and columns of each body; none for one that could not be read."""
+    materials: str
+    """The materials of the codes, as JSON."""
     errors: Mapping[int, str]
     """Why bodies could not be read."""
 
@@ -165,16 +169,22 @@ class Packed:
             raise ValueError(f"bodies[{number}]: {reason}")
 
 
-def pack(bodies: Bodies) -> Packed:
+def pack(bodies: Bodies, materials: Optional[Sequence[Material]] = None, owner: str = "`materials`") -> Packed:
     """Bodies for the native half.
 
+    Args:
+        bodies: the bodies.
+        materials: the materials of the codes; None for those of the robots, or the paper's.
+        owner: who has these materials, for messages.
+
     Raises:
-        TypeError, ValueError: for what is no array or list of bodies. A wrong body among others is in ``errors``.
+        TypeError, ValueError: for what is no array or list of bodies, and for a code that would be two materials. A
+            body among others that is wrong in another way is in ``errors``.
     """
     if is_array(bodies):
         bodies = array_of(bodies)
     if isinstance(bodies, np.ndarray) and bodies.dtype != object:
-        return _pack_array(bodies)
+        return _pack_array(bodies, pack_materials(PAPER_MATERIALS if materials is None else materials))
     if isinstance(bodies, (str, bytes)) or not isinstance(bodies, (Sequence, np.ndarray)):
         raise TypeError(f"bodies is of type {type(bodies).__name__}, expected an array (N, H, W) or a list of bodies")
     _check_count(len(bodies))
@@ -187,7 +197,40 @@ def pack(bodies: Bodies) -> Packed:
             packed.append(np.empty((0, 0), dtype=np.uint8))
     shapes = np.array([body.shape for body in packed], dtype=np.uint64).reshape(-1, 2)
     flat = [body.reshape(-1) for body in packed]
-    return Packed(np.concatenate(flat) if flat else np.empty(0, dtype=np.uint8), shapes, errors)
+    text = pack_materials(_common_materials(bodies, packed, materials, owner))
+    return Packed(np.concatenate(flat) if flat else np.empty(0, dtype=np.uint8), shapes, text, errors)
+
+
+def _common_materials(
+    bodies: Union[npt.NDArray[Any], Sequence[OneBody]],
+    codes: Sequence[Codes],
+    given: Optional[Sequence[Material]],
+    owner: str,
+) -> Sequence[Material]:
+    """The materials in which all bodies can be read: those that are given, or else the most that a robot has."""
+    common = PAPER_MATERIALS if given is None else given
+    own = [body.materials if isinstance(body, Robot) else common for body in bodies]
+    if given is None and own:
+        first = max(range(len(own)), key=lambda number: len(own[number]))
+        common, owner = own[first], f"bodies[{first}]"
+    for number, materials in enumerate(own):
+        check_materials(codes[number], materials, common, f"bodies[{number}]", owner)
+    return common
+
+
+def check_materials(
+    codes: npt.NDArray[Any], own: Sequence[Material], common: Sequence[Material], name: str, owner: str
+) -> None:
+    """Raises ValueError for a code of a body that is another material, or none, in those of somebody else."""
+    if own is common:
+        return
+    texts = pack_materials(own), pack_materials(common)
+    if texts[0] == texts[1]:
+        return
+    known, expected = map(json.loads, texts)
+    for code in np.unique(codes[codes > 0]).tolist():
+        if known[code - 1 : code] != expected[code - 1 : code]:
+            raise ValueError(f"{name}: code {code} is not the same material in {owner}")
 
 
 def _check_count(found: int) -> None:
@@ -195,7 +238,7 @@ def _check_count(found: int) -> None:
         raise ValueError(f"there are {found} bodies, expected at most {MOST_BODIES} in one call")
 
 
-def _pack_array(bodies: npt.NDArray[Any]) -> Packed:
+def _pack_array(bodies: npt.NDArray[Any], materials: str) -> Packed:
     if bodies.ndim != 3:
         hint = "; for one body write `body[None]`" if bodies.ndim == 2 else ""
         raise ValueError(f"bodies has the shape {bodies.shape}, expected (N, H, W){hint}")
@@ -211,13 +254,11 @@ def _pack_array(bodies: npt.NDArray[Any]) -> Packed:
         errors = {number: _wrong_code(bodies[number]) for number in wrong.tolist()}
         bodies = bodies.copy()
         bodies[wrong] = 0
-    return Packed(np.ascontiguousarray(bodies, dtype=np.uint8).reshape(-1), shapes, errors)
+    return Packed(np.ascontiguousarray(bodies, dtype=np.uint8).reshape(-1), shapes, materials, errors)
 
 
-def pack_materials(materials: Optional[Sequence[Material]]) -> Optional[str]:
-    """Materials as JSON; None for the paper's."""
-    if materials is None:
-        return None
+def pack_materials(materials: Sequence[Material]) -> str:
+    """Materials as JSON."""
     if isinstance(materials, (str, bytes, Mapping)) or not isinstance(materials, Sequence):
         raise TypeError(f"materials is of type {type(materials).__name__}, expected a list of mappings")
     for number, material in enumerate(materials):
@@ -248,7 +289,7 @@ def read(body: OneBody, name: str) -> Codes:
         TypeError, ValueError: for what is no body; ``name`` is what it is called in messages.
     """
     if isinstance(body, Robot):
-        return body.body
+        body = body.body
     if isinstance(body, (str, bytes)):
         raise TypeError(f"{name} is a text, expected a list of rows such as ['343', '303']")
     if isinstance(body, Sequence) and body and all(isinstance(row, str) for row in body):
@@ -256,7 +297,7 @@ def read(body: OneBody, name: str) -> Codes:
     try:
         array = array_of(body)
     except ValueError as error:
-        raise ValueError(f"{name}: the rows have different lengths") from error
+        raise ValueError(f"{name}: {error}") from error
     if array.ndim != 2:
         raise ValueError(f"{name}: the body has the shape {array.shape}, expected (H, W)")
     if max(array.shape) > MOST_SIDE:
@@ -282,7 +323,7 @@ def _of_rows(body: Sequence[str], name: str) -> Codes:
 
 
 def _check_integers(array: npt.NDArray[Any], name: str) -> None:
-    if array.size and not np.issubdtype(array.dtype, np.integer):
+    if array.size and array.dtype.kind not in "iu":
         raise TypeError(f"{name} has the dtype {array.dtype}, expected integers")
 
 

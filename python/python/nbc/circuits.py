@@ -16,8 +16,7 @@ from . import _nbc
 from .errors import Diagnostic, Interrupted, diagnostics_of
 from .evolution import Evolution
 from .names import Effort, Level, Objective, unknown
-from .numbers import array_of, count, is_array
-from .numbers import seconds as seconds_of
+from .numbers import amount, array_of, count, is_array
 from .progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -356,7 +355,7 @@ class Program:
             Interrupted: on Ctrl-C, with the properties of the claims before.
         """
         options = _options(library, swarm, objective, effort, runs)
-        budget = (count(steps, "steps"), count(work, "work", most=2**64 - 1), seconds_of(seconds, "seconds"))
+        budget = (count(steps, "steps"), count(work, "work", most=2**64 - 1), amount(seconds, "seconds"))
         results: List[Property] = []
         try:
             for number in _numbers_of("claim", self.claims, name):
@@ -440,11 +439,10 @@ class Program:
             NbcError: when the circuit has no test.
         """
         options = _options(library, swarm, objective, effort, runs)
-        if not 0.0 <= least_yield <= 1.0:
-            raise ValueError(f"least_yield is {least_yield}, expected 0 to 1")
+        least = amount(least_yield, "least_yield", most=1.0)
         sampling = _sampling([vary], [1.0], worlds, seed)
         with reporting(progress, " cycles") as report:
-            found = json.loads(self._native.harden(circuit, sampling, least_yield, options, report))
+            found = json.loads(self._native.harden(circuit, sampling, least, options, report))
         data = found["data"]
         return Hardened(tuple(data["without"]), data["reached"], tuple(data["tried"]), found["text"])
 
@@ -802,11 +800,9 @@ def _sampling(vary: Sequence[str], times: Sequence[float], worlds: int, seed: in
     """A sample of worlds for the native half."""
     if not vary or not times:
         raise ValueError("vary and times need a value at least")
-    if not all(0.0 <= factor <= 1000.0 for factor in times):
-        raise ValueError("expected numbers from 0 to 1000 in times")
     return {
         "vary": [str(changes) for changes in vary],
-        "times": [float(factor) for factor in times],
+        "times": [amount(factor, "times", most=1000.0) for factor in times],
         "worlds": count(worlds, "worlds", least=1),
         "seed": count(seed, "seed", most=2**64 - 1),
     }

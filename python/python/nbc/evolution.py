@@ -12,8 +12,8 @@ import numpy.typing as npt
 from . import _nbc
 from .bodies import Bodies, pack
 from .errors import Interrupted, report_invalid
-from .names import Genome, Sought, Symmetry
-from .numbers import array_of, count
+from .names import Genome, Sought, Symmetry, texts
+from .numbers import amount, array_of, count
 from .physics import fault_array
 from .progress import Progress, reporting
 
@@ -216,7 +216,7 @@ def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress:
         progress: see `simulate`.
 
     Raises:
-        TypeError, ValueError: as `simulate`, and for bodies of another box.
+        TypeError, ValueError: as `simulate`, and for bodies of another box, or robots of other materials.
         Interrupted: on Ctrl-C, with the results so far.
 
     >>> import nbc
@@ -225,11 +225,11 @@ def evaluate(bodies: Bodies, evolution: Optional[Evolution] = None, *, progress:
     >>> result.behavior.tolist()
     ['RRRL']
     """
-    packed = pack(bodies)
+    if not isinstance(evolution, (Evolution, type(None))):
+        raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
+    packed = pack(bodies, (evolution or Evolution()).fields["palette"], "the evolution")
     if evolution is None:
         evolution = Evolution(shape=next(((int(h), int(w)) for h, w in packed.shapes if h and w), None))
-    if not isinstance(evolution, Evolution):
-        raise TypeError(f"evolution is of type {type(evolution).__name__}, expected Evolution")
     with reporting(progress, " env steps") as report:
         try:
             return of_arrays(_nbc.evaluate(packed.codes, packed.shapes, evolution._native, report), packed.errors)
@@ -270,7 +270,7 @@ def _copied(text: str) -> Evolution:
 
 def _box(shape: Sequence[int]) -> str:
     """The field of the language for rows and columns."""
-    if isinstance(shape, str) or len(shape) != 2:
+    if not isinstance(shape, Sequence) or isinstance(shape, str) or len(shape) != 2:
         raise ValueError(f"shape is {shape!r}, expected rows and columns, such as (5, 7)")
     rows, columns = (count(side, f"shape[{number}]") for number, side in enumerate(shape))
     return f"{columns} x {rows}"
@@ -285,14 +285,12 @@ def _no_box(box: Any) -> str:
     return f"box=({columns}, {rows}), columns first, is now shape=({rows}, {columns}), rows first as in all shapes"
 
 
-def _listed(texts: Sequence[str], name: str) -> str:
-    if isinstance(texts, str) or not all(isinstance(text, str) for text in texts):
-        raise TypeError(f"{name} is {texts!r}, expected a list of texts")
-    return f"[{', '.join(texts)}]"
+def _listed(values: Sequence[str], name: str) -> str:
+    return f"[{', '.join(texts(values, name))}]"
 
 
 def _variation(vary: Mapping[str, float]) -> str:
     if not isinstance(vary, Mapping):
         raise TypeError(f"vary is of type {type(vary).__name__}, expected a mapping")
-    shares = {key: np.format_float_positional(float(share), trim="-") for key, share in vary.items()}
+    shares = {key: np.format_float_positional(amount(share, f"vary[{key!r}]"), trim="-") for key, share in vary.items()}
     return "{ " + ", ".join(f"{key}: {share}" for key, share in shares.items()) + " }"

@@ -13,7 +13,8 @@ import numpy.typing as npt
 
 from . import _nbc
 from .circuits import Circuit, loads
-from .numbers import count
+from .names import texts
+from .numbers import amount, array_of, count, whole
 from .progress import Progress, reporting
 
 __all__ = ["Learned", "learn"]
@@ -57,7 +58,8 @@ class Learned:
         """
         if self.source is None:
             raise ValueError(f"the circuit `{self.name}` is too large for a program; write it to a .blif file")
-        return loads(self.source, f"{self.name}.nb").circuits[self.name]
+        (circuit,) = loads(self.source, f"{self.name}.nb").circuits.values()
+        return circuit
 
     def __str__(self) -> str:
         return self.text
@@ -94,27 +96,32 @@ def learn(
         progress: whether to show a tqdm bar, or a function of the parts done and all parts.
 
     Raises:
+        TypeError, ValueError: for columns that are not of whole numbers or of different lengths, masked arrays, and
+            numbers out of their range.
         NbcError: when the rows cannot be read or learned from, or the circuit cannot be written.
     """
     if isinstance(rows, (str, os.PathLike)):
         file, text = os.fspath(rows), None
-    else:
+    elif hasattr(rows, "items"):
         file, text = "rows.csv", _csv(rows)
-    if not 0 <= hold_out < 100:
-        raise ValueError(f"invalid hold_out {hold_out}; expected a number from 0 to less than 100")
-    if isinstance(target, str):
-        raise TypeError("target is a sequence of ports, such as ['q']")
+    else:
+        raise TypeError(f"rows is of type {type(rows).__name__}, expected a file, a frame or a mapping of columns")
+    percent = amount(hold_out, "hold_out", most=100.0)
+    if percent == 100:
+        raise ValueError("hold_out is 100, expected less, so that there are rows to learn from")
     written = None if output is None else os.fspath(output)
+    if not isinstance(name, (str, type(None))):
+        raise TypeError(f"name is {name!r}, expected a text")
     named = name or os.path.splitext(os.path.basename(written or file))[0]
     arguments: _nbc._Learning = {
         "name": named,
         "file": file,
         "text": text,
         "output": written,
-        "target": list(target),
+        "target": texts(target, "target"),
         "gates": count(gates, "gates"),
-        "hold_out": float(hold_out),
-        "group": count(group, "group"),
+        "hold_out": percent,
+        "group": count(group, "group", least=1, most=10**6),
         "seed": count(seed, "seed", least=0, most=2**64 - 1),
     }
     with reporting(progress, " parts") as report:
@@ -142,7 +149,7 @@ def _csv(columns: Mapping[str, Any]) -> str:
     names: List[str] = []
     texts: List[List[str]] = []
     for name, column in columns.items():
-        values = np.asarray(column)
+        values = array_of(column)
         if values.ndim == 2:
             width = values.shape[1]
             names += [f"{name}[{width - 1 - bit}]" for bit in range(width)]
@@ -161,10 +168,8 @@ def _texts(name: str, values: npt.NDArray[Any]) -> List[str]:
         raise ValueError(f"the column `{name}` has {values.ndim} dimensions, expected 1 or 2")
     if values.dtype.kind == "f":
         is_any = np.isnan(values)
-        whole = np.where(is_any, 0.0, values)
-        if (whole != np.floor(whole)).any() or (np.abs(whole) > 2**53).any():
-            raise ValueError(f"the column `{name}` has numbers that are not whole")
-        return ["-" if open else str(int(value)) for open, value in zip(is_any, whole)]
+        numbers = whole(np.where(is_any, 0.0, values), f"the column `{name}`", most=2**53)
+        return ["-" if open else str(value) for open, value in zip(is_any, numbers)]
     if values.dtype.kind not in "biu":
         raise TypeError(f"the column `{name}` has the dtype {values.dtype}, expected whole numbers")
     return [str(int(value)) for value in values]

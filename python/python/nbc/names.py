@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Iterable, Literal
+from typing import Iterable, List, Literal
 
 from . import _nbc
 
-__all__ = ["Effort", "Genome", "Level", "Objective", "Registers", "Sought", "Symmetry", "meant", "unknown"]
+__all__ = ["Effort", "Genome", "Level", "Objective", "Registers", "Sought", "Symmetry", "meant", "texts", "unknown"]
 
 Objective = Literal["area", "delay", "margin", "sturdy"]
 """What mapping minimizes."""
@@ -34,6 +34,16 @@ def meant(name: object, known: Iterable[str]) -> str:
     """The end of a message that offers the known name most like it, or nothing."""
     near = _nbc.nearest(str(name), list(known))
     return "" if near is None else f"; did you mean `{near}`?"
+
+
+def texts(values: Iterable[str], name: str) -> List[str]:
+    """A list of texts, which is not one text."""
+    if isinstance(values, str) or not isinstance(values, Iterable):
+        raise TypeError(f"{name} is {values!r}, expected a list of texts")
+    listed = list(values)
+    if not all(isinstance(value, str) for value in listed):
+        raise TypeError(f"{name} is {values!r}, expected a list of texts")
+    return listed
 
 
 def unknown(what: str, name: object, known: Iterable[str]) -> str:

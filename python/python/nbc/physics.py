@@ -11,10 +11,10 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
-from .bodies import Bodies, Material, pack, pack_materials
+from .bodies import Bodies, Material, pack
 from .errors import Interrupted, report_invalid
 from .names import meant
-from .numbers import array_of, count, is_array
+from .numbers import array_of, count, is_array, real
 from .progress import Progress, reporting
 
 __all__ = ["CYCLE_STEPS", "Flock", "Schedule", "Trajectories", "simulate"]
@@ -87,7 +87,7 @@ def simulate(
         bodies: an integer array (N, H, W) of numpy or a library such as JAX, or a list of bodies of any sizes.
         schedule: the stimuli over time, for all bodies; a pattern has a digit for each stimulus that the materials
             sense, two for the paper's. For materials that sense an image, arrays of pixels take the place of patterns.
-        materials: the materials of the codes; by default the paper's.
+        materials: the materials of the codes; by default those of robots, and for other bodies the paper's.
         world_width: ground voxels in a row.
         start_x: the ground column of each body's left column; by default the middle of the world.
         record: ``"com"`` keeps the path of the center of mass, ``"poses"`` also all points every ``stride`` env steps,
@@ -109,11 +109,11 @@ def simulate(
     if record not in (None, "com", "poses"):
         raise ValueError(f"record is {record!r}, expected 'com', 'poses' or None{meant(record, RECORDS)}")
     every = count(stride, "stride", least=1)
-    packed = pack(bodies)
+    packed = pack(bodies, materials)
     trials: _nbc._Trials = {
         "codes": packed.codes,
         "shapes": packed.shapes,
-        "materials": pack_materials(materials),
+        "materials": packed.materials,
         "schedule": pack_schedule(schedule),
         "world_width": count(world_width, "world_width"),
         "start_x": None if start_x is None else count(start_x, "start_x"),
@@ -133,7 +133,7 @@ class _Source(NamedTuple):
 
     codes: npt.NDArray[np.uint8]
     shapes: npt.NDArray[np.uint64]
-    materials: Optional[str]
+    materials: str
     world_width: int
     start_x: Optional[int]
 
@@ -206,11 +206,11 @@ class Flock:
     ) -> None:
         """Puts a robot for each body at its start; arguments and errors are those of `simulate`, but each body must be
         valid."""
-        packed = pack(bodies)
+        packed = pack(bodies, materials)
         packed.check()
         start = None if start_x is None else count(start_x, "start_x")
         width = count(world_width, "world_width")
-        self._source = _Source(packed.codes, packed.shapes, pack_materials(materials), width, start)
+        self._source = _Source(packed.codes, packed.shapes, packed.materials, width, start)
         self._native = _nbc.Flock(*self._source)
         self._last: Optional[_Spell] = None
         self._lock = threading.RLock()
@@ -393,12 +393,10 @@ def _pattern(pattern: Any) -> str:
 
 
 def _image(image: Any) -> List[List[float]]:
-    array = np.asarray(image)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"{image!r} is neither a pattern such as '01' nor an image of numbers")
+    array = real(image, "an image of the schedule")
     if array.ndim != 2:
         raise ValueError(f"an image of the schedule has the shape {array.shape}, expected (rows, columns)")
-    rows: List[List[float]] = array.astype(float).tolist()
+    rows: List[List[float]] = array.tolist()
     return rows
 
 

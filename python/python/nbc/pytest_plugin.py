@@ -1,10 +1,14 @@
 """A pytest plugin that collects ``.nb`` files: each declared test is a test.
 
     pytest circuits/ --nb-level=logic -k latch -n 4
+
+Notebooks of Mathematica end in ``.nb``, too. So a file is collected when its first word begins a declaration of the
+language, or when the command line names it.
 """
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any, Iterator, List, Optional, Tuple, Union
 
@@ -14,6 +18,12 @@ from .circuits import Program, TestResult, load
 from .errors import NbcError
 
 __all__ = ["NbFailure"]
+
+# A byte-order mark, comments, and a word of `crates/lang/src/syntax/split.rs`.
+_BEGIN = re.compile(
+    rb"(?:\xef\xbb\xbf)?(?:\s*//[^\n]*\n)*\s*(?:circuit|enum|environment|evolution|file|images|let|library|material"
+    rb"|prove|schedule|simulate|stimulus|swarm|test|use|world)\b"
+)
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -29,11 +39,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> Optional[pytest.Collector]:
-    """Collects a ``.nb`` file."""
+    """Collects a ``.nb`` file that is one of nbc's."""
     if file_path.suffix != ".nb" or parent.config.getoption("--no-nb"):
+        return None
+    if not parent.session.isinitpath(file_path) and not _is_ours(file_path):
         return None
     file: pytest.Collector = NbFile.from_parent(parent, path=file_path)
     return file
+
+
+def _is_ours(path: Path) -> bool:
+    """Whether a file begins as a text in the language does."""
+    try:
+        with path.open("rb") as file:
+            return _BEGIN.match(file.read(1 << 16)) is not None
+    except OSError:
+        return False
 
 
 class NbFailure(Exception):

@@ -12,11 +12,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _nbc
-from .bodies import PAPER_MATERIALS, Material, Robot, _robot, rows
+from .bodies import PAPER_MATERIALS, Material, Robot, _robot, check_materials, pack_materials, rows
 from .errors import Interrupted, MissingRobotWarning
 from .evolution import Evaluation, Evolution, axes_of, letters, of_arrays
-from .names import unknown
-from .numbers import array_of, count, seconds
+from .names import texts, unknown
+from .numbers import amount, array_of, count, real, whole
 from .progress import Progress, reporting
 
 if TYPE_CHECKING:
@@ -53,6 +53,14 @@ _EXTRA = ("fitness", "behavior", "displacement", "generation", "evaluations")
 def _ribs_type(column: np.dtype[Any]) -> Any:
     """The type of a column in pyribs: objects instead of texts of a fixed length."""
     return object if column.base.kind == "U" else column.base
+
+
+def _behaviors(words: Any, patterns: int) -> npt.NDArray[np.str_]:
+    """Behaviors with a letter for each pattern."""
+    for word in letters(words):
+        if len(word) != patterns:
+            raise ValueError(f"the behavior `{word}` has {len(word)} letters, expected {patterns}")
+    return np.array(letters(words), dtype=f"U{patterns}")
 
 
 class Archive:
@@ -120,7 +128,7 @@ class Archive:
     def to_ribs(self) -> Any:
         """The elites as a ``GridArchive`` of pyribs: solutions are the codes of bodies in reading order, the objective
         is the first fitness, and the measures are the bins of `axes`. Its extra fields have the rest, and the ``width``
-        of each body. Of several elites in a niche it has the one with the greatest first fitness.
+        and the ``materials`` of each body. Of several elites in a niche it has the one with the greatest first fitness.
 
         Raises:
             ValueError: for an archive with the axis ``class``, of which not all behaviors have a bin.
@@ -134,45 +142,59 @@ class Archive:
             solution_dim=int(np.prod(self.elites["body"].shape[1:])),
             dims=[bins for _, bins in self.axes],
             ranges=[(-0.5, bins - 0.5) for _, bins in self.axes],
-            extra_fields={**types, "function": ((), object), "width": ((), np.int64)},
+            extra_fields={**types, "function": ((), object), "materials": ((), object), "width": ((), np.int64)},
         )
         if len(self):
             extra = {name: self.elites[name].astype(of) for name, (_, of) in types.items()}
             bodies = self.elites["body"]
             archive.add(bodies.reshape(len(self), -1), self.elites["fitness"][:, 0], self.elites["niche"],
                         function=np.array(self._functions, dtype=object), width=np.full(len(self), bodies.shape[2]),
-                        **extra)
+                        materials=np.full(len(self), pack_materials(self.materials), dtype=object), **extra)
         return archive
 
     @classmethod
-    def from_ribs(cls, archive: Any, axes: Sequence[str], materials: Sequence[Material] = PAPER_MATERIALS) -> Archive:
+    def from_ribs(cls, archive: Any, axes: Sequence[str], materials: Optional[Sequence[Material]] = None) -> Archive:
         """The archive of a ``GridArchive`` that `to_ribs` made, and that may have got more elites since.
 
         Args:
             archive: the archive of pyribs.
             axes: the name of each of its measures.
-            materials: the materials of the codes.
+            materials: the materials of the codes; by default those that `to_ribs` wrote, which must agree with them.
 
         Raises:
-            ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures.
+            ValueError: for an archive without the extra fields of `to_ribs`, or with another number of measures, and
+                for solutions that are not whole codes of the materials.
         """
-        missing = [name for name in (*_EXTRA, "function", "width") if name not in archive.field_list]
+        missing = [name for name in (*_EXTRA, "function", "materials", "width") if name not in archive.field_list]
         if missing:
             raise ValueError(f"the archive has no field `{missing[0]}`; `to_ribs` makes archives with it")
         if len(axes) != len(archive.dims):
             raise ValueError(f"{len(axes)} axes are named, expected {len(archive.dims)}, one for each measure")
         found = archive.data()
+        size, texts = len(found["index"]), sorted(set(found["materials"]))
+        if len(texts) > 1:
+            raise ValueError("the bodies have different materials, expected the same for all")
+        own = json.loads(texts[0]) if texts else PAPER_MATERIALS
+        common = own if materials is None else materials
+        codes = whole(found["solution"], "the solution", most=len(common)).reshape(size, -1)
+        check_materials(codes, own, common, "the archive", "`materials`")
+        widths = np.unique(whole(found["width"], "the width", least=1)).tolist() or [1]
+        if len(widths) > 1 or codes.shape[1] % widths[0]:
+            raise ValueError(f"bodies of {codes.shape[1]} codes have the widths {widths}, expected one that fits")
+        arrays = {
+            "niche": archive.int_to_grid_index(found["index"]),
+            "fitness": real(found["fitness"], "the fitness"),
+            "behavior": _behaviors(found["behavior"], found["displacement"].shape[1]),
+            "displacement": real(found["displacement"], "the displacement"),
+            "body": codes.reshape(size, -1, widths[0]),
+            "generation": whole(found["generation"], "the generation", most=2**32 - 1),
+            "evaluations": whole(found["evaluations"], "the evaluations"),
+            "function": found["function"],
+        }
         # In order of their niches, as archives are.
         order = np.argsort(found["index"])
-        arrays = {name: found[name][order] for name in (*_EXTRA, "function")}
-        arrays["niche"] = np.rint(found["measures"][order]).astype(np.uint16)
-        widths = np.unique(found["width"])
-        if len(widths) > 1:
-            raise ValueError(f"the bodies have the widths {widths.tolist()}, expected one")
-        width = int(widths[0]) if len(widths) else 1
-        codes = found["solution"].astype(np.uint8)
-        arrays["body"] = codes.reshape(len(codes), codes.shape[1] // width, width)[order]
-        return cls(arrays, tuple(zip(axes, (int(bins) for bins in archive.dims))), materials)
+        axis_bins = tuple(zip(axes, (int(bins) for bins in archive.dims)))
+        return cls({name: column[order] for name, column in arrays.items()}, axis_bins, common)
 
     def _patterns(self) -> int:
         """The patterns of its stimuli, 4 or 8."""
@@ -270,8 +292,7 @@ class Search:
             found = np.shape(array_of(getattr(evaluation, name)))
             if found != shape:
                 raise ValueError(f"{name} has the shape {found}, expected {shape}")
-        numbers = (np.ascontiguousarray(array_of(evaluation.fitness), dtype=np.float64),
-                   np.ascontiguousarray(array_of(evaluation.displacement), dtype=np.float64))
+        numbers = real(evaluation.fitness, "fitness"), real(evaluation.displacement, "displacement")
         self._native.tell(candidates._native, letters(evaluation.outcome), *numbers, letters(evaluation.behavior))
 
     def step(self) -> None:
@@ -325,11 +346,11 @@ class Search:
         choosing: _nbc._Choosing = {
             "tries": count(tries, "tries", least=1),
             "finalists": count(finalists, "finalists", least=1),
-            "max_error": float(max_error),
-            "wide_margin": float(wide_margin),
+            "max_error": amount(max_error, "max_error", most=1.0),
+            "wide_margin": amount(wide_margin, "wide_margin"),
         }
         with reporting(progress, " screenings") as report:
-            found = json.loads(self._native.robots(list(behaviors), choosing, report))
+            found = json.loads(self._native.robots(texts(behaviors, "behaviors"), choosing, report))
         if found["reasons"] and (behaviors or not found["robots"]):
             text = "there is no robot for some behaviors\n" + "".join(found["reasons"])
             warnings.warn(text, MissingRobotWarning, stacklevel=2)
@@ -365,7 +386,7 @@ def evolve(
         NbcError: when the checkpoint is damaged, belongs to another declaration or seed, or cannot be written, before
             anything is simulated.
     """
-    every, path = seconds(checkpoint_every, "checkpoint_every"), None if checkpoint is None else os.fspath(checkpoint)
+    every, path = amount(checkpoint_every, "checkpoint_every"), None if checkpoint is None else os.fspath(checkpoint)
     most = None if generations is None else count(generations, "generations")
     if path is not None and os.path.exists(path):
         search = Search.resume(path, evolution)

@@ -9,7 +9,7 @@ from typing import Any, Mapping, Optional, Sequence, Tuple, Union
 
 from . import _nbc
 from .errors import Diagnostic, diagnostics_of
-from .names import Effort, Objective, Registers
+from .names import Effort, Objective, Registers, texts
 
 __all__ = ["Synthesis", "synthesize"]
 
@@ -85,7 +85,7 @@ def synthesize(
             [os.fspath(file) for file in files],
             written,
             {
-                "cells": list(cells),
+                "cells": texts(cells, "cells"),
                 "library": None if library is None else os.fspath(library),
                 "objective": objective,
                 "effort": effort,
@@ -94,7 +94,7 @@ def synthesize(
                 "clock": clock,
                 "expand": expand,
                 "reachable_only": reachable_only,
-                "what_if": list(what_if),
+                "what_if": texts(what_if, "what_if"),
             },
         )
     )

@@ -12,7 +12,7 @@ import numpy.typing as npt
 from ..names import meant
 from .sim import VOXEL_SIZE, EvoSim, targets_of
 from .viewer import PICTURES, WINDOWS, EvoViewer, RenderMode, check_mode
-from .world import EvoWorld
+from .world import DATA_PATH, EvoWorld
 
 __all__ = ["BenchmarkBase", "EvoGymBase", "RENDER_OPTIONS"]
 
@@ -66,7 +66,10 @@ class EvoGymBase(gym.Env):
             render_options: ``verbose``, ``hide_background``, ``hide_grid``, ``hide_edges`` and ``hide_voxels``; see
                 `EvoViewer.render`.
         """
-        self._open(EvoSim(world), render_mode, render_options)
+        self._open(self._simulation(world), render_mode, render_options)
+
+    def _simulation(self, world: EvoWorld) -> EvoSim:
+        return EvoSim(world)
 
     def _open(self, sim: EvoSim, render_mode: Optional[RenderMode], options: Optional[Dict[str, Any]]) -> None:
         if render_mode is not None:
@@ -109,9 +112,8 @@ class EvoGymBase(gym.Env):
         return self._default_viewer.render(self._render_mode, **self._render_options)
 
     def close(self) -> None:
-        """Frees the simulation, and closes the window."""
+        """Closes the window. The simulation can still be used."""
         self._default_viewer.close()
-        self._sim.scenes.close()
 
     def _show(self) -> None:
         if self._render_mode in WINDOWS:
@@ -198,8 +200,10 @@ class EvoGymBase(gym.Env):
 
 class BenchmarkBase(EvoGymBase):
     """The base of the tasks: lengths are in meters, a voxel is 0.1 m, and the camera follows the robot, which is called
-    ``robot``. `EvoWorld.of_task` has the worlds, which Evolution Gym keeps as files."""
+    ``robot``. `EvoWorld.of_task` has the worlds of tasks, and `EvoWorld.from_json` reads them as files of
+    ``DATA_PATH``."""
 
+    DATA_PATH = DATA_PATH
     VOXEL_SIZE = VOXEL_SIZE
 
     def _open(self, sim: EvoSim, render_mode: Optional[RenderMode], options: Optional[Dict[str, Any]]) -> None:

@@ -13,6 +13,7 @@ from typing import Any, List, Optional, Sequence
 import numpy as np
 import numpy.typing as npt
 
+from .exchange import structure_of
 from .tasks import TaskWorlds, task_of
 from .utils import sample_robot
 
@@ -70,7 +71,7 @@ class Comparison:
 
 def record(
     task: str,
-    body: npt.ArrayLike,
+    structure: npt.ArrayLike,
     actions: np.random.Generator,
     steps: int,
     connections: Optional[npt.ArrayLike] = None,
@@ -80,6 +81,7 @@ def record(
     Raises:
         ImportError: where Evolution Gym is not installed.
     """
+    body = structure_of(structure)
     with warnings.catch_warnings():
         # It takes its names back, which are those of `nbc.evogym.envs`, where that was imported before.
         warnings.simplefilter("ignore")
@@ -87,7 +89,7 @@ def record(
     import gymnasium
 
     with contextlib.redirect_stdout(io.StringIO()):
-        env: Any = gymnasium.make(task, body=np.asarray(body), connections=connections).unwrapped
+        env: Any = gymnasium.make(task, body=body, connections=connections).unwrapped
         first, _ = env.reset()
     goals = [goal.x_goal for goal in getattr(env, "goals", [])]
     if hasattr(env, "offsetx"):
@@ -101,7 +103,7 @@ def record(
         seen.append(observation)
     spent = time.process_time() - start
     observations = np.array(seen).reshape(-1, len(first))
-    return Episode(np.asarray(body, dtype=np.int64), np.array(rewards), first, observations, goals, spent)
+    return Episode(body, np.array(rewards), first, observations, goals, spent)
 
 
 def compare(

@@ -20,8 +20,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
-from ..bodies import OneBody, read
-from ..numbers import array_of
+from ..bodies import PAPER_MATERIALS, OneBody, Robot, check_materials, read
+from ..numbers import array_of, whole
 from ..physics import CYCLE_STEPS, Schedule, pack_schedule
 
 __all__ = ["actions", "connections", "from_structure", "to_structure"]
@@ -48,7 +48,8 @@ def to_structure(
         The structure, shape (H, W), and the connections, shape (2, edges).
 
     Raises:
-        ValueError: for a body with materials that Evolution Gym does not have, at the first of them.
+        ValueError: for a body with materials that Evolution Gym does not have, at the first of them, and for a robot of
+            materials that are not the paper's.
 
     >>> import nbc
     >>> structure, joined = nbc.evogym.to_structure(["33", "12"])
@@ -97,6 +98,8 @@ def actions(body: OneBody, schedule: Schedule) -> npt.NDArray[np.float64]:
 
 def _paper_codes(body: OneBody) -> npt.NDArray[np.int64]:
     codes = read(body, "body").astype(np.int64)
+    if isinstance(body, Robot):
+        check_materials(codes, body.materials, PAPER_MATERIALS, "body", "the paper's materials")
     for row, column in np.argwhere(codes > 8).tolist():
         code = int(codes[row, column])
         raise ValueError(f"row {row + 1}, column {column + 1}: {code} is not one of the paper's materials")
@@ -122,11 +125,8 @@ def from_structure(
     >>> nbc.evogym.from_structure([[3, 3], [1, 2]]).tolist()
     [[3, 3], [1, 2]]
     """
-    array = array_of(structure)
-    if array.ndim != 2:
-        raise ValueError(f"the structure has the shape {array.shape}, expected (H, W)")
-    array = _whole(array, "the structure")
-    for row, column in np.argwhere((array < 0) | (array > 3)).tolist():
+    array = structure_of(structure)
+    for row, column in np.argwhere(array > 3).tolist():
         raise ValueError(f"row {row + 1}, column {column + 1}: {_reason(int(array[row, column]))}")
     if not array.any():
         raise ValueError("the structure has no voxels")
@@ -151,22 +151,18 @@ def connections(structure: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
     return np.array(edges, dtype=np.int64).reshape(-1, 2).T
 
 
+def structure_of(structure: npt.ArrayLike) -> npt.NDArray[np.int64]:
+    """A structure as whole numbers; Evolution Gym's own arrays may be floats."""
+    array = array_of(structure)
+    if array.ndim != 2:
+        raise ValueError(f"the structure has the shape {array.shape}, expected (H, W)")
+    return whole(array, "the structure", most=5)
+
+
 def _reason(code: int) -> str:
     if code == 4:
         return "4 is a vertical actuator, which these bodies do not have; their 4 is a horizontal actuator in antiphase"
-    if code == 5:
-        return "5 is a fixed voxel, such as terrain; `nbc.evogym.EvoWorld` has them"
-    return f"{code} is not a voxel of Evolution Gym"
-
-
-def _whole(array: npt.NDArray[Any], name: str) -> npt.NDArray[np.int64]:
-    """Whole numbers; Evolution Gym's own arrays may be floats."""
-    if array.dtype.kind not in "iuf":
-        raise TypeError(f"{name} has the dtype {array.dtype}, expected numbers")
-    whole = np.isfinite(array) & (np.mod(array, 1) == 0)
-    if not whole.all():
-        raise ValueError(f"{name} has the value {array[~whole].flat[0]}, expected whole numbers")
-    return array.astype(np.int64)
+    return "5 is a fixed voxel, such as terrain; `nbc.evogym.EvoWorld` has them"
 
 
 def _check(structure: npt.NDArray[np.int64], given: npt.NDArray[Any]) -> None:
@@ -182,7 +178,7 @@ def apart(structure: npt.NDArray[np.int64], given: npt.NDArray[Any]) -> List[Tup
     """
     if given.ndim != 2 or given.shape[0] != 2:
         raise ValueError(f"the connections have the shape {given.shape}, expected (2, edges)")
-    pairs = np.sort(_whole(given, "the connections"), axis=0)
+    pairs = np.sort(whole(given, "the connection", most=structure.size - 1), axis=0)
     found = {(int(a), int(b)) for a, b in pairs.T}
     expected = {(int(a), int(b)) for a, b in connections(structure).T}
     width = structure.shape[1]

@@ -8,7 +8,7 @@ from typing import Any, Iterable, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ..numbers import count
+from ..numbers import amount, array_of, count
 from .sim import Scenes
 from .world import EvoWorld
 
@@ -46,9 +46,8 @@ def draw(
         follow: the object that is in the middle.
         hide_background, hide_grid, hide_edges, hide_voxels: what is not drawn.
     """
-    pixels, across = (count(width, "width", 1, 10_000), count(height, "height", 1, 10_000)), float(view)
-    if not 0 < across < np.inf:
-        raise ValueError(f"view is {view}, expected a positive number of voxels")
+    pixels = count(width, "width", 1, 10_000), count(height, "height", 1, 10_000)
+    across = amount(view, "view", 1e-6, 1e6)
     if follow in world.objects:
         middle = scenes.points([scene], follow)[0].mean(axis=0)
     else:
@@ -112,12 +111,10 @@ def save_gif(path: Union[str, os.PathLike[str]], pictures: Iterable[npt.NDArray[
     except ImportError:
         raise ImportError("Pillow writes films, and is not installed: `pip install pillow`") from None
     path = os.fspath(path)
-    if not fps > 0:
-        raise ValueError(f"fps is {fps}, expected a positive number")
-    frames = [Image.fromarray(np.asarray(each)) for each in pictures]
+    frames = [Image.fromarray(array_of(each)) for each in pictures]
     if not frames:
         raise ValueError("the film has no pictures")
-    pause = max(1, round(100 / fps)) * 10
+    pause = max(1, round(100 / amount(fps, "fps", least=0.01))) * 10
     frames[0].save(path, format="GIF", save_all=True, append_images=frames[1:], duration=pause, loop=0)
 
 

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from .. import _nbc
-from ..numbers import array_of, count
+from ..names import meant
+from ..numbers import amount, count, finite, whole
 from .world import EvoWorld, WorldObject
 
 __all__ = ["EvoSim", "Scenes"]
@@ -126,7 +127,7 @@ class Scenes:
         columns = [self.places(scenes, each)[1] for each in terrain]
         grounds = np.stack(columns, axis=1) if columns else np.empty((len(numbers), 0), dtype=np.uintp)
         sight = count(sight_dist, "sight_dist", most=4096)
-        return self._native.surface(numbers, objects, grounds, sight, float(sight_range), bool(above))
+        return self._native.surface(numbers, objects, grounds, sight, amount(sight_range, "sight_range"), bool(above))
 
     def extents(self, scenes: Sequence[int], name: str) -> _Points:
         """The width and the height of an object in each of some worlds, and the area of the convex hull of its points,
@@ -202,21 +203,14 @@ def targets_of(actions: npt.ArrayLike) -> npt.NDArray[np.float64]:
     Raises:
         TypeError, ValueError: for what are no numbers, and those that are not finite.
     """
-    array = array_of(actions)
-    if array.dtype.kind not in "biuf":
-        raise TypeError(f"the actions have the dtype {array.dtype}, expected numbers")
-    targets = array.astype(np.float64)
-    if not np.isfinite(targets).all():
-        place = tuple(np.argwhere(~np.isfinite(targets))[0].tolist())
-        where = place[0] if len(place) == 1 else place
-        raise ValueError(f"the action at {where} is {targets[place]}, which is not finite")
-    return targets
+    return finite(actions, "the action")
 
 
 def _packed(each: WorldObject) -> Tuple[npt.NDArray[np.uint8], int, int, List[Tuple[int, int]]]:
     if not each.is_joined():
         raise ValueError(f"the connections of the object `{each.name}` do not join it into one piece")
-    return np.ascontiguousarray(each.structure, dtype=np.uint8), each.pos[0], each.pos[1], each.apart
+    codes = whole(each.structure, f"the structure of `{each.name}`", most=5)
+    return np.ascontiguousarray(codes, dtype=np.uint8), each.pos[0], each.pos[1], each.apart
 
 
 class EvoSim:
@@ -252,8 +246,8 @@ class EvoSim:
         """Becomes the simulation of another world, from its state of now."""
         self.world, self.scenes = world, scenes
         self._objects = {each.name: each for each in world.ordered()}
-        places = {name: scenes.actuators(0, name) for name in self._objects}
-        self._robots = {name: (first, end) for name, (first, end) in places.items() if end > first}
+        # Any object may be named in actions, with as many targets as it has actuators.
+        self._robots = {name: scenes.actuators(0, name) for name in self._objects}
         self._targets = np.ones(max((end for _, end in self._robots.values()), default=0))
         # The scene that goes back to earlier states.
         self._past: Optional[Scenes] = None
@@ -352,5 +346,5 @@ class EvoSim:
 
     def _robot(self, name: str) -> Tuple[int, int]:
         if name not in self._robots:
-            raise ValueError(f"the world has no robot `{name}`")
+            raise ValueError(f"the world has no object `{name}`{meant(name, self._robots)}")
         return self._robots[name]

@@ -9,18 +9,18 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from functools import partial
 from math import pi
-from typing import Any, Callable, Dict, List, Optional, Sequence, Tuple
+from typing import Any, Callable, Dict, List, NamedTuple, Optional, Sequence, Tuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ..registration import EPISODES
 from ..names import unknown
-from ..numbers import array_of
+from ..numbers import array_of, whole
 from .sim import VOXEL_SIZE, Scenes
 from .world import EvoWorld
 
-__all__ = ["TASKS", "Task", "TaskWorlds", "task_of"]
+__all__ = ["TASKS", "Task", "TaskWorlds", "WalkToX", "task_of"]
 
 _Floats = npt.NDArray[np.float64]
 _Bools = npt.NDArray[np.bool_]
@@ -180,7 +180,9 @@ def flips(before: Moment, after: Moment) -> Tuple[_Floats, _Bools]:
     one, two = before.robot.turn, after.robot.turn
     turns = (one > 5 * pi / 3) & (two < pi / 3)
     back = (one < pi / 3) & (two > 5 * pi / 3)
-    reward = two - one + 2 * pi * (turns.astype(float) - back.astype(float))
+    more = turns.astype(np.int64) - back
+    after.worlds.flips += more
+    reward = two - one + 2 * pi * more
     return reward, after.robot.com[:, 0] < VOXEL_SIZE
 
 
@@ -428,6 +430,18 @@ def task_of(name: str) -> Task:
     return TASKS[name]
 
 
+class WalkToX(NamedTuple):
+    """A goal of BidirectionalWalker-v0."""
+
+    x_goal: int
+    """Its place in voxels."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+        return f"Walk to x = {self.x_goal}"
+
+
 class TaskWorlds:
     """Worlds of one task with different robots. They can be pickled and copied."""
 
@@ -437,6 +451,7 @@ class TaskWorlds:
         self.goal = np.zeros(len(worlds), dtype=np.int64)
         # The goals before the last env step.
         self.sought = self.goal.copy()
+        self.flips = self.goal.copy()
         self._prepare()
 
     def _prepare(self) -> None:
@@ -462,7 +477,7 @@ class TaskWorlds:
         return len(self._all)
 
     def __getstate__(self) -> Dict[str, Any]:
-        return {each: getattr(self, each) for each in ("task", "worlds", "scenes", "goals", "goal", "sought")}
+        return {each: getattr(self, each) for each in ("task", "worlds", "scenes", "goals", "goal", "sought", "flips")}
 
     def __setstate__(self, kept: Dict[str, Any]) -> None:
         self.__dict__.update(kept)
@@ -505,6 +520,7 @@ class TaskWorlds:
             self._lay_out_goals()
         for n in worlds:
             self.scenes.reset(n)
+            self.flips[n] = 0
         self.look()
 
     def _drop(self, worlds: Sequence[int], places: Sequence[List[int]]) -> None:
@@ -519,6 +535,21 @@ class TaskWorlds:
                 scenes._native.restore(n, *self.scenes._native.state(n))
         self.scenes.close()
         self.worlds, self.scenes, self._seen = made, scenes, -1
+
+    def kept(self, world: int = 0) -> Dict[str, Any]:
+        """What Evolution Gym's classes keep of their task, by its name there."""
+        found: Dict[str, Any] = {}
+        for part in self.task.observes:
+            if getattr(part, "func", None) is surface:
+                found["sight_dist"] = part.keywords["sight"]  # type: ignore[attr-defined]
+        if self.task.has_goals:
+            goals = [WalkToX(place) for place in self.goals[world]]
+            found.update(goals=goals, current_goal=int(self.goal[world]))
+        if self.task.falls:
+            found["offsetx"], found["offsety"] = (*self.goals[world], 0)[:2]
+        if self.task.judge is flips:
+            found["num_flips"] = int(self.flips[world])
+        return found
 
     def observe(self) -> _Floats:
         """What each robot observes, shape (N, most values)."""
@@ -560,11 +591,12 @@ def _read_goals(goals: Any, task: Task) -> List[int]:
     """Goals that are given."""
     array = array_of(goals)
     least, expected = (2, "two numbers") if task.falls else (1, "a list of numbers")
-    if array.ndim != 1 or array.dtype.kind not in "iuf" or not np.isfinite(array).all():
+    if array.ndim != 1 or array.dtype.kind not in "iuf":
         raise ValueError(f"the goals are {goals!r}, expected {expected}")
     if len(array) < least or (task.falls and len(array) > least):
         raise ValueError(f"there are {len(array)} goals, expected {expected}")
-    return [int(each) for each in array]
+    numbers: List[int] = whole(array, "the goal", least=-(2**31), most=2**31).tolist()
+    return numbers
 
 
 def _draw_place(random: Any) -> List[int]:

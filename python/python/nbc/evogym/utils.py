@@ -12,7 +12,7 @@ from typing import Any, Callable, Dict, List, NamedTuple, Optional, Tuple, Union
 import numpy as np
 import numpy.typing as npt
 
-from ..numbers import count
+from ..numbers import amount, array_of, count, real, whole
 from .exchange import connections
 
 __all__ = [
@@ -52,14 +52,13 @@ MOST_DRAWN = 300_000
 
 def get_uniform(x: int) -> npt.NDArray[np.float64]:
     """A uniform distribution over ``x`` values."""
-    if x <= 0:
-        raise ValueError(f"x is {x}, expected a positive number")
-    return np.full(x, 1 / x)
+    size = count(x, "x", least=1)
+    return np.full(size, 1 / size)
 
 
 def draw(pd: npt.ArrayLike) -> int:
     """A number drawn from a distribution, which need not add up to 1, by Python's ``random``."""
-    return _drawn(_sums(np.asarray(pd, dtype=float)))
+    return _drawn(_sums(real(pd, "the distribution")))
 
 
 def _sums(weights: npt.NDArray[np.float64]) -> List[float]:
@@ -84,15 +83,16 @@ def sample_robot(
 
     Args:
         robot_shape: rows and columns.
-        pd: the weights of the five codes; by default 0.6 for empty and 0.2 for the others.
+        pd: the weights of the codes 0 to 4, or 0 to 5 with fixed voxels; by default 0.6 for empty and 0.2 for the
+            others.
 
     Raises:
         ValueError: for wrong arguments, and when no body in one piece is found after `MOST_DRAWN` drawn voxels, because
             the shape is too large for so many empty ones.
     """
-    weights = np.array([0.6, 0.2, 0.2, 0.2, 0.2]) if pd is None else np.asarray(pd, dtype=float)
-    if weights.shape != (5,):
-        raise ValueError(f"pd has the shape {weights.shape}, expected (5,)")
+    weights = np.array([0.6, 0.2, 0.2, 0.2, 0.2]) if pd is None else real(pd, "pd")
+    if weights.shape not in ((5,), (6,)):
+        raise ValueError(f"pd has the shape {weights.shape}, expected (5,), or (6,) with fixed voxels")
     if weights[3] + weights[4] <= 0:
         raise ValueError("pd gives no actuator")
     rows, columns = (count(side, "a side of robot_shape", least=1, most=1000) for side in robot_shape)
@@ -108,7 +108,7 @@ def sample_robot(
 
 def is_connected(robot: npt.NDArray[Any]) -> bool:
     """Whether a body has a voxel and all its voxels are joined by their sides."""
-    left = {(int(row), int(column)) for row, column in np.argwhere(np.asarray(robot) != 0)}
+    left = {(int(row), int(column)) for row, column in np.argwhere(array_of(robot) != 0)}
     if not left:
         return False
     open_places = [left.pop()]
@@ -123,17 +123,17 @@ def is_connected(robot: npt.NDArray[Any]) -> bool:
 
 def has_actuator(robot: npt.NDArray[Any]) -> bool:
     """Whether a body has an actuator."""
-    return bool(np.isin(robot, (3, 4)).any())
+    return bool(np.isin(array_of(robot), (3, 4)).any())
 
 
 def get_full_connectivity(robot: npt.NDArray[Any]) -> npt.NDArray[np.int64]:
     """The connections of all neighbors, shape (2, edges)."""
-    return connections(np.asarray(robot))
+    return connections(array_of(robot))
 
 
 def hashable(robot: npt.NDArray[Any]) -> str:
     """The codes of a body as a text."""
-    return "".join(str(int(code)) for code in np.asarray(robot).flat)
+    return "".join(map(str, whole(robot, "the robot").flat))
 
 
 class Pair(NamedTuple):
@@ -207,7 +207,8 @@ class Timer:
         """Args:
             target_step_frequency: rounds per second; None for as many as there can be.
         """
-        self._period = 0.0 if target_step_frequency is None else 1 / target_step_frequency
+        often = np.inf if target_step_frequency is None else target_step_frequency
+        self._period = 1 / amount(often, "target_step_frequency", 1e-6)
         self._last = self._second = time.monotonic()
         self._rounds = 0
 

@@ -187,7 +187,7 @@ class TaskVectorEnv(VectorEnv):
             return [int(seed) + n for n in range(self.num_envs)]
         if len(seed) != self.num_envs:
             raise ValueError(f"there are {len(seed)} seeds, expected {self.num_envs}, one for each world")
-        return [None if own is None else int(own) for own in seed]
+        return [None if own is None else count(own, "the seed", most=2**64 - 1) for own in seed]
 
     def _mask(self, mask: Any) -> npt.NDArray[np.bool_]:
         if mask is None:

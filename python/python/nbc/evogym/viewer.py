@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import time
 from typing import Any, Dict, Literal, Optional, Tuple, Union
 
@@ -9,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..names import meant
+from ..numbers import real, whole
 from .picture import Hidden, paint
 from .sim import EvoSim
 from .utils import Timer
@@ -81,8 +83,8 @@ class EvoViewer:
 
     def set_resolution(self, resolution: Tuple[int, int]) -> None:
         """Sets the width and height of pictures in pixels."""
-        width, height = _pair(resolution, "resolution", least=1)
-        self.resolution = (int(width), int(height))
+        width, height = whole(_pair(resolution, "resolution"), "resolution", least=1, most=10_000).tolist()
+        self.resolution = (width, height)
 
     def set_target_rps(self, target_rps: Optional[int]) -> None:
         """Sets the pictures per second in a window, at least 2; None for as many as there can be."""
@@ -109,8 +111,8 @@ class EvoViewer:
             if name in ("padding", "scale"):
                 setattr(self, f"_{name}", _pair(value, name))
             elif name.startswith("lock_") and name[5:] in self._locks:
-                if value is True or not isinstance(value, (bool, int, float)):
-                    raise ValueError(f"{name} is {value!r}, expected a number or False")
+                if value is True or not isinstance(value, (bool, int, float)) or not np.isfinite(value):
+                    raise ValueError(f"{name} is {value!r}, expected a finite number or False")
                 self._locks[name[5:]] = value
             else:
                 known = ("padding", "scale", *(f"lock_{each}" for each in self._locks))
@@ -139,6 +141,7 @@ class EvoViewer:
         Raises:
             ImportError: for a window, where pygame is not installed.
             RuntimeError: for a window, where there is no display.
+            SystemExit: after the window was closed, by its button or by a signal that pygame took.
         """
         check_mode(mode)
         self._track()
@@ -210,6 +213,8 @@ class _Window:
                 "draws pictures without it"
             ) from None
         self.size, self._pygame = size, pygame
+        # SIGTERM ends the process; SDL would make an event of it.
+        os.environ.setdefault("SDL_NO_SIGNAL_HANDLERS", "1")
         try:
             pygame.display.init()
             self._surface = pygame.display.set_mode(size)
@@ -222,8 +227,10 @@ class _Window:
     def show(self, picture: npt.NDArray[np.uint8]) -> None:
         self._pygame.surfarray.blit_array(self._surface, picture.swapaxes(0, 1))
         self._pygame.display.flip()
-        # Otherwise the desktop takes the window for one that hangs.
-        self._pygame.event.pump()
+        # Looking for events keeps the desktop from taking the window for one that hangs. Others are left to the script.
+        if self._pygame.event.get(self._pygame.QUIT):
+            self.close()
+            raise SystemExit("the window was closed")
 
     def close(self) -> None:
         self._pygame.display.quit()
@@ -235,7 +242,7 @@ def _pair(value: Any, name: str, least: Optional[float] = None) -> Tuple[float, 
         raise TypeError(f"{name} is of type {type(value).__name__}, expected a tuple of two numbers")
     if len(value) != 2:
         raise TypeError(f"{name} has {len(value)} values, expected two")
-    first, second = float(value[0]), float(value[1])
+    first, second = real(value, name).tolist()
     if not np.isfinite([first, second]).all() or (least is not None and min(first, second) < least):
         raise ValueError(f"{name} is {value}, expected finite numbers{'' if least is None else ' above 0'}")
     return first, second

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import json
+import os
 from functools import lru_cache
 from importlib import resources
 from typing import Any, Dict, List, Mapping, Optional, Tuple
@@ -11,13 +12,15 @@ from typing import Any, Dict, List, Mapping, Optional, Tuple
 import numpy as np
 import numpy.typing as npt
 
-from ..numbers import array_of, count
-from .exchange import _whole, apart
+from ..numbers import array_of, count, whole
+from .exchange import apart, structure_of
 from .utils import Pair, get_full_connectivity, is_connected
 
 __all__ = ["EvoWorld", "WorldObject"]
 
 _LETTERS = ".RSHVF"
+DATA_PATH = os.path.join(os.path.dirname(os.path.abspath(__file__)), "sim_files")
+"""The folder in which scripts look for the worlds of tasks. They are not files, but `EvoWorld.from_json` knows them."""
 
 
 class WorldObject:
@@ -54,13 +57,7 @@ class WorldObject:
         self, name: str, structure: npt.ArrayLike, connections: Optional[npt.ArrayLike] = None
     ) -> None:
         """Becomes an object of an array of codes, at the origin; see `from_array`."""
-        codes = array_of(structure)
-        if codes.ndim != 2:
-            raise ValueError(f"the structure has the shape {codes.shape}, expected (H, W)")
-        codes = _whole(codes, "the structure")
-        for row, column in np.argwhere((codes < 0) | (codes > 5)).tolist():
-            place = f"row {row + 1}, column {column + 1}"
-            raise ValueError(f"{place}: {codes[row, column]} is not a voxel, expected 0 to 5")
+        codes = structure_of(structure)
         if not is_connected(codes):
             raise ValueError(f"the object `{name}` is not in one piece")
         self.apart = [] if connections is None else apart(codes, array_of(connections))
@@ -194,16 +191,10 @@ class EvoWorld:
 
     def add_from_json(self, file_path: str) -> None:
         """Adds the objects of such a file, or none of them if one cannot be added."""
-        with open(file_path, encoding="utf-8") as file:
-            data = json.load(file)
         before = dict(self.objects)
         try:
-            width = int(data["grid_width"])
-            for name, found in data["objects"].items():
-                self.add_object(_read_object(name, found, width))
-        except (KeyError, TypeError, AttributeError) as error:
-            self.objects = before
-            raise ValueError(f"{file_path} is not a world of Evolution Gym: {error!r} was expected in it") from None
+            for each in _objects_of(file_path):
+                self.add_object(each)
         except ValueError:
             self.objects = before
             raise
@@ -312,20 +303,35 @@ def _task_worlds() -> Dict[str, Any]:
     return found
 
 
+def _objects_of(file_path: str) -> List[WorldObject]:
+    """The objects of a file of Evolution Gym's design tool."""
+    folder, name = os.path.split(os.path.abspath(file_path))
+    if folder == DATA_PATH:
+        return list(EvoWorld.of_task(name.removesuffix(".json")).objects.values())
+    with open(file_path, encoding="utf-8") as file:
+        data = json.load(file)
+    try:
+        width = count(data["grid_width"], "grid_width", least=1)
+        return [_read_object(name, found, width) for name, found in data["objects"].items()]
+    except (KeyError, TypeError, AttributeError) as error:
+        raise ValueError(f"{file_path} is not a world of Evolution Gym: {error!r} was expected in it") from None
+
+
 def _read_object(name: str, found: Mapping[str, Any], width: int) -> WorldObject:
     """An object of a file: the numbers of its cells, their codes, and their neighbors."""
-    numbers = [int(number) for number in found["indices"]]
-    if not numbers:
-        raise ValueError(f"the object `{name}` has no voxels")
+    numbers = whole(found["indices"], f"the indices of `{name}`").tolist()
+    codes = whole(found["types"], f"the types of `{name}`", most=5).tolist()
+    if not numbers or len(codes) != len(numbers):
+        raise ValueError(f"the object `{name}` has {len(numbers)} voxels with {len(codes)} types")
     columns, rows = [number % width for number in numbers], [number // width for number in numbers]
     left, bottom, top = min(columns), min(rows), max(rows)
     structure = np.zeros((top - bottom + 1, max(columns) - left + 1), dtype=np.int64)
-    for column, row, code in zip(columns, rows, found["types"]):
+    for column, row, code in zip(columns, rows, codes):
         structure[top - row, column - left] = code
     across = structure.shape[1]
     local = {number: (top - row) * across + column - left for number, column, row in zip(numbers, columns, rows)}
     joined = {
-        tuple(sorted((local[number], local[int(other)])))
+        tuple(sorted((local[number], local[other])))
         for number in numbers
         for other in found["neighbors"][str(number)]
     }
