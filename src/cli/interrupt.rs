@@ -8,6 +8,7 @@ use crate::cli::Status;
 use nbc_circuit::CancelFlag;
 use nbc_session::store::{DiskWorld, GuardedWorld};
 use nbc_session::{Cancellable, Observer};
+use nbc_sim::{LaneBackend, Monitor};
 
 /// A request to stop, raised by a signal; a second Ctrl-C or SIGTERM stops the program at once.
 #[derive(Clone, Debug, Default)]
@@ -62,6 +63,11 @@ impl Interrupt {
     /// The same request, for the search of a compilation.
     pub fn cancel(&self) -> CancelFlag {
         CancelFlag::from(self.0.clone())
+    }
+
+    /// What simulates on this processor, as `processor` does, until this request.
+    pub fn ending(&self, processor: LaneBackend) -> LaneBackend {
+        LaneBackend { monitor: Some(Arc::new(Monitor::until(self.cancel()))), ..processor }
     }
 
     /// The files of the disk, whose translations end with this request.

@@ -25,7 +25,8 @@ pub struct TaskExecutor {
 }
 
 impl TaskExecutor {
-    /// Connects to the workers, if `queue` names a server. A signal stops their work; `note` receives notes on its
+    /// Connects to the workers, if `queue` names a server. A signal stops their work, and that of a device which is
+    /// opened with [`Interrupt::ending`]; `note` receives notes on its
     /// progress.
     ///
     /// # Errors
@@ -37,7 +38,8 @@ impl TaskExecutor {
         note: impl Fn(String) + Send + 'static,
     ) -> Result<Self, Failure> {
         let queue = open_queue(queue, interrupt, note)?;
-        Ok(Self { local: LocalExecutor::new(device.simulator()), device, queue, interrupt: interrupt.clone() })
+        let local = LocalExecutor::new(device.simulator()).until(interrupt.cancel());
+        Ok(Self { local, device, queue, interrupt: interrupt.clone() })
     }
 
     /// The same on the device that the user chose. Notes are shown by `bar`.
@@ -51,7 +53,7 @@ impl TaskExecutor {
         bar: &Arc<Progress>,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let device = OpenDevice::open(device.choice(), LaneBackend::default(), context)?;
+        let device = OpenDevice::open(device.choice(), interrupt.ending(LaneBackend::default()), context)?;
         let bar = Arc::clone(bar);
         Self::open(device, queue, interrupt, move |note| bar.note(note))
     }

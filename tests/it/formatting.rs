@@ -9,6 +9,7 @@ use nbc_lang::syntax;
 use proptest::prelude::*;
 
 use crate::support::programs::programs;
+use crate::support::random_program::random_program;
 
 /// The canonical form of a text without syntax errors.
 fn formatted(text: &str) -> String {
@@ -123,6 +124,33 @@ fn netlist(text: &str) -> String {
     let checked = check::check(&MemoryWorld::default(), &mut sources, file);
     assert!(!checked.has_errors(), "{text}\n{:?}", checked.diagnostics);
     elaborate(&checked.program, &"main".into()).unwrap().to_string()
+}
+
+fn check_random_programs(seeds: std::ops::Range<u64>) {
+    for seed in seeds {
+        let text = random_program(seed);
+        let once = formatted(&text);
+        let [before, after] = [&text, &once].map(|text| {
+            let (words, mut comments) = words(text);
+            // One inside an expression is printed before its statement.
+            comments.sort_unstable();
+            (words, comments, netlist(text))
+        });
+        assert_eq!(after, before, "program {seed}:\n{text}\n{once}");
+        assert_eq!(formatted(&once), once, "program {seed}, twice is once:\n{text}");
+    }
+}
+
+#[test]
+fn a_formatted_program_checks_and_means_the_same() {
+    check_random_programs(0..60);
+}
+
+/// `cargo test --test it two_thousand -- --ignored`
+#[test]
+#[ignore = "takes a minute"]
+fn two_thousand_formatted_programs_check_and_mean_the_same() {
+    check_random_programs(60..2_060);
 }
 
 proptest! {

@@ -1,16 +1,23 @@
 //! A view of running simulations for another thread, which can also end them.
 
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use nbc_base::source::CancelFlag;
 
 /// Counts the env steps of simulations while they run, and ends them on request. The physics takes no notice of it
 /// otherwise: the results up to the end are the same bits.
 #[derive(Debug, Default)]
 pub struct Monitor {
     env_steps: AtomicU64,
-    stopped: AtomicBool,
+    stop: CancelFlag,
 }
 
 impl Monitor {
+    /// A monitor that ends the simulations when the flag is raised.
+    pub fn until(stop: CancelFlag) -> Self {
+        Self { env_steps: AtomicU64::new(0), stop }
+    }
+
     /// Env steps done so far, of all robots together.
     pub fn env_steps(&self) -> u64 {
         self.env_steps.load(Ordering::Relaxed)
@@ -19,12 +26,12 @@ impl Monitor {
     /// Ends the simulations before their next env step, and those that start later. Each gets the fault
     /// [`nbc_base::model::FaultKind::Stopped`].
     pub fn stop(&self) {
-        self.stopped.store(true, Ordering::Relaxed);
+        self.stop.raise();
     }
 
     /// Whether the simulations are to end.
     pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Relaxed)
+        self.stop.is_raised()
     }
 
     /// Counts an env step of that many robots.

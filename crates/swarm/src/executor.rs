@@ -3,6 +3,7 @@
 use crate::distance::WalkMemory;
 use crate::evaluate::{evaluate_remembering, evaluate_tasks};
 use crate::{SwarmBits, Task, TaskResult, measure, screen};
+use nbc_base::source::CancelFlag;
 use nbc_sim::Simulator;
 
 /// Does tasks. The results depend on the tasks alone, not on the machine. Any thread can call it.
@@ -18,12 +19,19 @@ pub trait Executor: Sync {
 pub struct LocalExecutor {
     simulator: Simulator,
     memory: WalkMemory,
+    stop: CancelFlag,
 }
 
 impl LocalExecutor {
     /// Does tasks with a simulator.
     pub fn new(simulator: Simulator) -> Self {
-        Self { simulator, memory: WalkMemory::default() }
+        Self { simulator, ..Self::default() }
+    }
+
+    /// The executor, stopped by a flag that also ends the simulations of its simulator.
+    #[must_use]
+    pub fn until(self, stop: CancelFlag) -> Self {
+        Self { stop, ..self }
     }
 
     /// The number of bodies that it remembers.
@@ -35,7 +43,9 @@ impl LocalExecutor {
 
 impl Executor for LocalExecutor {
     fn perform(&self, _run: usize, tasks: &[Task], observe: &dyn Fn()) -> Option<Vec<TaskResult>> {
-        Some(perform_remembering(&self.simulator, &self.memory, tasks, observe))
+        let results = perform_remembering(&self.simulator, &self.memory, tasks, observe);
+        // Simulations that were ended have no result.
+        (!self.stop.is_raised()).then_some(results)
     }
 }
 

@@ -71,7 +71,7 @@ impl EvolveArguments {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             declared => declared?,
         };
-        let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
+        let device = OpenDevice::open(self.device.choice(), interrupt.ending(timer.processor()), context)?;
         let open = Arc::new(OpenRuns::default());
         let executor = self.executor(device, &declared, &interrupt, &open, context)?;
         let mut results = Results::default();

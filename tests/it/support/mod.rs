@@ -6,6 +6,7 @@ pub mod abc;
 pub mod bench;
 pub mod limits;
 pub mod programs;
+pub mod random_program;
 pub mod schema;
 #[cfg(target_os = "linux")]
 pub mod slow_yosys;

@@ -580,7 +580,7 @@ mod tests {
     #[test]
     fn overflow_and_division_by_zero_have_no_value() {
         assert_eq!(SizeOperator::Divide.apply(1, 0), None);
-        assert_eq!(SizeOperator::Power.apply(2, 64), None);
+        assert_eq!(SizeOperator::Power.apply(2, 127), None);
         assert_eq!(SizeOperator::Power.apply(2, -1), None);
         assert_eq!(SizeOperator::Subtract.apply(3, 5), Some(-2));
     }

@@ -220,6 +220,8 @@ pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) constants: [Option<Bit>; 2],
     /// Circuits inside that have no name of their own.
     pub(super) unnamed: usize,
+    /// Whether all nets without a width wait for each other.
+    pub(super) only_loops: bool,
     /// Whether the module has an error and cannot be used.
     pub(super) failed: bool,
     /// The place of what is being built.
@@ -243,7 +245,18 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         };
         let (frames, items) = (Vec::new(), Vec::new());
         let place = circuit.span;
-        Self { builder, circuit, module, frames, items, constants: [None; 2], unnamed: 0, failed: false, place }
+        Self {
+            builder,
+            circuit,
+            module,
+            frames,
+            items,
+            constants: [None; 2],
+            unnamed: 0,
+            only_loops: false,
+            failed: false,
+            place,
+        }
     }
 
     fn run(mut self, key: &ModuleKey) -> Option<Module> {

@@ -72,12 +72,16 @@ impl ModuleBuilder<'_, '_> {
         self.give_declared_widths();
         let mut open: VecDeque<u32> = (0..self.items.len() as u32).filter(|&item| self.is_open(item)).collect();
         // Each pass uses the results of the previous one; a pass without a result leaves only loops of nets without a
-        // width.
+        // width, in which numbers are bits.
         while !open.is_empty() && !self.failed {
             let before = open.len();
             open = self.settle(open);
-            if open.len() == before && self.builder.over.is_none() {
+            if open.len() < before || self.builder.over.is_some() {
+                self.only_loops = false;
+            } else if self.only_loops {
                 self.unknown_widths(&open);
+            } else {
+                self.only_loops = true;
             }
         }
     }
@@ -111,7 +115,8 @@ impl ModuleBuilder<'_, '_> {
         let mut waiting: std::collections::BTreeMap<usize, Vec<u32>> = std::collections::BTreeMap::new();
         let mut stuck = VecDeque::new();
         while let Some(item) = open.pop_front().filter(|_| self.builder.over.is_none()) {
-            if let Some(missing) = self.settle_item(item) {
+            let missing = self.settle_item(item);
+            if let Some(missing) = missing.filter(|_| self.is_open(item)) {
                 waiting.entry(missing).or_default().push(item);
                 continue;
             }
@@ -233,8 +238,7 @@ impl ModuleBuilder<'_, '_> {
                 vec![PartWidth::common(circuit.tables[*table].outputs().map(width))]
             }
             ExpressionKind::Call { circuit: callee, arguments, operands } => {
-                let parts: Vec<_> =
-                    operands.iter().map(|part| part.map_or(PartWidth::Unknown, |part| found.part(part))).collect();
+                let parts: Vec<_> = operands.iter().map(|part| part.map(|part| found.part(part))).collect();
                 self.call_widths(id, *callee, arguments, &parts, frame)
             }
         }
@@ -249,6 +253,12 @@ impl ModuleBuilder<'_, '_> {
         width
     }
 
+    /// Whether a call with these operands is as wide as the numbers among them.
+    fn is_number(&self, operands: &[Option<PartWidth>]) -> bool {
+        let has = |width| operands.contains(&Some(width));
+        has(PartWidth::Free) && (self.only_loops || !has(PartWidth::Unknown))
+    }
+
     /// The widths of the outputs of a call. Where only a number tells a parameter, the outputs are as free as the
     /// number.
     fn call_widths(
@@ -256,7 +266,7 @@ impl ModuleBuilder<'_, '_> {
         id: ExpressionId,
         callee: CircuitId,
         arguments: &[Option<SizeId>],
-        operands: &[PartWidth],
+        operands: &[Option<PartWidth>],
         frame: u32,
     ) -> Vec<PartWidth> {
         let given: Vec<_> = arguments.iter().map(|size| size.and_then(|size| self.size(size, frame))).collect();
@@ -264,11 +274,11 @@ impl ModuleBuilder<'_, '_> {
         if self.take(Limit::Steps, instance::cost(callee)).is_none() {
             return vec![PartWidth::Unknown; callee.outputs];
         }
-        let widths: Vec<_> = operands.iter().map(|part| part.bits()).collect();
+        let widths: Vec<_> = operands.iter().map(|part| part.and_then(PartWidth::bits)).collect();
         let known = instance::arguments(callee, given, &widths, span).ok();
         match known.and_then(|arguments| instance::output_widths(callee, &arguments)) {
             Some(widths) => widths.into_iter().map(PartWidth::Known).collect(),
-            None if callee.outputs == 1 && operands.contains(&PartWidth::Free) => vec![PartWidth::Free],
+            None if callee.outputs == 1 && self.is_number(operands) => vec![PartWidth::Free],
             None => vec![PartWidth::Unknown; callee.outputs],
         }
     }

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::components::Components;
 use crate::loops::Loops;
-use crate::passes::Pass;
+use crate::passes::{DissolveWires, Pass};
 use crate::{NetId, Netlist, NetlistError, Node};
 
 /// A cut, and the name of the cell that it is in the mapping; none if no output depends on it.
@@ -33,10 +33,14 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<NamedC
     let mut cuts: Vec<NamedCut> =
         netlist.ids().filter(is_cell).filter_map(|id| Some((id, Some(named(&id)?)))).collect();
     let known: BTreeSet<NetId> = cuts.iter().map(|(id, _)| *id).collect();
-    // Loops that no output depends on.
+    // Loops that no output depends on. Logic between their registers may drive an output nevertheless.
+    let mut plain = netlist.clone();
+    DissolveWires.run_on(&mut plain)?;
+    let memory = Loops::memory(&plain);
     let parts = Components::new(netlist.graph()).from(netlist.ids(), |id| !known.contains(&id));
     let is_loop = |part: &Vec<NetId>| part.len() > 1 || netlist.graph().contains_edge(part[0], part[0]);
-    cuts.extend(parts.into_iter().filter(is_loop).flatten().filter(is_cell).map(|id| (id, None)));
+    let lost = parts.into_iter().filter(is_loop).flatten().filter(|id| is_cell(id) && memory.contains(*id));
+    cuts.extend(lost.map(|id| (id, None)));
     Ok(cuts)
 }
 

@@ -70,7 +70,7 @@ fn number(
 ) -> Result<u64, Diagnostic> {
     let named = match &size.kind {
         SizeSyntaxKind::Literal(digits) => {
-            return constant::integer(digits).ok_or_else(|| ValueError::TooLarge.at(size.span));
+            return constant::integer(digits).ok_or_else(|| ValueError::TooLarge { bits: 64 }.at(size.span));
         }
         SizeSyntaxKind::Name(name) => named(name, size.span).transpose()?,
         _ => None,

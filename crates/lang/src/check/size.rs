@@ -58,7 +58,7 @@ impl CircuitChecker<'_> {
 
     fn literal(&mut self, digits: &str, span: Span) -> SizeKind {
         let value = constant::integer(digits).unwrap_or_else(|| {
-            self.diagnostics.push(ValueError::TooLarge.at(span));
+            self.diagnostics.push(ValueError::TooLarge { bits: 127 }.at(span));
             1
         });
         SizeKind::Literal(value)
@@ -116,7 +116,7 @@ pub(crate) fn value(
             tree::SizeSyntaxKind::Group(inner) => Some(at(*inner)),
             tree::SizeSyntaxKind::Binary(operator, left, right) => operator.apply(at(*left), at(*right)),
         };
-        values.push(value.ok_or_else(|| ValueError::TooLarge.at(size.span))?);
+        values.push(value.ok_or_else(|| ValueError::TooLarge { bits: 127 }.at(size.span))?);
     }
     Ok(*values.last().expect("an integer has a size"))
 }

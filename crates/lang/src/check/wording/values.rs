@@ -196,7 +196,7 @@ pub(crate) enum ValueError {
     /// A range whose lower end comes last.
     Descending { high: f64, low: f64 },
     /// An integer of more than 32 bits.
-    TooLarge,
+    TooLarge { bits: u32 },
     /// A member of an enumeration whose value is too wide for an integer.
     WideMember { member: String },
     /// A parameter that is not written in digits.
@@ -254,12 +254,12 @@ impl ValueError {
                     .with_help(format!("write `{range}`"))
                     .with_fix(Fix::replace(span, range))
             }
-            Self::TooLarge => {
-                Diagnostic::new(Code::OutOfRange, "number is too large", span, format!("expected at most {}", u32::MAX))
+            Self::TooLarge { bits } => {
+                Diagnostic::new(Code::OutOfRange, "number is too large", span, format!("expected at most {bits} bits"))
             }
             Self::WideMember { member } => {
                 let message = format!("the value of `{member}` is too large for a number");
-                Diagnostic::new(Code::OutOfRange, message, span, "expected at most 63 bits")
+                Diagnostic::new(Code::OutOfRange, message, span, "expected at most 127 bits")
             }
             Self::NotANumber => Diagnostic::new(Code::Value, "parameter is not a number", span, "expected a number"),
         }

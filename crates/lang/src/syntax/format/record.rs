@@ -46,7 +46,9 @@ impl Printer<'_> {
         let names: Vec<&str> = enumeration.members.iter().map(|member| member.name.text.as_str()).collect();
         let flat = format!("{{ {} }}", names.join(", "));
         let plain = enumeration.members.iter().all(|member| member.value.is_none());
-        if plain && !self.has_comment_inside(span) && self.column() + flat.chars().count() <= WIDTH {
+        // Comments before the brace are printed before the declaration.
+        let brace = self.text(span).find('{').map_or(span, |at| Span { start: span.start + at as u32, ..span });
+        if plain && !self.has_comment_inside(brace) && self.column() + flat.chars().count() <= WIDTH {
             return self.write(&flat);
         }
         let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
