@@ -35,7 +35,8 @@ pub fn rows() -> Vec<(&'static str, String)> {
         ("rows", format!("{WIDE}{}", test(" repeat 999999 {\n 0 | -\n }\n"))),
         ("nested", format!("{BIT}{}", test(&format!("{} 0 | 0\n{}", "repeat 1000 {\n".repeat(7), "}\n".repeat(7))))),
         ("worlds", format!("{worlds}{WIDE}test f in [{}] {{\n a | q\n 0 | -\n}}\n", names.join(", "))),
-        ("tests", format!("{BIT}{}", test(" repeat 300000 {\n 0 | 0\n }\n").repeat(4))),
+        ("repeated", format!("{BIT}{}", test(" repeat 999999 {\n 0 | 0\n }\n"))),
+        ("tests", format!("{BIT}{}", test(" repeat 60000 {\n 0 | 0\n }\n").repeat(4))),
         ("all inputs", format!("{wide}test f for all inputs {{ q = {{400000{{a[0]}}}} }}\n")),
         ("held", format!("{WIDE}{}", test(" 0 | - for 1000000 cycles\n"))),
         (

@@ -18,6 +18,15 @@ fn the_prelude_has_the_papers_palette() {
 }
 
 #[test]
+fn right_programs_are_read_without_a_word_and_do_what_their_tests_say() {
+    for path in programs("tests/right") {
+        let text = std::fs::read_to_string(&path).unwrap();
+        let program = sound(path.to_str().unwrap(), &text);
+        program.tests.iter().for_each(|test| passes(&program, test));
+    }
+}
+
+#[test]
 fn the_materials_of_three_stimuli_are_those_that_the_library_declares() {
     let program = sound("three.nb", &std::fs::read_to_string(root().join("library/three.nb")).unwrap());
     assert_eq!(program.evolution("three_gates").unwrap().palette, Palette::three());

@@ -64,6 +64,7 @@ mod runs;
 mod schemas;
 mod seeing;
 mod settling;
+mod stopping;
 mod support;
 mod swarms;
 mod synth;

@@ -14,6 +14,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::support::programs::programs;
+use crate::support::random_program::random_program;
 
 /// The inputs of a random circuit.
 const INPUTS: [&str; 4] = ["a", "b", "clk", "en"];
@@ -200,6 +201,47 @@ proptest! {
 }
 
 /// A register that stores 1; constants made one of its guards read the clock too early.
+/// Its programs have registers whose data and enables depend on themselves, on constants and on outputs.
+fn check_random_programs(seeds: std::ops::Range<u64>) {
+    let library = CellLibrary::uniform([Function::NAND]);
+    for seed in seeds {
+        let text = random_program(seed);
+        let mut sources = Sources::default();
+        let file = sources.add("a.nb", &text);
+        let program = check::check(&MemoryWorld::default(), &mut sources, file).program;
+        let source = elaborate(&program, &"main".into()).unwrap();
+        let proof = prove(&source, &map(&source, &library).unwrap());
+        assert!(proof.is_ok(), "program {seed}: {}\n{text}", proof.unwrap_err());
+    }
+}
+
+#[test]
+fn registers_of_random_programs_are_proved() {
+    check_random_programs(0..6);
+}
+
+/// `cargo test --test it registers_of_two_thousand -- --ignored`
+#[test]
+#[ignore = "takes minutes"]
+fn registers_of_two_thousand_random_programs_are_proved() {
+    check_random_programs(6..2_006);
+}
+
+#[test]
+fn registers_that_the_result_does_without_are_proved() {
+    let constant = ["register(a, clk, enable: q)", "latch(a, q)", "register(a, q)"]
+        .map(|memory| format!("net r\n r = {memory}\n q = 1'd1 or r\n p = clk and r and 0"));
+    let alike = "net r[2]\n r = register[start = 3]({a, a}, clk, enable: a and 0)\n q = r[0] xor r[1]\n p = q";
+    for lines in constant.into_iter().chain([alike.to_owned()]) {
+        let text = format!("circuit c(a, clk) -> (q, p) {{ {lines} }}");
+        let mut sources = Sources::default();
+        let file = sources.add("a.nb", &text);
+        let program = check::check(&MemoryWorld::default(), &mut sources, file).program;
+        let source = elaborate(&program, &"c".into()).unwrap();
+        assert!(prove(&source, &map(&source, &CellLibrary::uniform([Function::NAND])).unwrap()).is_ok(), "{text}");
+    }
+}
+
 #[test]
 fn a_register_of_a_constant_keeps_its_guards() {
     let netlist = mapped("circuit memory(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n", &libraries()[0]);

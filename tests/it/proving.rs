@@ -45,6 +45,45 @@ fn every_clocked_program_of_the_gallery_has_a_property_that_is_proved_in_ten_sec
     assert!(proved > 25, "{proved} are proved");
 }
 
+#[test]
+fn a_proof_of_what_is_never_checked_is_called_empty() {
+    let bench = Bench::new();
+    let circuit = "circuit c(a, b, clk) -> (q) { q = register(a and b, clk) }\n";
+    let cases = [
+        ("assume a and not a\n always q", Some("no step satisfies the assumptions")),
+        ("assume not a\n always a => q", Some("its condition is never true under the assumptions")),
+        (
+            "assume not q\n assume a and b\n always not before(q) => 0",
+            Some("its condition is never true under the assumptions"),
+        ),
+        ("assume not q\n assume a and b\n never before(q) xor q", Some("no run is long enough under the assumptions")),
+        (
+            "assume not q\n assume a and b\n always b => q within 2 steps",
+            Some("its condition is never true under the assumptions"),
+        ),
+        ("always q and not q => 0", Some("its condition is never true")),
+        ("assume a\n always b and not q => a", None),
+        ("assume not a\n never q", None),
+        ("always before(b) => b or not b", None),
+        ("assume a and b\n always a => q within 1 step", None),
+    ];
+    for (at, (properties, why)) in cases.into_iter().enumerate() {
+        let file = format!("{at}.nb");
+        bench.file(&file, format!("{circuit}prove c {{\n {properties}\n}}\n"));
+        let found = verdicts(&bench, &[&file], 0);
+        assert_eq!(found[0]["empty"].as_str(), why, "{properties}: {found:?}");
+    }
+    let text = bench.run(&["prove", "0.nb"]).out;
+    assert!(text.contains("    proved     always q  (but empty: no step satisfies the assumptions)\n"), "{text}");
+
+    // A bad state that is the input, under a constraint of the constant 0, and under one of the input's opposite.
+    for (constraint, why) in [("0", Some("no step satisfies the constraints")), ("3", None)] {
+        bench.file("model.aag", format!("aag 1 1 0 0 0 1 1\n2\n2\n{constraint}\n"));
+        let found = verdicts(&bench, &["model.aag"], 0);
+        assert_eq!(found[0]["empty"].as_str(), why, "{found:?}");
+    }
+}
+
 /// Mutants of the gallery: a part of a file, what it becomes, and the property that is refuted.
 const MUTANTS: [(&str, &str, &str, &str); 3] = [
     ("traffic_light.nb", "else:                      10", "else:                      11", "main_stops xor side_stops"),

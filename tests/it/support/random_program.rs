@@ -304,9 +304,14 @@ impl Writer {
             self.nets.extend([("c".to_owned(), 1), ("d".to_owned(), 1)]);
         }
         if self.clocked {
+            // They may depend on the register and on the outputs.
+            let known = self.nets.len();
+            self.nets.extend([("r", 3), ("q", 1), ("p", 3)].map(|(name, width)| (name.to_owned(), width)));
             let [data, enable] = [3, 1].map(|width| self.expression(width, 2));
+            self.nets.truncate(known);
             let call = self.line(&[&data, ",", "clk", ",", "enable:", &enable]);
             let start = self.integer(5);
+            lines.push("net r[3]".to_owned());
             lines.push(self.line(&["r", "=", &format!("register[start = {start}]({call})")]));
             self.nets.push(("r".to_owned(), 3));
         }
@@ -353,7 +358,8 @@ impl Writer {
         let values: Vec<String> = (0..2).map(|_| self.operand(4, 1)).collect();
         let three = self.integer(3);
         let value = self.line(&["v[i]", self.clone_pick(&OPERATORS), "w[i]"]);
-        let inside = self.line(&["if", "i", "<", &three, "{", "t[i]", "=", &value, "}", "else", "{", "t[i]", "=", "0", "}"]);
+        let inside =
+            self.line(&["if", "i", "<", &three, "{", "t[i]", "=", &value, "}", "else", "{", "t[i]", "=", "0", "}"]);
         let loop_ = self.line(&["for", "i", "in", "0..4", "{", &inside, "}"]);
         self.nets.push(("t".to_owned(), 4));
         let end = self.end();
@@ -383,7 +389,24 @@ impl Writer {
                 }
                 text + "\n}"
             }
-            1 => self.line(&["circuit", "other", "(", "a", ",", "b", "=", "0x1", ")", "->", "(", "q", ")", "{", "q = a and b", "}"]),
+            1 => self.line(&[
+                "circuit",
+                "other",
+                "(",
+                "a",
+                ",",
+                "b",
+                "=",
+                "0x1",
+                ")",
+                "->",
+                "(",
+                "q",
+                ")",
+                "{",
+                "q = a and b",
+                "}",
+            ]),
             2 => {
                 let five = self.integer(5);
                 self.line(&["let", "five", "=", &five, "+", "0b1"])
@@ -400,9 +423,23 @@ impl Writer {
             }
             4 => self.line(&["material", "hard", "{", "kind", ":", "rigid", "}"]),
             5 => self.line(&["world", "ice", "{", "friction:", "40%", ",", "gravity:", "0x1", "}"]),
-            6 => self.line(&["schedule", "sweep", "(", "s1", ",", "s2", ")", "{", "0 1 for 0xa cycles", "1 1 for 9 steps", "}"]),
+            6 => self.line(&[
+                "schedule",
+                "sweep",
+                "(",
+                "s1",
+                ",",
+                "s2",
+                ")",
+                "{",
+                "0 1 for 0xa cycles",
+                "1 1 for 9 steps",
+                "}",
+            ]),
             7 => self.line(&["test", "main", "for", "all", "inputs", "against", "main"]),
-            _ => self.line(&["evolution", "runs", "{", "from:", "gates", ",", "box:", "5 x 0x5", "seed:", "1..0x3", "}"]),
+            _ => {
+                self.line(&["evolution", "runs", "{", "from:", "gates", ",", "box:", "5 x 0x5", "seed:", "1..0x3", "}"])
+            }
         }
     }
 }

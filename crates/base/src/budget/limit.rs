@@ -62,7 +62,7 @@ limits! {
     LoopSteps = 1 << 24, "steps to find loops without a start value", "of a program; after these, no loop is warned of";
     MemoryWords = 1 << 22, "words of memories", "of the environments of a program";
     TriedBits = 16, "input bits", "of a test over all inputs";
-    Rows = 1_000_000, "rows of tests", "over all tests and worlds of a program, repeated ones counted each time";
+    Rows = 200_000, "rows of tests", "over all tests and worlds of a program, repeated ones counted each time";
     RowBits = 1 << 26, "bits in rows of tests", "over all tests and worlds of a program";
     Repetitions = 1_000_000, "repetitions", "of a row until an output has a value";
     PropertySteps = 1_000, "steps", "within which a property says that something happens";

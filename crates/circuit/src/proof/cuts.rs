@@ -10,14 +10,20 @@ use crate::loops::Loops;
 use crate::passes::{DissolveWires, Pass};
 use crate::{NetId, Netlist, NetlistError, Node};
 
-/// A cut, and the name of the cell that it is in the mapping; none if no output depends on it.
-pub(super) type NamedCut = (NetId, Option<String>);
+/// A cell at which a loop is cut.
+pub(super) struct Cut {
+    pub(super) cell: NetId,
+    /// The name of the cell that it is in the mapping; none if no output depends on it.
+    pub(super) name: Option<String>,
+    /// The cell with which the passes have merged it, or itself.
+    pub(super) merged: NetId,
+}
 
 /// The cuts of a netlist; after these passes its memory has the names that the mapping keeps.
 ///
 /// # Errors
 /// When the netlist is not well formed.
-pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<NamedCut>, NetlistError> {
+pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<Cut>, NetlistError> {
     if Loops::of(netlist).cores().is_empty() {
         return Ok(Vec::new());
     }
@@ -28,11 +34,13 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<NamedC
         pass.run(&mut reduced)?;
     }
     let names = core_names(&reduced, &Loops::memory(&reduced));
-    let named = |id: &NetId| names.get(merged.get(id).unwrap_or(id)).cloned();
+    let cut = |cell: NetId| {
+        let merged = std::iter::successors(Some(cell), |id| merged.get(id).copied()).last().expect("there is a first");
+        Cut { cell, name: names.get(&merged).cloned(), merged }
+    };
     let is_cell = |id: &NetId| matches!(netlist.node(*id), Node::Cell(_));
-    let mut cuts: Vec<NamedCut> =
-        netlist.ids().filter(is_cell).filter_map(|id| Some((id, Some(named(&id)?)))).collect();
-    let known: BTreeSet<NetId> = cuts.iter().map(|(id, _)| *id).collect();
+    let mut cuts: Vec<Cut> = netlist.ids().filter(is_cell).map(cut).filter(|cut| cut.name.is_some()).collect();
+    let known: BTreeSet<NetId> = cuts.iter().map(|cut| cut.cell).collect();
     // Loops that no output depends on. Logic between their registers may drive an output nevertheless.
     let mut plain = netlist.clone();
     DissolveWires.run_on(&mut plain)?;
@@ -40,7 +48,7 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<NamedC
     let parts = Components::new(netlist.graph()).from(netlist.ids(), |id| !known.contains(&id));
     let is_loop = |part: &Vec<NetId>| part.len() > 1 || netlist.graph().contains_edge(part[0], part[0]);
     let lost = parts.into_iter().filter(is_loop).flatten().filter(|id| is_cell(id) && memory.contains(*id));
-    cuts.extend(lost.map(|id| (id, None)));
+    cuts.extend(lost.map(cut));
     Ok(cuts)
 }
 

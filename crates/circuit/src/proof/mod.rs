@@ -79,19 +79,25 @@ fn prove_states(
     let named: BTreeMap<_, _> = mapped.cells().filter_map(|(id, cell)| Some((cell.name.clone()?, id))).collect();
     let mut names: Vec<String> = Vec::new();
     let mut places: BTreeMap<&String, usize> = BTreeMap::new();
+    let mut lost: BTreeMap<NetId, usize> = BTreeMap::new();
     let mut cuts = Vec::new();
-    for name in found.iter().map(|(_, name)| name.as_ref()) {
-        // What the result does without must not matter.
-        let place = name.filter(|&name| named.contains_key(name)).map(|name| {
-            *places.entry(name).or_insert_with(|| {
+    for cut in &found {
+        let name = cut.name.as_ref().filter(|&name| named.contains_key(name));
+        cuts.push(match (name, lost.get(&cut.merged)) {
+            (Some(name), _) => Counterpart::Same(*places.entry(name).or_insert_with(|| {
                 names.push(name.clone());
                 registers[1].len() + names.len() - 1
-            })
+            })),
+            (None, Some(&first)) => Counterpart::Like(first),
+            // What the result does without must not matter.
+            (None, None) => {
+                lost.insert(cut.merged, registers[0].len() + cuts.len());
+                Counterpart::Unused
+            }
         });
-        cuts.push(place.map_or(Counterpart::Unused, Counterpart::Same));
     }
     let mapped_cuts = names.iter().map(|name| named[name]).collect();
-    let reference = Side { logic: source, registers: registers[0], cuts: found.iter().map(|(id, _)| *id).collect() };
+    let reference = Side { logic: source, registers: registers[0], cuts: found.iter().map(|cut| cut.cell).collect() };
     let result = Side { logic: mapped, registers: registers[1], cuts: mapped_cuts };
     let method = StateRelation { reference, result, registers: counterparts, cuts }.prove()?;
     Ok(Proof { method, cuts: names })

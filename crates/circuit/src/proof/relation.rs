@@ -17,7 +17,7 @@ use nbc_base::model::Function;
 pub enum Counterpart {
     /// The register or the cut of the result with this number.
     Same(usize),
-    /// What an earlier register of the reference, with this number, is.
+    /// What an earlier register or cut of the reference, with this number, is.
     Like(usize),
     /// A value that never changes.
     Constant(bool),
@@ -150,9 +150,12 @@ impl StateRelation<'_> {
     fn cuts_start(&self, one: &Network, two: &Network) -> Result<(), ProofError> {
         let Self { reference, result, .. } = self;
         let [starts, others] = [(reference, one), (result, two)].map(|(side, network)| side.starts(network));
-        for ((&cut, &counterpart), start) in reference.cuts.iter().zip(&self.cuts).zip(starts) {
-            let Counterpart::Same(at) = counterpart else { continue };
-            let other = others[at - result.registers.len()];
+        for ((&cut, &counterpart), &start) in reference.cuts.iter().zip(&self.cuts).zip(&starts) {
+            let other = match counterpart {
+                Counterpart::Same(at) => others[at - result.registers.len()],
+                Counterpart::Like(at) => starts[at - reference.registers.len()],
+                Counterpart::Constant(_) | Counterpart::Unused => continue,
+            };
             let is_declared = reference.start(cut).is_some();
             if start.is_some() && start != other && (is_declared || other.is_some()) {
                 return Err(ProofError::Start(reference.logic.net_name(cut)));
@@ -204,9 +207,17 @@ impl StateRelation<'_> {
         }
         let (first, second) = (reference.logic.outputs().len(), result.logic.outputs().len());
         for (at, &counterpart) in self.cuts.iter().enumerate() {
-            if let Counterpart::Same(other) = counterpart {
-                let name = reference.logic.net_name(reference.cuts[at]);
-                pairs.push((name, one.outputs[first + at], two.outputs[second + other - result.registers.len()]));
+            let name = reference.logic.net_name(reference.cuts[at]);
+            let next = one.outputs[first + at];
+            match counterpart {
+                Counterpart::Same(other) => {
+                    pairs.push((name, next, two.outputs[second + other - result.registers.len()]));
+                }
+                Counterpart::Like(other) => {
+                    let other = one.outputs[first + other - reference.registers.len()];
+                    pairs.push((name, one.add(Function::XOR, [next, other]), 0));
+                }
+                Counterpart::Constant(_) | Counterpart::Unused => {}
             }
         }
         pairs

@@ -1,8 +1,8 @@
 //! Bits of nets and words of arrays: those that integers select, and those that the values of nets select. An array in
 //! an environment is a memory.
 
-use crate::check::constant;
 use crate::check::circuit::{Binding, CircuitChecker};
+use crate::check::constant;
 use crate::check::names::Home;
 use crate::check::wording::ArrayError;
 use crate::syntax::tree::{

@@ -46,7 +46,8 @@ impl<'a> Assembly<'a> {
             return None;
         }
         let read = &self.inner[first_use..];
-        self.faults.retain(|fault| fault.code != Code::Unused || !read.iter().any(|net| fault.labels[0].span == net.declared));
+        self.faults
+            .retain(|fault| fault.code != Code::Unused || !read.iter().any(|net| fault.labels[0].span == net.declared));
         let title = source.title.as_ref().map_or(String::new(), |title| title.text.clone());
         let (file, line) = self.declarations.line(span);
         let monitor = Box::new(monitor);

@@ -1,0 +1,76 @@
+//! A signal ends every command within a second.
+
+use std::process::Stdio;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use crate::support::bench::Bench;
+use crate::support::root;
+
+/// A body for `nbc library add`.
+const BODY: &str = "body: ['37150', '77735', '02543', '00253', '33333']\n";
+
+/// A circuit that is slow to map, and a property that is hard to prove.
+const PRODUCTS: &str = "circuit products(a[24], b[24], clk) -> (q[24], r[24]) {
+    q = register(a * b, clk)
+    r = register(b * a, clk)
+}
+prove products { always q == r }
+";
+
+/// Commands that take much longer than the test lets them, in a folder with the circuits of the gallery.
+const COMMANDS: [&str; 14] = [
+    "bench",
+    "build latch.nb --harden start=1 --worlds 2000",
+    "build products.nb",
+    "evolve paper.nb --run paper10 --out out",
+    "learn rows.csv --hold-out 0",
+    "library add body.yaml --into robots",
+    "library verify shipped",
+    "play latch.nb --port 0",
+    "prove products.nb",
+    "run computer.nb",
+    "simulate nand --schedule 00*100000",
+    "test latch.nb --vary start=1 --worlds 2000",
+    "test computer.nb --physics",
+    "watch latch.nb",
+];
+
+#[cfg(unix)]
+#[test]
+fn every_command_ends_within_a_second_of_a_signal() {
+    let bench = Bench::new();
+    let copy = |from: &str, to: &str| bench.file(to, std::fs::read(root().join(from)).unwrap());
+    copy("library/paper.nb", "paper.nb");
+    for name in ["latch", "computer"] {
+        copy(&format!("circuits/{name}.nb"), &format!("{name}.nb"));
+    }
+    std::fs::create_dir(bench.path().join("shipped")).unwrap();
+    for robot in std::fs::read_dir(root().join("library/robots")).unwrap() {
+        let name = robot.unwrap().file_name().into_string().unwrap();
+        copy(&format!("library/robots/{name}"), &format!("shipped/{name}"));
+    }
+    bench.file("body.yaml", BODY);
+    bench.file("products.nb", PRODUCTS);
+    let row = |at: u32| {
+        let bits = at.wrapping_mul(0x9e37_79b9);
+        format!("{bits},{},{}\n", bits ^ bits >> 7, bits.count_ones() >> 1 & 1)
+    };
+    bench.file("rows.csv", format!("a,b,q\n{}", (0..20_000).map(row).collect::<String>()));
+    let mut late = Vec::new();
+    for (at, command) in COMMANDS.iter().enumerate() {
+        let arguments: Vec<&str> = command.split(' ').collect();
+        let mut child = bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+        thread::sleep(Duration::from_millis(800));
+        let before = child.try_wait().unwrap();
+        let signal = if at % 2 == 0 { "-TERM" } else { "-INT" };
+        std::process::Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
+        let begin = Instant::now();
+        let status = child.wait().unwrap();
+        println!("{:?} {status} {before:?} {command}", begin.elapsed());
+        if before.is_some() || begin.elapsed() > Duration::from_secs(1) {
+            late.push(format!("{command}: {:?} {before:?}", begin.elapsed()));
+        }
+    }
+    assert!(late.is_empty(), "{}", late.join("\n"));
+}
