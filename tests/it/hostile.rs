@@ -98,6 +98,21 @@ fn sizes_are_bounded() {
     rejected(circuit("q = any({1000000000{a}})"), Code::OutOfRange);
     rejected(circuit("for i in 0..1000000 { _ = a }\n q = a"), Code::TooLarge);
     rejected(circuit("for i in 0..4000000000 { }\n q = a"), Code::TooLarge);
+    for huge in
+        ["2 ** 64", "2 ** 64 + 1", "2 ** 126", "0x10000000000000001", "2 ** 127", "0x80000000000000000000000000000000"]
+    {
+        let code = if huge == "2 ** 127" || huge.len() > 20 { Code::OutOfRange } else { Code::TooLarge };
+        rejected(circuit(&format!("for i in 0..{huge} {{ }}\n q = a")), code);
+        for lines in [
+            "q = any({_{a}})",
+            "net t[_]\n t = a\n q = a",
+            "net t[2][_]\n t[0] = a\n q = a",
+            "q = a[_]",
+            "q init _ = a",
+        ] {
+            rejected(circuit(&lines.replace('_', &format!("({huge})"))), Code::OutOfRange);
+        }
+    }
     rejected(circuit("for i in 0..1000 { for j in 0..1000 { _ = a } }\n q = a"), Code::TooLarge);
     rejected(circuit("for i in 0..400000 { net t[1000]\n for j in 0..1000 { t[j] = a } }\n q = a"), Code::TooLarge);
 }

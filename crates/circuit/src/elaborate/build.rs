@@ -350,10 +350,10 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
 
     /// Adds an array of so many words of this width, or another net.
     pub(super) fn give_array(&mut self, net: usize, width: u32, words: Option<u32>) {
-        let bits = i128::from(width) * i128::from(words.unwrap_or(1));
-        if Limit::Width.permit(bits as u64).is_err() {
+        let bits = u64::from(width) * u64::from(words.unwrap_or(1));
+        if Limit::Width.permit(bits).is_err() {
             let span = self.module.nets[net].span;
-            self.fault(RangeError::NetWidth { width: bits, most: Limit::Width.most() }.at(span));
+            self.fault(RangeError::NetWidth { width: bits.into(), most: Limit::Width.most() }.at(span));
             return;
         }
         self.module.nets[net].words = words;

@@ -112,7 +112,7 @@ impl<'a> ModuleBuilder<'a, '_> {
             self.failed = true;
             return;
         }
-        let turns = to.saturating_sub(from).max(0) as u64;
+        let turns = u64::try_from(to.saturating_sub(from).max(0)).unwrap_or(u64::MAX);
         let statements = turns.saturating_mul(body.statements.len() as u64 + 1);
         if Limit::Statements.permit(statements).is_err() {
             let most = Limit::Statements.most();
@@ -161,8 +161,10 @@ impl<'a> ModuleBuilder<'a, '_> {
     /// A width: a size from 1 to the most bits of a net.
     pub(super) fn width(&mut self, size: SizeId, frame: u32) -> Option<u32> {
         let value = self.size(size, frame)?;
-        if value >= 1 && Limit::Width.permit(value as u64).is_ok() {
-            return Some(value as u32);
+        if let Some(width) =
+            u32::try_from(value).ok().filter(|&width| width >= 1 && Limit::Width.permit(width.into()).is_ok())
+        {
+            return Some(width);
         }
         let error = RangeError::NetWidth { width: value, most: Limit::Width.most() };
         self.fault(error.at(self.circuit.sizes[size.0 as usize].span));

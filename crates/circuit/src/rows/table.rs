@@ -131,7 +131,7 @@ mod tests {
         let open = format!(".i 17\n.o 1\n.type fr\n{} 1\n", "-".repeat(17));
         check(&open, Err("row leaves 17 inputs open"));
         let many = format!(".i 16\n.o 1\n.type fr\n{}", format!("{} 1\n", "-".repeat(16)).repeat(20));
-        check(&many, Err("file has more than 1000000 rows"));
+        check(&many, Err("file has more than 200000 rows"));
         check(".i 1\n.o 1\n.type fr\n", Err("file has no rows"));
         check(".i 2\n.o 1\n.ilb a a\n.ob q\n11 1\n", Err("column `a` is there twice"));
     }
