@@ -1,5 +1,6 @@
 //! Circuits that are learned from the rows of a file.
 
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Column;
 use nbc_base::source::SourceFile;
@@ -60,7 +61,7 @@ impl Learning {
     /// Reads rows, and begins to learn.
     ///
     /// # Errors
-    /// When the rows cannot be read, or there is nothing to learn from.
+    /// When the rows cannot be read, or there is nothing to learn from, or too much.
     pub fn new(request: &LearningRequest<'_>) -> Result<Self, Vec<Diagnostic>> {
         let LearningRequest { circuit, rows, outputs, options } = *request;
         let one = |fault: Diagnostic| vec![fault];
@@ -68,6 +69,9 @@ impl Learning {
         let format = format.ok_or_else(|| one(LearningError::Format { file: rows.name.clone() }.into()))?;
         let file = format.read(rows)?;
         let (inputs, outputs) = file.ports(outputs).map_err(one)?;
+        let [given, wanted] = [&inputs, &outputs].map(|ports| ports.iter().map(|port| port.width).sum::<usize>());
+        let too_large = |_| one(LearningError::TooLarge { inputs: given, outputs: wanted }.into());
+        Limit::LearnedBits.permit((given as u64).saturating_mul(wanted as u64)).map_err(too_large)?;
         let examples = Examples::of(&file.bind(circuit, &inputs, &outputs)?);
         let held_out = options.held_out(examples.rows);
         if held_out >= examples.rows {
