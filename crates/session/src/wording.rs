@@ -15,6 +15,10 @@ use nbc_swarm::WeakRobot;
 pub(super) enum LearningError {
     /// A file name without the extension of rows.
     Format { file: String },
+    /// Rows that belong together, but none.
+    NoGroup,
+    /// A share that is held out and is no share.
+    HoldOut { percent: f64 },
     /// A circuit of too many inputs and outputs.
     TooLarge { inputs: usize, outputs: usize },
     /// So few rows that none are left to learn from.
@@ -28,6 +32,14 @@ impl From<LearningError> for Diagnostic {
         match error {
             LearningError::Format { file } => {
                 let message = format!("unrecognized format of the rows in `{file}`; expected .csv or .pla");
+                Self::without_place(Code::BadValue, message)
+            }
+            LearningError::NoGroup => {
+                Self::without_place(Code::BadValue, "invalid group of 0 rows; expected at least 1")
+            }
+            LearningError::HoldOut { percent } => {
+                let message =
+                    format!("invalid share {percent} % to hold out; expected a number from 0 to less than 100");
                 Self::without_place(Code::BadValue, message)
             }
             LearningError::TooLarge { inputs, outputs } => {
