@@ -320,6 +320,23 @@ fn hostile_circuit_files_are_rejected_within_a_second_and_a_gigabyte() {
 }
 
 #[test]
+fn rows_of_very_many_bits_are_refused() {
+    let bench = Bench::new();
+    let large = |name: &str, text: String| {
+        bench.file(name, text);
+        refused_by(&bench, &["learn", name, "--hold-out", "0"], Code::TooLarge);
+    };
+    let number = |digits: usize| format!("a,q\n0x{},1\n0,0\n", "f".repeat(digits));
+    large("long.csv", number(1_000_000));
+    large("wide.csv", number(200_000));
+    large("many.csv", format!("{}{}", number(200_000), "0,1\n".repeat(100)));
+    let columns: String = (0..100_000).map(|bit| format!("x[{bit}],")).collect();
+    large("columns.csv", format!("{columns}q\n{}1\n", "0,".repeat(100_000)));
+    large("wide.pla", format!(".i 70000\n.o 1\n.type fr\n{} 1\n", "0".repeat(70_000)));
+    large("both.pla", format!(".i 1000000\n.o 1000000\n.type fr\n{}\n", "0".repeat(2_000_000)));
+}
+
+#[test]
 fn a_file_of_very_many_errors_has_few_diagnostics_and_their_number() {
     let nets: String = (0..5_000).map(|net| format!("    q{net} = missing{net}\n")).collect();
     let found = found(format!("circuit f(a) -> (q) {{\n    q = a\n{nets}}}\n"));

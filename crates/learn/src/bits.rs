@@ -1,7 +1,7 @@
 //! Sets of rows: a bit for each row, in words.
 
 /// A bit for each row.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Bits {
     words: Vec<u64>,
     rows: usize,

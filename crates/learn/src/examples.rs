@@ -1,5 +1,7 @@
 //! Examples: rows of input bits and the output bits that are wanted of them, column by column.
 
+use std::collections::BTreeMap;
+
 use crate::bits::Bits;
 use nbc_circuit::rows::PortRow;
 
@@ -56,6 +58,15 @@ impl Examples {
         let wrong = |(wanted, found): (&Wanted, &Bits)| found.xor(&wanted.value).and(&wanted.known);
         self.outputs.iter().zip(found).map(wrong).fold(all, |right, wrong| right.and_not(&wrong))
     }
+
+    /// The most frequent output bits, with the number of their rows.
+    pub fn most_frequent(&self) -> (Vec<bool>, usize) {
+        let mut counts: BTreeMap<Vec<bool>, usize> = BTreeMap::new();
+        for row in 0..self.rows {
+            *counts.entry(self.outputs.iter().map(|output| output.value.get(row)).collect()).or_default() += 1;
+        }
+        counts.into_iter().max_by_key(|(_, count)| *count).unwrap_or_default()
+    }
 }
 
 /// An output bit that is to be learned: input bits and what it is, in the rows that say so.
@@ -65,4 +76,40 @@ pub struct OutputRows {
     pub inputs: Vec<Bits>,
     /// The output bit.
     pub target: Bits,
+}
+
+impl OutputRows {
+    /// Some of the rows, in this order.
+    pub fn pick(&self, rows: &[usize]) -> Self {
+        Self { inputs: self.inputs.iter().map(|input| input.pick(rows)).collect(), target: self.target.pick(rows) }
+    }
+
+    /// What the rows mostly are for each number that the inputs are, the first input its lowest bit; `None` if a number
+    /// is missing.
+    pub fn table(&self) -> Option<Vec<bool>> {
+        let width = self.inputs.len().min(usize::BITS as usize - 1);
+        if 1 << width > self.target.rows() {
+            return None;
+        }
+        let mut tally = vec![[0usize; 2]; 1 << width];
+        for row in 0..self.target.rows() {
+            let number = self.inputs.iter().rev().fold(0, |number, input| number << 1 | usize::from(input.get(row)));
+            tally[number][usize::from(self.target.get(row))] += 1;
+        }
+        tally.into_iter().map(|[zeros, ones]| (zeros + ones > 0).then_some(ones > zeros)).collect()
+    }
+
+    /// Gives equal rows the value that most of them have, or 0.
+    pub fn settle(&mut self) {
+        let mut equal: BTreeMap<Bits, Vec<usize>> = BTreeMap::new();
+        for row in 0..self.target.rows() {
+            equal.entry(Bits::of(self.inputs.iter().map(|input| input.get(row)))).or_default().push(row);
+        }
+        let mut target = vec![false; self.target.rows()];
+        for rows in equal.values() {
+            let ones = rows.iter().filter(|&&row| self.target.get(row)).count();
+            rows.iter().for_each(|&row| target[row] = 2 * ones > rows.len());
+        }
+        self.target = Bits::of(target);
+    }
 }

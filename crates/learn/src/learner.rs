@@ -42,6 +42,12 @@ impl Default for LearnOptions {
 /// One row of so many of the training rows chooses the method, and the others are learned from.
 const CHOOSING: usize = 5;
 
+/// The most rows of a table of which the smallest circuit is searched for after one is recognized.
+const FEW: usize = 1_024;
+
+/// The fewest choosing rows that can show that a circuit foresees rows better than an exact one.
+const TELLING: usize = 100;
+
 /// How much accuracy all permitted gates are worth: of two methods that are equally good, the smaller is taken.
 const PRICE: f64 = 0.002;
 
@@ -119,18 +125,8 @@ struct Parts {
     choose: OutputRows,
     /// Both.
     all: OutputRows,
-}
-
-impl Parts {
-    fn of(training: &Examples, output: usize, group: usize) -> Self {
-        let known = || training.outputs[output].known.ones();
-        let part = |rows: Vec<usize>| training.of_output(output, &rows);
-        Self {
-            fit: part(known().filter(|row| !is_choosing(*row, group)).collect()),
-            choose: part(known().filter(|row| is_choosing(*row, group)).collect()),
-            all: part(known().collect()),
-        }
-    }
+    /// Whether all values of the inputs are there, so that no row has to be foreseen: then all parts are the same.
+    is_table: bool,
 }
 
 /// Whether a training row is one that methods are compared by; so many rows belong together.
@@ -138,13 +134,36 @@ fn is_choosing(row: usize, group: usize) -> bool {
     (row / group).is_multiple_of(CHOOSING)
 }
 
-/// The best method for an output bit.
+/// A method that may learn an output bit.
 #[derive(Clone, Debug)]
 struct Choice {
     method: LearningMethod,
     worth: f64,
+    /// The choosing rows that it gets wrong.
+    wrong: usize,
+    /// Whether it gets all rows to fit right.
+    is_exact: bool,
     /// What it has learned from the rows to fit.
     fitted: Fitted,
+}
+
+/// What was chosen for an output bit.
+#[derive(Clone, Debug)]
+struct BitChoice {
+    choice: Choice,
+    /// The methods that learn it if the chosen one is not exact in all training rows.
+    others: Vec<LearningMethod>,
+    tried: Vec<Tried>,
+    /// Whether it is an exact circuit of a table.
+    is_final: bool,
+    /// The most AND gates that it may have in the end.
+    gates: usize,
+}
+
+/// Whether so many of some choosing rows are clearly more than others: by a standard deviation of their difference.
+fn is_clearly_more(wrong: usize, others: usize, rows: usize) -> bool {
+    let more = wrong.saturating_sub(others);
+    rows >= TELLING && more * more > wrong + others
 }
 
 /// The best code for all bits of a port.
@@ -152,6 +171,8 @@ struct Choice {
 struct CodeChoice {
     shape: CodeShape,
     worth: f64,
+    /// The choosing rows that it gets wrong.
+    wrong: usize,
     /// What it has learned from the rows to fit.
     graph: GateGraph,
     literals: Vec<Literal>,
@@ -161,11 +182,11 @@ struct CodeChoice {
 #[derive(Clone, Debug)]
 enum Phase {
     /// A method is tried on an output bit; the others come after it.
-    Trying { parts: Parts, fitting: Fitting, methods: Vec<LearningMethod>, tried: Vec<Tried>, best: Option<Choice> },
+    Trying { parts: Parts, fitting: Fitting, methods: Vec<LearningMethod>, tried: Vec<Tried>, found: Vec<Choice> },
     /// A code is tried on all bits; the others come after it.
     Coding { classes: Classes, fitting: CodeFitting, shapes: Vec<CodeShape>, best: Option<CodeChoice> },
-    /// The chosen method learns an output bit from all training rows.
-    Again { parts: Parts, fitting: Fitting },
+    /// The chosen method learns an output bit from all training rows, and if that is not exact, `others` do.
+    Again { parts: Parts, fitting: Fitting, others: Vec<LearningMethod>, learned: Option<Fitted> },
     /// The chosen code learns all bits from all training rows.
     CodingAgain { classes: Classes, fitting: CodeFitting, choice: CodeChoice },
 }
@@ -177,8 +198,8 @@ struct PortWork {
     port: usize,
     bits: Range<usize>,
     phase: Phase,
-    /// The choices for the bits whose methods were tried, with what was tried.
-    choices: Vec<(Choice, Vec<Tried>)>,
+    /// The choices for the bits whose methods were tried.
+    choices: Vec<BitChoice>,
     /// What the bits are that have learned from all training rows.
     learned: Vec<Fitted>,
     /// What was tried on all bits together.
@@ -198,6 +219,8 @@ pub struct Learner {
     graph: GateGraph,
     literals: Vec<Literal>,
     outputs: Vec<LearnedOutput>,
+    /// AND gates that the outputs so far may have.
+    used: usize,
 }
 
 impl Learner {
@@ -217,7 +240,7 @@ impl Learner {
         let (training, held_out) = (examples.pick(training), examples.pick(held));
         let graph = GateGraph::new(training.inputs.len());
         let (ports, literals, outputs) = (ports.to_vec(), Vec::new(), Vec::new());
-        let mut learner = Self { options, ports, training, held_out, work: None, graph, literals, outputs };
+        let mut learner = Self { options, ports, training, held_out, work: None, graph, literals, outputs, used: 0 };
         learner.work = learner.port(0);
         learner
     }
@@ -231,10 +254,32 @@ impl Learner {
     }
 
     fn trying(&self, output: usize) -> Phase {
-        let parts = Parts::of(&self.training, output, self.options.group);
+        let parts = self.parts(output);
         let mut methods = LearningMethod::all();
         let fitting = Fitting::new(methods.remove(0), &parts.fit.inputs);
-        Phase::Trying { parts, fitting, methods, tried: Vec::new(), best: None }
+        Phase::Trying { parts, fitting, methods, tried: Vec::new(), found: Vec::new() }
+    }
+
+    /// The training rows of an output bit. If nothing is held out, equal rows have the value of most of them.
+    fn parts(&self, output: usize) -> Parts {
+        let known: Vec<usize> = self.training.outputs[output].known.ones().collect();
+        let mut all = self.training.of_output(output, &known);
+        if !self.holds_out() {
+            all.settle();
+        }
+        let is_table = !self.holds_out() && all.table().is_some();
+        if is_table {
+            return Parts { fit: all.clone(), choose: all.clone(), all, is_table };
+        }
+        let part = |choosing: bool| {
+            let rows = known.iter().enumerate().filter(|(_, row)| is_choosing(**row, self.options.group) == choosing);
+            all.pick(&rows.map(|(at, _)| at).collect::<Vec<_>>())
+        };
+        Parts { fit: part(false), choose: part(true), all, is_table }
+    }
+
+    fn holds_out(&self) -> bool {
+        self.held_out.rows > 0
     }
 
     /// How much is done, and how much there is.
@@ -263,14 +308,16 @@ impl Learner {
             return false;
         };
         let next = match phase {
-            Phase::Trying { parts, fitting, methods, tried, best } => {
-                match self.try_method(parts, fitting, methods, tried, best) {
+            Phase::Trying { parts, fitting, methods, tried, found } => {
+                match self.try_method(parts, fitting, methods, tried, found, &choices) {
                     Tries::More(phase) => Some(*phase),
-                    Tries::Best(choice, tried) => {
-                        choices.push((choice, tried));
+                    Tries::Best(choice) => {
+                        choices.push(choice);
                         Some(if choices.len() < bits.len() {
                             self.trying(bits.start + choices.len())
-                        } else if let Some(classes) = self.classes(&bits, false) {
+                        } else if let Some(classes) = self.classes(&bits, false)
+                            && !choices.iter().all(|bit| bit.is_final)
+                        {
                             self.coding(CodeShape::ALL.to_vec(), None, classes, port)
                         } else {
                             self.again(&bits, &choices, 0)
@@ -285,16 +332,16 @@ impl Learner {
                 } else {
                     let shape = fitting.shape();
                     let (graph, literals) = fitting.finish(&classes);
-                    let (worth, tried) = self.rate(&graph, &literals, &bits, shape.to_string());
+                    let Rating { worth, wrong, tried, .. } = self.rate(&graph, &literals, &bits, shape.to_string());
                     let best = match worth {
                         Some(worth) if best.as_ref().is_none_or(|best| worth > best.worth) => {
-                            Some(CodeChoice { shape, worth, graph, literals })
+                            Some(CodeChoice { shape, worth, wrong, graph, literals })
                         }
                         _ => best,
                     };
                     codes.push(tried);
                     Some(if shapes.is_empty() {
-                        let won = best.filter(|best| best.worth > self.worth_of(&choices, &bits));
+                        let won = best.filter(|best| self.is_better(best, &choices, &bits));
                         // All training rows may have too many values, though those to learn from have few.
                         match won.and_then(|choice| Some((choice, self.classes(&bits, true)?))) {
                             Some((choice, all)) => {
@@ -308,14 +355,26 @@ impl Learner {
                     })
                 }
             }
-            Phase::Again { parts, fitting } => match fitting.advance(&parts.all) {
-                FittingStep::More(fitting) => Some(Phase::Again { parts, fitting }),
+            Phase::Again { parts, fitting, mut others, learned: first } => match fitting.advance(&parts.all) {
+                FittingStep::More(fitting) => Some(Phase::Again { parts, fitting, others, learned: first }),
                 FittingStep::Done(found) => {
-                    let found = found.unwrap_or_else(|| Fitted::constant(&parts.all));
+                    let at = learned.len();
                     // From more rows it may have grown too large.
-                    let fits = self.worth(1.0, found.ands(), 1).is_some();
-                    learned.push(if fits { found } else { choices[learned.len()].0.fitted.clone() });
-                    (learned.len() < bits.len()).then(|| self.again(&bits, &choices, learned.len()))
+                    let found = found.filter(|found| found.ands() <= choices[at].gates);
+                    let is_exact = found.as_ref().is_some_and(|found| found.accuracy(&parts.all) == 1.0);
+                    let best = match (first, found) {
+                        (Some(first), Some(_)) if !is_exact => first,
+                        (first, found) => found.or(first).unwrap_or_else(|| choices[at].choice.fitted.clone()),
+                    };
+                    if !is_exact && !others.is_empty() {
+                        let fitting = Fitting::new(others.remove(0), &parts.all.inputs);
+                        Some(Phase::Again { parts, fitting, others, learned: Some(best) })
+                    } else {
+                        let constant = Fitted::most(&parts.all);
+                        let is_worse = best.accuracy(&parts.all) < constant.accuracy(&parts.all);
+                        learned.push(if is_worse { constant } else { best });
+                        (at + 1 < bits.len()).then(|| self.again(&bits, &choices, at + 1))
+                    }
                 }
             },
             Phase::CodingAgain { classes, mut fitting, choice } => {
@@ -324,7 +383,7 @@ impl Learner {
                 } else {
                     let what = fitting.shape().to_string();
                     let (graph, literals) = fitting.finish(&classes);
-                    let fits = self.worth(1.0, graph.ands(&literals), bits.len()).is_some();
+                    let fits = graph.ands(&literals) <= self.share(bits.len()).min(self.left(&[]));
                     let (graph, literals) = if fits { (graph, literals) } else { (choice.graph, choice.literals) };
                     learned.extend(literals.into_iter().map(|literal| Fitted {
                         graph: graph.clone(),
@@ -339,57 +398,107 @@ impl Learner {
             self.work = Some(PortWork { port, bits, phase, choices, learned, codes });
             return true;
         }
-        for (fitted, (_, tried)) in learned.into_iter().zip(choices) {
+        let rows = self.port_rows(&bits, |_| true);
+        let (number, most) = rows.most_frequent();
+        let mut graph = GateGraph::new(rows.inputs.len());
+        let literals: Vec<Literal> = learned.iter().map(|fitted| graph.adopt(&fitted.graph, fitted.literal)).collect();
+        if most > 0 && rows.right(&graph.values(&rows.inputs, &literals)).count() < most {
+            learned = number.into_iter().map(|bit| Fitted::constant(rows.inputs.len(), bit)).collect();
+        }
+        for (fitted, bit) in learned.into_iter().zip(&choices) {
             self.literals.push(self.graph.adopt(&fitted.graph, fitted.literal));
-            let tried = tried.into_iter().chain(codes.iter().cloned()).collect();
+            let tried = bit.tried.iter().chain(&codes).cloned().collect();
             self.outputs.push(LearnedOutput { what: fitted.what, tried });
         }
+        self.used += choices.iter().map(|bit| bit.gates).sum::<usize>();
+        self.used = self.used.max(self.graph.ands(&self.literals));
         self.work = self.port(port + 1);
         self.work.is_some()
     }
 
-    /// The next portion of a method that is tried.
+    /// The next portion of a method that is tried, after the choices for the bits before.
     fn try_method(
         &self,
         parts: Parts,
         fitting: Fitting,
         mut methods: Vec<LearningMethod>,
         mut tried: Vec<Tried>,
-        mut best: Option<Choice>,
+        mut found: Vec<Choice>,
+        before: &[BitChoice],
     ) -> Tries {
         let method = fitting.method();
-        let mut is_exact = false;
+        let left = self.left(before);
+        let share = self.share(1).min(left);
+        let mut is_right = false;
         match fitting.advance(&parts.fit) {
             FittingStep::More(fitting) => {
-                return Tries::More(Box::new(Phase::Trying { parts, fitting, methods, tried, best }));
+                return Tries::More(Box::new(Phase::Trying { parts, fitting, methods, tried, found }));
             }
             FittingStep::Done(None) => {}
             FittingStep::Done(Some(fitted)) => {
                 let (accuracy, ands) = (fitted.accuracy(&parts.choose), fitted.ands());
                 tried.push(Tried { method: method.to_string(), accuracy, ands });
-                if let Some(worth) = self.worth(accuracy, ands, 1) {
-                    is_exact = accuracy == 1.0 && fitted.accuracy(&parts.fit) == 1.0;
-                    if best.as_ref().is_none_or(|best| worth > best.worth) {
-                        best = Some(Choice { method, worth, fitted });
-                    }
+                let is_exact = fitted.accuracy(&parts.fit) == 1.0;
+                // The smallest exact circuit of a table may take what others leave.
+                if ands <= if parts.is_table && is_exact { left } else { share } {
+                    is_right = is_exact && accuracy == 1.0;
+                    let wrong = fitted.wrong(&parts.choose);
+                    found.push(Choice { method, worth: self.worth(accuracy, ands, 1), wrong, is_exact, fitted });
+                    let better = |one: &Choice, two: &Choice| two.worth.total_cmp(&one.worth);
+                    found.sort_by(|one, two| better(one, two).then(one.fitted.ands().cmp(&two.fitted.ands())));
                 }
             }
         }
-        // Nothing that comes later is better than what is recognized in all rows.
-        if is_exact && method.is_recognition() {
+        if is_right && parts.is_table && parts.fit.target.rows() <= FEW {
+            // A smaller circuit may come later, but not of many trees.
+            methods.retain(|method| !matches!(method, LearningMethod::Forest { .. }));
+        } else if is_right && method.is_recognition() {
+            // Nothing that comes later is better than what is recognized in all rows.
             methods.clear();
         }
         // Where nothing that was grown fits the budget, smaller and smaller trees are tried.
-        if methods.is_empty() && !is_exact && best.as_ref().is_none_or(|best| !best.method.is_grown()) {
+        if methods.is_empty() && !is_right && found.first().is_none_or(|best| !best.method.is_grown()) {
             methods.extend(method.smaller_tree(parts.fit.target.rows()));
         }
         if methods.is_empty() {
-            let constant =
-                || Choice { method: LearningMethod::Constant, worth: 0.0, fitted: Fitted::constant(&parts.fit) };
-            return Tries::Best(best.unwrap_or_else(constant), tried);
+            return Tries::Best(self.chosen(found, tried, &parts, share));
         }
         let fitting = Fitting::new(methods.remove(0), &parts.fit.inputs);
-        Tries::More(Box::new(Phase::Trying { parts, fitting, methods, tried, best }))
+        Tries::More(Box::new(Phase::Trying { parts, fitting, methods, tried, found }))
+    }
+
+    /// The best of the methods that were tried on an output bit. If nothing is held out, an exact one is better than
+    /// others that are not clearly more accurate.
+    fn chosen(&self, mut found: Vec<Choice>, tried: Vec<Tried>, parts: &Parts, share: usize) -> BitChoice {
+        if found.is_empty() {
+            let (method, fitted) = (LearningMethod::Constant, Fitted::most(&parts.fit));
+            found.push(Choice { method, worth: 0.0, wrong: 0, is_exact: false, fitted });
+        }
+        let (least, rows) = (found[0].wrong, parts.choose.target.rows());
+        let is_preferred =
+            |choice: &Choice| !self.holds_out() && choice.is_exact && !is_clearly_more(choice.wrong, least, rows);
+        found.sort_by_key(|choice| !is_preferred(choice));
+        let choice = found.remove(0);
+        found.retain(|other| is_preferred(&choice) && is_preferred(other));
+        let others = found.iter().map(|other| other.method).collect();
+        let is_final = parts.is_table && choice.is_exact;
+        let gates = if is_final { choice.fitted.ands() } else { share };
+        BitChoice { choice, others, tried, is_final, gates }
+    }
+
+    /// An equal share of the permitted AND gates for so many output bits.
+    fn share(&self, bits: usize) -> usize {
+        self.options.gates.saturating_mul(bits) / self.training.outputs.len()
+    }
+
+    /// The AND gates that are left beside the outputs so far and some bits of the next port.
+    fn left(&self, bits: &[BitChoice]) -> usize {
+        self.options.gates - self.used - bits.iter().map(|bit| bit.gates).sum::<usize>()
+    }
+
+    /// What an accuracy is worth with so many AND gates for so many output bits.
+    fn worth(&self, accuracy: f64, ands: usize, bits: usize) -> f64 {
+        accuracy - PRICE * ands as f64 / self.share(bits).max(1) as f64
     }
 
     /// The next code.
@@ -399,16 +508,10 @@ impl Learner {
     }
 
     /// The chosen method for an output bit, on all training rows.
-    fn again(&self, bits: &Range<usize>, choices: &[(Choice, Vec<Tried>)], at: usize) -> Phase {
-        let parts = Parts::of(&self.training, bits.start + at, self.options.group);
-        let fitting = Fitting::new(choices[at].0.method, &parts.all.inputs);
-        Phase::Again { parts, fitting }
-    }
-
-    /// What an accuracy is worth with so many AND gates for so many output bits; `None` if these are too many.
-    fn worth(&self, accuracy: f64, ands: usize, bits: usize) -> Option<f64> {
-        let budget = self.options.gates * bits / self.training.outputs.len();
-        (ands <= budget).then(|| accuracy - PRICE * ands as f64 / budget.max(1) as f64)
+    fn again(&self, bits: &Range<usize>, choices: &[BitChoice], at: usize) -> Phase {
+        let parts = self.parts(bits.start + at);
+        let fitting = Fitting::new(choices[at].choice.method, &parts.all.inputs);
+        Phase::Again { parts, fitting, others: choices[at].others.clone(), learned: None }
     }
 
     /// The training rows that are `wanted` and say what all bits of a port are.
@@ -430,25 +533,25 @@ impl Learner {
     }
 
     /// What a circuit for all bits of a port is worth by the choosing rows.
-    fn rate(
-        &self,
-        graph: &GateGraph,
-        literals: &[Literal],
-        bits: &Range<usize>,
-        method: String,
-    ) -> (Option<f64>, Tried) {
+    fn rate(&self, graph: &GateGraph, literals: &[Literal], bits: &Range<usize>, method: String) -> Rating {
         let rows = self.port_rows(bits, |row| is_choosing(row, self.options.group));
         let right = if rows.rows == 0 { 0 } else { rows.right(&graph.values(&rows.inputs, literals)).count() };
         let (accuracy, ands) = (right as f64 / rows.rows.max(1) as f64, graph.ands(literals));
-        (self.worth(accuracy, ands, bits.len()), Tried { method, accuracy, ands })
+        let fits = ands <= self.share(bits.len()).min(self.left(&[]));
+        let worth = fits.then(|| self.worth(accuracy, ands, bits.len()));
+        Rating { worth, wrong: rows.rows - right, rows: rows.rows, tried: Tried { method, accuracy, ands } }
     }
 
-    /// What the best methods for each bit of a port are worth together.
-    fn worth_of(&self, choices: &[(Choice, Vec<Tried>)], bits: &Range<usize>) -> f64 {
+    /// Whether a code is better than the best methods for each bit of its port. If nothing is held out and these are
+    /// exact, it must be clearly better.
+    fn is_better(&self, code: &CodeChoice, choices: &[BitChoice], bits: &Range<usize>) -> bool {
         let mut graph = GateGraph::new(self.training.inputs.len());
-        let literals: Vec<Literal> =
-            choices.iter().map(|(choice, _)| graph.adopt(&choice.fitted.graph, choice.fitted.literal)).collect();
-        self.rate(&graph, &literals, bits, String::new()).0.unwrap_or(0.0)
+        let fitted = choices.iter().map(|bit| &bit.choice.fitted);
+        let literals: Vec<Literal> = fitted.map(|fitted| graph.adopt(&fitted.graph, fitted.literal)).collect();
+        let alone = self.rate(&graph, &literals, bits, String::new());
+        let is_exact = !self.holds_out() && choices.iter().all(|bit| bit.choice.is_exact);
+        let is_clear = is_clearly_more(alone.wrong, code.wrong, alone.rows);
+        code.worth > alone.worth.unwrap_or(0.0) && (!is_exact || is_clear)
     }
 
     /// The circuit.
@@ -462,8 +565,122 @@ impl Learner {
     }
 }
 
+/// A circuit for all bits of a port, by the choosing rows.
+struct Rating {
+    /// `None` if it has too many gates.
+    worth: Option<f64>,
+    wrong: usize,
+    rows: usize,
+    tried: Tried,
+}
+
 /// How far the methods for an output bit came.
 enum Tries {
     More(Box<Phase>),
-    Best(Choice, Vec<Tried>),
+    Best(BitChoice),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::examples::Wanted;
+
+    /// Rows of input bits with output bits.
+    fn examples(inputs: usize, outputs: usize, rows: &[(u64, u64)]) -> Examples {
+        let bits = |width: usize, number: &dyn Fn(usize) -> u64| -> Vec<Bits> {
+            (0..width).map(|bit| Bits::of((0..rows.len()).map(|row| number(row) >> bit & 1 == 1))).collect()
+        };
+        let wanted = |value| Wanted { known: Bits::all(rows.len(), true), value };
+        let outputs = bits(outputs, &|row| rows[row].1).into_iter().map(wanted).collect();
+        Examples { inputs: bits(inputs, &|row| rows[row].0), outputs, rows: rows.len() }
+    }
+
+    /// From all rows.
+    fn options(gates: usize, group: usize) -> LearnOptions {
+        LearnOptions { gates, group, hold_out: 0.0, ..LearnOptions::default() }
+    }
+
+    fn learned(examples: &Examples, ports: &[usize], options: LearnOptions) -> LearnedCircuit {
+        let gates = options.gates;
+        let mut learner = Learner::new(examples, ports, options);
+        while learner.advance() {}
+        let circuit = learner.finish();
+        assert!(circuit.ands() <= gates, "{} of {gates}", circuit.ands());
+        circuit
+    }
+
+    fn is_exact(examples: &Examples, circuit: &LearnedCircuit) -> bool {
+        circuit.accuracy(examples).right == examples.rows
+    }
+
+    #[test]
+    fn every_table_of_three_inputs_is_learned_exactly_with_few_gates() {
+        for inputs in 1..=3 {
+            for function in 0..1u64 << (1 << inputs) {
+                let rows: Vec<(u64, u64)> = (0..1 << inputs).map(|row| (row, function >> row & 1)).collect();
+                let examples = examples(inputs, 1, &rows);
+                let circuit = learned(&examples, &[1], options(5_000, 1));
+                assert!(is_exact(&examples, &circuit), "{function:b}: {:?}", circuit.outputs);
+                assert!(circuit.ands() <= 8, "{function:b}: {} gates", circuit.ands());
+            }
+        }
+    }
+
+    /// Numbers that look random.
+    fn random(at: u64) -> u64 {
+        (at + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 33
+    }
+
+    #[test]
+    fn rows_that_do_not_contradict_each_other_are_learned_exactly() {
+        for inputs in 4..=8 {
+            let all: Vec<(u64, u64)> = (0..1 << inputs).map(|row| (row, random(row) & 7)).collect();
+            let mut some = all.clone();
+            some.retain(|(row, _)| !random(row + 1_000).is_multiple_of(3));
+            for (rows, ports, group) in [(&all, &[1, 2][..], 1), (&some, &[1, 1, 1], 1), (&some, &[3], 3)] {
+                let examples = examples(inputs, 3, rows);
+                assert!(is_exact(&examples, &learned(&examples, ports, options(5_000, group))), "{inputs} {ports:?}");
+            }
+        }
+        let wide: Vec<(u64, u64)> = (0..1 << 11).map(|row| (row, random(row) & 1)).collect();
+        let wide = examples(11, 1, &wide);
+        assert!(is_exact(&wide, &learned(&wide, &[1], options(1_200, 1))));
+        let one = examples(3, 2, &[(5, 2)]);
+        assert!(is_exact(&one, &learned(&one, &[2], options(0, 7))));
+    }
+
+    #[test]
+    fn an_output_may_have_the_gates_that_others_leave() {
+        let random: Vec<(u64, u64)> = (0..256).map(|row| (row, random(row) & 1 | row << 1 & 2)).collect();
+        let examples = examples(8, 2, &random);
+        let alone = learned(&examples, &[1, 1], options(5_000, 1)).ands();
+        assert!(is_exact(&examples, &learned(&examples, &[1, 1], options(alone, 1))), "{alone}");
+        assert!(!is_exact(&examples, &learned(&examples, &[1, 1], options(alone - 1, 1))));
+    }
+
+    #[test]
+    fn no_output_is_right_in_fewer_rows_than_a_constant() {
+        for seed in 0..240u64 {
+            let (inputs, width, count) = (1 + seed % 6, 1 + seed as usize % 2, 1 + random(seed) % 90);
+            let number = |at: u64| random(seed * 1_000 + at);
+            let value =
+                |at: u64| if seed.is_multiple_of(3) { u64::from(number(at) % 5 == 0) * 3 } else { number(at + 500) };
+            let rows: Vec<(u64, u64)> = (0..count).map(|at| (number(at) % (1 << inputs), value(at))).collect();
+            let examples = examples(inputs as usize, width, &rows);
+            let gates = [0, 3, 20, 5_000][seed as usize / 2 % 4];
+            for hold_out in [0.0, 20.0] {
+                let circuit = learned(&examples, &[width], LearnOptions { gates, hold_out, ..LearnOptions::default() });
+                let (right, least) = (circuit.accuracy(&circuit.training).right, circuit.training.most_frequent().1);
+                assert!(right >= least, "seed {seed}: {right} of {count}, {least} by a constant");
+                // Of equal rows, most are right.
+                let mut best = examples.of_output(0, &(0..examples.rows).collect::<Vec<_>>());
+                best.settle();
+                let most = best.target.xor(&examples.outputs[0].value).not().count();
+                assert!(
+                    hold_out > 0.0 || gates < 5_000 || width > 1 || right == most,
+                    "seed {seed}: {right} of {most}"
+                );
+            }
+        }
+    }
 }

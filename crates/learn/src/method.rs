@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use crate::arithmetic::entry;
 use crate::bits::Bits;
 use crate::cubes::Cubes;
 use crate::examples::OutputRows;
@@ -23,6 +24,8 @@ pub enum LearningMethod {
     Arithmetic,
     /// A chain of majorities.
     Chain,
+    /// A multiplexer for each input and value of the inputs before, if all values are there.
+    Table,
     /// Two-level logic of the rows with ones, or with zeros.
     Cubes {
         /// Whether the cubes are those of the ones.
@@ -51,7 +54,7 @@ pub enum LearningMethod {
 impl LearningMethod {
     /// All that are tried, the cheap ones first.
     pub fn all() -> Vec<Self> {
-        let mut all = vec![Self::Constant, Self::Parity, Self::Count, Self::Arithmetic, Self::Chain];
+        let mut all = vec![Self::Constant, Self::Parity, Self::Count, Self::Arithmetic, Self::Chain, Self::Table];
         for (ones, least) in [(true, 1), (false, 1), (true, 3), (false, 3)] {
             all.push(Self::Cubes { ones, least });
         }
@@ -103,6 +106,7 @@ impl fmt::Display for LearningMethod {
             Self::Count => f.write_str("a function of the number of ones"),
             Self::Arithmetic => f.write_str("a bit of arithmetic"),
             Self::Chain => f.write_str("a chain of majorities"),
+            Self::Table => f.write_str("a table of all inputs"),
             Self::Cubes { ones, least } => {
                 write!(f, "two-level logic of the {}", if *ones { "ones" } else { "zeros" })?;
                 if *least > 1 { write!(f, ", {least} rows a cube or more") } else { Ok(()) }
@@ -167,11 +171,16 @@ impl Fitting {
     pub fn advance(mut self, subject: &OutputRows) -> FittingStep {
         let OutputRows { inputs, target } = subject;
         let found = match self.method {
-            LearningMethod::Constant => return FittingStep::Done(Some(Fitted::constant(subject))),
+            LearningMethod::Constant => return FittingStep::Done(Some(Fitted::most(subject))),
             LearningMethod::Parity => recognize::parity(&mut self.graph, inputs, target),
             LearningMethod::Count => Some(recognize::of_count(&mut self.graph, inputs, target)),
             LearningMethod::Arithmetic => recognize::arithmetic(&mut self.graph, inputs, target),
             LearningMethod::Chain => recognize::chain(&mut self.graph, inputs, target),
+            LearningMethod::Table => {
+                let word: Vec<Literal> = self.graph.inputs();
+                let what = self.method.to_string();
+                subject.table().map(|table| (entry(&mut self.graph, &word, &table), what))
+            }
             LearningMethod::Cubes { ones, least } => {
                 let wanted = if ones { target.clone() } else { target.not() };
                 let sum = Cubes::grow(&self.features, &wanted, least).build(&mut self.graph, &self.features);
@@ -219,17 +228,25 @@ impl Fitting {
 }
 
 impl Fitted {
+    /// A value for all rows.
+    pub fn constant(inputs: usize, value: bool) -> Self {
+        let literal = Literal::constant(value);
+        Self { graph: GateGraph::new(inputs), literal, what: LearningMethod::Constant.to_string() }
+    }
+
     /// The value of most rows.
-    pub fn constant(OutputRows { inputs, target }: &OutputRows) -> Self {
-        let literal = Literal::constant(target.count() * 2 > target.rows());
-        Self { graph: GateGraph::new(inputs.len()), literal, what: LearningMethod::Constant.to_string() }
+    pub fn most(OutputRows { inputs, target }: &OutputRows) -> Self {
+        Self::constant(inputs.len(), target.count() * 2 > target.rows())
     }
 
     /// The share of rows that it gets right.
-    pub fn accuracy(&self, OutputRows { inputs, target }: &OutputRows) -> f64 {
-        let value = &self.graph.values(inputs, &[self.literal])[0];
-        let wrong = value.xor(target).count();
-        1.0 - wrong as f64 / target.rows().max(1) as f64
+    pub fn accuracy(&self, rows: &OutputRows) -> f64 {
+        1.0 - self.wrong(rows) as f64 / rows.target.rows().max(1) as f64
+    }
+
+    /// The number of rows that it gets wrong.
+    pub fn wrong(&self, OutputRows { inputs, target }: &OutputRows) -> usize {
+        self.graph.values(inputs, &[self.literal])[0].xor(target).count()
     }
 
     /// Its AND gates.

@@ -1,5 +1,6 @@
 //! Circuits that are learned from the rows of a file.
 
+use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Column;
 use nbc_base::source::SourceFile;
@@ -60,14 +61,23 @@ impl Learning {
     /// Reads rows, and begins to learn.
     ///
     /// # Errors
-    /// When the rows cannot be read, or there is nothing to learn from.
+    /// When the rows cannot be read, there is nothing to learn from, or too much, or the options are out of range.
     pub fn new(request: &LearningRequest<'_>) -> Result<Self, Vec<Diagnostic>> {
         let LearningRequest { circuit, rows, outputs, options } = *request;
         let one = |fault: Diagnostic| vec![fault];
+        if options.group == 0 {
+            return Err(one(LearningError::NoGroup.into()));
+        }
+        if !(0.0..100.0).contains(&options.hold_out) {
+            return Err(one(LearningError::HoldOut { percent: options.hold_out }.into()));
+        }
         let format = RowFormat::of_path(&rows.name);
         let format = format.ok_or_else(|| one(LearningError::Format { file: rows.name.clone() }.into()))?;
         let file = format.read(rows)?;
         let (inputs, outputs) = file.ports(outputs).map_err(one)?;
+        let [given, wanted] = [&inputs, &outputs].map(|ports| ports.iter().map(|port| port.width).sum::<usize>());
+        let too_large = |_| one(LearningError::TooLarge { inputs: given, outputs: wanted }.into());
+        Limit::LearnedBits.permit((given as u64).saturating_mul(wanted as u64)).map_err(too_large)?;
         let examples = Examples::of(&file.bind(circuit, &inputs, &outputs)?);
         let held_out = options.held_out(examples.rows);
         if held_out >= examples.rows {
@@ -107,5 +117,32 @@ impl Learning {
         let named: Vec<_> = bits(&outputs).into_iter().zip(circuit.literals.iter().copied()).collect();
         let logic = circuit.graph.netlist(&name, &bits(&inputs), &named);
         Learned { design: Design::new(logic, Vec::new()), inputs, outputs, circuit }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nbc_base::source::Sources;
+
+    #[test]
+    fn options_out_of_range_are_refused() {
+        let mut sources = Sources::default();
+        let file = sources.add("and.csv", "a,b,q\n0,0,0\n0,1,0\n1,0,0\n1,1,1\n");
+        let begun = |options| {
+            let request = LearningRequest { circuit: "f", rows: sources.file(file), outputs: &[], options };
+            Learning::new(&request).map_err(|faults| faults[0].message.clone())
+        };
+        let options = LearnOptions { hold_out: 0.0, ..LearnOptions::default() };
+        let refused = |options, message: &str| assert_eq!(begun(options).err().as_deref(), Some(message));
+        refused(LearnOptions { group: 0, ..options }, "invalid group of 0 rows; expected at least 1");
+        for hold_out in [f64::NAN, -1.0, 100.0] {
+            let message = format!("invalid share {hold_out} % to hold out; expected a number from 0 to less than 100");
+            refused(LearnOptions { hold_out, ..options }, &message);
+        }
+        let mut learning = begun(LearnOptions { group: usize::MAX, gates: usize::MAX, ..options }).unwrap();
+        while learning.advance() {}
+        let circuit = learning.finish().circuit;
+        assert_eq!((circuit.ands(), circuit.accuracy(&circuit.training).right), (1, 4));
     }
 }

@@ -1,6 +1,7 @@
 //! Errors and warnings of compiling and running a program that has no errors itself, and their messages.
 
 use crate::report;
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted, suggest};
 use nbc_base::model::{Behavior, ImageSize};
 use nbc_base::source::Span;
@@ -14,6 +15,12 @@ use nbc_swarm::WeakRobot;
 pub(super) enum LearningError {
     /// A file name without the extension of rows.
     Format { file: String },
+    /// Rows that belong together, but none.
+    NoGroup,
+    /// A share that is held out and is no share.
+    HoldOut { percent: f64 },
+    /// A circuit of too many inputs and outputs.
+    TooLarge { inputs: usize, outputs: usize },
     /// So few rows that none are left to learn from.
     NoTraining { rows: usize, percent: f64 },
     /// A circuit whose confusions are no table.
@@ -26,6 +33,23 @@ impl From<LearningError> for Diagnostic {
             LearningError::Format { file } => {
                 let message = format!("unrecognized format of the rows in `{file}`; expected .csv or .pla");
                 Self::without_place(Code::BadValue, message)
+            }
+            LearningError::NoGroup => {
+                Self::without_place(Code::BadValue, "invalid group of 0 rows; expected at least 1")
+            }
+            LearningError::HoldOut { percent } => {
+                let message =
+                    format!("invalid share {percent} % to hold out; expected a number from 0 to less than 100");
+                Self::without_place(Code::BadValue, message)
+            }
+            LearningError::TooLarge { inputs, outputs } => {
+                let (inputs, outputs) = (counted(inputs, "input bit"), counted(outputs, "output bit"));
+                let most = Limit::LearnedBits.most();
+                Self::without_place(
+                    Code::TooLarge,
+                    format!("a circuit of {inputs} and {outputs} is too large to learn"),
+                )
+                .with_help(format!("expected at most {most} input bits times output bits"))
             }
             LearningError::NoTraining { rows, percent } => {
                 let message = format!("{percent} % of {} leave none to learn from", counted(rows, "row"));

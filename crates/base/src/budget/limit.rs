@@ -64,6 +64,7 @@ limits! {
     TriedBits = 16, "input bits", "of a test over all inputs";
     Rows = 200_000, "rows of tests", "over all tests and worlds of a program, repeated ones counted each time";
     RowBits = 1 << 26, "bits in rows of tests", "over all tests and worlds of a program";
+    LearnedBits = 1 << 16, "input bits times output bits", "of a circuit that is learned";
     Repetitions = 1_000_000, "repetitions", "of a row until an output has a value";
     PropertySteps = 1_000, "steps", "within which a property says that something happens";
     SwarmGates = 400_000, "gates", "of a circuit that is to be a swarm, before it is mapped";

@@ -20,55 +20,55 @@ pub(super) fn read(text: &str, file: FileId) -> Result<RowFile, Vec<Diagnostic>>
     let mut lines = lines(text, file);
     let header = lines.next().ok_or_else(|| vec![RowFileError::Empty.at(Span::new(file, 0, 0))])?;
     let mut columns = columns(&header)?;
-    let (mut values, mut errors) = (Vec::new(), Vec::new());
+    // Nothing is made of a row before the bits of all are counted.
+    let rows = lines.clone();
+    let (mut count, mut errors) = (0, Vec::new());
     for line in lines {
-        let span = line[0].1.to(line[line.len() - 1].1);
-        if Limit::Rows.permit(values.len() as u64 + 1).is_err() {
+        let span = span(&line);
+        if Limit::Rows.permit(count + 1).is_err() {
             errors.push(RowFileError::TooManyRows.at(span));
             break;
         }
-        match row(&line, &columns, span) {
-            Ok(row) => values.push((row, span)),
+        match widen(&mut columns, &line, span) {
+            Ok(()) => count += 1,
             Err(error) => errors.push(error),
         }
         if errors.len() == MOST_ERRORS {
             break;
         }
     }
-    if errors.is_empty() && values.is_empty() {
+    if errors.is_empty() && count == 0 {
         errors.push(RowFileError::NoRows.at(header[0].1));
     }
     if !errors.is_empty() {
         return Err(errors);
     }
-    for (row, _) in &values {
-        for (column, digits) in columns.iter_mut().zip(row) {
-            column.width = column.width.max(digits.as_ref().map_or(1, Vec::len));
-        }
-    }
     let width: usize = columns.iter().map(|column| column.width).sum();
-    if Limit::RowBits.permit((width as u64).saturating_mul(values.len() as u64)).is_err() {
+    if Limit::RowBits.permit((width as u64).saturating_mul(count)).is_err() {
         return Err(vec![RowFileError::TooManyBits.at(header[0].1)]);
     }
-    let widened = |(row, span): (Vec<Option<Vec<bool>>>, Span)| {
+    let row = |line: Vec<Cell<'_>>| {
         let mut bits = Vec::with_capacity(width);
-        for (column, digits) in columns.iter().zip(row) {
-            match digits {
-                None => bits.extend(std::iter::repeat_n(None, column.width)),
-                Some(digits) => {
-                    bits.extend(std::iter::repeat_n(Some(false), column.width - digits.len()));
-                    bits.extend(digits.into_iter().map(Some));
-                }
-            }
+        for (column, (word, _)) in columns.iter().zip(&line) {
+            push_bits(&mut bits, word, column.width);
         }
-        FileRow { bits, span }
+        FileRow { bits, span: span(&line) }
     };
-    let rows = values.into_iter().map(widened).collect();
+    let rows = rows.map(row).collect();
     Ok(RowFile { columns, rows })
 }
 
+/// The part of a long word that a message shows.
+fn beginning(span: Span) -> Span {
+    Span { end: span.end.min(span.start + 20), ..span }
+}
+
+fn span(line: &[Cell<'_>]) -> Span {
+    line[0].1.to(line[line.len() - 1].1)
+}
+
 /// The lines that have something, as their cells.
-fn lines(text: &str, file: FileId) -> impl Iterator<Item = Vec<Cell<'_>>> {
+fn lines(text: &str, file: FileId) -> impl Iterator<Item = Vec<Cell<'_>>> + Clone {
     let mut start = 0;
     text.split_inclusive('\n').filter_map(move |line| {
         let own = start;
@@ -88,7 +88,7 @@ fn lines(text: &str, file: FileId) -> impl Iterator<Item = Vec<Cell<'_>>> {
 }
 
 fn columns(header: &[Cell<'_>]) -> Result<Vec<RowColumn>, Vec<Diagnostic>> {
-    if header.iter().all(|(name, _)| digits(name).is_some()) {
+    if header.iter().all(|(name, _)| number_width(name).is_some()) {
         return Err(vec![RowFileError::NoHeader.at(header[0].1)]);
     }
     let mut errors = Vec::new();
@@ -97,7 +97,7 @@ fn columns(header: &[Cell<'_>]) -> Result<Vec<RowColumn>, Vec<Diagnostic>> {
         if name.is_empty() {
             errors.push(RowFileError::Unnamed.at(span));
         } else if Limit::FileNameBytes.permit(name.len() as u64).is_err() {
-            errors.push(RowFileError::LongName { bytes: name.len() }.at(Span { end: span.start + 20, ..span }));
+            errors.push(RowFileError::LongName { bytes: name.len() }.at(beginning(span)));
         } else if let Some(first) = known.insert(name, span) {
             errors.push(RowFileError::Twice { name: name.to_owned(), first }.at(span));
         }
@@ -109,33 +109,54 @@ fn columns(header: &[Cell<'_>]) -> Result<Vec<RowColumn>, Vec<Diagnostic>> {
     if errors.is_empty() { Ok(header.iter().map(column).collect()) } else { Err(errors) }
 }
 
-/// The bits of each cell of a row; `None` is any value.
-fn row(line: &[Cell<'_>], columns: &[RowColumn], span: Span) -> Result<Vec<Option<Vec<bool>>>, Diagnostic> {
+/// Makes columns as wide as the numbers of a row need.
+fn widen(columns: &mut [RowColumn], line: &[Cell<'_>], span: Span) -> Result<(), Diagnostic> {
     if line.len() != columns.len() {
         return Err(RowFileError::Width { values: line.len(), columns: columns.len() }.at(span));
     }
-    let value = |(&(word, span), column): (&Cell<'_>, &RowColumn)| match word {
-        "" | "-" => Ok(None),
-        _ => match digits(word) {
-            Some(bits) => Ok(Some(bits)),
-            None => Err(RowFileError::NotANumber { word: word.to_owned(), column: column.name.clone() }.at(span)),
-        },
-    };
-    line.iter().zip(columns).map(value).collect()
+    for (column, &(word, span)) in columns.iter_mut().zip(line) {
+        if matches!(word, "" | "-") {
+            continue;
+        }
+        let no_number =
+            || RowFileError::NotANumber { word: word.to_owned(), column: column.name.clone() }.at(beginning(span));
+        let width = number_width(word).ok_or_else(no_number)?;
+        let wide = |_| RowFileError::Wide { column: column.name.clone(), bits: width }.at(beginning(span));
+        Limit::Width.permit(width as u64).map_err(wide)?;
+        column.width = column.width.max(width);
+    }
+    Ok(())
+}
+
+fn hexadecimal(word: &str) -> Option<&str> {
+    word.strip_prefix("0x").or_else(|| word.strip_prefix("0X"))
+}
+
+fn decimal(word: &str) -> Option<u128> {
+    word.parse().ok().filter(|_| word.bytes().all(|digit| digit.is_ascii_digit()))
 }
 
 /// The bits of a number, at least one: those of a decimal number without zeros before the first 1, and four for each
 /// hexadecimal digit.
-fn digits(word: &str) -> Option<Vec<bool>> {
-    let bits = |value: u128, width: u32| (0..width).rev().map(move |bit| value >> bit & 1 == 1);
-    if let Some(hexadecimal) = word.strip_prefix("0x").or_else(|| word.strip_prefix("0X")) {
-        let values: Option<Vec<u32>> = hexadecimal.chars().map(|digit| digit.to_digit(16)).collect();
-        let values = values.filter(|values| !values.is_empty())?;
-        return Some(values.into_iter().flat_map(|value| bits(value.into(), 4)).collect());
+fn number_width(word: &str) -> Option<usize> {
+    match hexadecimal(word) {
+        Some(digits) => {
+            let is_number = !digits.is_empty() && digits.bytes().all(|digit| digit.is_ascii_hexdigit());
+            is_number.then_some(4 * digits.len())
+        }
+        None => decimal(word).map(|value| (u128::BITS - value.leading_zeros()).max(1) as usize),
     }
-    let is_decimal = !word.is_empty() && word.bytes().all(|digit| digit.is_ascii_digit());
-    let value: u128 = word.parse().ok().filter(|_| is_decimal)?;
-    Some(bits(value, (128 - value.leading_zeros()).max(1)).collect())
+}
+
+/// Adds the bits of a value in a column of so many.
+fn push_bits(bits: &mut Vec<Option<bool>>, word: &str, width: usize) {
+    let Some(own) = number_width(word) else { return bits.extend(std::iter::repeat_n(None, width)) };
+    bits.extend(std::iter::repeat_n(Some(false), width - own));
+    let mut push = |value: u128, width: usize| bits.extend((0..width).rev().map(|bit| Some(value >> bit & 1 == 1)));
+    match hexadecimal(word) {
+        Some(digits) => digits.chars().filter_map(|digit| digit.to_digit(16)).for_each(|digit| push(digit.into(), 4)),
+        None => push(decimal(word).unwrap_or(0), own),
+    }
 }
 
 #[cfg(test)]
@@ -169,5 +190,12 @@ mod tests {
         check("a,b\n0,-1\n", Err("`-1` is not a value of `b`"));
         check("a,b\n0,1.5\n", Err("`1.5` is not a value of `b`"));
         check("a,b\n0,0x\n", Err("`0x` is not a value of `b`"));
+        let long = |digits: usize| format!("a,q\n0x{},1\n0,0\n", "f".repeat(digits));
+        let most = Limit::Width.most() as usize / 4;
+        assert_eq!(read(&long(most), FileId(0)).map(|file| file.columns[0].width), Ok(4 * most));
+        check(&long(most + 1), Err("value of `a` has 1048580 bits"));
+        let widest = format!("0x{}", "f".repeat(most));
+        let many = format!("a,b,c,q\n{widest},{widest},{widest},1\n{}", "0,0,0,1\n".repeat(30));
+        check(&many, Err("the rows of the file have more than 67108864 bits"));
     }
 }

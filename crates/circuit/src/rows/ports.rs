@@ -1,5 +1,7 @@
 //! The ports that the columns of a file are.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use super::file::RowFile;
 use super::wording::RowFileError;
 use nbc_base::diag::{Diagnostic, Suggestion};
@@ -15,11 +17,12 @@ impl RowFile {
     /// # Errors
     /// When there is no such port, or no input is left.
     pub fn ports(&self, outputs: &[String]) -> Result<RowPorts, Diagnostic> {
-        let mut ports: Vec<(Column, Option<bool>)> = Vec::new();
+        let widths = self.bus_widths();
+        let (mut ports, mut seen): (Vec<(Column, Option<bool>)>, _) = (Vec::new(), BTreeSet::new());
         for column in &self.columns {
-            let bus = bit_parts(&column.name).and_then(|(base, _)| Some((base, self.bus_width(base)?)));
+            let bus = bit_parts(&column.name).and_then(|(base, _)| Some((base, *widths.get(base)?)));
             let (name, width) = bus.unwrap_or((&column.name, column.width));
-            if ports.iter().all(|(port, _)| port.name != name) {
+            if seen.insert(name) {
                 ports.push((Column::new(name, width), column.is_output));
             }
         }
@@ -44,17 +47,19 @@ impl RowFile {
         Ok((columns(inputs), columns(found)))
     }
 
-    /// The width of the bus of that name, if the file has all its bits.
-    fn bus_width(&self, base: &str) -> Option<usize> {
-        let bits: Vec<usize> = self
-            .columns
-            .iter()
-            .filter_map(|column| bit_parts(&column.name))
-            .filter(|(name, _)| *name == base)
-            .map(|(_, bit)| bit)
-            .collect();
-        // A bit is not there twice, because columns have different names.
-        (bits.iter().max() == Some(&(bits.len() - 1))).then_some(bits.len())
+    /// The widths of the buses of which the file has all bits.
+    fn bus_widths(&self) -> BTreeMap<&str, usize> {
+        // The number of bits, and the highest. No bit is there twice, because columns have different names.
+        let mut buses: BTreeMap<&str, (usize, usize)> = BTreeMap::new();
+        for (name, bit) in self.columns.iter().filter_map(|column| bit_parts(&column.name)) {
+            let (bits, highest) = buses.entry(name).or_default();
+            (*bits, *highest) = (*bits + 1, bit.max(*highest));
+        }
+        buses
+            .into_iter()
+            .filter(|(_, (bits, highest))| bits == &(highest + 1))
+            .map(|(name, (bits, _))| (name, bits))
+            .collect()
     }
 }
 

@@ -26,6 +26,8 @@ pub(super) enum RowFileError {
     Width { values: usize, columns: usize },
     /// A cell that is no number.
     NotANumber { word: String, column: String },
+    /// A number of too many bits.
+    Wide { column: String, bits: usize },
     /// Too many rows.
     TooManyRows,
     /// Too many bits in all rows.
@@ -93,6 +95,11 @@ impl RowFileError {
                 Code::Value,
                 &format!("`{word}` is not a value of `{column}`"),
                 "expected a whole number such as 5 or 0x1f, or `-` for any",
+            ),
+            Self::Wide { column, bits } => error(
+                Code::TooLarge,
+                &format!("value of `{column}` has {bits} bits"),
+                &format!("expected at most {}, four for each hexadecimal digit", Limit::Width.most()),
             ),
             Self::TooManyRows => error(
                 Code::TooLarge,
