@@ -125,7 +125,7 @@ impl<'a> Builder<'a> {
 
     /// The module of a circuit with numbers for its first parameters; it is named at `place`.
     pub(super) fn with_arguments(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> Option<ModuleId> {
-        let mut given: Vec<_> = arguments.iter().map(|&value| i128::try_from(value).ok()).collect();
+        let mut given: Vec<_> = arguments.iter().map(|&value| Some(value.into())).collect();
         given.resize(self.circuit(circuit).parameters.len(), None);
         let arguments = self.arguments(circuit, given, &[], place)?;
         self.build(ModuleKey { circuit, arguments, absent: Vec::new() })

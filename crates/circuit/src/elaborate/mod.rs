@@ -105,7 +105,7 @@ pub fn elaborate_reference(program: &Program, circuit: &Circuit) -> Result<Netli
 pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> bool {
     let complete = |instance: &Instance| {
         let circuit = program.circuit(&instance.circuit)?;
-        let mut given: Vec<_> = instance.arguments.iter().map(|&value| i128::try_from(value).ok()).collect();
+        let mut given: Vec<_> = instance.arguments.iter().map(|&value| Some(value.into())).collect();
         given.resize(circuit.parameters.len(), None);
         instance::arguments(circuit, given, &[], circuit.span).ok()
     };
