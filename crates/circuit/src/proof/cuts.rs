@@ -11,7 +11,7 @@ use crate::passes::{DissolveWires, Pass};
 use crate::{NetId, Netlist, NetlistError, Node};
 
 /// A cell at which a loop is cut.
-pub(super) struct Cut {
+pub(super) struct LoopCut {
     pub(super) cell: NetId,
     /// The name of the cell that it is in the mapping; none if no output depends on it.
     pub(super) name: Option<String>,
@@ -23,7 +23,7 @@ pub(super) struct Cut {
 ///
 /// # Errors
 /// When the netlist is not well formed.
-pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<Cut>, NetlistError> {
+pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<LoopCut>, NetlistError> {
     if Loops::of(netlist).cores().is_empty() {
         return Ok(Vec::new());
     }
@@ -36,10 +36,10 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<Cut>, 
     let names = core_names(&reduced, &Loops::memory(&reduced));
     let cut = |cell: NetId| {
         let merged = std::iter::successors(Some(cell), |id| merged.get(id).copied()).last().expect("there is a first");
-        Cut { cell, name: names.get(&merged).cloned(), merged }
+        LoopCut { cell, name: names.get(&merged).cloned(), merged }
     };
     let is_cell = |id: &NetId| matches!(netlist.node(*id), Node::Cell(_));
-    let mut cuts: Vec<Cut> = netlist.ids().filter(is_cell).map(cut).filter(|cut| cut.name.is_some()).collect();
+    let mut cuts: Vec<LoopCut> = netlist.ids().filter(is_cell).map(cut).filter(|cut| cut.name.is_some()).collect();
     let known: BTreeSet<NetId> = cuts.iter().map(|cut| cut.cell).collect();
     // Loops that no output depends on. Logic between their registers may drive an output nevertheless.
     let mut plain = netlist.clone();
