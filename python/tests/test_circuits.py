@@ -246,4 +246,6 @@ def test_a_search_ends_with_its_budget():
         wide.prove(seconds=-1)
     with pytest.raises(nbc.NbcError) as caught:
         nbc.loads("circuit ring(a) -> (q) { q = not q }\nprove ring { never q }").prove()
+    (found,) = nbc.loads("circuit c(a) -> (q) { q = a }\nprove c { assume a and not a\n never q }").prove()
+    assert found.proved and found.empty == "no step satisfies the assumptions"
     assert caught.value.diagnostics[0].code == "no-steps"

@@ -32,7 +32,7 @@ def refused(code: str) -> str:
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (WIDE + "test f {\n a | q\n repeat 999999 {\n 0 | -\n }\n}\n", "bits in rows of tests"),
+        (WIDE + "test f {\n a | q\n repeat 199999 {\n 0 | -\n }\n}\n", "bits in rows of tests"),
         (
             "circuit leaf[n](a) -> (q) { q = a }\n"
             "circuit mid[m](a) -> (q) { for i in 0..1000 { _ = leaf[m * 1000 + i](a) }\n q = a }\n"

@@ -122,6 +122,8 @@ class Property:
     """The steps of the induction or of the run that refutes it, or the first steps in which it is known to hold."""
     invariant: Tuple[str, ...] = field(repr=False)
     """The clauses that hold in every step, if an invariant proves it."""
+    empty: Optional[str]
+    """Why the proof says nothing: nothing is ever checked."""
     test: Optional[str] = field(repr=False)
     """The test whose last row violates it, as text."""
     physics: Optional[bool]
@@ -829,6 +831,7 @@ def _properties(claim: Mapping[str, Any], texts: Sequence[str]) -> List[Property
             method=known.get("method"),
             steps=known.get("steps"),
             invariant=tuple(known.get("invariant", ())),
+            empty=known.get("empty"),
             test=known.get("test"),
             physics=known.get("physics"),
             file=claim["file"],
