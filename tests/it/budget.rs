@@ -32,7 +32,7 @@ pub fn rows() -> Vec<(&'static str, String)> {
     let names: Vec<String> = (1..70).map(|at| format!("w{at}")).collect();
     let wide = "circuit f(a[16]) -> (q[400000]) { q = {400000{a[0]}} }\n";
     vec![
-        ("rows", format!("{WIDE}{}", test(" repeat 999999 {\n 0 | -\n }\n"))),
+        ("rows", format!("{WIDE}{}", test(" repeat 150000 {\n 0 | -\n }\n"))),
         ("nested", format!("{BIT}{}", test(&format!("{} 0 | 0\n{}", "repeat 1000 {\n".repeat(7), "}\n".repeat(7))))),
         ("worlds", format!("{worlds}{WIDE}test f in [{}] {{\n a | q\n 0 | -\n}}\n", names.join(", "))),
         ("repeated", format!("{BIT}{}", test(" repeat 999999 {\n 0 | 0\n }\n"))),
