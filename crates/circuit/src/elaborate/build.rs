@@ -185,8 +185,7 @@ impl<'a> Builder<'a> {
         (inputs, outputs)
     }
 
-    /// The net of that name which is no port, and where it is declared; `None` if there are several, as of
-    /// a loop.
+    /// The net of that name which is no port, and where it is declared; `None` if there are several, as of a loop.
     pub(super) fn inner_net(&self, id: ModuleId, name: &str) -> Option<(Column, Span)> {
         let module = self.module(id);
         let ports = module.inputs.len() + module.outputs.len();
