@@ -178,7 +178,7 @@ impl Context {
             let file = file.as_str();
             let words = match origin {
                 ProofOrigin::File => origin.to_string(),
-                ProofOrigin::Yosys { version, .. } => format!("{origin} (Yosys {version})"),
+                ProofOrigin::Slang { version, .. } => format!("{origin} (Yosys {version})"),
             };
             match lines.iter_mut().find(|(known, same, _)| *known == file && *same == words) {
                 Some((_, _, circuits)) => circuits.push(circuit.clone()),

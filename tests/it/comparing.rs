@@ -1,10 +1,7 @@
-//! Verilog beside its translation in Icarus Verilog, and what a result says of its proof.
-
-use std::path::PathBuf;
+//! Verilog as two readers read it, and what a result says of its proof.
 
 use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::tools::{IVERILOG, YOSYS};
+use crate::support::tools::SLANG;
 
 /// A counter with a reset, which starts at 5, and a register without a start value.
 const COUNTER: &str = "\
@@ -15,51 +12,65 @@ module counter(input clk, input rst_n, input en, input [2:0] step, output reg [5
 endmodule
 ";
 
-/// A folder of programs with some tools and no others.
-#[cfg(unix)]
-fn only(bench: &Bench, tools: &[PathBuf]) -> PathBuf {
-    let folder = bench.path().join("tools");
-    std::fs::create_dir_all(&folder).unwrap();
-    for tool in tools {
-        let link = folder.join(tool.file_name().unwrap());
-        let _ = std::fs::remove_file(&link);
-        std::os::unix::fs::symlink(std::fs::canonicalize(tool).unwrap(), link).unwrap();
-    }
-    folder
-}
-
-/// What `nbc synth` says with programs of these folders only.
-fn synth(bench: &Bench, file: &str, path: &str) -> (bool, String) {
-    let ran = bench.command(&["synth", file, "--cells", "nand,not"]).env("PATH", path).output_in_time();
-    let said = [ran.stdout, ran.stderr].map(|bytes| String::from_utf8(bytes).unwrap()).concat();
-    (ran.status.success(), said)
-}
-
-#[cfg(unix)]
-#[test]
-fn a_result_says_what_it_was_proved_from() {
-    let (Some(yosys), Some(_)) = (YOSYS.find(), IVERILOG.find()) else { return };
+/// What `nbc synth` says of a text, and the proof of its report.
+fn read(text: &str) -> (String, serde_json::Value) {
     let bench = Bench::new();
-    bench.file("counter.v", COUNTER);
-    let ran = bench.run(&["synth", "counter.v", "--cells", "nand,not"]);
-    assert!(ran.out.contains("proved from yosys' netlist, 4,096 steps equal in iverilog,"), "{}{}", ran.out, ran.err);
-    let report = bench.run(&["synth", "counter.v", "--cells", "nand,not", "--format", "json"]).expect_json();
-    let version = report["proof"]["version"].as_str().unwrap();
-    let expected = serde_json::json!({"from": "yosys", "version": version, "simulator": "iverilog", "steps": 4096});
-    assert_eq!(report["proof"], expected);
-    assert!(ran.out.contains(&format!("read by Yosys {version}\n")), "{}", ran.out);
-    let without = only(&bench, &[yosys]);
-    let (is_done, said) = synth(&bench, "counter.v", without.to_str().unwrap());
-    let words = "proved from yosys' netlist, which was not simulated: iverilog is not installed";
-    assert!(is_done && said.contains(words), "{said}");
+    bench.file("m.sv", text);
+    let ran = bench.run(&["synth", "m.sv", "--cells", "nand,not"]);
+    let report = bench.run(&["synth", "m.sv", "--cells", "nand,not", "--format", "json"]).expect_json();
+    (ran.out + &ran.err, report["proof"].clone())
+}
+
+#[test]
+fn a_result_says_what_both_readers_make_of_a_file() {
+    if !SLANG.is_there() {
+        return;
+    }
+    let (said, proof) = read(COUNTER);
+    let version = proof["version"].as_str().unwrap();
+    assert!(said.contains("proved from the file, read alike by slang and by yosys,"), "{said}");
+    assert_eq!(proof, serde_json::json!({"from": "slang", "version": version, "second": "alike"}));
+    assert!(said.contains(&format!("read by Yosys {version}\n")), "{said}");
+    // A class of SystemVerilog's types that Yosys does not read.
+    let (said, proof) = read("module m(input logic a, output logic q);\n  timeunit 1ns;\n  assign q = ~a;\nendmodule\n");
+    assert!(said.contains("proved from slang's reading of the file, which yosys cannot read,"), "{said}");
+    assert_eq!(proof["second"], "unread");
+    let bench = Bench::new();
     bench.file("and.blif", ".model m\n.inputs a b\n.outputs y\n.names a b y\n11 1\n.end\n");
     let ran = bench.run(&["synth", "and.blif", "--cells", "nand,not"]);
     assert!(ran.out.contains("proved from the file,"), "{}", ran.out);
 }
 
+/// Yosys drops the part in the concatenation; the difference shows at once, at one key of 2^32, and after 2^20 edges.
+const DROPPED: [(&str, &str, &str); 3] = [
+    ("", "read module `m` differently", "`y` is "),
+    ("if (key == 32'hdeadbeef)", "read module `m` differently", "key = 11011110101011011011111011101111"),
+    ("if (n[20])", "may read module `m` differently", "in the state n = 100000000000000000000, which may never be reached"),
+];
+
+#[test]
+fn a_difference_between_both_readers_is_told_with_a_run() {
+    if !SLANG.is_there() {
+        return;
+    }
+    for (condition, message, run) in DROPPED {
+        let (said, proof) = read(&format!(
+            "module m(input clk, input [31:0] key, input [2:0] x, input [4:0] s, output reg [7:0] y);\n\
+             reg [20:0] n = 0; reg [7:0] t; reg u;\nalways @(posedge clk) if (!n[20]) n <= n + 1;\n\
+             always @* begin t = 0; {{u, t[x +: 4]}} = s; end\n\
+             always @* begin y = 0; {condition} y = t; end\nendmodule\n"
+        ));
+        let is_told = ["slang and yosys ", message, run, "slang's reading is used", "m.sv:1:8"];
+        assert!(is_told.iter().all(|words| said.contains(words)), "{condition}: {said}");
+        let is_sure = !message.contains("may");
+        assert_eq!(proof["second"], if is_sure { "different" } else { "equal" }, "{said}");
+        assert_eq!(proof["steps"].as_u64().is_some(), !is_sure);
+    }
+}
+
 #[test]
 fn programs_say_what_their_used_circuits_were_proved_from() {
-    if !YOSYS.is_there() || !IVERILOG.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -70,7 +81,7 @@ fn programs_say_what_their_used_circuits_were_proved_from() {
     let version =
         bench.run(&["synth", "m.v", "--top", "one", "--format", "json"]).expect_json()["proof"]["version"].clone();
     let verilog = format!(
-        "m.v: `one` and `two` proved from yosys' netlist, 4,096 steps equal in iverilog (Yosys {})\n",
+        "m.v: `one` and `two` proved from the file, read alike by slang and by yosys (Yosys {})\n",
         version.as_str().unwrap()
     );
     for arguments in [&["test", "p.nb", "--logic"][..], &["build", "p.nb", "--circuit", "one"]] {
@@ -79,76 +90,23 @@ fn programs_say_what_their_used_circuits_were_proved_from() {
         let lines = format!("{verilog}both.blif: `both` proved from the file\n");
         assert!(ran.err.contains(&lines) && !ran.out.contains("proved from"), "{arguments:?}: {}", ran.err);
     }
-    // An old version is told once, at its first use.
-    let minor = version.as_str().unwrap().split_once('.').and_then(|(_, minor)| minor.parse::<u32>().ok());
-    let is_old = minor.is_some_and(|minor| minor < 60);
-    bench.file("q.nb", "use \"m.v\"\nuse \"n.v\"\n");
-    bench.file("n.v", module("n"));
-    let said = bench.run(&["check", "q.nb"]).err;
-    assert_eq!(said.matches("which is old").count(), usize::from(is_old), "{said}");
-}
-
-/// A program that takes the place of Yosys and gives this netlist for every text.
-#[cfg(unix)]
-fn with_netlist(bench: &Bench, blif: &str) -> String {
-    use std::os::unix::fs::PermissionsExt;
-    bench.file("flat.blif", blif);
-    bench.file("written.il", "\nmodule \\m\n  wire output 1 \\y\nend\n");
-    let fake = "#!/bin/sh\nhere=$(dirname \"$0\")\ncp \"$here/flat.blif\" \"$here/written.il\" .\n\
-                touch chosen.il flat.il undriven.txt\n";
-    std::fs::set_permissions(bench.file("yosys", fake), std::fs::Permissions::from_mode(0o755)).unwrap();
-    format!("{}:{}", bench.path().display(), std::env::var("PATH").unwrap())
-}
-
-/// Modules with a wrong netlist for each, and the output that differs.
-const MISREAD: [(&str, &str, &str); 3] = [
-    (
-        "module m(input a, b, output y); assign y = a & b; endmodule\n",
-        ".model m\n.inputs a b\n.outputs y\n.names a b y\n1- 1\n.end\n",
-        "`y` is 0 in iverilog, and 1 in yosys' netlist",
-    ),
-    // A register with another start value shows it at the start.
-    (
-        "module m(input clk, d, output reg q); initial q = 1; always @(posedge clk) q <= d; endmodule\n",
-        ".model m\n.inputs clk d\n.outputs q\n.latch d q re clk 0\n.end\n",
-        "step 0: `q` is 1 in iverilog, and 0 in yosys' netlist",
-    ),
-    // A register of the other edge.
-    (
-        "module m(input clk, d, output reg q); always @(posedge clk) q <= d; endmodule\n",
-        ".model m\n.inputs clk d\n.outputs q\n.latch d q fe clk 0\n.end\n",
-        " in iverilog, and ",
-    ),
-];
-
-#[cfg(unix)]
-#[test]
-fn a_netlist_that_differs_from_its_source_is_an_error_with_the_step() {
-    if !IVERILOG.is_there() {
-        return;
-    }
-    for (source, blif, expected) in MISREAD {
-        let bench = Bench::new();
-        let path = with_netlist(&bench, blif);
-        bench.file("m.v", source);
-        bench.file("m.nb", "use \"m.v\"\n");
-        let check = bench.command(&["check", "m.nb"]).env("PATH", &path).output_in_time();
-        let check = (check.status.success(), String::from_utf8(check.stderr).unwrap());
-        for (is_done, said) in [synth(&bench, "m.v", &path), check] {
-            let told = said.contains("yosys misreads module `m` of `m.v`") && said.contains("step ");
-            assert!(!is_done && told && said.contains(expected), "{source}: {said}");
-        }
-    }
 }
 
 #[test]
-fn an_incomplete_sensitivity_list_is_told() {
-    if !YOSYS.is_there() || !IVERILOG.is_there() {
+fn an_incomplete_list_of_events_is_told_and_a_complete_one_is_not() {
+    if !SLANG.is_there() {
         return;
     }
-    let bench = Bench::new();
-    bench.file("m.v", "module m(input a, b, output reg y);\nalways @(a) y = a & b;\nendmodule\n");
-    bench.run(&["synth", "m.v", "--cells", "nand,not"]).expect_fault(&["misreads module `m`", "sensitivity", "m.v:1:"]);
+    let said = |events: &str| {
+        let text = format!("module m(input a, b, input [3:0] c, output reg y);\ninteger i;\n\
+            always @({events}) begin y = a & b; for (i = 0; i < 4; i = i + 1) y = y ^ c[i]; end\nendmodule\n");
+        read(&text).0
+    };
+    let lacking = said("a or c");
+    assert!(lacking.contains("`y` also depends on `b`, which its list of events lacks"), "{lacking}");
+    for complete in ["a or b or c", "a, b, c", "*"] {
+        assert!(!said(complete).contains("events"), "{complete}");
+    }
 }
 
 /// Modules that leave values open: registers without a start, `x`, and outputs that depend on them by an `if`.
@@ -166,15 +124,12 @@ const OPEN: [&str; 5] = [
 
 #[test]
 fn what_a_source_leaves_open_is_no_difference() {
-    if !YOSYS.is_there() || !IVERILOG.is_there() {
+    if !SLANG.is_there() {
         return;
     }
-    let bench = Bench::new();
-    for (at, source) in OPEN.into_iter().enumerate() {
-        bench.file("m.v", format!("{source}\n"));
-        let ran = bench.run(&["synth", "m.v", "--cells", "nand,not"]);
-        let compared = ran.out.contains(" steps equal in iverilog");
-        assert!(ran.status == 0 && compared, "{at}: {}{}", ran.out, ran.err);
+    for source in OPEN {
+        let (said, proof) = read(&format!("{source}\n"));
+        assert_eq!(proof["second"], "alike", "{source}: {said}");
     }
 }
 
@@ -191,7 +146,7 @@ endmodule
 
 #[test]
 fn ranges_that_count_upwards_keep_their_direction() {
-    if !YOSYS.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -229,7 +184,7 @@ endmodule
 
 #[test]
 fn start_values_are_written_whatever_a_reset_does() {
-    if !YOSYS.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     let bench = Bench::new();

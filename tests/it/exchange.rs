@@ -16,7 +16,7 @@ use regex::Regex;
 use crate::support::bench::Bench;
 use crate::support::programs::programs;
 use crate::support::root;
-use crate::support::tools::YOSYS;
+use crate::support::tools::SLANG;
 use crate::written::same;
 
 /// Every circuit of the gallery that has a test, as it is written.
@@ -202,26 +202,25 @@ fn low_bits_first(netlist: &Netlist) -> Netlist {
     netlist
 }
 
-/// Reads Verilog that was written, through Yosys.
-fn through_yosys(design: &Design) -> Design {
+/// Reads Verilog that was written.
+fn through_verilog(design: &Design) -> Design {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("x.v");
     std::fs::write(&path, CircuitFormat::Verilog.encode(design).unwrap()).unwrap();
     let (top, clock) = (&TopModule::default(), None);
     let read = store::read_circuit(&CircuitFile { path: &path, others: &[], clock, top });
     let store::CircuitRead { design, warnings, .. } = read.unwrap_or_else(|faults| panic!("{:?}", faults.list));
-    // Only an old Yosys is told.
-    assert!(warnings.list.iter().all(|warning| warning.message.contains("which is old")), "{:?}", warnings.list);
+    assert_eq!(warnings.list, []);
     design
 }
 
 #[test]
 fn the_gallery_reads_back_from_verilog() {
-    if !YOSYS.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     for netlist in by_memory().0.into_iter().filter(|netlist| netlist.cells().count() < 40) {
-        let again = through_yosys(&alone(netlist.clone()));
+        let again = through_verilog(&alone(netlist.clone()));
         proved(&low_bits_first(&netlist), &again.logic, &netlist.name);
     }
 }
@@ -241,7 +240,7 @@ fn named_for_verilog(mut netlist: Netlist) -> Netlist {
 
 #[test]
 fn loops_of_the_gallery_read_back_from_verilog() {
-    if !YOSYS.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     // Outputs of loops stay single bits, so only inputs can have another order.
@@ -251,13 +250,13 @@ fn loops_of_the_gallery_read_back_from_verilog() {
     let even = by_memory().1.into_iter().filter(|netlist| netlist.name != "riscv");
     for netlist in even.map(ordered).map(named_for_verilog) {
         let text = String::from_utf8(CircuitFormat::Verilog.encode(&alone(netlist.clone())).unwrap()).unwrap();
-        same_loops(&netlist, through_yosys(&alone(netlist.clone())).logic, &text);
+        same_loops(&netlist, through_verilog(&alone(netlist.clone())).logic, &text);
     }
 }
 
 #[test]
 fn the_gallerys_memory_passes_its_tests_as_verilog() {
-    if !YOSYS.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     let bench = Bench::new();
@@ -337,13 +336,13 @@ proptest! {
 
 #[test]
 fn registers_read_back_from_verilog() {
-    if !YOSYS.is_there() {
+    if !SLANG.is_there() {
         return;
     }
     let kinds = [(0, Some(true)), (0, None), (1, Some(false)), (2, None), (3, None)];
     let forced = [(4, Some(true)), (5, Some(false)), (8, None), (9, None)];
     let design = registers(&[&kinds[..], &forced].concat());
-    let again = through_yosys(&design);
+    let again = through_verilog(&design);
     let registers = |design: &Design| {
         let all = design.registers.iter().map(|register| (register.name.clone(), format!("{register:?}")));
         all.collect::<BTreeMap<_, _>>()

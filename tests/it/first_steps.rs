@@ -286,7 +286,7 @@ fn circuit(bench: &Bench, file: &str, name: &str) -> (Netlist, Vec<(String, usiz
 
 #[test]
 fn each_pair_of_the_page_for_verilog_computes_the_same() {
-    if !crate::support::tools::YOSYS.is_there() {
+    if !crate::support::tools::SLANG.is_there() {
         return;
     }
     let text = std::fs::read_to_string(root().join("docs/from-verilog.md")).unwrap();

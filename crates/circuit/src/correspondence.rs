@@ -6,6 +6,7 @@
 //! holds. C. A. J. van Eijk, IEEE Transactions on Computer-Aided Design 19 (2000), 814-819.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::ops::Range;
 
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -13,8 +14,8 @@ use rand_chacha::ChaCha8Rng;
 use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::network::{Gate, Network, Signal, View};
 use crate::passes::{self, Pass, Sweep};
-use crate::proof::{self, Counterpart, Proof, SatSweep};
-use crate::{NetId, Netlist, Node, ProofError};
+use crate::proof::{self, Compared, Counterpart, Proof, SatSweep};
+use crate::{CancelFlag, NetId, Netlist, Node, ProofError};
 
 /// Cycles of the simulation, of 64 runs at a time.
 const CYCLES: usize = 64;
@@ -55,9 +56,10 @@ pub fn reduce(design: &Design) -> (Design, Removed) {
         return (design.clone(), Removed::default());
     }
     let Ok(view) = View::of(&design.logic, &[]) else { return (design.clone(), Removed::default()) };
-    let classes = Classes::of(design, &view.network);
+    let ports = [design.inputs(), design.outputs()];
+    let classes = Classes::of(&design.registers, &view.network, ports, ClassLimits::default());
     let mut removed = classes.removed();
-    let mut reduced = classes.merged();
+    let mut reduced = classes.merged(design);
     let simplify = |logic: &mut Netlist| passes::run(logic).expect("the view of the logic is complete");
     simplify(&mut reduced.logic);
     removed.unused = remove_unused(&mut reduced);
@@ -97,51 +99,81 @@ pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, P
 }
 
 /// Registers that agree.
-struct Classes<'d> {
-    design: &'d Design,
-    /// The logic of the design.
+pub(crate) struct Classes<'d> {
+    registers: &'d [Register],
+    /// The logic: its inputs are ports and then registers, its outputs ports, next values and what forces registers.
     network: &'d Network,
+    /// The numbers of its ports.
+    ports: [usize; 2],
     /// The signal that represents each register: a constant, or the first register of its class.
     leaders: Vec<Signal>,
-    /// The signals that force each register.
-    forcing: Vec<&'d [Signal]>,
+    /// The outputs that force each register.
+    forcing: Vec<Range<usize>>,
+    limits: ClassLimits,
+}
+
+/// How far registers are compared.
+#[derive(Clone, Default)]
+pub(crate) struct ClassLimits {
+    /// The most clauses that the solver learns to compare two registers; without a limit if there is none.
+    pub(crate) portion: Option<u64>,
+    pub(crate) cancel: CancelFlag,
+    /// Whether a register may follow one that clocks others.
+    pub(crate) follows_clocks: bool,
 }
 
 /// What distinguishes registers: a constant or the leader before, what changes them, and values.
 type Key<'d> = (Option<Signal>, Change<'d>, Vec<u64>);
 
-/// What changes a register: its clock, and the signals that force it.
-type Change<'d> = ((u8, &'d str), Forcing, &'d [Signal]);
+/// What changes a register: its clock, and how it is forced.
+type Change<'d> = ((u8, &'d str), Forcing);
 
 impl<'d> Classes<'d> {
     /// The classes for which the proof holds.
-    fn of(design: &'d Design, network: &'d Network) -> Self {
-        let mut rest = &network.outputs[design.outputs() + design.registers.len()..];
-        let split = |register: &Register| rest.split_off(..register.forcing.nets().len()).expect("one for each net");
-        let forcing = design.registers.iter().map(split).collect();
-        let mut classes = Self { design, network, leaders: Vec::new(), forcing };
+    pub(crate) fn of(
+        registers: &'d [Register],
+        network: &'d Network,
+        ports: [usize; 2],
+        limits: ClassLimits,
+    ) -> Self {
+        let mut next = ports[1] + registers.len();
+        let range = |register: &Register| {
+            let first = next;
+            next += register.forcing.nets().len();
+            first..next
+        };
+        let forcing = registers.iter().map(range).collect();
+        let mut classes = Self { registers, network, ports, leaders: Vec::new(), forcing, limits };
         let histories = classes.histories();
         classes.split(|at| (None, histories[at].clone()));
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6363_6c61_7373);
         loop {
             // Most classes that do not hold are split by any states in which they would have to.
             while classes.split_by_next(WORDS, |_, _| random.next_u64()) {}
-            let patterns = classes.counterexamples();
-            let Some(first) = patterns.first() else { return classes };
+            let (patterns, is_split) = classes.counterexamples();
+            let Some(first) = patterns.first() else {
+                if is_split {
+                    continue;
+                }
+                return classes;
+            };
             let lane = |lane: usize| patterns.get(lane).unwrap_or(first);
             let word = |input: usize| (0..LANES).fold(0, |word, at| word | u64::from(lane(at)[input]) << at);
             classes.split_by_next(1, |_, input| word(input));
         }
     }
 
-    /// Splits the classes by the next values in some words of inputs and states, `word(number, input)`; whether it did.
+    /// Splits the classes by the next values, and by what forces registers, in some words of inputs and states,
+    /// `word(number, input)`; whether it did.
     fn split_by_next(&mut self, words: usize, mut word: impl FnMut(usize, usize) -> u64) -> bool {
         let network = self.assumed();
         let mut values: Vec<Vec<u64>> = vec![Vec::new(); self.leaders.len()];
         for number in 0..words {
             let inputs: Vec<u64> = (0..network.inputs).map(|input| word(number, input)).collect();
             let found = network.simulate(&inputs);
-            values.iter_mut().zip(self.nexts(&network)).for_each(|(values, &next)| values.push(found[next as usize]));
+            for (at, values) in values.iter_mut().enumerate() {
+                values.extend(self.changes(at).map(|output| found[network.outputs[output] as usize]));
+            }
         }
         let before = self.leaders.clone();
         self.split(|at| (Some(before[at]), values[at].clone()));
@@ -150,23 +182,28 @@ impl<'d> Classes<'d> {
 
     /// The signal of a register.
     fn state(&self, at: usize) -> Signal {
-        self.network.input(self.design.inputs() + at)
+        self.network.input(self.ports[0] + at)
     }
 
     /// The register that a signal shows, unless it is a constant.
     fn register(&self, leader: Signal) -> Option<usize> {
-        (leader as usize).checked_sub(2 + self.design.inputs())
+        (leader as usize).checked_sub(2 + self.ports[0])
     }
 
-    /// The signals of the next values in a network with the same outputs.
-    fn nexts<'n>(&self, network: &'n Network) -> &'n [Signal] {
-        &network.outputs[self.design.outputs()..][..self.design.registers.len()]
+    /// The output that is the next value of a register.
+    fn next(&self, at: usize) -> usize {
+        self.ports[1] + at
+    }
+
+    /// The outputs that say what becomes of a register.
+    fn changes(&self, at: usize) -> impl Iterator<Item = usize> {
+        std::iter::once(self.next(at)).chain(self.forcing[at].clone())
     }
 
     /// The value of a register where the signals of some values force it.
     fn forced(&self, at: usize, value: u64, values: &[u64]) -> u64 {
-        let register = &self.design.registers[at];
-        match (register.forcing, self.forcing[at]) {
+        let register = &self.registers[at];
+        match (register.forcing, &self.network.outputs[self.forcing[at].clone()]) {
             (Forcing::ToStart, &[reset]) => {
                 let reset = values[reset as usize];
                 value & !reset | filled(register.starts_at()) & reset
@@ -179,16 +216,16 @@ impl<'d> Classes<'d> {
     /// The values of each register in a simulation from the start, 64 runs in a word.
     fn histories(&self) -> Vec<Vec<u64>> {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6373_7461_7465);
-        let mut now: Vec<u64> = self.design.registers.iter().map(|register| filled(register.starts_at())).collect();
+        let mut now: Vec<u64> = self.registers.iter().map(|register| filled(register.starts_at())).collect();
         let mut histories: Vec<Vec<u64>> = now.iter().map(|&word| vec![word]).collect();
         for _ in 0..CYCLES {
             let mut ticks = BTreeMap::new();
-            let inputs: Vec<u64> = (0..self.design.inputs()).map(|_| random.next_u64()).chain(now.clone()).collect();
+            let inputs: Vec<u64> = (0..self.ports[0]).map(|_| random.next_u64()).chain(now.clone()).collect();
             let values = self.network.simulate(&inputs);
-            for (at, register) in self.design.registers.iter().enumerate() {
+            for (at, register) in self.registers.iter().enumerate() {
                 let tick =
                     *ticks.entry(event(register.kind, register.clock_name())).or_insert_with(|| random.next_u64());
-                let next = values[self.nexts(self.network)[at] as usize];
+                let next = values[self.network.outputs[self.next(at)] as usize];
                 now[at] = self.forced(at, next & tick | now[at] & !tick, &values);
                 histories[at].push(now[at]);
             }
@@ -197,19 +234,24 @@ impl<'d> Classes<'d> {
     }
 
     /// Puts registers into classes by what distinguishes them. Registers that keep one value in all words need not have
-    /// the same clock; registers that clock others are alone.
+    /// the same clock; registers that clock others lead.
     fn split(&mut self, keys: impl Fn(usize) -> (Option<Signal>, Vec<u64>)) {
-        let clocks: BTreeSet<&str> = self.design.registers.iter().map(|register| register.clock_name()).collect();
+        let clocks: BTreeSet<&str> = self.registers.iter().map(|register| register.clock_name()).collect();
         let mut known: BTreeMap<Key, Signal> = BTreeMap::new();
         let mut leaders = Vec::new();
-        for (at, register) in self.design.registers.iter().enumerate() {
+        for (at, register) in self.registers.iter().enumerate() {
             let (before, words) = keys(at);
             let own = self.state(at);
             let constant = [false, true].into_iter().find(|&value| words.iter().all(|&word| word == filled(value)));
             let constant = constant.map(Signal::from).filter(|&signal| before.is_none_or(|before| before == signal));
-            let change = (event(register.kind, register.clock_name()), register.forcing, self.forcing[at]);
+            let change = (event(register.kind, register.clock_name()), register.forcing);
             leaders.push(match constant {
-                _ if clocks.contains(register.name.as_str()) => own,
+                _ if clocks.contains(register.name.as_str()) => {
+                    if self.limits.follows_clocks {
+                        known.entry((before, change, words)).or_insert(own);
+                    }
+                    own
+                }
                 // A set and a reset need not agree with the start value.
                 Some(constant) if register.forcing != Forcing::SetReset => constant,
                 _ => *known.entry((before, change, words)).or_insert(own),
@@ -220,7 +262,7 @@ impl<'d> Classes<'d> {
 
     /// The logic if each register equals its leader.
     fn assumed(&self) -> Network {
-        let first = self.network.input(0) as usize + self.design.inputs();
+        let first = 2 + self.ports[0];
         let leader = |signal: Signal| match (signal as usize).checked_sub(first) {
             Some(at) if at < self.leaders.len() => self.leaders[at],
             _ => signal,
@@ -233,33 +275,87 @@ impl<'d> Classes<'d> {
         }
     }
 
-    /// Inputs and states in which registers equal their leaders, but some do not in the next cycle.
-    fn counterexamples(&self) -> Vec<Vec<bool>> {
+    /// Inputs and states in which registers equal their leaders, but some do not in the next cycle. Registers for which
+    /// this is not known leave their classes; whether there are any.
+    fn counterexamples(&mut self) -> (Vec<Vec<bool>>, bool) {
         let mut network = self.assumed();
-        let nexts = self.nexts(&network).to_vec();
-        // A follower, with the next values that must be equal.
-        let pair = |at: usize| {
-            let leader = self.leaders[at];
-            (leader != self.state(at))
-                .then(|| [self.register(leader).map_or(leader, |leader| nexts[leader]), nexts[at]])
-        };
-        let pairs: Vec<[Signal; 2]> = (0..self.leaders.len()).filter_map(pair).collect();
-        network.outputs = pairs.iter().flatten().copied().collect();
+        // What must be equal, with the register for which it must.
+        let mut pairs: Vec<(usize, [Signal; 2])> = Vec::new();
+        for at in (0..self.leaders.len()).filter(|&at| self.leaders[at] != self.state(at)) {
+            match self.register(self.leaders[at]) {
+                None => pairs.push((at, [self.leaders[at], network.outputs[self.next(at)]])),
+                Some(leader) => pairs.extend(
+                    self.changes(leader)
+                        .zip(self.changes(at))
+                        .map(|(one, two)| (at, [network.outputs[one], network.outputs[two]])),
+                ),
+            }
+        }
+        network.outputs = pairs.iter().flat_map(|(_, pair)| *pair).collect();
         let network = network.swept();
-        let mut sweep = SatSweep::new(network.inputs);
+        let mut sweep = self.sweep(&network);
         let signals = sweep.add(&network);
-        let difference = |pair: &[Signal]| sweep.difference(signals[pair[0] as usize], signals[pair[1] as usize]);
-        network.outputs.chunks(2).filter_map(difference).take(LANES).collect()
+        let mut patterns = Vec::new();
+        let mut is_split = false;
+        for (&(at, _), pair) in pairs.iter().zip(network.outputs.chunks(2)) {
+            match sweep.compared(signals[pair[0] as usize], signals[pair[1] as usize]) {
+                Compared::Equal => {}
+                Compared::Different(pattern) => patterns.push(pattern),
+                Compared::Open => {
+                    self.leaders[at] = self.state(at);
+                    is_split = true;
+                }
+            }
+            if patterns.len() == LANES {
+                break;
+            }
+        }
+        (patterns, is_split)
+    }
+
+    fn sweep(&self, network: &Network) -> SatSweep {
+        SatSweep::limited(network.inputs, self.limits.portion.unwrap_or(u64::MAX), self.limits.cancel.clone())
+    }
+
+    /// Whether a register is in the class of another, or both are the same constant.
+    pub(crate) fn are_equal(&self, one: usize, two: usize) -> bool {
+        self.leaders[one] == self.leaders[two]
+    }
+
+    /// Whether these pairs of outputs are equal wherever registers equal their leaders. If not, the inputs may be in a
+    /// state that is never reached; registers that follow others have their values there.
+    pub(crate) fn compared(&self, pairs: &[[usize; 2]]) -> Compared {
+        let mut network = self.assumed();
+        network.outputs = pairs.iter().flatten().map(|&output| network.outputs[output]).collect();
+        let network = network.swept();
+        let mut sweep = self.sweep(&network);
+        let signals = sweep.add(&network);
+        for pair in network.outputs.chunks(2) {
+            match sweep.compared(signals[pair[0] as usize], signals[pair[1] as usize]) {
+                Compared::Equal => {}
+                Compared::Different(mut inputs) => {
+                    for (at, &leader) in self.leaders.iter().enumerate() {
+                        inputs[self.ports[0] + at] = match leader {
+                            0 | 1 => leader == 1,
+                            leader => inputs[leader as usize - 2],
+                        };
+                    }
+                    return Compared::Different(inputs);
+                }
+                Compared::Open => return Compared::Open,
+            }
+        }
+        Compared::Equal
     }
 
     fn removed(&self) -> Removed {
         let mut removed = Removed::default();
-        for (at, register) in self.design.registers.iter().enumerate() {
+        for (at, register) in self.registers.iter().enumerate() {
             let name = register.name.clone();
             match self.register(self.leaders[at]) {
                 None => removed.constant.push((name, self.leaders[at] == 1)),
                 Some(leader) if leader != at => {
-                    removed.equal.push((name, self.design.registers[leader].name.clone()));
+                    removed.equal.push((name, self.registers[leader].name.clone()));
                 }
                 Some(_) => {}
             }
@@ -268,9 +364,9 @@ impl<'d> Classes<'d> {
     }
 
     /// The design in which leaders stand for their classes.
-    fn merged(&self) -> Design {
-        let mut design = self.design.clone();
-        let states = self.design.logic.inputs()[self.design.inputs()..].to_vec();
+    fn merged(&self, design: &Design) -> Design {
+        let mut design = design.clone();
+        let states = design.logic.inputs()[design.inputs()..].to_vec();
         for (at, &state) in states.iter().enumerate().filter(|&(at, _)| self.leaders[at] != self.state(at)) {
             let leader = match self.register(self.leaders[at]) {
                 None => design.logic.add_constant(self.leaders[at] == 1),

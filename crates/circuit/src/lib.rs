@@ -1,5 +1,6 @@
 //! Circuits: the netlist and everything that makes, changes, reads and writes it, without any physics.
 
+mod alike;
 mod and_graph;
 mod blocks;
 mod cells;
@@ -43,6 +44,7 @@ pub mod two_level;
 pub mod waves;
 mod wording;
 
+pub use alike::{Likeness, likeness};
 pub use blocks::{BlockId, Blocks, keeps_state};
 pub use cells::{CellKind, CellLibrary};
 pub use clause::{Clause, ValuedBit};
@@ -62,7 +64,7 @@ pub use netlist::{Cell, NetId, Netlist, Node};
 pub use options::{Effort, MapOptions, MappingObjective};
 pub use proof::{Proof, prove};
 pub use races::{Race, races};
-pub use random_run::{RandomRun, RunStep};
+pub use random_run::DesignRun;
 pub use register_forms::{prove_expanded, prove_forms};
 pub use rings::rings;
 pub use settled::{Settled, SettledRow};

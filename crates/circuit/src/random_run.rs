@@ -1,7 +1,7 @@
-//! A random run of a design from its start, to be compared with a simulation of its source.
+//! Runs of a design from its start.
 //!
-//! A step changes a clock, an input that forces registers, or other inputs, but never two of these together: what a
-//! register takes when its clock and its data change at once is not defined.
+//! A step of a random run changes a clock, an input that forces registers, or other inputs, but never two of these
+//! together: what a register takes when its clock and its data change at once is not defined.
 
 use std::collections::BTreeSet;
 
@@ -17,58 +17,57 @@ const HABIT: usize = 64;
 /// Tries to find inputs at which no register is forced.
 const TRIES: usize = 64;
 
-/// The inputs and outputs of a design after a step, in the order of its ports.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RunStep {
-    /// The values of the input ports.
-    pub inputs: Vec<bool>,
-    /// The values of the output ports when all is settled.
-    pub outputs: Vec<bool>,
+/// A run of a design from its start.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct DesignRun {
+    /// The values of the input ports at the start, and in each step.
+    pub inputs: Vec<Vec<bool>>,
+    /// The values of the output ports then, when all is settled.
+    pub outputs: Vec<Vec<bool>>,
 }
 
-/// A run of a design.
-#[derive(Clone, Debug)]
-pub struct RandomRun {
-    /// The start, then each step.
-    pub steps: Vec<RunStep>,
-    /// The inputs that neither clock registers nor force them.
-    pub plain: Vec<bool>,
-    /// The registers that hold their value at the start: all but open latches.
-    pub held: Vec<bool>,
-    /// Whether a register clocks another: what the second takes then depends on the order of events.
-    pub is_rippled: bool,
-}
-
-impl RandomRun {
-    /// A run of at most this many steps. `ports` are the input ports, each a list of its bits. None if the design has
-    /// feedback, or does not settle.
-    pub fn of(design: &Design, ports: &[Vec<usize>], steps: usize, seed: u64) -> Option<Self> {
+impl DesignRun {
+    /// A random run of at most so many steps. `ports` are the input ports, each a list of its bits. None if the design
+    /// has feedback, or does not settle.
+    pub(crate) fn random(design: &Design, ports: &[Vec<usize>], steps: usize, seed: u64) -> Option<Self> {
         let machine = Machine::of(design)?;
         let mut random = ChaCha8Rng::seed_from_u64(seed);
         let mut now = machine.calm(&mut random)?;
-        let first = now.inputs.clone();
-        let is_plain = |at: usize| !machine.clock_inputs.contains(&at) && !machine.forcing_inputs.contains(&at);
-        let mut run = Self {
-            steps: vec![machine.shown(&now)],
-            plain: (0..design.inputs()).map(is_plain).collect(),
-            held: (0..design.registers.len()).map(|at| !machine.is_open(at, &now)).collect(),
-            is_rippled: machine.is_rippled(),
-        };
+        let mut run = Self::default();
+        run.push(&machine, &now);
         let [clocks, forcing] =
             [&machine.clock_inputs, &machine.forcing_inputs].map(|set| set.iter().copied().collect());
-        let mut habits = Habits { clocks, forcing, first, words: Vec::new() };
-        while run.steps.len() <= steps {
-            if run.steps.len() % HABIT == 1 {
+        let mut habits = Habits { clocks, forcing, first: now.inputs.clone(), words: Vec::new() };
+        for step in 0..steps {
+            if step % HABIT == 0 {
                 habits.words = ports.iter().map(|_| random.random_range(0..6)).collect();
             }
             let inputs = habits.inputs(&now.inputs, ports, &mut random);
             let next = machine.after(&now, inputs)?;
             if !machine.is_unclear(&now, &next) {
                 now = next;
+                run.push(&machine, &now);
             }
-            run.steps.push(machine.shown(&now));
         }
         Some(run)
+    }
+
+    /// The run of a design with these inputs. None if it has feedback, or does not settle.
+    pub(crate) fn with(design: &Design, inputs: Vec<Vec<bool>>) -> Option<Self> {
+        let machine = Machine::of(design)?;
+        let states = design.registers.iter().map(|register| register.starts_at()).collect();
+        let mut now = Values { inputs: inputs[0].clone(), states, outputs: Vec::new() };
+        let mut run = Self::default();
+        for inputs in inputs {
+            now = machine.after(&now, inputs)?;
+            run.push(&machine, &now);
+        }
+        Some(run)
+    }
+
+    fn push(&mut self, machine: &Machine<'_>, values: &Values) {
+        self.inputs.push(values.inputs.clone());
+        self.outputs.push(values.outputs[..machine.design.outputs()].to_vec());
     }
 }
 
@@ -166,11 +165,6 @@ impl<'d> Machine<'d> {
         Some(machine)
     }
 
-    /// Whether a register clocks another.
-    fn is_rippled(&self) -> bool {
-        self.clocks.iter().any(|&at| at >= self.design.inputs())
-    }
-
     fn forcing_inputs(&self) -> BTreeSet<usize> {
         let first = self.design.outputs() + self.design.registers.len();
         let mut open: Vec<Signal> = self.network.outputs[first..].to_vec();
@@ -261,16 +255,6 @@ impl<'d> Machine<'d> {
         at.checked_sub(inputs.len()).map_or_else(|| inputs[at], |state| states[state])
     }
 
-    /// Whether a register is a latch that follows its next value.
-    fn is_open(&self, at: usize, values: &Values) -> bool {
-        let is_on = self.clock(at, &values.inputs, &values.states);
-        match self.design.registers[at].kind {
-            RegisterKind::Rising | RegisterKind::Falling => false,
-            RegisterKind::High => is_on,
-            RegisterKind::Low => !is_on,
-        }
-    }
-
     /// Whether a step changes what forces a register that was forced before. Sources of hardware describe this by edges
     /// of nets, which are not what a register does then.
     fn is_unclear(&self, before: &Values, after: &Values) -> bool {
@@ -278,10 +262,6 @@ impl<'d> Machine<'d> {
             let (one, two) = (self.force(at, &before.outputs), self.force(at, &after.outputs));
             one.len() == 2 && one != two && one.contains(&true) && two.contains(&true)
         })
-    }
-
-    fn shown(&self, values: &Values) -> RunStep {
-        RunStep { inputs: values.inputs.clone(), outputs: values.outputs[..self.design.outputs()].to_vec() }
     }
 }
 
@@ -307,23 +287,23 @@ mod tests {
     #[test]
     fn a_register_turns_at_its_edges_and_is_reset_without_one() {
         for kind in [RegisterKind::Rising, RegisterKind::Falling] {
-            let run = RandomRun::of(&toggle(kind), &[vec![0], vec![1]], 2_000, 1).unwrap();
-            assert_eq!(run.steps[0], RunStep { inputs: vec![false, false], outputs: vec![true] });
+            let run = DesignRun::random(&toggle(kind), &[vec![0], vec![1]], 2_000, 1).unwrap();
+            assert_eq!((&run.inputs[0], &run.outputs[0]), (&vec![false, false], &vec![true]));
             let (mut turns, mut resets) = (0, 0);
-            for pair in run.steps.windows(2) {
-                let [before, after] = pair else { unreachable!() };
-                let edge = after.inputs[0] != before.inputs[0] && after.inputs[0] == (kind == RegisterKind::Rising);
-                let expected = before.outputs[0] != edge || after.inputs[1];
-                assert_eq!(after.outputs[0], expected, "{before:?} {after:?}");
-                turns += usize::from(edge && !after.inputs[1]);
-                resets += usize::from(after.inputs[1] && !before.inputs[1]);
+            for (inputs, outputs) in run.inputs.windows(2).zip(run.outputs.windows(2)) {
+                let [clock, reset] = [0, 1].map(|at| (inputs[0][at], inputs[1][at]));
+                let edge = clock.1 != clock.0 && clock.1 == (kind == RegisterKind::Rising);
+                assert_eq!(outputs[1][0], outputs[0][0] != edge || reset.1, "{inputs:?} {outputs:?}");
+                turns += usize::from(edge && !reset.1);
+                resets += usize::from(reset.1 && !reset.0);
             }
+            assert_eq!(DesignRun::with(&toggle(kind), run.inputs.clone()), Some(run));
             assert!(turns > 300 && resets > 10, "{turns} {resets}");
         }
     }
 
     #[test]
     fn a_latch_that_turns_itself_does_not_settle() {
-        assert!(RandomRun::of(&toggle(RegisterKind::High), &[vec![0], vec![1]], 100, 1).is_none());
+        assert!(DesignRun::random(&toggle(RegisterKind::High), &[vec![0], vec![1]], 100, 1).is_none());
     }
 }

@@ -19,9 +19,6 @@ pub(super) struct Client {
     pub(super) settings: Settings,
     pub(super) workspace: Workspace,
     pub(super) abilities: Abilities,
-    /// Whether Verilog of the workspace may be given to Yosys. Only the start of the server says so: settings can come
-    /// from files of the workspace.
-    pub(super) trusts_verilog: bool,
 }
 
 /// Requests and notifications of the server that the client supports.
@@ -44,9 +41,7 @@ impl Client {
         let encodings: Vec<PositionEncodingKind> = serde_json::from_value(encodings).unwrap_or_default();
         let can =
             |path: &str| parameters.pointer(&format!("/capabilities{path}")).and_then(Value::as_bool) == Some(true);
-        let trusted = parameters.pointer("/initializationOptions/verilog/trusted");
         Self {
-            trusts_verilog: trusted.and_then(Value::as_bool).unwrap_or(false),
             encoding: Encoding::negotiated(&encodings),
             settings: Settings::of_client(parameters),
             workspace: Workspace::of(parameters),

@@ -136,8 +136,8 @@ pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, RequestError>;
 
 impl Server {
     fn new(client: Client, shell: Arc<dyn LanguageShell>, outbox: Sender<Message>) -> Self {
-        let Client { encoding, settings, workspace, abilities, trusts_verilog } = client;
-        let world = shell.world(trusts_verilog);
+        let Client { encoding, settings, workspace, abilities } = client;
+        let world = shell.world();
         Self {
             outbox,
             now: Duration::ZERO,

@@ -7,8 +7,8 @@ pub type LanguageWork = Box<dyn FnOnce() + Send>;
 
 /// What is around a language service.
 pub trait LanguageShell: Send + Sync {
-    /// The files that the client sees. `trusts_verilog` says whether those of Verilog may be given to Yosys.
-    fn world(&self, trusts_verilog: bool) -> SharedWorld;
+    /// The files that the client sees.
+    fn world(&self) -> SharedWorld;
 
     /// The source files of folders and below them, in order.
     fn source_files(&self, folders: &[&str]) -> Vec<String>;

@@ -69,7 +69,7 @@ mod tests {
 
     use lsp_server::{Connection, Message, Notification, Request};
     use nbc_base::source::FileError;
-    use nbc_session::store::{FolderWorld, VerilogFiles};
+    use nbc_session::store::FolderWorld;
     use serde_json::{Value, json};
 
     use super::*;
@@ -90,12 +90,6 @@ mod tests {
 
         fn identity(&self, path: &str) -> String {
             self.0.identity(path)
-        }
-    }
-
-    impl VerilogFiles for Watched {
-        fn included(&self, _main: &str, path: &str) -> Result<String, FileError> {
-            self.read(path)
         }
     }
 

@@ -61,19 +61,10 @@ fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
             return Err(nbc_lsp::refusal(&id, ErrorCode::InvalidParams, reason));
         };
         params.insert("rootUri".to_owned(), json!(served.site.folder.uri()));
-        // The user has opened this folder with `nbc play`.
-        params.insert("initializationOptions".to_owned(), trusting(params.get("initializationOptions")));
         params.insert("workspaceFolders".to_owned(), json!([{ "uri": served.site.folder.uri(), "name": "play" }]));
     }
     if value["method"] == "workspace/didChangeWorkspaceFolders" {
         return Ok(None);
     }
     nbc_lsp::message(value).map(Some)
-}
-
-/// The options of a page, with the permission to translate Verilog of the folder.
-fn trusting(options: Option<&Value>) -> Value {
-    let mut options = options.filter(|options| options.is_object()).cloned().unwrap_or_else(|| json!({}));
-    options["verilog"] = json!({ "trusted": true });
-    options
 }

@@ -10,7 +10,7 @@ use crate::export::ExportedPage;
 use crate::lock::lock;
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::{
-    CancelFlag, EntryKind, FileError, OverlayWorld, SharedWorld, SourceWorld, VerilogError, VerilogFile, VerilogModules,
+    CancelFlag, EntryKind, FileError, OverlayWorld, SharedWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules,
 };
 use nbc_session::{Checked, Choice, CompileOptions, Session};
 
@@ -105,8 +105,8 @@ impl SourceWorld for NotingWorld {
         Ok(bytes)
     }
 
-    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        self.over.translate_verilog(files)
+    fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+        self.over.read_verilog(files)
     }
 
     fn cancel(&self) -> CancelFlag {

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use crate::buildable;
 use crate::checked::Checked;
 use crate::robots::{BuiltIn, RobotSources};
-use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFile, VerilogModules};
+use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 
 /// The sources of a session.
 pub(super) struct Documents {
@@ -19,14 +19,11 @@ pub(super) struct Documents {
     revisions: BTreeMap<String, u64>,
     /// The results that are still valid, by path.
     known: BTreeMap<String, Known>,
-    translations: Translations,
+    readings: Readings,
 }
 
-/// The last translations of Verilog with their texts, by the paths of the files. One that reads others is not kept.
-type Translations = BTreeMap<Vec<String>, (Vec<String>, VerilogModules)>;
-
-/// What makes a Verilog text read other files.
-const READING: &str = "`include";
+/// The last readings of Verilog, by the paths of the files.
+type Readings = BTreeMap<Vec<String>, (VerilogFiles, VerilogModules)>;
 
 /// A checked source with its dependencies.
 struct Known {
@@ -43,7 +40,7 @@ impl Documents {
             files: Vec::new(),
             revisions: BTreeMap::new(),
             known: BTreeMap::new(),
-            translations: Translations::new(),
+            readings: Readings::new(),
         }
     }
 
@@ -83,11 +80,11 @@ impl Documents {
             return known.checked.clone();
         }
         let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
-        let translations = RefCell::new(std::mem::take(&mut self.translations));
+        let readings = RefCell::new(std::mem::take(&mut self.readings));
         let asking = RecordingWorld {
             world: &self.world,
             asked: RefCell::default(),
-            translations,
+            readings,
             is_cancelled: Cell::default(),
         };
         let mut checked = Checked::read(&asking, path, revision);
@@ -99,7 +96,7 @@ impl Documents {
             checked.diagnostics.sort_by_key(|diagnostic| diagnostic.labels.first().map(|label| label.span));
         }
         let checked = Arc::new(checked);
-        self.translations = asking.translations.into_inner();
+        self.readings = asking.readings.into_inner();
         if asking.is_cancelled.get() || checked.is_cancelled {
             return checked;
         }
@@ -126,12 +123,12 @@ impl Documents {
     }
 }
 
-/// A world that records what was read, and translates no text twice.
+/// A world that records what was read, and reads no Verilog twice.
 struct RecordingWorld<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
-    translations: RefCell<Translations>,
-    /// Whether a translation was cancelled.
+    readings: RefCell<Readings>,
+    /// Whether a reading was cancelled.
     is_cancelled: Cell<bool>,
 }
 
@@ -152,19 +149,16 @@ impl SourceWorld for RecordingWorld<'_> {
         self.world.read_bytes(path)
     }
 
-    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        let paths: Vec<String> = files.iter().map(|file| file.path.to_owned()).collect();
-        let texts: Vec<String> = files.iter().map(|file| file.text.to_owned()).collect();
-        let known = self.translations.borrow().get(&paths).filter(|(known, _)| *known == texts).cloned();
+    fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+        let paths: Vec<String> = files.files.iter().map(|file| file.path.clone()).collect();
+        let known = self.readings.borrow().get(&paths).filter(|(known, _)| known == files).cloned();
         if let Some((_, modules)) = known {
             return Ok(modules);
         }
-        let modules = self.world.translate_verilog(files);
+        let modules = self.world.read_verilog(files);
         self.is_cancelled.set(self.is_cancelled.get() || modules == Err(VerilogError::Cancelled));
         let modules = modules?;
-        if !texts.iter().any(|text| text.contains(READING)) {
-            self.translations.borrow_mut().insert(paths, (texts, modules.clone()));
-        }
+        self.readings.borrow_mut().insert(paths, (files.clone(), modules.clone()));
         Ok(modules)
     }
 
@@ -187,7 +181,7 @@ mod tests {
     use std::sync::atomic::{AtomicUsize, Ordering};
 
     use super::*;
-    use nbc_base::source::MemoryWorld;
+    use nbc_base::source::{MemoryWorld, VerilogModule};
 
     const INVERTER: &str = "circuit inverter(a) -> (q) { q = not a }";
 
@@ -240,10 +234,11 @@ mod tests {
             self.0.read(path)
         }
 
-        fn translate_verilog(&self, _: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
+        fn read_verilog(&self, _: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
             self.1.fetch_add(1, Ordering::Relaxed);
             let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
-            Ok(VerilogModules { blif, tops: vec!["f".to_owned()], ..VerilogModules::default() })
+            let module = VerilogModule { name: "f".to_owned(), blif, ..VerilogModule::default() };
+            Ok(VerilogModules { modules: vec![module], ..VerilogModules::default() })
         }
 
         fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -252,7 +247,7 @@ mod tests {
     }
 
     #[test]
-    fn a_verilog_text_is_translated_again_only_when_it_changes_or_reads_files() {
+    fn verilog_is_read_again_only_when_a_file_of_it_changes() {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
@@ -268,10 +263,12 @@ mod tests {
         assert_eq!(check("a.nb", &format!("{changed}\n")), 1);
         assert_eq!(check("f.v", "module f(input b, output q);"), 2);
         assert_eq!(check("f.v", "`include \"g.vh\""), 3);
+        assert_eq!(check("a.nb", &format!("{changed}\n")), 3);
+        assert_eq!(check("g.vh", "// other"), 4);
         assert_eq!(check("a.nb", changed), 4);
     }
 
-    /// A world whose first translation is cancelled.
+    /// A world whose first reading is cancelled.
     struct CancelledTranslator(CountingTranslator);
 
     impl SourceWorld for CancelledTranslator {
@@ -279,8 +276,8 @@ mod tests {
             self.0.read(path)
         }
 
-        fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-            let modules = self.0.translate_verilog(files);
+        fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+            let modules = self.0.read_verilog(files);
             if self.0.1.load(Ordering::Relaxed) == 1 { Err(VerilogError::Cancelled) } else { modules }
         }
 
@@ -290,7 +287,7 @@ mod tests {
     }
 
     #[test]
-    fn a_source_is_checked_again_when_a_translation_was_cancelled() {
+    fn a_source_is_checked_again_when_a_reading_was_cancelled() {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");

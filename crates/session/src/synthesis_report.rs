@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::synthesis::{AssumedStates, Synthesis};
 use nbc_base::diag::counted;
-use nbc_base::source::{ProofOrigin, Simulated};
+use nbc_base::source::{ProofOrigin, SecondReading};
 use nbc_circuit::correspondence::Removed;
 use nbc_circuit::levels;
 
@@ -36,19 +36,17 @@ pub struct SynthesisReport {
 /// What the proof begins with, and what it leaves out.
 #[derive(Debug, Serialize)]
 struct ProofReport {
-    /// `file`, or `yosys` for its netlist.
+    /// `file`, or `slang` for what it reads of Verilog.
     from: &'static str,
-    /// The version of Yosys.
+    /// The version of Yosys, in which slang reads.
     #[serde(skip_serializing_if = "Option::is_none")]
     version: Option<String>,
-    /// The simulator that compared the netlist with the file, and the steps that were equal.
+    /// What a second reader makes of the file.
     #[serde(skip_serializing_if = "Option::is_none")]
-    simulator: Option<&'static str>,
+    second: Option<&'static str>,
+    /// The random steps in which both readings are equal, if more is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     steps: Option<usize>,
-    /// Why it compared nothing.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    not_simulated: Option<&'static str>,
     /// Whether the cells of registers are not proved to store what they store.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     unproved_registers: bool,
@@ -127,16 +125,17 @@ impl ProofReport {
     fn of(origin: ProofOrigin, unproved_registers: bool) -> Self {
         let left_out = if unproved_registers { " but for the cells of its registers" } else { "" };
         let words = format!("{origin}{left_out}");
-        let (from, version, simulated) = match origin {
-            ProofOrigin::Yosys { version, simulated } => ("yosys", Some(version), Some(simulated)),
-            _ => ("file", None, None),
+        let ProofOrigin::Slang { version, second } = origin else {
+            return Self { from: "file", version: None, second: None, steps: None, unproved_registers, words };
         };
-        let steps = match simulated {
-            Some(Simulated::Equal { steps }) => Some(steps),
-            _ => None,
+        let (second, steps) = match second {
+            SecondReading::Alike => ("alike", None),
+            SecondReading::Equal(steps) => ("equal", Some(steps)),
+            SecondReading::Different => ("different", None),
+            SecondReading::NoSteps => ("not compared", None),
+            SecondReading::None => ("unread", None),
         };
-        let (simulator, not_simulated) = (steps.map(|_| "iverilog"), simulated.and_then(Simulated::why_not));
-        Self { from, version, simulator, steps, not_simulated, unproved_registers, words }
+        Self { from: "slang", version: Some(version), second: Some(second), steps, unproved_registers, words }
     }
 }
 

@@ -2,12 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::verilog::{TopModule, Verilog};
+use crate::verilog::{self, TopModule, Wanted};
 use crate::wording::StoreError;
 use crate::{DiskWorld, disk};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFile, VerilogPlace};
+use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFiles, VerilogPlace};
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{AigerModel, CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module};
 use nbc_lang::syntax;
@@ -72,10 +72,10 @@ pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> 
     };
     let place = files.iter().find_map(|file| {
         let line = file.text.lines().position(declares)? + 1;
-        Some(VerilogPlace { file: file.name.as_str().into(), line })
+        Some(VerilogPlace { file: file.name.as_str().into(), line, columns: None })
     });
     let fault = Diagnostic::from(StoreError::NoOutputs { circuit: circuit.clone() });
-    let list = vec![fault.of_verilog(&files, place.as_ref())];
+    let list = vec![fault.at_verilog(&files, place.as_ref())];
     Err(Diagnostics { list, sources: read.warnings.sources })
 }
 
@@ -110,7 +110,7 @@ fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
         }
         Some(CircuitSource::Verilog) => {
             without_effect(&name, clock)?;
-            return verilog(from);
+            return verilog_top(from);
         }
         None => return Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
     };
@@ -139,21 +139,20 @@ fn without_effect(file: &str, clock: Option<&str>) -> Result<(), Diagnostics> {
 }
 
 /// The top module of Verilog files.
-fn verilog(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
+fn verilog_top(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let mut sources = Sources::default();
     for path in std::iter::once(from.path).chain(from.others.iter().map(PathBuf::as_path)) {
         let text = text(path)?;
         sources.add(path.display().to_string(), text);
     }
-    let (files, cancel): (Vec<_>, _) = (sources.iter().collect(), &CancelFlag::default());
-    let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
-    let modules = Verilog { world: &DiskWorld, files: &given, cancel }.top(from.top);
-    let read = modules.map_err(|error| vec![Diagnostic::untranslated(&files, &error)]).and_then(|modules| {
-        let left_out = modules.left_out.iter().map(|module| Diagnostic::left_out(&files, module));
-        let old = Diagnostic::old_yosys(&modules.yosys);
-        let warnings = left_out.chain(Diagnostic::of_modules(&files, &modules)).chain(old).collect();
-        let top = &modules.tops[0];
-        Ok((verilog_module(&modules, top, &files, from.clock)?, warnings, modules.origin(top)))
+    let files: Vec<_> = sources.iter().collect();
+    let named = files.iter().map(|file| (file.name.as_str(), file.text.as_str()));
+    let design = VerilogFiles::of(&DiskWorld, named);
+    let modules = verilog::read(&design, &Wanted::Top(from.top), &CancelFlag::default());
+    let read = modules.map_err(|error| Diagnostic::unread_verilog(&files, &error)).and_then(|modules| {
+        let warnings = modules.notes.iter().map(|note| Diagnostic::of_verilog(&files, note)).collect();
+        let origin = modules.origin(0);
+        Ok((verilog_module(&modules.modules[0], &files, from.clock)?, warnings, origin))
     });
     match read {
         Ok((design, list, origin)) => Ok(CircuitRead { design, warnings: Diagnostics { list, sources }, origin }),

@@ -5,8 +5,8 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::disk;
-use crate::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
+use crate::verilog::{self, Wanted};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// The files below a folder. Paths are relative to it, or absolute and below it. What lies outside cannot be read, also
@@ -94,8 +94,8 @@ impl SourceWorld for FolderWorld {
         disk::source_bytes(&self.existing(path)?)
     }
 
-    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        Verilog { world: self, files, cancel: &CancelFlag::default() }.modules()
+    fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+        verilog::read(files, &Wanted::All, &CancelFlag::default())
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
@@ -109,12 +109,6 @@ impl SourceWorld for FolderWorld {
     fn identity(&self, path: &str) -> String {
         let place = self.existing(path).or_else(|_| self.inside(path).map(|inside| self.root.join(inside)));
         place.map_or_else(|_| path.to_owned(), |whole| whole.to_string_lossy().into_owned())
-    }
-}
-
-impl VerilogFiles for FolderWorld {
-    fn included(&self, _main: &str, path: &str) -> Result<String, FileError> {
-        self.read(path)
     }
 }
 

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::verilog::{Verilog, VerilogFiles};
-use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFile, VerilogModules};
+use crate::verilog::{self, Wanted};
+use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 use nbc_circuit::CancelFlag;
 
 /// Files of another world, whose Verilog is translated as far as a door permits.
@@ -13,8 +13,6 @@ pub struct GuardedWorld<W> {
     world: W,
     /// Gives the flag that ends work which begins now.
     cancel: Arc<dyn Fn() -> CancelFlag + Send + Sync>,
-    /// Why nothing is translated, if so.
-    refusal: Option<VerilogError>,
 }
 
 impl<W> fmt::Debug for GuardedWorld<W> {
@@ -26,21 +24,16 @@ impl<W> fmt::Debug for GuardedWorld<W> {
 impl<W> GuardedWorld<W> {
     /// The same files. `cancel` gives the flag that ends a translation or a check which begins now.
     pub fn new(world: W, cancel: impl Fn() -> CancelFlag + Send + Sync + 'static) -> Self {
-        Self { world, cancel: Arc::new(cancel), refusal: None }
+        Self { world, cancel: Arc::new(cancel) }
     }
 
     /// The same files. Translations and checks end when the flag is raised.
     pub fn until(world: W, cancel: CancelFlag) -> Self {
         Self::new(world, move || cancel.clone())
     }
-
-    /// The same files, of which nothing is translated, for this reason.
-    pub fn refusing(self, refusal: VerilogError) -> Self {
-        Self { refusal: Some(refusal), ..self }
-    }
 }
 
-impl<W: VerilogFiles> SourceWorld for GuardedWorld<W> {
+impl<W: SourceWorld> SourceWorld for GuardedWorld<W> {
     fn read(&self, path: &str) -> Result<String, FileError> {
         self.world.read(path)
     }
@@ -49,15 +42,12 @@ impl<W: VerilogFiles> SourceWorld for GuardedWorld<W> {
         self.world.read_bytes(path)
     }
 
-    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        if let Some(refusal) = &self.refusal {
-            return Err(refusal.clone());
-        }
+    fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
         let cancel = self.cancel();
         if cancel.is_raised() {
             return Err(VerilogError::Cancelled);
         }
-        Verilog { world: &self.world, files, cancel: &cancel }.modules()
+        verilog::read(files, &Wanted::All, &cancel)
     }
 
     fn cancel(&self) -> CancelFlag {
@@ -82,16 +72,11 @@ mod tests {
     use super::*;
     use crate::DiskWorld;
 
-    const FILES: [VerilogFile<'_>; 1] =
-        [VerilogFile { path: "m.v", text: "module m(input a, output q);\n assign q = a;\nendmodule\n" }];
-
     #[test]
-    fn nothing_is_translated_against_a_refusal_or_after_the_end() {
-        let refusing = GuardedWorld::new(DiskWorld, CancelFlag::default).refusing(VerilogError::Untrusted);
-        assert_eq!(refusing.translate_verilog(&FILES), Err(VerilogError::Untrusted));
+    fn nothing_is_read_after_the_end() {
         let cancel = CancelFlag::default();
         cancel.raise();
         let over = GuardedWorld::until(DiskWorld, cancel);
-        assert_eq!(over.translate_verilog(&FILES), Err(VerilogError::Cancelled));
+        assert_eq!(over.read_verilog(&VerilogFiles::default()), Err(VerilogError::Cancelled));
     }
 }

@@ -73,4 +73,4 @@ pub use swarm_checkpoint::SwarmCheckpoint;
 #[cfg(feature = "disk")]
 pub use temporary::{PrivateFile, temporary_folder};
 #[cfg(feature = "disk")]
-pub use verilog::{ParameterValue, TopModule, VerilogFiles};
+pub use verilog::{ParameterValue, TopModule};

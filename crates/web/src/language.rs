@@ -31,7 +31,7 @@ impl LanguageQueue {
 }
 
 impl LanguageShell for LanguageQueue {
-    fn world(&self, _trusts_verilog: bool) -> SharedWorld {
+    fn world(&self) -> SharedWorld {
         self.folder.world()
     }
 

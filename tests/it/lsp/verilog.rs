@@ -1,18 +1,14 @@
-//! Verilog in editors: only where the user trusts it, and only as long as somebody waits for it.
+//! Verilog in editors: it is read only as long as somebody waits for it.
 
 use serde_json::{Value, json};
 
-use crate::lsp::client::{Client, at, uri};
-use crate::support::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
-use crate::support::tools::{YOSYS, signal};
-
-fn parameters(trusted: &Value) -> Value {
-    json!({ "capabilities": {}, "initializationOptions": { "verilog": { "trusted": trusted } } })
-}
+use crate::lsp::client::{Client, uri};
+use crate::support::slow_yosys::{MODULE, SlowYosys, USER, ended};
+use crate::support::tools::{SLANG, signal};
 
 /// A server that waits for Yosys, with the URI of its text and the process.
 fn waiting(slow: &SlowYosys) -> (Client, String, u32) {
-    let mut client = Client::of(&mut slow.program(), &parameters(&json!(true)));
+    let mut client = Client::of(&mut slow.program(), &json!({ "capabilities": {} }));
     let own = uri(&slow.bench.path().join("a.nb"));
     client.open(&own, USER);
     let yosys = slow.begun();
@@ -20,54 +16,17 @@ fn waiting(slow: &SlowYosys) -> (Client, String, u32) {
 }
 
 #[test]
-fn verilog_of_a_workspace_that_is_not_trusted_is_not_given_to_yosys() {
-    for trusted in [json!(false), Value::Null, json!("yes"), json!([])] {
-        let slow = SlowYosys::new();
-        let mut client = Client::of(&mut slow.program(), &parameters(&trusted));
-        let own = uri(&slow.bench.path().join("a.nb"));
-        client.open(&own, USER);
-        // Settings can come from files of the workspace.
-        let settings = json!({ "settings": { "nbc": { "verilog": { "trusted": true } } } });
-        client.tell("workspace/didChangeConfiguration", settings);
-        client.change(&own, &format!("{USER}\n"));
-        let found = client.diagnostics(&own);
-        let said = found[0]["message"].as_str().unwrap();
-        assert!(said.contains("a workspace that is not trusted") && said.contains("`verilog.trusted`"), "{said}");
-        assert_eq!(found[0]["range"]["start"], at(USER, "\"m.v\""));
-        client.goodbye();
-        assert!(!slow.has_begun());
-    }
-}
-
-#[test]
-fn verilog_of_a_trusted_workspace_is_translated() {
-    if !YOSYS.is_there() {
+fn verilog_that_a_text_uses_is_read() {
+    if !SLANG.is_there() {
         return;
     }
     let bench = crate::support::bench::Bench::new();
     bench.file("m.v", MODULE);
     let own = uri(&bench.file("a.nb", USER));
-    let mut client = Client::initialized(&parameters(&json!(true)));
+    let mut client = Client::initialized(&json!({ "capabilities": {} }));
     client.open(&own, USER);
-    // Only an old Yosys is told.
-    let found = client.diagnostics(&own);
-    let is_old = |fault: &Value| fault["severity"] == 2 && fault["message"].as_str().unwrap().contains("which is old");
-    assert!(found.as_array().unwrap().iter().all(is_old), "{found}");
+    assert_eq!(client.diagnostics(&own), json!([]));
     client.goodbye();
-}
-
-#[test]
-fn verilog_that_reaches_the_machine_is_refused_before_yosys_begins() {
-    for (text, word) in REACHING {
-        let slow = SlowYosys::new();
-        slow.bench.file("m.v", format!("{text}{MODULE}"));
-        let mut client = Client::of(&mut slow.program(), &parameters(&json!(true)));
-        client.open(&uri(&slow.bench.path().join("a.nb")), USER);
-        let found = client.diagnostics(&uri(&slow.bench.path().join("m.v"))).to_string();
-        assert!(found.contains(&word.replace('\\', r"\\")), "{found}");
-        client.goodbye();
-        assert!(!slow.has_begun());
-    }
 }
 
 #[test]

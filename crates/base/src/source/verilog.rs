@@ -1,310 +1,210 @@
-//! Verilog through a [`SourceWorld`](super::SourceWorld): what its translator gives, and why there may be none.
+//! Verilog through a [`SourceWorld`]: what its reader is given, and what it says.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::FileError;
+use super::{FileError, SourceWorld};
+use crate::budget::Limit;
 
-/// The name of the text that Yosys reads, in the places that it gives.
-pub const VERILOG_SOURCE: &str = "source.v";
+/// A Verilog file, or one that it reads.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct VerilogFile {
+    /// Its path in messages.
+    pub path: String,
+    pub text: String,
+}
 
-/// The modules of a Verilog file as BLIF.
+/// Verilog files that are read as one design.
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub struct VerilogFiles {
+    pub files: Vec<VerilogFile>,
+    /// The files that these may include or load into memories, by the paths that they use.
+    pub others: BTreeMap<String, VerilogFile>,
+}
+
+impl VerilogFiles {
+    /// The files with these paths and texts, and all files of a world below their folders that they name in quotes.
+    pub fn of<'f>(world: &(impl SourceWorld + ?Sized), files: impl IntoIterator<Item = (&'f str, &'f str)>) -> Self {
+        let mut found = Self::default();
+        let (mut looked, mut bytes) = (BTreeSet::new(), 0);
+        for (path, text) in files {
+            let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+            let mut waiting = vec![(String::new(), text.to_owned())];
+            while let Some((inside, text)) = waiting.pop() {
+                for name in text.split('"').filter(|name| is_path_inside(name)) {
+                    for used in [joined(&inside, name), name.to_owned()] {
+                        let path = joined(folder, &used);
+                        let is_new = Limit::VerilogFiles.permit(looked.len() as u64).is_ok()
+                            && looked.insert(path.clone())
+                            && !found.others.contains_key(&used);
+                        let Some(text) = is_new.then(|| read_inside(world, folder, &path).ok()).flatten() else {
+                            continue;
+                        };
+                        bytes += text.len() as u64;
+                        if Limit::VerilogBytes.permit(bytes).is_ok() {
+                            let parent = used.rsplit_once('/').map_or("", |(parent, _)| parent).to_owned();
+                            waiting.push((parent, text.clone()));
+                            found.others.insert(used, VerilogFile { path, text });
+                        }
+                    }
+                }
+            }
+            found.files.push(VerilogFile { path: path.to_owned(), text: text.to_owned() });
+        }
+        found
+    }
+}
+
+/// Whether a text in quotes can be the path of a file in a folder or below.
+fn is_path_inside(name: &&str) -> bool {
+    let is_letter = |c: char| c.is_ascii_alphanumeric() || "._-+/".contains(c);
+    let is_part = |part: &str| !part.is_empty() && part != "." && part != "..";
+    name.len() < 256 && name.contains('.') && name.chars().all(is_letter) && name.split('/').all(is_part)
+}
+
+fn joined(folder: &str, name: &str) -> String {
+    if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") }
+}
+
+/// The text of a file, unless a link leads out of the folder.
+fn read_inside(world: &(impl SourceWorld + ?Sized), folder: &str, path: &str) -> Result<String, FileError> {
+    let root = world.identity(if folder.is_empty() { "." } else { folder });
+    let is_inside = match root.as_str() {
+        "." => true,
+        root => world.identity(path).strip_prefix(root).is_some_and(|inside| inside.starts_with(['/', '\\'])),
+    };
+    if is_inside { world.read(path) } else { Err(FileError::NotFound) }
+}
+
+/// The modules of Verilog files that no other contains.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VerilogModules {
-    /// The version of the Yosys that translated them, such as `0.23`.
-    pub yosys: String,
-    /// A flat model for each module.
+    /// The version of the Yosys that read them, such as `0.70`.
+    pub version: String,
+    pub modules: Vec<VerilogModule>,
+    /// Warnings of the reader.
+    pub notes: Vec<VerilogNote>,
+}
+
+/// A module as it was read.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct VerilogModule {
+    pub name: String,
+    /// A flat model.
     pub blif: String,
-    /// The names of the modules that no other module of the file contains, in order.
-    pub tops: Vec<String>,
-    /// The wires of these modules that are used and that nothing drives. They are 0.
-    pub undriven: Vec<VerilogName>,
-    /// The modules that were left out, because they have no outputs.
-    pub left_out: Vec<VerilogName>,
-    /// Hints for synthesizers that a simulator ignores, each kind once.
-    pub hints: Vec<VerilogName>,
-    /// The lines that declare nets, by module and name.
-    pub nets: BTreeMap<(String, String), usize>,
-    /// The nets whose leftmost bit has the lowest number, such as `a` of `input [0:3] a`, by module and name.
-    pub ascending: BTreeSet<(String, String)>,
-    /// The place of each line that Yosys read.
-    pub lines: Vec<VerilogPlace>,
-    /// What a simulation of each module beside its source has shown.
-    pub simulated: BTreeMap<String, Simulated>,
+    /// Where its nets are declared.
+    pub nets: BTreeMap<String, VerilogPlace>,
+    /// The ports whose leftmost bit has the lowest number, such as `a` of `input [0:3] a`.
+    pub ascending: BTreeSet<String>,
+    pub second: SecondReading,
 }
 
-/// What a simulation of a translated module beside its source has shown.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Simulated {
-    /// Every output that the source defines was equal in so many steps.
-    Equal {
-        /// The number of steps.
-        steps: usize,
-    },
-    /// There is no simulator.
-    NoSimulator,
-    /// The simulator cannot read the source, or took too long.
-    NotRun,
-    /// The module has feedback, or its registers clock each other, so that the order of events matters.
-    NotComparable,
+/// What a second reader has made of a module.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SecondReading {
+    /// The same circuit; that is proved.
+    Alike,
+    /// A circuit that is equal in so many random steps.
+    Equal(usize),
+    /// Another circuit.
+    Different,
+    /// One that makes no steps that could be compared.
+    NoSteps,
+    /// It could not read the module.
+    #[default]
+    None,
 }
 
-impl VerilogModules {
-    /// The place of the statement of the BLIF text at these bytes: that of a net in it. `module` is its model.
-    pub fn place(&self, module: &str, at: usize) -> Option<&VerilogPlace> {
+impl VerilogModule {
+    /// The place of the statement of the BLIF text at these bytes: that of a net in it.
+    pub fn place(&self, at: usize) -> Option<&VerilogPlace> {
         let start = self.blif[..at].rfind('\n').map_or(0, |end| end + 1);
         let words: Vec<&str> = self.blif[start..].lines().next()?.split_whitespace().collect();
         // What a statement defines comes first: the last net of `.names`, the second one of `.latch`.
         let defined = if words[0] == ".latch" { words.get(2) } else { words.last() };
         let nets =
             defined.into_iter().chain(&words[1..]).map(|word| word.split_once('=').map_or(*word, |(_, net)| net));
-        nets.filter_map(|net| self.line(module, net)).next()
-    }
-
-    /// The line of a net: that of its declaration, or one that is part of a name by Yosys, as in `$and$source.v:3$1`.
-    fn line(&self, module: &str, net: &str) -> Option<&VerilogPlace> {
-        let whole = net.strip_suffix(']').and_then(|net| net.rsplit_once('[')).map_or(net, |(bus, _)| bus);
-        let declared = self.nets.get(&(module.to_owned(), whole.to_owned())).copied();
-        let named = || verilog_line(net.split_once(VERILOG_SOURCE)?.1);
-        self.lines.get(declared.or_else(named)?.checked_sub(1)?)
+        let whole = |net: &str| net.strip_suffix(']').and_then(|net| net.rsplit_once('[')).map(|(bus, _)| bus.to_owned());
+        nets.filter_map(|net| self.nets.get(net).or_else(|| self.nets.get(&whole(net)?))).next()
     }
 }
 
-/// The line in a place after the name of its file, such as `:3.2-3.8` or `:3$1_Y`.
-pub fn verilog_line(place: &str) -> Option<usize> {
-    place.strip_prefix(':')?.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()
-}
-
-/// A name in a Verilog file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct VerilogName {
-    /// The name.
-    pub name: String,
-    /// Its line, if it is known.
-    pub place: Option<VerilogPlace>,
-}
-
-/// A net with two drivers.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct VerilogDrivers {
-    /// The net.
-    pub net: String,
-    /// What drives it, each with its place, if it is known.
-    pub drivers: [(String, Option<VerilogPlace>); 2],
-    /// The place of its declaration, if it is known.
-    pub place: Option<VerilogPlace>,
-}
-
-/// A Verilog file that was read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct VerilogFile<'a> {
-    /// Its path.
-    pub path: &'a str,
-    /// Its text.
-    pub text: &'a str,
-}
-
-/// A line of a Verilog file or of a file that it includes.
+/// A place in a Verilog file or in one that it includes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct VerilogPlace {
     /// The path of the file, which many places share.
     pub file: Arc<str>,
     /// The line, from 1.
     pub line: usize,
+    /// The first column, from 1, and the one after the last; without them the whole line is meant.
+    pub columns: Option<[usize; 2]>,
 }
 
-/// The reason why Verilog could not be translated.
+/// An error or a warning about Verilog.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct VerilogNote {
+    pub is_error: bool,
+    pub message: String,
+    /// What is said of the place.
+    pub label: String,
+    pub place: Option<VerilogPlace>,
+    pub help: Option<String>,
+}
+
+/// The reason why Verilog could not be read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum VerilogError {
     /// This world runs no other programs.
-    NoTranslator,
-    /// The files are of a workspace that its user does not trust.
-    Untrusted,
-    /// Yosys is not installed.
-    NoYosys,
-    /// Nobody waits for the translation any more.
+    NoReader,
+    /// The reader is not installed.
+    NotInstalled,
+    /// Nobody waits for it any more.
     Cancelled,
     /// There is no temporary folder to work in; the operating system's message.
     NoFolder(String),
-    /// Yosys ended without a result.
-    NoResult,
-    /// Yosys crashed.
-    Crashed,
-    /// A module without content, so that nothing drives its outputs.
-    Empty {
-        /// The module.
-        module: String,
-        /// Its place, if it is known.
-        place: Option<VerilogPlace>,
-    },
-    /// Yosys took too much time.
-    TooLong {
-        /// The limit, in seconds of a processor.
-        seconds: u64,
-    },
-    /// Yosys needed too much memory.
-    TooLarge {
-        /// The limit, in megabytes.
-        megabytes: u64,
-    },
-    /// A module that the file does not have.
-    NoModule {
-        /// The module.
-        module: String,
-        /// The modules of the file.
-        known: Vec<String>,
-    },
+    /// A module that the files do not have.
+    NoModule { module: String, known: Vec<String> },
     /// A parameter that the top module does not have.
-    NoParameter {
-        /// The parameter.
-        parameter: String,
-        /// The parameters of the module.
-        known: Vec<String>,
-    },
+    NoParameter { parameter: String, known: Vec<String> },
     /// Parameters without the module that they are for.
-    SeveralModules {
-        /// The modules that no other contains.
-        known: Vec<String>,
-    },
-    /// A power whose exponent has too many bits that can change.
-    WideExponent {
-        /// Its place, if it is known.
-        place: Option<VerilogPlace>,
-    },
-    /// Nets with two drivers.
-    DrivenTwice {
-        /// The nets.
-        nets: Vec<VerilogDrivers>,
-    },
-    /// A label of a `case` that has an unknown bit, and so never matches.
-    UnknownLabel {
-        /// The label.
-        label: String,
-        /// Its place, if it is known.
-        place: Option<VerilogPlace>,
-    },
-    /// A cell of Yosys that is no logic.
-    NotLogic {
-        /// The kind of the cell.
-        cell: String,
-        /// Its place, if it is known.
-        place: Option<VerilogPlace>,
-    },
-    /// A word that could lead to other files or programs.
-    Outside {
-        /// Its place.
-        place: VerilogPlace,
-        /// The directive, system function or keyword.
-        word: String,
-    },
-    /// An included file that cannot be read.
-    Include {
-        /// The place of the directive.
-        place: VerilogPlace,
-        /// The path in the directive.
-        path: String,
-        /// Why it cannot be read.
-        error: FileError,
-    },
-    /// A net that is not always driven, which a robot cannot be.
-    HighImpedance {
-        /// Its place.
-        place: VerilogPlace,
-        /// The keyword or the constant.
-        construct: String,
-    },
-    /// A text that cannot be prepared for Yosys.
-    Unclear {
-        /// The place of the fault.
-        place: VerilogPlace,
-        /// The fault.
-        fault: VerilogFault,
-    },
-    /// An output that is another one in a simulation of the source.
-    Different(Box<VerilogDifference>),
-    /// Yosys rejected the text.
-    Rejected {
-        /// The message of Yosys.
-        reason: String,
-        /// The place, if Yosys names one.
-        place: Option<VerilogPlace>,
-    },
+    SeveralModules { known: Vec<String> },
+    /// Faults of the files.
+    Faults(Vec<VerilogNote>),
 }
 
-/// A step of a simulation in which a translated module differs from its source. Values are bits, the leftmost first.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct VerilogDifference {
-    /// The module.
-    pub module: String,
-    /// The step, from 1; 0 is the start.
-    pub step: usize,
-    /// The output port that differs.
-    pub output: String,
-    /// Its value in the simulation of the source.
-    pub source: String,
-    /// Its value in the translation.
-    pub translation: String,
-    /// The input ports with their values.
-    pub inputs: Vec<(String, String)>,
-    /// The place of the output's declaration, if it is known.
-    pub place: Option<VerilogPlace>,
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::source::MemoryWorld;
 
-/// A fault that shows before Yosys reads the text.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum VerilogFault {
-    /// A comment without an end.
-    OpenComment,
-    /// A text in quotes without an end in its line.
-    OpenQuote,
-    /// A condition without its `` `endif ``.
-    OpenCondition,
-    /// A part of a condition without its start.
-    NoCondition {
-        /// The directive.
-        word: String,
-    },
-    /// A character that does not belong there.
-    Character {
-        /// The character.
-        character: char,
-    },
-    /// A number without digits after its base.
-    NoDigits {
-        /// The base.
-        base: String,
-    },
-    /// A directive that is not followed by what it needs.
-    Directive {
-        /// The directive.
-        word: String,
-        /// What it needs.
-        expected: &'static str,
-    },
-    /// A macro that is not defined, or a directive that is not known.
-    Undefined {
-        /// The macro.
-        word: String,
-    },
-    /// A macro with another number of arguments than it declares.
-    Arguments {
-        /// The macro.
-        word: String,
-        /// The number that it declares.
-        expected: usize,
-    },
-    /// Macros or files that contain each other.
-    TooDeep,
-    /// An argument of a task that goes in and out.
-    InOutArgument,
-    /// Too many included files.
-    TooManyFiles {
-        /// The limit.
-        most: u64,
-    },
-    /// Macros and included files that become too much text.
-    TooMuch {
-        /// The limit, in megabytes.
-        megabytes: u64,
-    },
+    #[test]
+    fn what_a_file_names_comes_with_it() {
+        let mut world = MemoryWorld::default();
+        let main = "`include \"parts/a.vh\"\n$readmemh(\"rom.hex\", m); $display(\"no.txt\"); `include \"../up.vh\"\n";
+        for (path, text) in [
+            ("in/main.v", main),
+            ("in/parts/a.vh", "`include \"b.vh\"\n`include \"c.vh\"\n"),
+            ("in/parts/b.vh", "b"),
+            ("in/c.vh", "c"),
+            ("in/rom.hex", "0"),
+            ("up.vh", "secret"),
+            ("in/more.vh", "not named"),
+        ] {
+            world.insert(path, text);
+        }
+        let found = VerilogFiles::of(&world, [("in/main.v", main)]);
+        let others: Vec<&str> = found.others.keys().map(String::as_str).collect();
+        assert_eq!(others, ["c.vh", "parts/a.vh", "parts/b.vh", "rom.hex"]);
+        assert_eq!(found.others["parts/b.vh"].path, "in/parts/b.vh");
+    }
+
+    #[test]
+    fn paths_stay_inside() {
+        for name in ["a.vh", "parts/a.vh", "x-1.2+y_z.mem"] {
+            assert!(is_path_inside(&name), "{name}");
+        }
+        for name in ["", "a", "/etc/a.b", "../a.b", "a/../b.c", "a b.c", "a;b.c", "a\n.c", "C:\\a.b", "a//b.c"] {
+            assert!(!is_path_inside(&name), "{name}");
+        }
+    }
 }

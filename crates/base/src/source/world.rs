@@ -4,7 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use super::{CancelFlag, FileError, VerilogError, VerilogFile, VerilogModules};
+use super::{CancelFlag, FileError, VerilogError, VerilogFiles, VerilogModules};
 
 /// What can be at a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -31,12 +31,12 @@ pub trait SourceWorld {
         self.read(path).map(String::into_bytes)
     }
 
-    /// The modules of Verilog files that were read, as one design.
+    /// The modules of Verilog files, as one design.
     ///
     /// # Errors
-    /// When the text has faults, or the world cannot translate Verilog.
-    fn translate_verilog(&self, _files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        Err(VerilogError::NoTranslator)
+    /// When the files have faults, or this world has no reader for them.
+    fn read_verilog(&self, _files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+        Err(VerilogError::NoReader)
     }
 
     /// The flag that is raised when nobody waits any more for what is being read.
@@ -79,8 +79,8 @@ macro_rules! forward {
                 (**self).read_bytes(path)
             }
 
-            fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-                (**self).translate_verilog(files)
+            fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+                (**self).read_verilog(files)
             }
 
             fn cancel(&self) -> CancelFlag {
@@ -176,8 +176,8 @@ impl<W: SourceWorld> SourceWorld for OverlayWorld<W> {
         over.map(String::into_bytes).or_else(|_| self.under.read_bytes(path))
     }
 
-    fn translate_verilog(&self, files: &[VerilogFile<'_>]) -> Result<VerilogModules, VerilogError> {
-        self.under.translate_verilog(files)
+    fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
+        self.under.read_verilog(files)
     }
 
     fn cancel(&self) -> CancelFlag {

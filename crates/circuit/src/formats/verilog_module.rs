@@ -3,25 +3,19 @@
 use crate::formats::blif;
 use crate::formats::design::Design;
 use nbc_base::diag::Diagnostic;
-use nbc_base::source::{FileId, SourceFile, VerilogModules};
+use nbc_base::source::{FileId, SourceFile, VerilogModule};
 
 /// Reads a translated module of Verilog files.
 ///
 /// # Errors
 /// The errors of the translation, at the lines of the Verilog file.
 pub fn verilog_module(
-    modules: &VerilogModules,
-    module: &str,
+    module: &VerilogModule,
     files: &[&SourceFile],
     clock: Option<&str>,
 ) -> Result<Design, Vec<Diagnostic>> {
-    let moved = |fault: Diagnostic| {
-        let at = fault.labels.first().map(|label| label.span.start as usize);
-        let place = at.and_then(|at| modules.place(module, at));
-        fault.of_verilog(files, place)
-    };
-    let design = verilog_design(modules, module, files[0].id, clock);
-    design.map_err(|faults| faults.into_iter().map(moved).collect())
+    let design = verilog_design(module, files[0].id, clock);
+    design.map_err(|faults| faults.into_iter().map(|fault| fault.moved_to_verilog(files, module)).collect())
 }
 
 /// The same with the errors at places of the translation, which is the text of `file`.
@@ -29,12 +23,10 @@ pub fn verilog_module(
 /// # Errors
 /// As [`verilog_module`].
 pub fn verilog_design(
-    modules: &VerilogModules,
-    module: &str,
+    module: &VerilogModule,
     file: FileId,
     clock: Option<&str>,
 ) -> Result<Design, Vec<Diagnostic>> {
-    let design = blif::read_model(&modules.blif, file, clock, Some(module))?;
-    let ascending = modules.ascending.iter().filter(|(of, _)| of == module).map(|(_, net)| net.clone()).collect();
-    Ok(Design { ascending, ..design })
+    let design = blif::read_model(&module.blif, file, clock, Some(&module.name))?;
+    Ok(Design { ascending: module.ascending.clone(), ..design })
 }

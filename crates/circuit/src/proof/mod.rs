@@ -21,7 +21,7 @@ pub use method::Method;
 pub use patterns::random_word;
 pub(crate) use relation::Counterpart;
 pub use sat::Comparison;
-pub(crate) use sat::SatSweep;
+pub(crate) use sat::{Compared, SatSweep};
 
 use crate::formats::{Design, Register};
 use crate::passes::{self, Pass};

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use batsat::{BasicSolver, Lit, SolverInterface, lbool};
+use batsat::{Lit, Solver, SolverInterface, SolverOpts, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
@@ -11,7 +11,9 @@ use crate::clause::{Clause, ValuedBit};
 use crate::network::{Gate, Network, Signal, word};
 use crate::proof::method::Method;
 use crate::proof::patterns::random_word;
+use crate::properties::{Solved, SolverLimits};
 use nbc_base::model::Function;
+use nbc_base::source::CancelFlag;
 
 /// Words of 64 random patterns to start with.
 const WORDS: usize = 32;
@@ -93,16 +95,35 @@ pub struct SatSweep {
     known: BTreeMap<u128, (Signal, bool)>,
     /// The number of calls of the solver.
     pub calls: usize,
+    /// The most clauses that the solver learns in a call.
+    portion: u64,
+    cancel: CancelFlag,
+}
+
+/// What the solver says of two signals.
+pub enum Compared {
+    Equal,
+    /// They differ at these inputs.
+    Different(Vec<bool>),
+    /// The solver reached its limit.
+    Open,
 }
 
 impl SatSweep {
     /// A solver with the inputs alone, without gates.
     pub fn new(inputs: usize) -> Self {
+        Self::limited(inputs, u64::MAX, CancelFlag::default())
+    }
+
+    /// The same with a solver that learns at most so many clauses in a call, and ends when the flag is raised.
+    pub fn limited(inputs: usize, portion: u64, cancel: CancelFlag) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6370_726f_6f66);
         let patterns = (0..WORDS).map(|word| (0..inputs).map(|_| random_word(word, &mut random)).collect()).collect();
         let mut sweep = Self {
-            cones: Cones::default(),
+            cones: Cones::new(&cancel),
             propagations: 0,
+            portion,
+            cancel,
             assumed: Vec::new(),
             patterns,
             inputs,
@@ -114,17 +135,19 @@ impl SatSweep {
             known: BTreeMap::new(),
             calls: 0,
         };
-        sweep.values = (0..2 + inputs).map(|signal| sweep.source_values(signal)).collect();
+        sweep.values = (0..2 + inputs).map(|signal| sweep.source_values(signal, 0)).collect();
         sweep.hashes = sweep.values.iter().map(|values| hash(values)).collect();
         sweep.classify((0..sweep.values.len() as Signal).filter(|&signal| signal != 1).collect());
         sweep
     }
 
-    fn source_values(&self, signal: usize) -> Vec<u64> {
+    /// The values of a constant or an input, from a word on.
+    fn source_values(&self, signal: usize, from: usize) -> Vec<u64> {
+        let words = &self.patterns[from..];
         match signal {
-            0 => vec![0; self.patterns.len()],
-            1 => vec![!0; self.patterns.len()],
-            _ => self.patterns.iter().map(|inputs| inputs[signal - 2]).collect(),
+            0 => vec![0; words.len()],
+            1 => vec![!0; words.len()],
+            _ => words.iter().map(|inputs| inputs[signal - 2]).collect(),
         }
     }
 
@@ -167,10 +190,11 @@ impl SatSweep {
         let hash = self.hashes[signal as usize];
         for class in self.classes.get(&hash).cloned().unwrap_or_default() {
             let opposite = self.is_turned(signal) != self.is_turned(class);
-            match self.difference((class, opposite), (signal, false)) {
+            match self.compared((class, opposite), (signal, false)) {
                 // From here on the class represents the gate.
-                None => return (class, opposite),
-                Some(pattern) => self.found.push(pattern),
+                Compared::Equal => return (class, opposite),
+                Compared::Different(pattern) => self.found.push(pattern),
+                Compared::Open => {}
             }
         }
         self.classes.entry(hash).or_default().push(signal);
@@ -186,26 +210,56 @@ impl SatSweep {
     }
 
     /// Inputs at which two signals, each maybe inverted, differ.
+    ///
+    /// # Panics
+    /// When the solver has a limit and reaches it.
     pub fn difference(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Option<Vec<bool>> {
-        if one == two {
-            return None;
+        match self.compared(one, two) {
+            Compared::Equal => None,
+            Compared::Different(inputs) => Some(inputs),
+            Compared::Open => panic!("a solver without limits ends with an answer"),
         }
-        [false, true].into_iter().find_map(|value| self.pattern(&[(one, value), (two, !value)]))
+    }
+
+    /// Whether two signals, each maybe inverted, are equal.
+    pub fn compared(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Compared {
+        if one == two {
+            return Compared::Equal;
+        }
+        for value in [false, true] {
+            match self.solve(&[(one, value), (two, !value)]) {
+                Solved::Yes => return Compared::Different(self.inputs_found()),
+                Solved::No => {}
+                Solved::Open => return Compared::Open,
+            }
+        }
+        Compared::Equal
     }
 
     /// Inputs at which signals, each maybe inverted, have these values.
     pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
+        match self.solve(wanted) {
+            Solved::Yes => Some(self.inputs_found()),
+            Solved::No => None,
+            Solved::Open => panic!("a solver without limits ends with an answer"),
+        }
+    }
+
+    fn inputs_found(&self) -> Vec<bool> {
+        (0..self.inputs).map(|input| self.cones.is_on(input as Signal + 2)).collect()
+    }
+
+    fn solve(&mut self, wanted: &[((Signal, bool), bool)]) -> Solved {
         self.calls += 1;
         if self.cones.calls >= MOST_CALLS && self.cones.variable.len() > MANY_VARIABLES {
             self.propagations += self.cones.propagations();
-            self.cones = Cones::default();
+            self.cones = Cones::new(&self.cancel);
             self.assumed.iter().for_each(|clause| self.cones.clause(clause));
         }
         let assumed: Vec<_> = wanted.iter().map(|&((signal, inverted), value)| (signal, value != inverted)).collect();
         let first_gate = 2 + self.inputs;
         let gate = |signal: Signal| (signal as usize).checked_sub(first_gate).map(|at| self.gates[at]);
-        let is_found = self.cones.solve(&assumed, gate);
-        is_found.then(|| (0..self.inputs).map(|i| self.cones.is_on(i as Signal + 2)).collect())
+        self.cones.solve(&assumed, gate, self.portion)
     }
 
     /// Simulates the patterns that were found, and those that differ from them in some inputs.
@@ -225,7 +279,7 @@ impl SatSweep {
         let known = self.values[0].len();
         for signal in 0..self.values.len() {
             let mut words: Vec<u64> = match signal.checked_sub(2 + self.inputs) {
-                None => self.source_values(signal)[known..].to_vec(),
+                None => self.source_values(signal, known),
                 Some(i) => {
                     let Gate { function, pins } = self.gates[i];
                     let [a, b] = pins.map(|pin| &self.values[pin as usize][known..]);
@@ -250,9 +304,8 @@ impl SatSweep {
 }
 
 /// A solver with the gates on which some signals depend.
-#[derive(Default)]
 struct Cones {
-    solver: BasicSolver,
+    solver: Solver<SolverLimits>,
     /// The variable of each signal that the solver has, as the literal that is true where the signal is 1.
     variable: BTreeMap<Signal, Lit>,
     /// The signals whose gates the solver has.
@@ -261,12 +314,17 @@ struct Cones {
 }
 
 impl Cones {
+    fn new(cancel: &CancelFlag) -> Self {
+        let solver = Solver::new(SolverOpts::default(), SolverLimits::new(cancel.clone()));
+        Self { solver, variable: BTreeMap::new(), defined: BTreeSet::new(), calls: 0 }
+    }
+
     fn propagations(&self) -> u64 {
         self.solver.num_propagations()
     }
 
     /// Whether signals can have these values. `gate` knows the gate of each signal that is no source.
-    fn solve(&mut self, wanted: &[(Signal, bool)], gate: impl Fn(Signal) -> Option<Gate>) -> bool {
+    fn solve(&mut self, wanted: &[(Signal, bool)], gate: impl Fn(Signal) -> Option<Gate>, portion: u64) -> Solved {
         self.calls += 1;
         let mut waiting: Vec<Signal> = wanted.iter().map(|&(signal, _)| signal).collect();
         while let Some(signal) = waiting.pop() {
@@ -283,9 +341,12 @@ impl Cones {
             }
         }
         let assumed: Vec<Lit> = wanted.iter().map(|&wanted| self.literal(wanted)).collect();
-        let solved = self.solver.solve_limited(&assumed);
-        assert!(solved != lbool::UNDEF, "the solver runs without limits");
-        solved == lbool::TRUE
+        self.solver.cb_mut().permit(portion);
+        match self.solver.solve_limited(&assumed) {
+            solved if solved == lbool::TRUE => Solved::Yes,
+            solved if solved == lbool::FALSE => Solved::No,
+            _ => Solved::Open,
+        }
     }
 
     /// Whether a signal is 1 in what was found last. One that the solver does not have may be either.

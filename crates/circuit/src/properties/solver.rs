@@ -5,11 +5,22 @@ use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, lb
 use nbc_base::source::CancelFlag;
 
 /// What ends a call of the solver.
-pub(super) struct SolverLimits {
+pub(crate) struct SolverLimits {
     /// The clauses learned so far.
     learned: u64,
     most: u64,
     cancel: CancelFlag,
+}
+
+impl SolverLimits {
+    pub(crate) fn new(cancel: CancelFlag) -> Self {
+        Self { learned: 0, most: u64::MAX, cancel }
+    }
+
+    /// Ends the next call after so many learned clauses.
+    pub(crate) fn permit(&mut self, portion: u64) {
+        self.most = self.learned.saturating_add(portion);
+    }
 }
 
 impl Callbacks for SolverLimits {
@@ -24,7 +35,7 @@ impl Callbacks for SolverLimits {
 
 /// Whether some values fulfill all clauses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Solved {
+pub(crate) enum Solved {
     /// They do.
     Yes,
     /// No values do.
@@ -45,9 +56,8 @@ pub(super) struct ClauseSolver {
 
 impl ClauseSolver {
     pub(super) fn new(cancel: CancelFlag) -> Self {
-        let limits = SolverLimits { learned: 0, most: u64::MAX, cancel };
         // Learned clauses are not minimized along implications, which takes most of the time in unrolled steps.
-        let mut solver = Solver::new(SolverOpts { ccmin_mode: 1, ..SolverOpts::default() }, limits);
+        let mut solver = Solver::new(SolverOpts { ccmin_mode: 1, ..SolverOpts::default() }, SolverLimits::new(cancel));
         let one = Lit::new(solver.new_var_default(), true);
         solver.add_clause_reuse(&mut vec![one]);
         Self { solver, one, chooses_gates: true, calls: 0 }
@@ -98,8 +108,7 @@ impl ClauseSolver {
     /// Whether all clauses can hold with these literals at 1, as far as a portion of work tells.
     pub(super) fn solve(&mut self, assumed: &[Lit], portion: u64) -> Solved {
         self.calls += 1;
-        let limits = self.solver.cb_mut();
-        limits.most = limits.learned.saturating_add(portion);
+        self.solver.cb_mut().permit(portion);
         let solved = self.solver.solve_limited(assumed);
         match solved == lbool::TRUE {
             true => Solved::Yes,

@@ -2,7 +2,7 @@
 
 use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogFile, VerilogModules};
+use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogFiles, VerilogModule};
 use nbc_circuit::correspondence;
 use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, pla, verilog_module};
 
@@ -20,8 +20,6 @@ pub(super) struct ForeignDesign {
     /// Source text of the language.
     pub(super) text: String,
     pub(super) warnings: Vec<Diagnostic>,
-    /// A warning about an old version of the translator.
-    pub(super) old: Option<Diagnostic>,
     pub(super) circuits: Vec<ForeignCircuit>,
 }
 
@@ -45,25 +43,21 @@ impl Foreign<'_> {
 
     /// The circuits of Verilog files.
     pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<ForeignDesign, Vec<Diagnostic>> {
-        let given: Vec<_> = files.iter().map(|file| VerilogFile { path: &file.name, text: &file.text }).collect();
-        let modules = self.world.translate_verilog(&given);
-        let modules = modules.map_err(|error| vec![at_use(Diagnostic::untranslated(files, &error), self.place)])?;
-        if modules.tops.is_empty() {
-            return Err(self.fault(LoadError::NoModules { file: self.name.to_owned() }));
-        }
-        let circuit = |name: &String| self.circuit(&self.module(&modules, files, name)?);
-        let texts: Result<Vec<String>, _> = modules.tops.iter().map(circuit).collect();
-        let warnings = Diagnostic::of_modules(files, &modules).into_iter();
-        let origin = |name: &String| ForeignCircuit {
+        let named = files.iter().map(|file| (file.name.as_str(), file.text.as_str()));
+        let here = |faults: Vec<Diagnostic>| faults.into_iter().map(|fault| at_use(fault, self.place)).collect();
+        let modules = self.world.read_verilog(&VerilogFiles::of(self.world, named));
+        let modules = modules.map_err(|error| here(Diagnostic::unread_verilog(files, &error)))?;
+        let circuit = |module: &VerilogModule| self.circuit(&self.module(module, files)?);
+        let texts: Result<Vec<String>, _> = modules.modules.iter().map(circuit).collect();
+        let origin = |(at, module): (usize, &VerilogModule)| ForeignCircuit {
             file: self.name.to_owned(),
-            circuit: name.clone(),
-            origin: modules.origin(name),
+            circuit: module.name.clone(),
+            origin: modules.origin(at),
         };
         Ok(ForeignDesign {
             text: texts?.join("\n"),
-            warnings: warnings.map(|warning| at_use(warning, self.place)).collect(),
-            old: Diagnostic::old_yosys(&modules.yosys).map(|old| at_use(old, self.place)),
-            circuits: modules.tops.iter().map(origin).collect(),
+            warnings: here(modules.notes.iter().map(|note| Diagnostic::of_verilog(files, note)).collect()),
+            circuits: modules.modules.iter().enumerate().map(origin).collect(),
         })
     }
 
@@ -84,9 +78,9 @@ impl Foreign<'_> {
         design
     }
 
-    fn module(&self, modules: &VerilogModules, files: &[&SourceFile], name: &str) -> Result<Design, Vec<Diagnostic>> {
-        self.legal(name)?;
-        let design = verilog_module(modules, name, files, Some(Register::CLOCK));
+    fn module(&self, module: &VerilogModule, files: &[&SourceFile]) -> Result<Design, Vec<Diagnostic>> {
+        self.legal(&module.name)?;
+        let design = verilog_module(module, files, Some(Register::CLOCK));
         design.map_err(|faults| faults.into_iter().map(|fault| at_use(fault, self.place)).collect())
     }
 

@@ -285,12 +285,8 @@ impl Loader<'_> {
         let path = files[0].1;
         let files: Vec<_> = ids.iter().map(|&id| sources.file(id)).collect();
         let foreign = Foreign { world: self.world, format: CircuitSource::Verilog, name, place: path.span };
-        let ForeignDesign { text, warnings, old, circuits } = foreign.verilog(&files)?;
+        let ForeignDesign { text, warnings, circuits } = foreign.verilog(&files)?;
         self.loaded.faults.extend(warnings);
-        // Every design of a program is read by the same Yosys.
-        let is_known = |old: &Diagnostic| self.loaded.faults.iter().any(|known| known.message == old.message);
-        let old = old.filter(|old| !is_known(old));
-        self.loaded.faults.extend(old);
         self.loaded.foreign.extend(circuits);
         self.add_circuits(sources, name, text, path)
     }

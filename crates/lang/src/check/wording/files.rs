@@ -19,8 +19,6 @@ pub(crate) enum LoadError {
     CircuitName { circuit: String, rename: &'static str },
     /// A circuit of a file without outputs.
     NoOutputs { circuit: String },
-    /// A Verilog file without a module to call.
-    NoModules { file: String },
     /// Files that use each other.
     Circular { circle: Vec<String> },
     /// Files that use each other too deeply.
@@ -71,10 +69,6 @@ impl LoadError {
             }
             Self::NoOutputs { circuit } => {
                 let message = format!("`{circuit}` has no outputs, but a circuit needs one");
-                Diagnostic::new(Code::CircuitFile, message, span, "used here")
-            }
-            Self::NoModules { file } => {
-                let message = format!("`{file}` has no module with an output");
                 Diagnostic::new(Code::CircuitFile, message, span, "used here")
             }
             Self::Circular { circle } => {

@@ -1,0 +1,302 @@
+//! Two designs that should be the same, such as two readings of one text: whether they are equal for ever.
+//!
+//! Both make the same random steps first. Then they are one machine with common inputs, in which registers that agree
+//! are found and proved to agree by induction ([`Classes`]); outputs are compared where they do.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::CancelFlag;
+use crate::correspondence::{ClassLimits, Classes};
+use crate::formats::buses::buses;
+use crate::formats::{Design, Register};
+use crate::network::{Network, Signal, View};
+use crate::proof::Compared;
+use crate::random_run::DesignRun;
+
+/// The most and the fewest random steps, and the gates that are evaluated in all of them, roughly.
+const MOST_STEPS: usize = 4_096;
+const FEWEST_STEPS: usize = 256;
+const MOST_GATES: usize = 50_000_000;
+
+/// The most tries to make a run shorter.
+const MOST_TRIES: usize = 400;
+
+/// The most clauses that the solver learns to compare two signals.
+const PORTION: u64 = 2_000;
+
+const SEED: u64 = 0x6e62_6369_7665_7269;
+
+/// What is known of two designs.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Likeness {
+    /// They are equal in every step, whatever their inputs are.
+    Proved,
+    /// They are equal in so many random steps.
+    Open(usize),
+    /// They are, but differ in a state of the first that may never be reached: the values of its inputs, of its
+    /// registers, and of the outputs of both.
+    Doubtful { steps: usize, inputs: Vec<bool>, state: Vec<bool>, outputs: [Vec<bool>; 2] },
+    /// The last step of these runs differs.
+    Different([DesignRun; 2]),
+    /// One of them has not this port.
+    Port(String),
+    /// One of them has feedback, or does not settle, so that it has no steps.
+    NoSteps,
+}
+
+/// Compares two designs.
+pub fn likeness(one: &Design, two: &Design, cancel: &CancelFlag) -> Likeness {
+    let order = match PortOrder::of(one, two) {
+        Ok(order) => order,
+        Err(port) => return Likeness::Port(port),
+    };
+    let gates = one.logic.cells().count().max(1);
+    let steps = (MOST_GATES / gates).clamp(FEWEST_STEPS, MOST_STEPS);
+    let names: Vec<String> = one.logic.inputs()[..one.inputs()].iter().map(|&id| one.logic.net_name(id)).collect();
+    let ports: Vec<Vec<usize>> = buses(&names, &one.ascending).into_iter().map(|bus| bus.bits).collect();
+    let random = DesignRun::random(one, &ports, steps, SEED);
+    let Some((run, other)) = random.and_then(|run| Some((order.run(two, &run.inputs)?, run))) else {
+        return Likeness::NoSteps;
+    };
+    let mut outputs = run.outputs.iter().zip(&other.outputs);
+    if let Some(last) = outputs.position(|(run, other)| run != other) {
+        return Likeness::Different(shortened(one, two, &order, other.inputs[..=last].to_vec()));
+    }
+    let steps = run.outputs.len();
+    let product = match Product::of(one, two, &order) {
+        Some(product) => product,
+        None => return Likeness::NoSteps,
+    };
+    match product.compared(cancel) {
+        Compared::Equal => Likeness::Proved,
+        Compared::Open => Likeness::Open(steps),
+        Compared::Different(values) if one.registers.is_empty() && two.registers.is_empty() => {
+            Likeness::Different(shortened(one, two, &order, vec![values]))
+        }
+        Compared::Different(values) => product.doubtful(steps, &values),
+    }
+}
+
+/// The ports of one design in another: for each of the first, its place in the second.
+struct PortOrder {
+    inputs: Vec<usize>,
+    outputs: Vec<usize>,
+}
+
+impl PortOrder {
+    /// Fails with a port that only one of them has.
+    fn of(one: &Design, two: &Design) -> Result<Self, String> {
+        let names = |design: &Design| {
+            let name = |&id| design.logic.net_name(id);
+            let inputs: Vec<String> = design.logic.inputs()[..design.inputs()].iter().map(name).collect();
+            let outputs: Vec<String> = design.logic.outputs()[..design.outputs()].iter().map(name).collect();
+            [inputs, outputs]
+        };
+        let places = |first: &[String], second: &[String]| -> Result<Vec<usize>, String> {
+            let known: BTreeMap<&String, usize> = second.iter().enumerate().map(|(at, name)| (name, at)).collect();
+            if let Some(more) = second.iter().find(|name| !first.contains(name)) {
+                return Err(more.clone());
+            }
+            first.iter().map(|name| known.get(name).copied().ok_or_else(|| name.clone())).collect()
+        };
+        let ([inputs, outputs], [others, other_outputs]) = (names(one), names(two));
+        Ok(Self { inputs: places(&inputs, &others)?, outputs: places(&outputs, &other_outputs)? })
+    }
+
+    /// The run of the second design with inputs of the first, in the order of the first.
+    fn run(&self, two: &Design, inputs: &[Vec<bool>]) -> Option<DesignRun> {
+        let mut moved = vec![vec![false; self.inputs.len()]; inputs.len()];
+        for (step, moved) in inputs.iter().zip(&mut moved) {
+            self.inputs.iter().zip(step).for_each(|(&place, &value)| moved[place] = value);
+        }
+        let run = DesignRun::with(two, moved)?;
+        let shown = |outputs: &Vec<bool>| self.outputs.iter().map(|&place| outputs[place]).collect();
+        Some(DesignRun { inputs: inputs.to_vec(), outputs: run.outputs.iter().map(shown).collect() })
+    }
+}
+
+/// Runs with the last of these inputs in which both designs differ, with as few of the others as are needed.
+fn shortened(one: &Design, two: &Design, order: &PortOrder, mut inputs: Vec<Vec<bool>>) -> [DesignRun; 2] {
+    let runs = |inputs: &[Vec<bool>]| Some([DesignRun::with(one, inputs.to_vec())?, order.run(two, inputs)?]);
+    let mut best = runs(&inputs).expect("both have run with these inputs");
+    let (mut size, mut tries) = (inputs.len() / 2, MOST_TRIES);
+    while size > 0 {
+        let mut at = 0;
+        while at + size < inputs.len() && tries > 0 {
+            tries -= 1;
+            let fewer = [&inputs[..at], &inputs[at + size..]].concat();
+            match runs(&fewer).filter(|[one, two]| one.outputs.last() != two.outputs.last()) {
+                Some(shorter) => (best, inputs) = (shorter, fewer),
+                None => at += size,
+            }
+        }
+        size /= 2;
+    }
+    best
+}
+
+/// Two designs as one machine: its outputs are those of the first and of the second, then the next values of the
+/// registers of both, and then what forces them.
+struct Product {
+    network: Network,
+    registers: Vec<Register>,
+    /// The numbers of inputs and of outputs of a design, and of the registers of the first.
+    ports: [usize; 2],
+    own: usize,
+    /// Registers that clock others, each with that of the first which it must equal.
+    clocks: BTreeSet<[usize; 2]>,
+}
+
+impl Product {
+    /// None if one of them has feedback.
+    fn of(one: &Design, two: &Design, order: &PortOrder) -> Option<Self> {
+        let [first, second] = [View::of(&one.logic, &[]).ok()?.network, View::of(&two.logic, &[]).ok()?.network];
+        let [ports, shown] = [one.inputs(), one.outputs()];
+        let both = [one.registers.len(), two.registers.len()];
+        let mut network = Network::new(ports + both[0] + both[1]);
+        let inputs: Vec<Signal> = (0..network.inputs).map(|at| network.input(at)).collect();
+        let outputs = included(&mut network, &first, &inputs[..ports + both[0]]);
+        let mut own = vec![0; ports];
+        order.inputs.iter().zip(&inputs).for_each(|(&place, &input)| own[place] = input);
+        own.extend(&inputs[ports + both[0]..]);
+        let others = included(&mut network, &second, &own);
+        network.outputs = outputs[..shown].to_vec();
+        network.outputs.extend(order.outputs.iter().map(|&place| others[place]));
+        network.outputs.extend(&outputs[shown..shown + both[0]]);
+        network.outputs.extend(&others[shown..shown + both[1]]);
+        network.outputs.extend(&outputs[shown + both[0]..]);
+        network.outputs.extend(&others[shown + both[1]..]);
+        let mut product =
+            Self { network, registers: one.registers.clone(), ports: [ports, shown], own: both[0], clocks: BTreeSet::new() };
+        product.add_registers(&two.registers);
+        Some(product)
+    }
+
+    /// Adds the registers of the second. One that clocks others stands for that of the first with its name, if they are
+    /// proved equal.
+    fn add_registers(&mut self, second: &[Register]) {
+        let places = |registers: &[Register]| -> BTreeMap<String, usize> {
+            registers.iter().enumerate().map(|(at, register)| (register.name.clone(), at)).collect()
+        };
+        let [first_places, second_places] = [places(&self.registers), places(second)];
+        let second_name = |name: &str| format!("{name}\n");
+        for register in second {
+            let mut clock = register.clock.clone();
+            if let Some((name, &at)) = clock.as_ref().and_then(|clock| second_places.get_key_value(clock)) {
+                match first_places.get(name) {
+                    Some(&first) => _ = self.clocks.insert([first, self.own + at]),
+                    None => clock = Some(second_name(name)),
+                }
+            }
+            self.registers.push(Register { name: second_name(&register.name), clock, ..register.clone() });
+        }
+    }
+
+    fn compared(&self, cancel: &CancelFlag) -> Compared {
+        let [inputs, shown] = self.ports;
+        let limits = ClassLimits { portion: Some(PORTION), cancel: cancel.clone(), follows_clocks: true };
+        let classes = Classes::of(&self.registers, &self.network, [inputs, 2 * shown], limits);
+        if !self.clocks.iter().all(|&[one, two]| classes.are_equal(one, two)) {
+            return Compared::Open;
+        }
+        let pairs: Vec<[usize; 2]> = (0..shown).map(|at| [at, shown + at]).collect();
+        match classes.compared(&pairs) {
+            Compared::Different(mut values) if self.own == self.registers.len() && self.own == 0 => {
+                values.truncate(inputs);
+                Compared::Different(values)
+            }
+            compared => compared,
+        }
+    }
+
+    fn doubtful(&self, steps: usize, values: &[bool]) -> Likeness {
+        let [inputs, shown] = self.ports;
+        let words: Vec<u64> = values.iter().map(|&value| u64::from(value)).collect();
+        let found = self.network.simulate(&words);
+        let outputs: Vec<bool> =
+            self.network.outputs[..2 * shown].iter().map(|&output| found[output as usize] & 1 == 1).collect();
+        Likeness::Doubtful {
+            steps,
+            inputs: values[..inputs].to_vec(),
+            state: values[inputs..inputs + self.own].to_vec(),
+            outputs: [outputs[..shown].to_vec(), outputs[shown..].to_vec()],
+        }
+    }
+}
+
+/// Adds another network over these inputs; the signals of its outputs.
+fn included(network: &mut Network, other: &Network, inputs: &[Signal]) -> Vec<Signal> {
+    let mut signals: Vec<Signal> = [0, 1].into_iter().chain(inputs.iter().copied()).collect();
+    for gate in &other.gates {
+        let pins = gate.pins.map(|pin| signals[pin as usize]);
+        signals.push(network.add(gate.function, pins));
+    }
+    other.outputs.iter().map(|&output| signals[output as usize]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::formats::blif;
+    use nbc_base::source::FileId;
+
+    fn design(text: &str) -> Design {
+        blif::read(text, FileId(0), None).unwrap()
+    }
+
+    fn compared(one: &str, two: &str) -> Likeness {
+        likeness(&design(one), &design(two), &CancelFlag::default())
+    }
+
+    /// A counter of two bits whose second bit is made of `next`, with names of its own.
+    fn counter(low: &str, high: &str, next: &str) -> String {
+        format!(
+            ".model c\n.inputs clk\n.outputs q\n.latch l {low} re clk 0\n.latch h {high} re clk 0\n.names {low} l\n0 1\n\
+             .names {low} {high} h\n{next}\n.names {high} q\n1 1\n.end\n"
+        )
+    }
+
+    #[test]
+    fn machines_are_equal_for_ever_whatever_their_registers_are_called() {
+        let right = "10 1\n01 1";
+        assert_eq!(compared(&counter("a", "b", right), &counter("c", "d", right)), Likeness::Proved);
+        let Likeness::Different([one, two]) = compared(&counter("a", "b", right), &counter("a", "b", "10 1")) else {
+            panic!("they differ");
+        };
+        assert_eq!(one.inputs, two.inputs);
+        // Three rises of the clock.
+        assert_eq!((one.outputs.last(), two.outputs.last(), one.inputs.len()), (Some(&vec![true]), Some(&vec![false]), 6));
+    }
+
+    #[test]
+    fn ports_are_found_by_name() {
+        let one = ".model m\n.inputs a b\n.outputs p q\n.names a b p\n10 1\n.names b q\n1 1\n.end\n";
+        let two = ".model m\n.inputs b a\n.outputs q p\n.names b q\n1 1\n.names b a p\n01 1\n.end\n";
+        assert_eq!(compared(one, two), Likeness::Proved);
+        assert_eq!(compared(one, &two.replace(" q", " r")), Likeness::Port("r".to_owned()));
+    }
+
+    #[test]
+    fn rare_differences_of_logic_are_found_and_of_states_doubted() {
+        let inputs: Vec<String> = (0..40).map(|at| format!("i{at}")).collect();
+        let all = inputs.join(" ");
+        let rare = |row: &str| format!(".model m\n.inputs {all}\n.outputs q\n.names {all} q\n{row} 1\n.end\n");
+        let ones = "1".repeat(38);
+        let compared_rows = compared(&rare(&format!("{ones}11")), &rare(&format!("{ones}00")));
+        let Likeness::Different([first, _]) = compared_rows else { panic!("they differ") };
+        assert!(first.inputs.last().is_some_and(|inputs| inputs[..38].iter().all(|&value| value)));
+        // The state in which they differ is never reached.
+        let stuck = |cover: &str| {
+            format!(".model m\n.inputs clk a\n.outputs q\n.latch n s re clk 0\n.names s a n\n11 1\n.names s a q\n{cover} 1\n.end\n")
+        };
+        assert_eq!(compared(&stuck("1-"), &stuck("11")), Likeness::Proved);
+        let chain = |cover: &str| {
+            let latches: String = (0..12).map(|at| format!(".latch n{at} s{at} re clk 0\n")).collect();
+            let names: String = (1..12).map(|at| format!(".names s{} n{at}\n1 1\n", at - 1)).collect();
+            format!(".model m\n.inputs clk a\n.outputs q\n{latches}.names a s11 n0\n10 1\n{names}\
+                     .names s0 s1 s2 s3 s4 s5 s6 s7 s8 s9 s10 s11 q\n{cover} 1\n.end\n")
+        };
+        let doubtful = compared(&chain("111111111111"), &chain("111111111110"));
+        assert!(matches!(doubtful, Likeness::Different(_) | Likeness::Doubtful { .. }), "{doubtful:?}");
+    }
+}
