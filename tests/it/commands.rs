@@ -36,7 +36,8 @@ fn the_table_of_prerequisites_has_the_tools_of_the_tests() {
     let packages: Vec<&str> = tools
         .lines()
         .filter(|line| line.starts_with("pub const "))
-        .filter_map(|line| line.split("package: \"").nth(1)?.split('"').next())
+        .filter_map(|line| line.split("remedy: \"").nth(1)?.split('"').next())
+        .map(|remedy| remedy.trim_start_matches("apt-get install "))
         .collect();
     assert!(packages.len() >= 8, "{packages:?}");
     for package in packages {

@@ -32,7 +32,8 @@ fn a_result_says_what_both_readers_make_of_a_file() {
     assert_eq!(proof, serde_json::json!({"from": "slang", "version": version, "second": "alike"}));
     assert!(said.contains(&format!("read by Yosys {version}\n")), "{said}");
     // A class of SystemVerilog's types that Yosys does not read.
-    let (said, proof) = read("module m(input logic a, output logic q);\n  timeunit 1ns;\n  assign q = ~a;\nendmodule\n");
+    let (said, proof) =
+        read("module m(input logic a, output logic q);\n  timeunit 1ns;\n  assign q = ~a;\nendmodule\n");
     assert!(said.contains("proved from slang's reading of the file, which yosys cannot read,"), "{said}");
     assert_eq!(proof["second"], "unread");
     let bench = Bench::new();
@@ -45,7 +46,11 @@ fn a_result_says_what_both_readers_make_of_a_file() {
 const DROPPED: [(&str, &str, &str); 3] = [
     ("", "read module `m` differently", "`y` is "),
     ("if (key == 32'hdeadbeef)", "read module `m` differently", "key = 11011110101011011011111011101111"),
-    ("if (n[20])", "may read module `m` differently", "in the state n = 100000000000000000000, which may never be reached"),
+    (
+        "if (n[20])",
+        "may read module `m` differently",
+        "in the state n = 100000000000000000000, which may never be reached",
+    ),
 ];
 
 #[test]
@@ -98,8 +103,10 @@ fn an_incomplete_list_of_events_is_told_and_a_complete_one_is_not() {
         return;
     }
     let said = |events: &str| {
-        let text = format!("module m(input a, b, input [3:0] c, output reg y);\ninteger i;\n\
-            always @({events}) begin y = a & b; for (i = 0; i < 4; i = i + 1) y = y ^ c[i]; end\nendmodule\n");
+        let text = format!(
+            "module m(input a, b, input [3:0] c, output reg y);\ninteger i;\n\
+            always @({events}) begin y = a & b; for (i = 0; i < 4; i = i + 1) y = y ^ c[i]; end\nendmodule\n"
+        );
         read(&text).0
     };
     let lacking = said("a or c");

@@ -38,10 +38,7 @@ fn a_net_with_two_drivers_is_refused_with_both() {
             "assign z = {a, b, a, b};\nassign y = a & b;\nassign y = 1'b0;",
             ["`y` is driven twice: by logic and by the constant 0", "m.v:1:"],
         ),
-        (
-            "assign y = a;\nassign z = 0;\nassign z[2] = b;",
-            ["`z[2]` is driven twice: by the constant 0", "`b`"],
-        ),
+        ("assign y = a;\nassign z = 0;\nassign z[2] = b;", ["`z[2]` is driven twice: by the constant 0", "`b`"]),
         (
             "wire w;\nassign w = a;\nassign w = ~b;\nassign y = w, z = w;",
             ["`w` is driven twice: by `a` and by logic", "m.v:2:"],

@@ -74,9 +74,7 @@ fn a_module_without_content_or_outputs_is_named() {
         }
     }
     bench.file("none.v", "module bench;\n  reg a = 1;\nendmodule\n");
-    bench.run(&["synth", "none.v", "-o", "none.nb"]).expect_fault(&[
-        "the files have no module with outputs",
-    ]);
+    bench.run(&["synth", "none.v", "-o", "none.nb"]).expect_fault(&["the files have no module with outputs"]);
     bench.file("none.blif", ".model b\n.inputs a\n.end\n");
     bench.run(&["synth", "none.blif"]).expect_fault(&["`b` has no outputs"]);
     assert!(!bench.path().join("none.nb").exists());

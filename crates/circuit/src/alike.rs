@@ -1,12 +1,12 @@
 //! Two designs that should be the same, such as two readings of one text: whether they are equal for ever.
 //!
 //! Both make the same random steps first. Then they are one machine with common inputs, in which registers that agree
-//! are found and proved to agree by induction ([`Classes`]); outputs are compared where they do.
+//! are found and proved to agree by induction ([`RegisterClasses`]); outputs are compared where they do.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::CancelFlag;
-use crate::correspondence::{ClassLimits, Classes};
+use crate::correspondence::{ClassLimits, RegisterClasses};
 use crate::formats::buses::buses;
 use crate::formats::{Design, Register};
 use crate::network::{Network, Signal, View};
@@ -15,8 +15,8 @@ use crate::random_run::DesignRun;
 
 /// The most and the fewest random steps, and the gates that are evaluated in all of them, roughly.
 const MOST_STEPS: usize = 4_096;
-const FEWEST_STEPS: usize = 256;
-const MOST_GATES: usize = 50_000_000;
+const FEWEST_STEPS: usize = 64;
+const MOST_GATES: usize = 20_000_000;
 
 /// The most tries to make a run shorter.
 const MOST_TRIES: usize = 400;
@@ -166,8 +166,13 @@ impl Product {
         network.outputs.extend(&others[shown..shown + both[1]]);
         network.outputs.extend(&outputs[shown + both[0]..]);
         network.outputs.extend(&others[shown + both[1]..]);
-        let mut product =
-            Self { network, registers: one.registers.clone(), ports: [ports, shown], own: both[0], clocks: BTreeSet::new() };
+        let mut product = Self {
+            network,
+            registers: one.registers.clone(),
+            ports: [ports, shown],
+            own: both[0],
+            clocks: BTreeSet::new(),
+        };
         product.add_registers(&two.registers);
         Some(product)
     }
@@ -195,7 +200,7 @@ impl Product {
     fn compared(&self, cancel: &CancelFlag) -> Compared {
         let [inputs, shown] = self.ports;
         let limits = ClassLimits { portion: Some(PORTION), cancel: cancel.clone(), follows_clocks: true };
-        let classes = Classes::of(&self.registers, &self.network, [inputs, 2 * shown], limits);
+        let classes = RegisterClasses::of(&self.registers, &self.network, [inputs, 2 * shown], limits);
         if !self.clocks.iter().all(|&[one, two]| classes.are_equal(one, two)) {
             return Compared::Open;
         }
@@ -251,7 +256,8 @@ mod tests {
     /// A counter of two bits whose second bit is made of `next`, with names of its own.
     fn counter(low: &str, high: &str, next: &str) -> String {
         format!(
-            ".model c\n.inputs clk\n.outputs q\n.latch l {low} re clk 0\n.latch h {high} re clk 0\n.names {low} l\n0 1\n\
+            ".model c\n.inputs clk\n.outputs q\n.latch l {low} re clk 0\n.latch h {high} re clk 0\n\
+             .names {low} l\n0 1\n\
              .names {low} {high} h\n{next}\n.names {high} q\n1 1\n.end\n"
         )
     }
@@ -265,7 +271,10 @@ mod tests {
         };
         assert_eq!(one.inputs, two.inputs);
         // Three rises of the clock.
-        assert_eq!((one.outputs.last(), two.outputs.last(), one.inputs.len()), (Some(&vec![true]), Some(&vec![false]), 6));
+        assert_eq!(
+            (one.outputs.last(), two.outputs.last(), one.inputs.len()),
+            (Some(&vec![true]), Some(&vec![false]), 6)
+        );
     }
 
     #[test]
@@ -287,14 +296,19 @@ mod tests {
         assert!(first.inputs.last().is_some_and(|inputs| inputs[..38].iter().all(|&value| value)));
         // The state in which they differ is never reached.
         let stuck = |cover: &str| {
-            format!(".model m\n.inputs clk a\n.outputs q\n.latch n s re clk 0\n.names s a n\n11 1\n.names s a q\n{cover} 1\n.end\n")
+            format!(
+                ".model m\n.inputs clk a\n.outputs q\n.latch n s re clk 0\n.names s a n\n11 1\n\
+                 .names s a q\n{cover} 1\n.end\n"
+            )
         };
         assert_eq!(compared(&stuck("1-"), &stuck("11")), Likeness::Proved);
         let chain = |cover: &str| {
             let latches: String = (0..12).map(|at| format!(".latch n{at} s{at} re clk 0\n")).collect();
             let names: String = (1..12).map(|at| format!(".names s{} n{at}\n1 1\n", at - 1)).collect();
-            format!(".model m\n.inputs clk a\n.outputs q\n{latches}.names a s11 n0\n10 1\n{names}\
-                     .names s0 s1 s2 s3 s4 s5 s6 s7 s8 s9 s10 s11 q\n{cover} 1\n.end\n")
+            format!(
+                ".model m\n.inputs clk a\n.outputs q\n{latches}.names a s11 n0\n10 1\n{names}\
+                     .names s0 s1 s2 s3 s4 s5 s6 s7 s8 s9 s10 s11 q\n{cover} 1\n.end\n"
+            )
         };
         let doubtful = compared(&chain("111111111111"), &chain("111111111110"));
         assert!(matches!(doubtful, Likeness::Different(_) | Likeness::Doubtful { .. }), "{doubtful:?}");

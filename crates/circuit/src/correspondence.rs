@@ -57,7 +57,7 @@ pub fn reduce(design: &Design) -> (Design, Removed) {
     }
     let Ok(view) = View::of(&design.logic, &[]) else { return (design.clone(), Removed::default()) };
     let ports = [design.inputs(), design.outputs()];
-    let classes = Classes::of(&design.registers, &view.network, ports, ClassLimits::default());
+    let classes = RegisterClasses::of(&design.registers, &view.network, ports, ClassLimits::default());
     let mut removed = classes.removed();
     let mut reduced = classes.merged(design);
     let simplify = |logic: &mut Netlist| passes::run(logic).expect("the view of the logic is complete");
@@ -99,7 +99,7 @@ pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, P
 }
 
 /// Registers that agree.
-pub(crate) struct Classes<'d> {
+pub(crate) struct RegisterClasses<'d> {
     registers: &'d [Register],
     /// The logic: its inputs are ports and then registers, its outputs ports, next values and what forces registers.
     network: &'d Network,
@@ -128,14 +128,9 @@ type Key<'d> = (Option<Signal>, Change<'d>, Vec<u64>);
 /// What changes a register: its clock, and how it is forced.
 type Change<'d> = ((u8, &'d str), Forcing);
 
-impl<'d> Classes<'d> {
+impl<'d> RegisterClasses<'d> {
     /// The classes for which the proof holds.
-    pub(crate) fn of(
-        registers: &'d [Register],
-        network: &'d Network,
-        ports: [usize; 2],
-        limits: ClassLimits,
-    ) -> Self {
+    pub(crate) fn of(registers: &'d [Register], network: &'d Network, ports: [usize; 2], limits: ClassLimits) -> Self {
         let mut next = ports[1] + registers.len();
         let range = |register: &Register| {
             let first = next;

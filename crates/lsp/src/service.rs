@@ -393,7 +393,7 @@ mod tests {
     }
 
     impl LanguageShell for Bare {
-        fn world(&self, _: bool) -> SharedWorld {
+        fn world(&self) -> SharedWorld {
             Arc::new(MemoryWorld::default())
         }
 

@@ -10,7 +10,8 @@ use crate::export::ExportedPage;
 use crate::lock::lock;
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::{
-    CancelFlag, EntryKind, FileError, OverlayWorld, SharedWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules,
+    CancelFlag, EntryKind, FileError, OverlayWorld, SharedWorld, SourceWorld, VerilogError, VerilogFiles,
+    VerilogModules,
 };
 use nbc_session::{Checked, Choice, CompileOptions, Session};
 

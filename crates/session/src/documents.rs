@@ -81,12 +81,8 @@ impl Documents {
         }
         let revision = self.revisions.get(&self.world.identity(path)).copied().unwrap_or_default();
         let readings = RefCell::new(std::mem::take(&mut self.readings));
-        let asking = RecordingWorld {
-            world: &self.world,
-            asked: RefCell::default(),
-            readings,
-            is_cancelled: Cell::default(),
-        };
+        let asking =
+            RecordingWorld { world: &self.world, asked: RefCell::default(), readings, is_cancelled: Cell::default() };
         let mut checked = Checked::read(&asking, path, revision);
         if !checked.has_errors() {
             let robots = RobotSources { world: &asking, built_in: &self.built_in, file: path };

@@ -2,14 +2,15 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::verilog::{self, TopModule, Wanted};
+use crate::verilog::{self, TopModule, WantedModules};
 use crate::wording::StoreError;
 use crate::{DiskWorld, disk};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
-use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogFiles, VerilogPlace};
+use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogPlace};
 use nbc_circuit::CancelFlag;
 use nbc_circuit::formats::{AigerModel, CircuitFormat, CircuitSource, Design, aiger, bench, blif, pla, verilog_module};
+use nbc_lang::check::verilog_files;
 use nbc_lang::syntax;
 
 /// A circuit file to be read.
@@ -146,9 +147,8 @@ fn verilog_top(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
         sources.add(path.display().to_string(), text);
     }
     let files: Vec<_> = sources.iter().collect();
-    let named = files.iter().map(|file| (file.name.as_str(), file.text.as_str()));
-    let design = VerilogFiles::of(&DiskWorld, named);
-    let modules = verilog::read(&design, &Wanted::Top(from.top), &CancelFlag::default());
+    let design = verilog_files(&DiskWorld, &files);
+    let modules = verilog::read(&design, &WantedModules::Top(from.top), &CancelFlag::default());
     let read = modules.map_err(|error| Diagnostic::unread_verilog(&files, &error)).and_then(|modules| {
         let warnings = modules.notes.iter().map(|note| Diagnostic::of_verilog(&files, note)).collect();
         let origin = modules.origin(0);

@@ -5,7 +5,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::disk;
-use crate::verilog::{self, Wanted};
+use crate::verilog::{self, WantedModules};
 use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 use nbc_circuit::CancelFlag;
 
@@ -95,7 +95,7 @@ impl SourceWorld for FolderWorld {
     }
 
     fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
-        verilog::read(files, &Wanted::All, &CancelFlag::default())
+        verilog::read(files, &WantedModules::All, &CancelFlag::default())
     }
 
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {

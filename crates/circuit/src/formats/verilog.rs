@@ -9,7 +9,7 @@ use std::fmt::Write;
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, visible};
 use crate::formats::starts::starts;
-use crate::formats::verilog_names::escaped;
+use crate::formats::verilog_names::{escaped, plain};
 use crate::formats::verilog_ports::VerilogPorts;
 use crate::guarded::Guarded;
 use crate::{NetId, Netlist, Node};
@@ -56,7 +56,7 @@ impl<'d> Writer<'d> {
         let ports = VerilogPorts::new(design, |driver| starts.contains_key(&driver));
         let kept: Vec<&str> = ports.names().into_iter().collect();
         let names = FileNames::new(netlist, &design.registers, &kept, false, legal);
-        let title = if netlist.name.is_empty() { "circuit".to_owned() } else { legal(&netlist.name) };
+        let title = if netlist.name.is_empty() { "circuit".to_owned() } else { plain(&legal(&netlist.name)) };
         let mut taken: BTreeSet<String> = names.own_clocks().map(str::to_owned).collect();
         taken.extend(kept.into_iter().map(str::to_owned));
         taken.extend(netlist.ids().filter(|&id| !is_constant(netlist, id)).map(|id| names.net(id).to_owned()));
@@ -131,7 +131,7 @@ impl<'d> Writer<'d> {
         let start =
             self.starts.get(&id).map_or(String::new(), |&start| format!("(* init = 1'b{} *) ", u8::from(start)));
         let module = &self.modules[&function].0;
-        let instance = escaped(&free(&mut self.taken, format!("{}_cell", self.names.net(id))));
+        let instance = escaped(&free(&mut self.taken, plain(&format!("{}_cell", self.names.net(id)))));
         let ports: String = ["a", "b", "c"].iter().zip(&pins).map(|(port, pin)| format!(".{port}({pin}), ")).collect();
         let _ = writeln!(text, "    {start}{module} {instance}({ports}.y({net}));");
     }

@@ -22,11 +22,7 @@ pub fn verilog_module(
 ///
 /// # Errors
 /// As [`verilog_module`].
-pub fn verilog_design(
-    module: &VerilogModule,
-    file: FileId,
-    clock: Option<&str>,
-) -> Result<Design, Vec<Diagnostic>> {
+pub fn verilog_design(module: &VerilogModule, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     let design = blif::read_model(&module.blif, file, clock, Some(&module.name))?;
     Ok(Design { ascending: module.ascending.clone(), ..design })
 }

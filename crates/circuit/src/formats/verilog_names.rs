@@ -5,6 +5,13 @@ pub(super) fn escaped(name: &str) -> String {
     if is_plain(name) { name.to_owned() } else { format!("\\{name} ") }
 }
 
+/// A name of letters, digits and `_`, for modules and instances: some readers know no other names of theirs.
+pub(super) fn plain(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
+    let letters: String = name.chars().map(letter).collect();
+    if letters.starts_with(|c: char| c.is_ascii_digit()) { format!("_{letters}") } else { letters }
+}
+
 /// Whether a name is a word that neither Verilog nor SystemVerilog reserves.
 fn is_plain(name: &str) -> bool {
     match name {

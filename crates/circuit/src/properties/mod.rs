@@ -32,7 +32,7 @@ pub use beside::EnvironmentStep;
 pub use certificate::InductiveProof;
 pub use machine::StepClock;
 pub use monitor::Monitored;
-pub(crate) use solver::{SolverLimits, Solved};
 pub use search::{EmptyProof, PropertySearch, PropertyVerdict, SearchBudget};
+pub(crate) use solver::{Solved, SolverLimits};
 pub use system::{SystemRegister, SystemRun, TransitionSystem};
 pub use wording::NoSteps;

@@ -1,8 +1,9 @@
 //! Circuits of other tools' files, translated to source text of the language.
 
+use crate::check::verilog_files::verilog_files;
 use crate::check::wording::{LoadError, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogFiles, VerilogModule};
+use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogModule};
 use nbc_circuit::correspondence;
 use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, pla, verilog_module};
 
@@ -43,9 +44,8 @@ impl Foreign<'_> {
 
     /// The circuits of Verilog files.
     pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<ForeignDesign, Vec<Diagnostic>> {
-        let named = files.iter().map(|file| (file.name.as_str(), file.text.as_str()));
         let here = |faults: Vec<Diagnostic>| faults.into_iter().map(|fault| at_use(fault, self.place)).collect();
-        let modules = self.world.read_verilog(&VerilogFiles::of(self.world, named));
+        let modules = self.world.read_verilog(&verilog_files(self.world, files));
         let modules = modules.map_err(|error| here(Diagnostic::unread_verilog(files, &error)))?;
         let circuit = |module: &VerilogModule| self.circuit(&self.module(module, files)?);
         let texts: Result<Vec<String>, _> = modules.modules.iter().map(circuit).collect();

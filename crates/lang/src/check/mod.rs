@@ -34,6 +34,7 @@ mod swarm;
 mod table;
 mod test;
 mod uses;
+mod verilog_files;
 mod vocabulary;
 mod wording;
 mod world;
@@ -43,6 +44,7 @@ pub use instance::named;
 pub use load::{PRELUDE, beside, is_usable, open};
 pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
+pub use verilog_files::verilog_files;
 
 use nbc_base::source::{FileId, SourceWorld, Sources};
 

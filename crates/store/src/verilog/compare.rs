@@ -10,13 +10,13 @@ const MOST_STEPS: usize = 12;
 const MOST_OUTPUTS: usize = 4;
 const MOST_VALUES: usize = 12;
 
-pub(super) struct Comparison {
+pub(super) struct ModuleComparison {
     pub(super) second: SecondReading,
     /// A run that ends with a difference, or a state with one, in words.
     pub(super) difference: Option<String>,
 }
 
-impl Comparison {
+impl ModuleComparison {
     pub(super) fn of(first: &VerilogModule, second: &VerilogModule, cancel: &CancelFlag) -> Self {
         let read = |module| verilog_design(module, FileId(0), None);
         // An error is told where the module is read.

@@ -35,10 +35,10 @@ struct Point {
 }
 
 /// The files in the sandbox, with the paths that messages name.
-pub(super) type Names = BTreeMap<String, Arc<str>>;
+pub(super) type SandboxFiles = BTreeMap<String, Arc<str>>;
 
 /// The errors, or the warnings if there are none.
-pub(super) fn notes(json: &str, names: &Names) -> Vec<VerilogNote> {
+pub(super) fn notes(json: &str, names: &SandboxFiles) -> Vec<VerilogNote> {
     let messages: Vec<Message> = serde_json::from_str(json).unwrap_or_default();
     let is_error = |message: &Message| matches!(message.severity.as_str(), "error" | "fatal");
     let has_errors = messages.iter().any(is_error);
@@ -47,9 +47,8 @@ pub(super) fn notes(json: &str, names: &Names) -> Vec<VerilogNote> {
         let is_of_events = message.message.contains("non-edge sensitivity");
         is_error(message) == has_errors && message.severity != "note" && !is_of_events
     };
-    let note = |message: &Message| {
-        wording::of_slang(has_errors, &message.message, &message.code, place(message, names))
-    };
+    let note =
+        |message: &Message| wording::of_slang(has_errors, &message.message, &message.code, place(message, names));
     let mut notes: Vec<VerilogNote> = Vec::new();
     for message in messages.iter().filter(is_told) {
         let note = note(message);
@@ -65,7 +64,7 @@ pub(super) fn notes(json: &str, names: &Names) -> Vec<VerilogNote> {
     notes
 }
 
-fn place(message: &Message, names: &Names) -> Option<VerilogPlace> {
+fn place(message: &Message, names: &SandboxFiles) -> Option<VerilogPlace> {
     let range = message.ranges.first().filter(|range| range.start.line == range.end.line);
     if let Some(Range { start, end }) = range {
         let columns = Some([start.column, end.column]);
@@ -77,7 +76,7 @@ fn place(message: &Message, names: &Names) -> Option<VerilogPlace> {
 }
 
 /// A place such as `a.v:3.8-3.9` or `a.v:3:8`, of the first if there are several.
-pub(super) fn at(text: &str, names: &Names) -> Option<VerilogPlace> {
+pub(super) fn at(text: &str, names: &SandboxFiles) -> Option<VerilogPlace> {
     let first = text.split('|').next()?;
     let (file, place) = first.split_once(':')?;
     let mut numbers = place.split(|c: char| !c.is_ascii_digit()).map(str::parse);
@@ -97,7 +96,7 @@ mod tests {
 
     #[test]
     fn errors_come_without_warnings_and_at_their_place() {
-        let names = Names::from([("source0.v".to_owned(), Arc::from("my file.v"))]);
+        let names = SandboxFiles::from([("source0.v".to_owned(), Arc::from("my file.v"))]);
         let json = r#"[{"severity": "warning", "message": "odd", "code": "A"},
             {"severity": "error", "message": "bad", "code": "B", "location": "source0.v:2:3"}]"#;
         let place = VerilogPlace { file: "my file.v".into(), line: 2, columns: Some([3, 4]) };

@@ -14,4 +14,4 @@ mod wording;
 
 pub use parameter::ParameterValue;
 pub use reader::TopModule;
-pub(super) use reader::{Wanted, read};
+pub(super) use reader::{WantedModules, read};

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Deserialize;
 
-use crate::verilog::messages::{self, Names};
+use crate::verilog::messages::{self, SandboxFiles};
 use crate::verilog::wording;
 use nbc_base::source::{VerilogNote, VerilogPlace};
 
@@ -84,18 +84,18 @@ impl WordNetlist {
     }
 
     /// Where a module is declared.
-    pub(super) fn declared(&self, module: &str, names: &Names) -> Option<VerilogPlace> {
+    pub(super) fn declared(&self, module: &str, names: &SandboxFiles) -> Option<VerilogPlace> {
         self.modules.get(module)?.attributes.place(module, names)
     }
 
     /// Where the nets of a module are declared.
-    pub(super) fn places(&self, module: &str, names: &Names) -> BTreeMap<String, VerilogPlace> {
+    pub(super) fn places(&self, module: &str, names: &SandboxFiles) -> BTreeMap<String, VerilogPlace> {
         let nets = self.modules.get(module).into_iter().flat_map(|module| &module.netnames);
         nets.filter_map(|(name, net)| Some((name.clone(), net.attributes.place(name, names)?))).collect()
     }
 
     /// What a person should know of a module. `latches` are the nets that are meant to be latches.
-    pub(super) fn notes(&self, module: &str, names: &Names, latches: &BTreeSet<String>) -> Vec<VerilogNote> {
+    pub(super) fn notes(&self, module: &str, names: &SandboxFiles, latches: &BTreeSet<String>) -> Vec<VerilogNote> {
         let Some(module) = self.modules.get(module) else { return Vec::new() };
         let nets = module.visible();
         let place = |name: &str| module.netnames.get(whole(name))?.attributes.place(whole(name), names);
@@ -193,7 +193,7 @@ impl WordCell {
         self.port_directions.get(port).map_or("", String::as_str)
     }
 
-    fn place(&self, names: &Names) -> Option<VerilogPlace> {
+    fn place(&self, names: &SandboxFiles) -> Option<VerilogPlace> {
         messages::at(self.attributes.src.as_ref()?, names)
     }
 
@@ -211,7 +211,7 @@ impl WordCell {
 
 impl Attributes {
     /// The place of a name.
-    fn place(&self, name: &str, names: &Names) -> Option<VerilogPlace> {
+    fn place(&self, name: &str, names: &SandboxFiles) -> Option<VerilogPlace> {
         let src = self.src.as_ref()?;
         let mut place = messages::at(src, names)?;
         let column = || src.split('|').next()?.rsplit('.').next()?.parse::<usize>().ok();
@@ -246,7 +246,7 @@ mod tests {
                 "q": {"hide_name": 0, "bits": [3, 4], "attributes": {"src": "s.v:1.13"}},
                 "e": {"hide_name": 0, "bits": [5], "attributes": {"src": "s.v:2.6"}}}}}}"#;
         let netlist: WordNetlist = serde_json::from_str(json).unwrap();
-        let names = Names::from([("s.v".to_owned(), "m.v".into())]);
+        let names = SandboxFiles::from([("s.v".to_owned(), "m.v".into())]);
         let said = |latches: &[&str]| {
             let latches = latches.iter().map(|&name| name.to_owned()).collect();
             netlist.notes("m", &names, &latches).into_iter().map(|note| note.message).collect::<Vec<_>>()

@@ -6,12 +6,12 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use crate::verilog::compare::Comparison;
-use crate::verilog::messages::{self, Names};
+use crate::verilog::compare::ModuleComparison;
+use crate::verilog::messages::{self, SandboxFiles};
 use crate::verilog::netlist::WordNetlist;
 use crate::verilog::parameter::ParameterValue;
-use crate::verilog::sandbox::{self, Ended, Sandbox, is_plain};
-use crate::verilog::tree::{Statements, Tree};
+use crate::verilog::sandbox::{self, Sandbox, SandboxRun, is_plain};
+use crate::verilog::tree::{DesignTree, Statements};
 use crate::verilog::wording;
 use nbc_base::source::{
     SecondReading, VerilogError, VerilogFiles, VerilogModule, VerilogModules, VerilogNote, VerilogPlace,
@@ -53,7 +53,7 @@ pub struct TopModule {
 }
 
 /// Which modules are read.
-pub(crate) enum Wanted<'a> {
+pub(crate) enum WantedModules<'a> {
     /// All that no other contains.
     All,
     /// One.
@@ -66,11 +66,11 @@ pub(crate) enum Wanted<'a> {
 /// When the files have faults, or the reader is missing or stopped.
 pub(crate) fn read(
     files: &VerilogFiles,
-    wanted: &Wanted<'_>,
+    wanted: &WantedModules<'_>,
     cancel: &CancelFlag,
 ) -> Result<VerilogModules, VerilogError> {
     let mut sandbox = Sandbox::new(cancel)?;
-    let mut names = Names::new();
+    let mut names = SandboxFiles::new();
     let mut sources = String::new();
     for (at, file) in files.files.iter().enumerate() {
         let name = format!("source{at}.{}", sandbox::extension(&file.path));
@@ -83,31 +83,45 @@ pub(crate) fn read(
         names.insert(name.clone(), Arc::from(file.path.as_str()));
     }
     sandbox.write("power.v", POWERS)?;
-    Reading { sandbox: &mut sandbox, names, sources, slang: SLANG.to_owned(), tops: String::new(), cancel }.modules(wanted)
+    Reading {
+        sandbox: &mut sandbox,
+        names,
+        sources,
+        slang: SLANG.to_owned(),
+        tops: String::new(),
+        parameters: String::new(),
+        cancel,
+    }
+    .modules(wanted)
 }
 
 /// Files in a sandbox.
 struct Reading<'a> {
     sandbox: &'a mut Sandbox<'a>,
-    names: Names,
+    names: SandboxFiles,
     /// The files of the design, each after a space.
     sources: String,
     /// The command that reads them.
     slang: String,
-    /// Its option for one module.
+    /// Its options for one module, and for the parameters of modules that no other contains.
     tops: String,
+    parameters: String,
     cancel: &'a CancelFlag,
 }
 
 impl Reading<'_> {
-    fn modules(&mut self, wanted: &Wanted<'_>) -> Result<VerilogModules, VerilogError> {
+    fn modules(&mut self, wanted: &WantedModules<'_>) -> Result<VerilogModules, VerilogError> {
+        if let WantedModules::Top(top) = wanted {
+            let is_option = |(name, _): &(&String, &ParameterValue)| is_plain(name);
+            self.parameters =
+                top.parameters.iter().filter(is_option).map(|(name, value)| format!(" -G {name}={value}")).collect();
+        }
         let (tree, mut notes) = match wanted {
-            Wanted::Top(TopModule { name: Some(name), .. }) => self.tree_of(name)?,
+            WantedModules::Top(TopModule { name: Some(name), .. }) => self.tree_of(name)?,
             _ => self.tree()?,
         };
         let (mut tops, left_out) = tree.tops();
-        let mut parameters = String::new();
-        if let Wanted::Top(top) = wanted {
+        if let WantedModules::Top(top) = wanted {
             match &top.name {
                 Some(name) => tops = vec![name.clone()],
                 None if tops.len() > 1 && !top.parameters.is_empty() => {
@@ -115,7 +129,10 @@ impl Reading<'_> {
                 }
                 None => tops.truncate(1),
             }
-            parameters = options(&tree, top, &tops)?;
+            let known = tree.parameters(&tops);
+            if let Some(parameter) = top.parameters.keys().find(|name| !known.contains(name)).cloned() {
+                return Err(VerilogError::NoParameter { parameter, known });
+            }
         }
         if tops.is_empty() {
             return Err(faults(wording::no_modules()));
@@ -127,7 +144,7 @@ impl Reading<'_> {
             return Err(faults(wording::empty(&empty, self.declared(&empty))));
         }
         let statements = tree.statements(&tops);
-        let words = self.netlists(&tops, &parameters)?;
+        let words = self.netlists(&tops)?;
         let others = left_out.iter().filter(|module| !tops.contains(module));
         notes.extend(others.map(|module| wording::left_out(module, self.declared(module))));
         for top in &tops {
@@ -151,7 +168,7 @@ impl Reading<'_> {
                 ascending: words.ascending(name),
                 second: SecondReading::None,
             };
-            modules.push(self.compared(module, &parameters, words.declared(name, &self.names), &mut notes)?);
+            modules.push(self.compared(module, words.declared(name, &self.names), &mut notes)?);
         }
         if statements.has_assertions {
             notes.push(wording::assertions());
@@ -162,10 +179,10 @@ impl Reading<'_> {
     }
 
     /// The tree of the design, and warnings about it.
-    fn tree(&mut self) -> Result<(Tree, Vec<VerilogNote>), VerilogError> {
+    fn tree(&mut self) -> Result<(DesignTree, Vec<VerilogNote>), VerilogError> {
         let tree = |reading: &Self| {
-            let Self { slang, tops, sources, .. } = reading;
-            let script = format!("{slang}{tops} --ast-compilation-only --dump-ast{sources}");
+            let Self { slang, tops, parameters, sources, .. } = reading;
+            let script = format!("{slang}{tops}{parameters} --ast-compilation-only --dump-ast{sources}");
             reading.slang(&script)
         };
         let first = match tree(self) {
@@ -176,14 +193,14 @@ impl Reading<'_> {
             first => first,
         };
         let notes = first?;
-        let tree = Tree::of(&self.sandbox.printed()).ok_or_else(|| faults(wording::too_deep()))?;
+        let tree = DesignTree::of(&self.sandbox.printed()).ok_or_else(|| faults(wording::too_deep()))?;
         Ok((tree, notes))
     }
 
     /// Runs a script of slang; its warnings.
     fn slang(&self, script: &str) -> Result<Vec<VerilogNote>, VerilogError> {
         self.sandbox.write("slang.json", "[]")?;
-        let Ended { is_good, is_late, messages } = self.sandbox.run(script)?;
+        let SandboxRun { is_good, is_late, messages } = self.sandbox.run(script)?;
         let notes = messages::notes(&self.sandbox.result("slang.json").unwrap_or_default(), &self.names);
         match is_good {
             true => Ok(notes),
@@ -195,12 +212,16 @@ impl Reading<'_> {
     }
 
     /// The tree of one module.
-    fn tree_of(&mut self, module: &str) -> Result<(Tree, Vec<VerilogNote>), VerilogError> {
+    fn tree_of(&mut self, module: &str) -> Result<(DesignTree, Vec<VerilogNote>), VerilogError> {
         let all = (self.slang.clone(), self.tops.clone());
         if is_plain(module) {
             self.tops = format!(" --top {module}");
             match self.tree() {
-                Err(VerilogError::Faults(notes)) if notes.iter().all(|note| note.place.is_none()) => {}
+                Err(VerilogError::Faults(notes)) if notes.iter().all(|note| note.place.is_none()) => {
+                    if self.declared(module).is_some() {
+                        return Err(faults(wording::no_top(module, self.declared(module))));
+                    }
+                }
                 found => return found,
             }
         }
@@ -210,15 +231,16 @@ impl Reading<'_> {
     }
 
     /// The netlist of words of these modules; those of gates are in files.
-    fn netlists(&self, tops: &[String], parameters: &str) -> Result<WordNetlist, VerilogError> {
+    fn netlists(&self, tops: &[String]) -> Result<WordNetlist, VerilogError> {
         let options: String = tops.iter().map(|top| format!(" --top {top}")).collect();
         let hierarchy = if self.keeps_modules() { " --best-effort-hierarchy" } else { "" };
         let gates = |(at, top): (usize, &String)| {
             format!("design -load read\nhierarchy -top {top}\n{} slang{at}.blif\n", lines(GATES))
         };
         let script = format!(
-            "{} --no-proc{hierarchy}{options}{parameters}{}\n{}\nwrite_json {WORDS}\ndesign -save read\n{}",
+            "{} --no-proc{hierarchy}{options}{}{}\n{}\nwrite_json {WORDS}\ndesign -save read\n{}",
             self.slang,
+            self.parameters,
             self.sources,
             lines(STATEMENTS),
             tops.iter().enumerate().map(gates).collect::<String>()
@@ -237,7 +259,6 @@ impl Reading<'_> {
     fn compared(
         &self,
         module: VerilogModule,
-        parameters: &str,
         place: Option<VerilogPlace>,
         notes: &mut Vec<VerilogNote>,
     ) -> Result<VerilogModule, VerilogError> {
@@ -247,7 +268,7 @@ impl Reading<'_> {
             "read_verilog -sv -defer{}\nhierarchy -check -top {}{}\n{}\n{} {BLIF}\n",
             self.sources,
             module.name,
-            parameters.replace("-G ", "-chparam ").replace('=', " "),
+            self.parameters.replace("-G ", "-chparam ").replace('=', " "),
             lines(STATEMENTS),
             lines(GATES)
         );
@@ -255,7 +276,7 @@ impl Reading<'_> {
             return Ok(module);
         }
         let other = VerilogModule { blif: self.sandbox.result(BLIF).unwrap_or_default(), ..module.clone() };
-        let Comparison { second, difference } = Comparison::of(&module, &other, self.cancel);
+        let ModuleComparison { second, difference } = ModuleComparison::of(&module, &other, self.cancel);
         let is_sure = second == SecondReading::Different;
         let note = |difference| wording::read_differently(&module.name, is_sure, difference, place);
         notes.extend(difference.map(note));
@@ -282,7 +303,9 @@ impl Reading<'_> {
 
     /// Where a module seems to be declared.
     fn declared(&self, module: &str) -> Option<VerilogPlace> {
-        self.found(|line| line.trim_start().strip_prefix("module ").is_some_and(|rest| words(rest).next() == Some(module)))
+        self.found(|line| {
+            line.trim_start().strip_prefix("module ").is_some_and(|rest| words(rest).next() == Some(module))
+        })
     }
 
     fn found(&self, is_meant: impl Fn(&str) -> bool) -> Option<VerilogPlace> {
@@ -290,15 +313,6 @@ impl Reading<'_> {
             let line = self.sandbox.result(name)?.lines().position(&is_meant)? + 1;
             Some(VerilogPlace { file: file.clone(), line, columns: None })
         })
-    }
-}
-
-/// The options that set the parameters of a module.
-fn options(tree: &Tree, top: &TopModule, tops: &[String]) -> Result<String, VerilogError> {
-    let known = tree.parameters(tops);
-    match top.parameters.keys().find(|name| !is_plain(name) || !known.contains(name)) {
-        Some(name) => Err(VerilogError::NoParameter { parameter: name.clone(), known }),
-        None => Ok(top.parameters.iter().map(|(name, value)| format!(" -G {name}={value}")).collect()),
     }
 }
 

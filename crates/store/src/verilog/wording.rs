@@ -63,6 +63,12 @@ pub(super) fn empty(module: &str, place: Option<VerilogPlace>) -> VerilogNote {
     with_help(note, "write its logic, or give the file that has it")
 }
 
+/// A module that is there, but cannot be the outermost one.
+pub(super) fn no_top(module: &str, place: Option<VerilogPlace>) -> VerilogNote {
+    let note = error(format!("the module `{module}` cannot be read alone"), "it has parameters without values", place);
+    with_help(note, "give them, as in `--param WIDTH=8`")
+}
+
 pub(super) fn unusual_name(module: &str) -> VerilogNote {
     error(format!("the name of module `{module}` has other characters than letters, digits and `_`"), "", None)
 }
@@ -86,8 +92,7 @@ pub(super) fn driven_twice(
 ) -> VerilogNote {
     let line = |place: &Option<VerilogPlace>| place.as_ref().map_or(String::new(), |at| format!(" (line {})", at.line));
     let [(first, earlier), (second, place)] = drivers;
-    let message =
-        format!("`{net}` is driven twice: by {first}{} and by {second}{}", line(&earlier), line(&place));
+    let message = format!("`{net}` is driven twice: by {first}{} and by {second}{}", line(&earlier), line(&place));
     let note = error(message, "expected one driver", place.or(earlier).or(declared));
     with_help(note, "remove one of them, or choose between both with `?`")
 }

@@ -107,8 +107,7 @@ export class Server implements vscode.Disposable {
     return {
       documentSelector: [{ scheme: "file", language: "nb" }],
       synchronize: { fileEvents: this.watcher },
-      // A grant of trust starts the server again. Settings do not decide, because a workspace can have its own.
-      initializationOptions: { ...settings(), verilog: { trusted: vscode.workspace.isTrusted } },
+      initializationOptions: settings(),
       outputChannel: this.log,
       middleware: { executeCommand: (command, args) => this.perform(command, args) },
     };
