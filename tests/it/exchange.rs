@@ -210,7 +210,8 @@ fn through_verilog(design: &Design) -> Design {
     let (top, clock) = (&TopModule::default(), None);
     let read = store::read_circuit(&CircuitFile { path: &path, others: &[], clock, top });
     let store::CircuitRead { design, warnings, .. } = read.unwrap_or_else(|faults| panic!("{:?}", faults.list));
-    assert_eq!(warnings.list, []);
+    // A latch is written for Verilog 2005, which has no word for it.
+    assert!(warnings.list.iter().all(|warning| warning.message.ends_with("is a latch")), "{:?}", warnings.list);
     design
 }
 

@@ -112,28 +112,36 @@ impl WordNetlist {
             }
         }
         let used = module.used();
+        let mut open = None;
         for cell in module.cells.values() {
-            let outputs = |(port, _): &(&String, &Vec<Bit>)| cell.direction(port) == "output";
-            let (outputs, inputs): (Vec<_>, Vec<_>) = cell.connections.iter().partition(outputs);
-            let bits = || inputs.iter().flat_map(|(_, bits)| bits.iter());
-            let result = || outputs.iter().flat_map(|(_, bits)| bits.iter()).find_map(|bit| nets.get(bit));
-            let is_open = cell.kind == "$tribuf" || bits().any(|bit| *bit == Bit::Constant("z".to_owned()));
-            if let Some(net) = result().filter(|_| is_open) {
-                notes.push(wording::high_impedance(net, place(net)));
-            }
-            if let Some(net) = result().filter(|net| cell.kind == "$dlatch" && !latches.contains(whole(net))) {
-                notes.push(wording::latch(whole(net), cell.place(names).or_else(|| place(net))));
-            }
-            for (port, bits) in &outputs {
-                for (at, bit) in bits.iter().enumerate().filter(|(_, bit)| matches!(bit, Bit::Net(_))) {
-                    driven.entry(bit).or_default().push((cell.described(port, at, &nets), cell.place(names)));
+            let name = || cell.bits("output").find_map(|(_, _, bit)| nets.get(bit));
+            let at = |net: &String| cell.place(names).or_else(|| place(net));
+            let has = |digit: &str| cell.bits("input").any(|(.., bit)| bit.is(digit));
+            let is_changing = |port: &str| cell.connections.get(port).into_iter().flatten().any(Bit::is_net);
+            match (cell.kind.as_str(), name()) {
+                ("$eqx" | "$nex", _) if has("x") || has("z") => notes.push(wording::unknown_equal(cell.place(names))),
+                ("$tribuf" | "$_TBUF_", Some(net)) => notes.push(wording::high_impedance(net, at(net))),
+                (_, Some(net)) if has("z") => notes.push(wording::high_impedance(net, at(net))),
+                ("$dlatch", Some(net)) if !latches.contains(whole(net)) => {
+                    notes.push(wording::latch(whole(net), at(net)));
                 }
+                ("$aldff" | "$aldffe", Some(net)) if is_changing("AD") => {
+                    notes.push(wording::load(whole(net), at(net)));
+                }
+                _ if cell.is_open(&used) => open = open.or(Some(cell.place(names))),
+                _ => {}
+            }
+            for (port, at, bit) in cell.bits("output").filter(|(.., bit)| bit.is_net()) {
+                driven.entry(bit).or_default().push((cell.described(port, at, &nets), cell.place(names)));
             }
         }
+        // What a latch does not take is open, too.
+        let has_latches = module.cells.values().any(|cell| cell.kind.contains("dlatch"));
+        notes.extend(open.filter(|_| !has_latches).map(wording::open));
         let mut told: BTreeSet<&str> = BTreeSet::new();
         for (bit, name) in &nets {
             match driven.get(bit).map(Vec::as_slice).unwrap_or_default() {
-                [] if matches!(bit, Bit::Net(_)) && used.contains(bit) && told.insert(whole(name)) => {
+                [] if bit.is_net() && used.contains(bit) && told.insert(whole(name)) => {
                     notes.push(wording::undriven(name, place(name)));
                 }
                 [first, second, ..] if used.contains(bit) && told.insert(whole(name)) => {
@@ -144,26 +152,36 @@ impl WordNetlist {
         }
         notes
     }
+
+    /// The nets of a module that have several drivers and that no output depends on, such as arguments of a function.
+    pub(super) fn stale(&self, module: &str) -> Vec<&str> {
+        let Some(module) = self.modules.get(module) else { return Vec::new() };
+        let used = module.used();
+        let mut drivers: BTreeMap<&Bit, usize> = BTreeMap::new();
+        for (.., bit) in module.cells.values().flat_map(|cell| cell.bits("output")) {
+            *drivers.entry(bit).or_default() += 1;
+        }
+        let is_stale = |bit: &Bit| !used.contains(bit) && drivers.get(bit).is_some_and(|&count| count > 1);
+        let nets = module.netnames.iter().filter(|(_, net)| net.bits.iter().any(is_stale));
+        nets.map(|(name, _)| name.as_str()).collect()
+    }
 }
 
 impl WordModule {
     /// The bits on which an output depends.
     fn used(&self) -> BTreeSet<&Bit> {
-        let mut drivers: BTreeMap<&Bit, Vec<&WordCell>> = BTreeMap::new();
+        let mut drivers: BTreeMap<&Bit, Vec<(&WordCell, usize)>> = BTreeMap::new();
         for cell in self.cells.values() {
-            for (_, bits) in cell.connections.iter().filter(|(port, _)| cell.direction(port) == "output") {
-                bits.iter().for_each(|bit| drivers.entry(bit).or_default().push(cell));
-            }
+            cell.bits("output").for_each(|(_, at, bit)| drivers.entry(bit).or_default().push((cell, at)));
         }
         let outputs = self.ports.values().filter(|port| port.direction == "output");
         let mut waiting: Vec<&Bit> = outputs.flat_map(|port| &port.bits).collect();
         let mut used = BTreeSet::new();
         while let Some(bit) = waiting.pop() {
             if used.insert(bit) {
-                // Several bits have the same cell.
-                for cell in drivers.remove(bit).into_iter().flatten() {
-                    let inputs = cell.connections.iter().filter(|(port, _)| cell.direction(port) != "output");
-                    waiting.extend(inputs.flat_map(|(_, bits)| bits).filter(|bit| !used.contains(bit)));
+                for (cell, at) in drivers.remove(bit).into_iter().flatten() {
+                    let is_meant = |own: usize| cell.kind != "$buf" || own == at;
+                    waiting.extend(cell.bits("input").filter(|(_, own, _)| is_meant(*own)).map(|(.., bit)| bit));
                 }
             }
         }
@@ -188,9 +206,30 @@ impl WordModule {
     }
 }
 
+impl Bit {
+    fn is_net(&self) -> bool {
+        matches!(self, Self::Net(_))
+    }
+
+    fn is(&self, digit: &str) -> bool {
+        matches!(self, Self::Constant(own) if own == digit)
+    }
+}
+
 impl WordCell {
-    fn direction(&self, port: &str) -> &str {
-        self.port_directions.get(port).map_or("", String::as_str)
+    /// The bits of its inputs or outputs, each with its port and number.
+    fn bits(&self, direction: &str) -> impl Iterator<Item = (&str, usize, &Bit)> {
+        let of_direction = move |port: &&String| self.port_directions.get(*port).is_some_and(|own| own == direction);
+        let ports = self.connections.keys().filter(move |port| of_direction(port));
+        ports.flat_map(|port| self.connections[port].iter().enumerate().map(|(at, bit)| (port.as_str(), at, bit)))
+    }
+
+    /// Whether a used output can depend on an unknown bit.
+    fn is_open(&self, used: &BTreeSet<&Bit>) -> bool {
+        let is_used = |at: usize| {
+            self.bits("output").any(|(_, own, bit)| (self.kind != "$buf" || own == at) && used.contains(bit))
+        };
+        self.bits("input").any(|(_, at, bit)| bit.is("x") && is_used(at))
     }
 
     fn place(&self, names: &SandboxFiles) -> Option<VerilogPlace> {

@@ -144,7 +144,13 @@ impl Reading<'_> {
             return Err(faults(wording::empty(&empty, self.declared(&empty))));
         }
         let statements = tree.statements(&tops);
-        let words = self.netlists(&tops)?;
+        let mut words = self.netlists(&tops, "")?;
+        let stale = |top: &String| words.stale(top).into_iter().map(|net| format!("delete {top}/w:{net}\n")).collect();
+        let stale: Vec<String> = tops.iter().map(stale).collect();
+        // slang joins the calls of a function at its arguments, which would join what drives them.
+        if stale.iter().any(|commands| !commands.is_empty()) {
+            words = self.netlists(&tops, &stale.concat())?;
+        }
         let others = left_out.iter().filter(|module| !tops.contains(module));
         notes.extend(others.map(|module| wording::left_out(module, self.declared(module))));
         for top in &tops {
@@ -231,14 +237,14 @@ impl Reading<'_> {
     }
 
     /// The netlist of words of these modules; those of gates are in files.
-    fn netlists(&self, tops: &[String]) -> Result<WordNetlist, VerilogError> {
+    fn netlists(&self, tops: &[String], commands: &str) -> Result<WordNetlist, VerilogError> {
         let options: String = tops.iter().map(|top| format!(" --top {top}")).collect();
         let hierarchy = if self.keeps_modules() { " --best-effort-hierarchy" } else { "" };
         let gates = |(at, top): (usize, &String)| {
             format!("design -load read\nhierarchy -top {top}\n{} slang{at}.blif\n", lines(GATES))
         };
         let script = format!(
-            "{} --no-proc{hierarchy}{options}{}{}\n{}\nwrite_json {WORDS}\ndesign -save read\n{}",
+            "{} --no-proc{hierarchy}{options}{}{}\n{}\n{commands}write_json {WORDS}\ndesign -save read\n{}",
             self.slang,
             self.parameters,
             self.sources,
@@ -325,7 +331,8 @@ fn words(line: &str) -> impl Iterator<Item = &str> {
 fn with_ports_in_order(blif: String, declared: &[String]) -> String {
     let place = |bit: &&str| {
         let port = bit.split('[').next().unwrap_or(bit);
-        declared.iter().position(|name| name == port).unwrap_or(declared.len())
+        let found = |name: &str| declared.iter().position(|known| known == name);
+        found(bit).or_else(|| found(port)).unwrap_or(declared.len())
     };
     let mut heads = 0;
     let line = |line: &str| {

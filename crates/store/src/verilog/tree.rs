@@ -29,6 +29,8 @@ pub(super) struct Statements {
     /// The nets of statements `always_latch`.
     pub(super) latches: BTreeSet<String>,
     pub(super) has_assertions: bool,
+    /// What functions read beside their arguments and variables, by their symbols.
+    functions: BTreeMap<String, BTreeMap<String, String>>,
 }
 
 impl DesignTree {
@@ -114,6 +116,7 @@ impl DesignTree {
     pub(super) fn statements(&self, tops: &[String]) -> Statements {
         let mut found = Statements::default();
         for root in self.roots() {
+            found.collect_functions(root);
             found.collect(&root["body"], &name(&root["body"]), "", tops);
         }
         found
@@ -144,6 +147,22 @@ impl Statements {
         }
     }
 
+    fn collect_functions(&mut self, node: &Value) {
+        let nodes: Vec<&Value> = match node {
+            Value::Array(nodes) => nodes.iter().collect(),
+            Value::Object(fields) => fields.values().collect(),
+            _ => return,
+        };
+        if kind(node) == "Subroutine" {
+            let mut uses = Uses::default();
+            uses.statement(&node["body"]);
+            let own: BTreeSet<String> = members(node).map(declared).collect();
+            uses.read.retain(|symbol, _| !own.contains(symbol));
+            self.functions.insert(declared(node), uses.read);
+        }
+        nodes.into_iter().for_each(|node| self.collect_functions(node));
+    }
+
     fn case(&mut self, case: &Value) {
         let wild: &[char] = match case["condition"].as_str() {
             Some("Normal") => &['x', 'z'],
@@ -169,20 +188,25 @@ impl Statements {
         if block["procedureKind"] != "Always" || kind(body) != "Timed" {
             return;
         }
+        use_.statement(&body["stmt"]);
         let timing = &body["timing"];
         let events: Vec<&Value> = match kind(timing) {
             "SignalEvent" => vec![timing],
             "EventList" => timing["events"].as_array().into_iter().flatten().collect(),
-            _ => return,
+            _ => Vec::new(),
         };
         if events.iter().any(|event| event["edge"] != "None") {
             return;
         }
-        use_.statement(&body["stmt"]);
-        let mut listed = Uses::default();
-        events.iter().for_each(|event| listed.value(&event["expr"]));
+        // A bit of a vector is not the vector.
+        let mut listed: BTreeMap<String, String> = events.iter().filter_map(|event| symbol(&event["expr"])).collect();
+        if kind(timing) == "ImplicitEvent" {
+            listed.clone_from(&use_.read);
+        }
+        let called = use_.called.iter().filter_map(|function| self.functions.get(function));
+        use_.read.extend(called.flatten().map(|(symbol, name)| (symbol.clone(), name.clone())));
         let is_written = |symbol: &String| use_.written.iter().any(|(written, _)| written == symbol);
-        let is_missing = |(symbol, _): &(&String, &String)| !listed.read.contains_key(*symbol) && !is_written(symbol);
+        let is_missing = |(symbol, _): &(&String, &String)| !listed.contains_key(*symbol) && !is_written(symbol);
         let missing: Vec<String> = use_.read.iter().filter(is_missing).map(|(_, name)| name.clone()).collect();
         let target = use_.written.first().filter(|_| !missing.is_empty());
         let target = target.map(|(_, target)| format!("{path}{target}"));
@@ -196,6 +220,8 @@ struct Uses {
     read: BTreeMap<String, String>,
     /// In the order of the statements.
     written: Vec<(String, String)>,
+    /// The functions that are called.
+    called: Vec<String>,
 }
 
 impl Uses {
@@ -212,6 +238,7 @@ impl Uses {
             }
             Value::Object(_) if kind(node) == "NamedValue" => self.value(node),
             Value::Object(fields) if !fields.contains_key("constant") => {
+                self.called.extend(node["subroutine"].as_str().map(str::to_owned));
                 fields.values().for_each(|field| self.statement(field));
             }
             _ => {}
@@ -249,6 +276,11 @@ fn kind(node: &Value) -> &str {
 
 fn name(node: &Value) -> String {
     node["name"].as_str().unwrap_or_default().to_owned()
+}
+
+/// The symbol of a declaration.
+fn declared(node: &Value) -> String {
+    format!("{} {}", node["addr"], name(node))
 }
 
 fn members(node: &Value) -> impl Iterator<Item = &Value> {

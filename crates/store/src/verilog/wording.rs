@@ -101,6 +101,23 @@ pub(super) fn undriven(net: &str, place: Option<VerilogPlace>) -> VerilogNote {
     warning(format!("nothing drives `{net}`"), "it is 0", place)
 }
 
+pub(super) fn unknown_equal(place: Option<VerilogPlace>) -> VerilogNote {
+    error(
+        "a comparison by `===` or `!==` with an unknown bit".to_owned(),
+        "expected 0 and 1: nothing is `x` or `z` here",
+        place,
+    )
+}
+
+pub(super) fn open(place: Option<VerilogPlace>) -> VerilogNote {
+    warning("a value can be `x`".to_owned(), "it is 0 here", place)
+}
+
+pub(super) fn load(net: &str, place: Option<VerilogPlace>) -> VerilogNote {
+    let message = format!("`{net}` loads a value without its clock");
+    warning(message, "it follows the value as long as it loads, and not at the edge alone", place)
+}
+
 pub(super) fn latch(net: &str, place: Option<VerilogPlace>) -> VerilogNote {
     let note = warning(format!("`{net}` is a latch"), "it keeps its value where no statement sets it", place);
     with_help(note, "set it in every case, or write `always_latch`")
