@@ -29,8 +29,10 @@ const AS_VERILOG: &str = "--map-keyword-version 1364-2005+**/*.v";
 /// What becomes of statements. Of several labels that match, the first counts, whatever attributes say.
 const STATEMENTS: &str = "attrmap -remove parallel_case; proc -noopt";
 
-/// How a module becomes gates and registers of one bit. A constant or a net that is not known is 0.
+/// How a module becomes gates and registers of one bit. An unknown constant or net is 0, unless only a closed latch
+/// reads it.
 const GATES: &str = "flatten; chformal -remove; delete t:$print t:$scopeinfo; opt_clean; \
+    select -set data t:$dlatch %ci1:+[D] %ci1 t:$mux %i; opt_expr -mux_undef @data; opt_clean; \
     memory_collect; memory_map; setundef -undriven -zero; opt_dff -nodffe -nosdff; opt_expr; opt_clean; \
     wreduce; opt_expr; opt_clean; techmap -map power.v; opt_expr; techmap; opt_expr; opt_clean; \
     dfflegalize -cell $_DFF_P_ 01 -cell $_DFF_N_ 01 -cell $_DLATCH_P_ 01 -cell $_DLATCH_N_ 01 \
