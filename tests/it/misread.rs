@@ -85,6 +85,40 @@ fn labels_that_never_match_are_told() {
 }
 
 #[test]
+fn a_comparison_with_an_unknown_bit_is_refused() {
+    if !SLANG.is_there() {
+        return;
+    }
+    for sign in ["===", "!=="] {
+        let text = format!("module m(input a, output y);\nassign y = a {sign} 1'bx;\nendmodule\n");
+        is_refused(&text, &["with an unknown bit", "m.v:2:12"]);
+    }
+    is_refused("module m(input a, e, output y);\nbufif1(y, a, e);\nendmodule\n", &["`y` can be `z`", "m.v:2:"]);
+}
+
+#[test]
+fn what_is_not_as_in_a_simulator_is_told() {
+    if !SLANG.is_there() {
+        return;
+    }
+    let test = "test m {\n    c l d | q\n    0 0 0 | 0\n}\n";
+    let module = |body: &str| format!("module m(input c, l, d, output reg q);\ninitial q = 0;\n{body}\nendmodule\n");
+    for (body, told) in [
+        ("always @(posedge c or posedge l) if (l) q <= d; else q <= ~q;", "`q` loads a value without its clock"),
+        ("function f(input a); f = a & l; endfunction\nalways @* q = f(d);", "`q` also depends on `l`"),
+        ("wire [1:0] v = {l, d};\nalways @(v[0]) q = ^v;", "`q` also depends on `v`"),
+        ("function f(input a); if (a) f = 1; endfunction\nalways @* q = f(d);", "a value can be `x`"),
+    ] {
+        let said = passes(&module(body), test);
+        assert!(said.contains(told), "{body}: {said}");
+    }
+    // Both calls write the arguments of the function.
+    let plain = "function f(input a, b); f = a & b; endfunction\nreg p;\n\
+        always @* q = f(d, l);\nalways @* p = f(c, l);";
+    assert!(!passes(&module(plain), test).contains("warning"));
+}
+
+#[test]
 fn wide_shift_amounts_shift_everything_out() {
     if !SLANG.is_there() {
         return;
