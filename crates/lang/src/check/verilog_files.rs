@@ -13,7 +13,7 @@ pub fn verilog_files(world: &(impl SourceWorld + ?Sized), files: &[&SourceFile])
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let mut waiting = vec![(String::new(), text.clone())];
         while let Some((inside, text)) = waiting.pop() {
-            for name in text.split('"').filter(|name| is_path_inside(name)) {
+            for name in text.split('"').filter(is_path_inside) {
                 for used in [joined(&inside, name), name.to_owned()] {
                     let path = joined(folder, &used);
                     let is_new = Limit::VerilogFiles.permit(looked.len() as u64).is_ok()

@@ -23,7 +23,7 @@ pub(super) fn too_long() -> VerilogNote {
 
 /// The reader ended without messages about the files.
 pub(super) fn no_result(said: &str) -> VerilogNote {
-    let reason = said.lines().filter(|line| line.contains("ERROR")).next_back().or_else(|| said.lines().last());
+    let reason = said.lines().rfind(|line| line.contains("ERROR")).or_else(|| said.lines().last());
     let reason = reason.unwrap_or("no message").trim().trim_start_matches("ERROR: ");
     error(format!("yosys ended without a result: {reason}"), "", None)
 }
