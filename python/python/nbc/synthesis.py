@@ -56,7 +56,7 @@ def synthesize(
 
     Args:
         files: the circuit: ``.blif``, ``.pla``, ``.aig``, ``.aag``, ``.bench``, or several files of Verilog, which need
-            Yosys.
+            ``pip install nbc-robots[verilog]``.
         output: the file to write: ``.blif``, ``.pla``, ``.aig``, ``.aag``, ``.v``, ``.dot`` or ``.nb``.
         cells: functions of the cells, such as ``["nand", "not"]``; by default those of the robots.
         library: a folder of robot files, ``shipped`` or ``three``.
