@@ -91,7 +91,9 @@ impl DesignTree {
 
     /// A module with outputs but without content, in these modules.
     pub(super) fn empty(&self, tops: &[String]) -> Option<String> {
-        let is_declared = |member: &Value| matches!(kind(member), "Port" | "Net" | "Variable" | "Parameter");
+        let is_declared = |member: &Value| {
+            matches!(kind(member), "Port" | "Net" | "Variable" | "Parameter") && member.get("initializer").is_none()
+        };
         let has_output = |body: &Value| members(body).any(|port| port["direction"] == "Out");
         let mut waiting: Vec<&Value> = self.roots().collect();
         while let Some(instance) = waiting.pop() {
