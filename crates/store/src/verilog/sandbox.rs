@@ -39,12 +39,14 @@ exec 3<&0 </dev/null
 "$@" 3<&- &
 program=$!
 exec 2>/dev/null
-{ read -r _ <&3; kill -KILL $program; cd /; rm -rf -- "$folder"; } &
+{ read -r _ <&3; kill -KILL $program; } &
 watch=$!
 exec 3<&-
 wait $program
 status=$?
 kill -KILL $watch
+# Its caller may be gone.
+[ $status -ne 137 ] || { cd / && /bin/rm -rf -- "$folder"; }
 exit $status
 "#;
 
