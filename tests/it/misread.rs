@@ -108,13 +108,15 @@ fn what_is_not_as_in_a_simulator_is_told() {
         ("function f(input a); f = a & l; endfunction\nalways @* q = f(d);", "`q` also depends on `l`"),
         ("wire [1:0] v = {l, d};\nalways @(v[0]) q = ^v;", "`q` also depends on `v`"),
         ("function f(input a); if (a) f = 1; endfunction\nalways @* q = f(d);", "a value can be `x`"),
+        ("reg t;\nalways @* begin q = l & t; t = d; end", "`t` is read before it is set"),
     ] {
         let said = passes(&module(body), test);
         assert!(said.contains(told), "{body}: {said}");
     }
     // Both calls write the arguments of the function.
     let plain = "function f(input a, b); f = a & b; endfunction\nreg p;\n\
-        always @* q = f(d, l);\nalways @* p = f(c, l);";
+        integer i;\nalways @* begin q = f(d, l); for (i = 0; i < 1; i = i + 1) q = q & d; end\n\
+        always @* p = f(c, l);";
     assert!(!passes(&module(plain), test).contains("warning"));
 }
 

@@ -169,6 +169,8 @@ impl Reading<'_> {
             let blif = blif.ok_or_else(|| faults(wording::no_result("")))?;
             let nets = words.places(name, &self.names);
             notes.extend(self.of_statements(&statements, name, &nets));
+            let early = statements.early.iter().filter(|_| at == 0);
+            notes.extend(early.map(|net| wording::read_early(net, nets.get(net).cloned())));
             let module = VerilogModule {
                 name: name.clone(),
                 blif: with_ports_in_order(blif, &tree.ports(name)),

@@ -106,6 +106,8 @@ impl<'a> Sandbox<'a> {
         let mut command = command(&[&program, "-q", SCRIPT]);
         // The folder is all that the sandbox sees, as its root.
         command.current_dir(folder).env("YOWASP_MOUNT", "/=.");
+        // What it leaves when it is ended is removed with the folder.
+        command.envs(["TMPDIR", "TEMP", "TMP"].map(|name| (name, folder)));
         command.stdin(Stdio::piped()).stdout(file(PRINTED)?).stderr(file(MESSAGES)?);
         let mut child = command.spawn().map_err(|_| VerilogError::NotInstalled)?;
         let (status, is_late) = self.wait(&mut child)?;

@@ -29,6 +29,8 @@ pub(super) struct Statements {
     /// The nets of statements `always_latch`.
     pub(super) latches: BTreeSet<String>,
     pub(super) has_assertions: bool,
+    /// Nets that a statement without a clock reads before it sets them.
+    pub(super) early: BTreeSet<String>,
     /// What functions read beside their arguments and variables, by their symbols.
     functions: BTreeMap<String, BTreeMap<String, String>>,
 }
@@ -187,10 +189,11 @@ impl Statements {
             self.latches.extend(use_.written.iter().map(|(_, name)| format!("{path}{name}")));
             return;
         }
-        if block["procedureKind"] != "Always" || kind(body) != "Timed" {
+        let is_always = block["procedureKind"] == "Always" && kind(body) == "Timed";
+        if !is_always && block["procedureKind"] != "AlwaysComb" {
             return;
         }
-        use_.statement(&body["stmt"]);
+        use_.statement(if is_always { &body["stmt"] } else { body });
         let timing = &body["timing"];
         let events: Vec<&Value> = match kind(timing) {
             "SignalEvent" => vec![timing],
@@ -200,12 +203,15 @@ impl Statements {
         if events.iter().any(|event| event["edge"] != "None") {
             return;
         }
+        let is_early = |(symbol, _): &&(String, String)| use_.early.contains_key(symbol);
+        self.early.extend(use_.written.iter().filter(is_early).map(|(_, name)| format!("{path}{name}")));
         // A bit of a vector is not the vector.
         let mut listed: BTreeMap<String, String> = events.iter().filter_map(|event| symbol(&event["expr"])).collect();
-        if kind(timing) == "ImplicitEvent" {
+        if !is_always || kind(timing) == "ImplicitEvent" {
             listed.clone_from(&use_.read);
         }
-        let called = use_.called.iter().filter_map(|function| self.functions.get(function));
+        // `always_comb` knows what functions read.
+        let called = use_.called.iter().filter(|_| is_always).filter_map(|function| self.functions.get(function));
         use_.read.extend(called.flatten().map(|(symbol, name)| (symbol.clone(), name.clone())));
         let is_written = |symbol: &String| use_.written.iter().any(|(written, _)| written == symbol);
         let is_missing = |(symbol, _): &(&String, &String)| !listed.contains_key(*symbol) && !is_written(symbol);
@@ -224,6 +230,8 @@ struct Uses {
     written: Vec<(String, String)>,
     /// The functions that are called.
     called: Vec<String>,
+    /// What was read before it was written.
+    early: BTreeMap<String, String>,
 }
 
 impl Uses {
@@ -239,6 +247,14 @@ impl Uses {
                 }
             }
             Value::Object(_) if kind(node) == "NamedValue" => self.value(node),
+            Value::Object(_) if kind(node) == "VariableDeclaration" => self.written.extend(symbol(node)),
+            // Fields are in the order of their names.
+            Value::Object(_) if kind(node) == "ForLoop" => {
+                let variables = node["loopVars"].as_array().into_iter().flatten();
+                self.written.extend(variables.map(|variable| (declared(variable), name(variable))));
+                let parts = ["initializers", "stopExpr", "body", "steps"];
+                parts.iter().for_each(|part| self.statement(&node[part]));
+            }
             Value::Object(fields) if !fields.contains_key("constant") => {
                 self.called.extend(node["subroutine"].as_str().map(str::to_owned));
                 fields.values().for_each(|field| self.statement(field));
@@ -249,7 +265,9 @@ impl Uses {
 
     fn value(&mut self, node: &Value) {
         if kind(node) == "NamedValue" && node.get("constant").is_none() {
-            self.read.extend(symbol(node));
+            let found = symbol(node);
+            self.early.extend(found.clone().filter(|found| !self.written.contains(found)));
+            self.read.extend(found);
         } else if kind(node) != "NamedValue" {
             self.statement(node);
         }

@@ -74,7 +74,10 @@ pub(super) fn unusual_name(module: &str) -> VerilogNote {
 }
 
 pub(super) fn no_modules() -> VerilogNote {
-    error("the files have no module with outputs".to_owned(), "", None)
+    with_help(
+        error("the files have no module with outputs".to_owned(), "", None),
+        "choose one that another module contains by `--top`",
+    )
 }
 
 pub(super) fn two_ways(port: &str, place: Option<VerilogPlace>) -> VerilogNote {
@@ -127,6 +130,10 @@ pub(super) fn incomplete_events(target: &str, missing: &[String], place: Option<
     let names: Vec<String> = missing.iter().map(|name| format!("`{name}`")).collect();
     let message = format!("`{target}` also depends on {}, which its list of events lacks", names.join(", "));
     with_help(warning(message, "it changes with them here", place), "write `always @*`")
+}
+
+pub(super) fn read_early(net: &str, place: Option<VerilogPlace>) -> VerilogNote {
+    warning(format!("`{net}` is read before it is set"), "its value after the statements is read", place)
 }
 
 pub(super) fn unknown_label(label: &str, place: Option<VerilogPlace>) -> VerilogNote {
