@@ -8,7 +8,7 @@ export interface AsideEvents {
   /** A message for the page. */
   received: (text: string) => void;
   /** A file was written. */
-  wrote: (path: string, text: string) => void;
+  wrote: (path: string, text: string | null) => void;
   failed: (message: string) => void;
 }
 
@@ -39,8 +39,8 @@ export class Aside {
     return true;
   }
 
-  /** Adds a file, or replaces it. */
-  insert(path: string, text: string): void {
+  /** Adds a file, or replaces it; without a text, deletes it. */
+  insert(path: string, text: string | null): void {
     this.#worker?.postMessage({ say: "insert", path, text } satisfies ToWorker);
   }
 

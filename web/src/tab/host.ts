@@ -31,6 +31,7 @@ export class TabHost implements Ways {
   readonly folder: BrowserFolder = {
     files: () => [...this.#files].sort(([a], [b]) => (a < b ? -1 : 1)),
     insert: (path, text) => this.#insert(path, text),
+    remove: path => this.#insert(path, null),
   };
   readonly isPublic = true;
   /** The addresses of what the program has made. */
@@ -117,8 +118,8 @@ export class TabHost implements Ways {
     });
   }
 
-  /** Adds a file to all programs, and to those that the browser keeps. */
-  #insert(path: string, text: string): void {
+  /** Adds a file to all programs, and to those that the browser keeps; without a text, deletes it. */
+  #insert(path: string, text: string | null): void {
     if (this.#worker !== null) {
       post(this.#worker, { say: "insert", path, text });
     }
@@ -131,8 +132,12 @@ export class TabHost implements Ways {
   }
 
   /** Notes a file that the program of the page has. */
-  #note(path: string, text: string): void {
-    this.#files.set(path, text);
+  #note(path: string, text: string | null): void {
+    if (text === null) {
+      this.#files.delete(path);
+    } else {
+      this.#files.set(path, text);
+    }
     Object.values(this.#asides).forEach(aside => aside.insert(path, text));
   }
 

@@ -132,7 +132,7 @@ async function fetched({ address, bytes }: { address: string; bytes: number }): 
 
 /** Gives the program the page that live exports are made of. Without it the program says that they cannot be made. */
 async function template(engine: Engine, address: string): Promise<void> {
-  const response = await fetch(address).catch(() => null);
+  const response = await fetch(address, { cache: "no-cache" }).catch(() => null);
   if (response?.ok === true) {
     const text = await response.text();
     guard(() => engine.template(text));
@@ -140,8 +140,12 @@ async function template(engine: Engine, address: string): Promise<void> {
   say({ say: "template" });
 }
 
-/** Keeps a file in the browser, if it keeps any. */
-function keep(path: string, text: string): void {
+/** Keeps a file in the browser, if it keeps any, or deletes it. */
+function keep(path: string, text: string | null): void {
+  if (text === null) {
+    store?.remove(path);
+    return;
+  }
   store?.put(path, text, isKept => say({ say: "kept", path, isKept }));
 }
 

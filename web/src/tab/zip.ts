@@ -8,7 +8,7 @@ export class ZipError extends Error {}
 
 /** The most bytes of an archive, of a file in it, and of all of them; and the most files. */
 const MOST_ARCHIVE = 20_000_000;
-const MOST_FILE = 1_000_000;
+export const MOST_FILE = 1_000_000;
 const MOST_BYTES = 20_000_000;
 const MOST_FILES = 1000;
 
@@ -244,7 +244,7 @@ function encoded(text: string): Uint8Array {
 }
 
 /** A text; null if it is none. */
-function decoded(bytes: Uint8Array): string | null {
+export function decoded(bytes: Uint8Array): string | null {
   try {
     return new TextDecoder("utf-8", { fatal: true }).decode(bytes);
   } catch {
