@@ -95,6 +95,10 @@ export class Program {
       this.drafts.keep(file.path, { text: file.text, stamp: null, untouched: true });
     }
     this.path.set(file.path);
+    if (this.shown !== file.path && this.swarm.wantsToRun) {
+      this.plays = true;
+      this.swarm.pause();
+    }
     // A draft of an older file must not replace the present one.
     this.stamp = restored === null || file.stamp === null ? file.stamp : restored.stamp;
     this.#saved = alone && isTouched ? null : file.text;
@@ -163,7 +167,7 @@ export class Program {
     this.#saved = null;
     this.stamp = null;
     this.unsaved.set(true);
-    this.path.set(path);
+    this.#move(path);
     this.drafts.keep(path, { text: this.#text, stamp: null });
     this.forked.set({ from, path });
   }
@@ -175,12 +179,18 @@ export class Program {
     return isNamed || this.drafts.of(path) !== null;
   }
 
+  /** Notes that the program is at another path from now on. */
+  #move(path: string): void {
+    this.shown = this.shown === this.path.value ? path : this.shown;
+    this.path.set(path);
+  }
+
   async save(path = this.path.value, stamp = path === this.path.value ? this.stamp : null): Promise<void> {
     const text = this.#text;
     const saved = await this.connection.request("save", { path, text, stamp });
     const from = this.path.value;
     this.drafts.keep(from, null);
-    this.path.set(path);
+    this.#move(path);
     this.stamp = saved.stamp;
     this.#saved = text;
     this.#alone = false;

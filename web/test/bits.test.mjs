@@ -217,7 +217,8 @@ async function ofChromium(requests, page) {
           worker.postMessage({ say: "drawn" });
         }
       };
-      worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false, alone: 0 });
+      worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false });
+      worker.postMessage({ say: "gather", after: 0 });
       const said = [];
       let id = 0;
       for (const { wait, ...request } of requests) {

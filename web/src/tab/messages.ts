@@ -14,14 +14,14 @@ export interface Start {
   files: KeptFiles;
   /** Whether the browser keeps files. */
   keeps: boolean;
-  /** Milliseconds until others help to simulate; null if none do. */
-  alone: number | null;
 }
 
 export type ToWorker =
   | ({ say: "begin" } & Start)
   | { say: "live" | "language"; text: string }
   | { say: "greet" }
+  /** In so many milliseconds others help to simulate. */
+  | { say: "gather"; after: number }
   /** A file that was written elsewhere, or deleted if it has no text. */
   | { say: "insert"; path: string; text: string | null }
   /** The address of the page that live exports are made of. */

@@ -8,6 +8,7 @@ import type { FromWorker, Source, ToWorker } from "./messages";
 
 const pause = new MessageChannel();
 let engine: Engine | null = null;
+let compiled: WebAssembly.Module | null = null;
 let crew: Crew | null = null;
 let store: FileStore | null = null;
 /** Messages that came before the program was there. */
@@ -48,7 +49,7 @@ function fail(message: string): void {
   say({ say: "failed", message });
 }
 
-async function begin({ program, first, files, keeps, alone }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
+async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
   const compiling = "module" in program ? program.module : WebAssembly.compileStreaming(await read(program));
   store = keeps ? await FileStore.open() : null;
   const all = [...files, ...((await store?.all()) ?? [])];
@@ -66,13 +67,15 @@ async function begin({ program, first, files, keeps, alone }: Extract<ToWorker, 
   say({ say: "ready", keeps: store !== null, module, files: all });
   guard(() => waiting.splice(0).forEach(message => take(started, message)));
   work();
-  if (alone !== null) {
-    setTimeout(() => gather(module), alone);
-  }
+  compiled = module;
 }
 
 /** Starts others that simulate. A browser that has none, or not in this place, goes on without them. */
-function gather(module: WebAssembly.Module): void {
+function gather(): void {
+  const module = compiled;
+  if (module === null || crew !== null) {
+    return;
+  }
   const tell = (call: (engine: Engine) => void): void => {
     const told = engine;
     if (told !== null) {
@@ -160,6 +163,9 @@ function take(engine: Engine, message: ToWorker): void {
       break;
     case "greet":
       engine.greet();
+      break;
+    case "gather":
+      setTimeout(gather, message.after);
       break;
     case "insert":
       engine.insert(message.path, message.text);
