@@ -59,7 +59,6 @@ async function player() {
 
 /** The same with the whole program: only the sources of a circuit are missing. Script and style are packed, too. */
 async function livePage(packed) {
-  const { textOf } = await loaded("src/tab/seven.ts");
   const inside = {
     style: await bundle(sheet, "src/style/app.css"),
     script: await bundle(script, "src/tab/alone.ts"),
@@ -71,8 +70,8 @@ async function livePage(packed) {
     style: "",
     data: [
       inert("sources", "application/json"),
-      inert("page", "application/octet-stream", textOf(page)),
-      inert("program", "application/octet-stream", textOf(packed)),
+      inert("page", "application/octet-stream", page.toString("base64")),
+      inert("program", "application/octet-stream", packed.toString("base64")),
     ].join("\n"),
   };
   return alone(parts, {
@@ -80,12 +79,6 @@ async function livePage(packed) {
     styles: ` ${sourceOf(inside.style)}`,
     more: " worker-src blob:;",
   });
-}
-
-/** The functions of a module. */
-async function loaded(entry) {
-  const built = await build({ ...common, entryPoints: [entry], write: false, format: "esm" });
-  return import(`data:text/javascript;base64,${Buffer.from(built.outputFiles[0].text).toString("base64")}`);
 }
 
 /** An element with data, which a browser does not run. */

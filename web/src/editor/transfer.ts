@@ -32,7 +32,7 @@ export class Transfer {
         "p",
         { class: "row" },
         element("label", { class: "import" }, "Add files, or drop them on the page: ", field),
-        folder !== null && button("Export all files (zip)", () => void this.#give(folder), { "data-do": "export" }),
+        folder !== null && button("Export all files (zip)", () => this.#give(folder), { "data-do": "export" }),
       ),
       this.#status,
     );
@@ -63,7 +63,7 @@ export class Transfer {
     }
   }
 
-  async #give(folder: BrowserFolder): Promise<void> {
+  #give(folder: BrowserFolder): void {
     const files = folder.files();
     if (files.length === 0) {
       fill(this.#status, "No file has been saved yet.");
@@ -71,7 +71,7 @@ export class Transfer {
     }
     const [day, time] = new Date().toISOString().replace(/[-:]/g, "").split("T");
     const name = `nbc-files-${day}-${time?.slice(0, 6)}.zip`;
-    downloadBytes(await zip(files), "application/zip", name);
+    downloadBytes(zip(files), "application/zip", name);
     fill(this.#status, `${name} has ${counted(files.length, "file")}. What is not saved is not in it.`);
   }
 
@@ -117,7 +117,7 @@ async function add(file: File, read: Unzipped): Promise<void> {
   const bytes = new Uint8Array(await file.arrayBuffer());
   const text = isArchive ? null : decoded(bytes);
   if (isArchive) {
-    const inside = await unzip(bytes);
+    const inside = unzip(bytes);
     read.files.push(...inside.files);
     read.leftOut.push(...inside.leftOut);
   } else if (text === null) {
