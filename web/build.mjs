@@ -59,7 +59,6 @@ async function player() {
 
 /** The same with the whole program: only the sources of a circuit are missing. Script and style are packed, too. */
 async function livePage(packed) {
-  const { textOf } = await loaded("src/tab/seven.ts");
   const inside = {
     style: await bundle(sheet, "src/style/app.css"),
     script: await bundle(script, "src/tab/alone.ts"),
@@ -71,8 +70,8 @@ async function livePage(packed) {
     style: "",
     data: [
       inert("sources", "application/json"),
-      inert("page", "application/octet-stream", textOf(page)),
-      inert("program", "application/octet-stream", textOf(packed)),
+      inert("page", "application/octet-stream", page.toString("base64")),
+      inert("program", "application/octet-stream", packed.toString("base64")),
     ].join("\n"),
   };
   return alone(parts, {
@@ -80,12 +79,6 @@ async function livePage(packed) {
     styles: ` ${sourceOf(inside.style)}`,
     more: " worker-src blob:;",
   });
-}
-
-/** The functions of a module. */
-async function loaded(entry) {
-  const built = await build({ ...common, entryPoints: [entry], write: false, format: "esm" });
-  return import(`data:text/javascript;base64,${Buffer.from(built.outputFiles[0].text).toString("base64")}`);
 }
 
 /** An element with data, which a browser does not run. */
@@ -148,33 +141,41 @@ async function unitTests() {
   });
 }
 
-/** The page that has its program in itself: for any server of files, in any folder. */
+/**
+ * The page that has its program in itself: for any server of files, in any folder. The names of what the document
+ * loads contain a hash, so that a browser never takes a file of another version.
+ */
 async function tab(program, folder) {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   const packed = gzipSync(readFileSync(program), { level: 9 });
   const name = `program-${digest(packed)}.bin`;
   writeFileSync(path.join(folder, name), packed);
-  const define = { PROGRAM: JSON.stringify({ name, bytes: packed.length }) };
-  const scripts = { ...script, metafile: false, define, outdir: folder };
-  await build({ ...scripts, entryPoints: { app: "src/tab/main.ts", worker: "src/tab/worker.ts" } });
-  await build({ ...common, entryPoints: ["src/style/app.css"], outdir: folder, minify: true });
+  const hashed = { outdir: folder, entryNames: "[name]-[hash]", metafile: true };
+  const made = async options =>
+    path.basename(Object.keys((await build({ ...options, ...hashed })).metafile.outputs)[0]);
+  const worker = await made({ ...script, entryPoints: ["src/tab/worker.ts"] });
+  const define = { PROGRAM: JSON.stringify({ name, bytes: packed.length, worker }) };
+  const app = await made({ ...script, define, entryPoints: { app: "src/tab/main.ts" } });
+  const style = await made({ ...sheet, entryPoints: ["src/style/app.css"] });
   writeFileSync(path.join(folder, "alone.html"), await livePage(packed));
-  writeFileSync(path.join(folder, "index.html"), tabDocument());
+  writeFileSync(path.join(folder, "index.html"), tabDocument({ "app.js": app, "app.css": style }));
   writeFileSync(path.join(folder, "NOTICES.txt"), readFileSync("dist/NOTICES.txt"));
-  const files = ["./", "app.css", "app.js", "worker.js", name];
-  const version = digest(files.slice(1).map(file => readFileSync(path.join(folder, file))));
+  const files = ["./", style, app, worker, name];
+  const version = digest(readFileSync(path.join(folder, "index.html")));
   const offline = { VERSION: JSON.stringify(version), FILES: JSON.stringify(files) };
-  await build({ ...scripts, define: offline, entryPoints: { offline: "src/tab/offline.ts" } });
+  await build({ ...script, metafile: false, outdir: folder, define: offline, entryPoints: ["src/tab/offline.ts"] });
 }
 
-/** The document of the tab, with the policy that a server would send. */
-function tabDocument() {
+/** The document of the tab, with the names of its files, and with the policy that a server would send. */
+function tabDocument(names) {
   const policy =
     "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; style-src 'self'; " +
     "img-src 'self' data: blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'";
   const meta = `<meta http-equiv="content-security-policy" content="${policy}">`;
-  return readFileSync("src/index.html", "utf8").replace('<meta charset="utf-8">', `$&\n${meta}`);
+  return readFileSync("src/index.html", "utf8")
+    .replace('<meta charset="utf-8">', `$&\n${meta}`)
+    .replace(/app\.(js|css)/g, name => names[name]);
 }
 
 /** A short name of some bytes. */

@@ -80,8 +80,8 @@ export class App {
       { program: this.#program, swarm: this.#swarm, tests, robots },
       this.#lessons,
       {
-        open: (path, text) => this.#edit.begin(path, text),
-        openSaved: (saved, path, text) => void this.#openSaved(saved, path, text),
+        open: (path, text) => void this.#edit.leaveFor(() => this.#edit.begin(path, text)),
+        openSaved: (saved, path, text) => void this.#edit.leaveFor(() => this.#openSaved(saved, path, text)),
         replace: text => this.#edit.editor.replace(text),
         show: tab => this.#layout.show(tab),
         moved: () => this.#place(),
@@ -117,6 +117,11 @@ export class App {
     document.body.append(this.#layout.host, this.#paper);
     this.#connection.state.on(state => this.#connected(state));
     this.#connection.open();
+  }
+
+  /** Offers the version of the page that was deployed while this one is open. */
+  offerReload(): void {
+    this.#header.offer("A new version is there: reload", () => location.reload());
   }
 
   async #connected(state: ConnectionState): Promise<void> {
@@ -230,7 +235,9 @@ export class App {
     }
     if (named !== "") {
       const isFile = hello.files.some(file => file.path === named);
-      const text = isFile ? null : ((await this.#lessonAt(named)) ?? this.#program.draftAlone(named));
+      const isExample = hello.examples.some(({ name }) => name === named);
+      const draft = isExample ? null : this.#program.drafts.of(named);
+      const text = isFile ? null : ((await this.#lessonAt(named)) ?? draft?.text ?? null);
       if (text !== null) {
         this.#edit.begin(named, text);
         return;

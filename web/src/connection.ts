@@ -75,9 +75,13 @@ export class Connection implements SwarmServer {
     this.#line?.send(JSON.stringify(message));
   }
 
+  /** The program ends the work in its own time; who waits for it is not kept waiting. */
   #cancel(id: number): void {
-    if (this.#pending.has(id)) {
+    const pending = this.#pending.get(id);
+    if (pending !== undefined) {
+      this.#pending.delete(id);
       this.#send({ id: this.#next++, do: "cancel", of: id });
+      pending.reject(new RequestError("it was cancelled", CANCELLED, null, []));
     }
   }
 

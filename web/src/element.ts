@@ -93,6 +93,7 @@ const ICONS = {
   less: "M5 11h14v2H5z",
   fill: "M14 4h6v6h-2V7.4l-4.3 4.3-1.4-1.4L16.6 6H14zM10 20H4v-6h2v2.6l4.3-4.3 1.4 1.4L7.4 18H10z",
   whole: "M4 4h16v16H4zM6 6v12h12V6zM8 8h8v8H8z",
+  rename: "M4 20v-4L15 5l4 4L8 20zM16.5 3.5l2-1.5 4 4-1.5 2z",
   close: "M6.4 5L12 10.6 17.6 5 19 6.4 13.4 12l5.6 5.6-1.4 1.4-5.6-5.6L6.4 19 5 17.6l5.6-5.6L5 6.4z",
   theme: "M12 3a9 9 0 100 18zm0 0v18a9 9 0 000-18zM12 5a7 7 0 010 14z",
   projector: "M3 5h18v11H3zM5 7v7h14V7zM8 19h8v2H8z",

@@ -1,7 +1,7 @@
 // The head of the page: where one is, whether the server is there, and how the page looks.
 
 import type { ConnectionState } from "./connection";
-import { element, iconButton } from "./element";
+import { button, element, iconButton } from "./element";
 import type { Greeting } from "./protocol";
 import { switchProjector, switchTheme, theme } from "./theme";
 
@@ -50,6 +50,12 @@ export class Header {
   showFolder(hello: Greeting): void {
     this.#folder.textContent = hello.folder;
     this.#folder.title = `nbc ${hello.version}, in the folder ${hello.folder}`;
+  }
+
+  /** Shows a button for something that has come, once. */
+  offer(label: string, run: () => void): void {
+    this.#status.after(button(label, run, { class: "offer" }));
+    this.offer = () => {};
   }
 
   /** Adds a button before the others. */

@@ -21,6 +21,7 @@ export type Dial = (events: LineEvents) => Line;
 export interface BrowserFolder {
   files: () => [path: string, text: string][];
   insert: (path: string, text: string) => void;
+  remove: (path: string) => void;
 }
 
 /** The ways from a page to its program, wherever that is. */

@@ -39,22 +39,43 @@ export function own(name: string): string {
 
 export function recall<T>(name: string): T | null {
   try {
-    const text = localStorage.getItem(prefix + name);
-    return text === null ? null : (JSON.parse(text) as T);
+    return JSON.parse(recallText(name) ?? "null") as T | null;
   } catch {
     return null;
   }
 }
 
-/** Remembers a value; null forgets it. A browser that forbids this only forgets. */
+/** Remembers a value; null forgets it. */
 export function remember(name: string, value: unknown): void {
+  rememberText(name, value === null ? null : JSON.stringify(value));
+}
+
+export function recallText(name: string): string | null {
   try {
-    if (value === null) {
+    return localStorage.getItem(prefix + name);
+  } catch {
+    return null;
+  }
+}
+
+export function rememberText(name: string, text: string | null): void {
+  try {
+    if (text === null) {
       localStorage.removeItem(prefix + name);
     } else {
-      localStorage.setItem(prefix + name, JSON.stringify(value));
+      localStorage.setItem(prefix + name, text);
     }
   } catch {
-    // The page works without a memory.
+    // A browser that forbids this only forgets: the page works without a memory.
+  }
+}
+
+/** The names of all that is remembered. */
+export function recalled(): string[] {
+  try {
+    const names = Object.keys(localStorage).filter(name => name.startsWith(prefix));
+    return names.map(name => name.slice(prefix.length));
+  } catch {
+    return [];
   }
 }

@@ -1,10 +1,11 @@
 // The program that is edited: its text and file, what is wrong with it, and the swarm that is compiled from it.
 
 import { CANCELLED, LOST, type Connection } from "./connection";
-import { draftOf, keepDraft } from "./editor/draft";
+import { Drafts, type Draft } from "./editor/draft";
 import type { LiveSwarm } from "./live/swarm";
 import { Observable } from "./observable";
 import type { CircuitEntry, FileText, Greeting, ProgramReport } from "./protocol";
+import { freePath } from "./free_path";
 import { RequestError } from "./request";
 import { sameProgram } from "./sameness";
 
@@ -32,13 +33,16 @@ export class Program {
   readonly unsaved = new Observable(false);
   /** The program that was saved last: its path before, and where it is now. */
   readonly saved = new Observable<{ from: string; path: string } | null>(null);
+  /** The program whose draft another tab has changed, and where this tab goes on with it. */
+  readonly forked = new Observable<{ from: string; path: string } | null>(null);
   /** The stamp of the file, null while there is none. */
   stamp: string | null = null;
-  hello: Greeting | null = null;
   /** What is shown first, on a page that was made of one circuit. */
   preferred: Choice | null = null;
   /** Whether the swarm runs as soon as it is compiled. */
   plays = true;
+  hello: Greeting | null = null;
+  readonly drafts = new Drafts(() => this.folder);
   #text = "";
   /** The text that `checked` is about. */
   #checkedText: string | null = null;
@@ -82,20 +86,24 @@ export class Program {
    * Takes a file's text, or one that is `alone`: no file or example has it. The result is the draft that is shown in
    * its place, if there is one.
    */
-  begin(file: FileText, alone = false): ReturnType<typeof draftOf> {
-    const draft = draftOf(this.folder, file.path);
+  begin(file: FileText, alone = false): Draft | null {
+    const draft = this.drafts.open(file.path);
     const isTouched = draft !== null && draft.untouched !== true;
     const restored = isTouched && draft.text !== file.text ? draft : null;
     this.#alone = alone;
     if (alone && !isTouched) {
-      keepDraft(this.folder, file.path, { text: file.text, stamp: null, untouched: true });
+      this.drafts.keep(file.path, { text: file.text, stamp: null, untouched: true });
     }
     this.path.set(file.path);
+    if (this.shown !== file.path && this.swarm.wantsToRun) {
+      this.plays = true;
+      this.swarm.pause();
+    }
     // A draft of an older file must not replace the present one.
     this.stamp = restored === null || file.stamp === null ? file.stamp : restored.stamp;
-    this.#saved = file.text;
+    this.#saved = alone && isTouched ? null : file.text;
     this.#text = restored?.text ?? file.text;
-    this.unsaved.set(restored !== null);
+    this.unsaved.set(this.#text !== this.#saved);
     this.checked.set(null);
     this.choice.set(null);
     this.#check();
@@ -104,7 +112,8 @@ export class Program {
 
   /** Takes a text that has no file, such as that of a link, as a draft, and the circuit to show if there is such a one. */
   beginDraft(path: string, text: string, choice: Choice | null): void {
-    keepDraft(this.folder, path, { text, stamp: null });
+    this.drafts.open(path);
+    this.drafts.keep(path, { text, stamp: null });
     this.begin({ path, text, stamp: null }, true);
     this.#saved = null;
     this.unsaved.set(true);
@@ -113,7 +122,7 @@ export class Program {
 
   /** Whether the unsaved text of the present program can be had back after another one was opened. */
   get isKept(): boolean {
-    return !this.unsaved.value || this.draftAlone(this.path.value) === this.#text;
+    return !this.unsaved.value || this.drafts.of(this.path.value)?.text === this.#text;
   }
 
   /** Notes the file's present text, which the editor is about to show. */
@@ -131,7 +140,9 @@ export class Program {
     this.unsaved.set(unsaved);
     const untouched = unsaved ? {} : { untouched: true };
     const draft = unsaved || this.#alone ? { text, stamp: this.stamp, ...untouched } : null;
-    keepDraft(this.folder, this.path.value, draft);
+    if (!this.drafts.keep(this.path.value, draft)) {
+      this.#fork();
+    }
     clearTimeout(this.#timer);
     this.#edited = true;
     this.#timer = window.setTimeout(() => this.#check(), PAUSE);
@@ -148,17 +159,38 @@ export class Program {
     }
   }
 
-  /** The draft of a program that may have no file. */
-  draftAlone(path: string): string | null {
-    return draftOf(this.folder, path)?.text ?? null;
+  /** Goes on under a name of its own: the draft of this one is now that of another tab. */
+  #fork(): void {
+    const from = this.path.value;
+    const path = freePath(from, name => this.isTaken(name));
+    this.#alone = true;
+    this.#saved = null;
+    this.stamp = null;
+    this.unsaved.set(true);
+    this.#move(path);
+    this.drafts.keep(path, { text: this.#text, stamp: null });
+    this.forked.set({ from, path });
+  }
+
+  /** Whether a file, an example or a draft has this name. */
+  isTaken(path: string): boolean {
+    const { files = [], examples = [] } = this.hello ?? {};
+    const isNamed = files.some(file => file.path === path) || examples.some(({ name }) => name === path);
+    return isNamed || this.drafts.of(path) !== null;
+  }
+
+  /** Notes that the program is at another path from now on. */
+  #move(path: string): void {
+    this.shown = this.shown === this.path.value ? path : this.shown;
+    this.path.set(path);
   }
 
   async save(path = this.path.value, stamp = path === this.path.value ? this.stamp : null): Promise<void> {
     const text = this.#text;
     const saved = await this.connection.request("save", { path, text, stamp });
     const from = this.path.value;
-    keepDraft(this.folder, from, null);
-    this.path.set(path);
+    this.drafts.keep(from, null);
+    this.#move(path);
     this.stamp = saved.stamp;
     this.#saved = text;
     this.#alone = false;

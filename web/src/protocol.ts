@@ -312,6 +312,8 @@ export type LessonEntry = {
   text: Array<string>,
   /** The program that it begins with. */
   program: string | null,
+  /** The same as checks look at it. */
+  written: WrittenProgram | null,
   /** The tab in which it begins. */
   tab: LessonTab,
   /** Hints for all of its steps. */
@@ -335,7 +337,7 @@ export type LessonList = {
   findings: Array<Finding>,
 };
 
-/** How a circuit is measured: by its robots, or by the gates as they are written. */
+/** How a circuit is measured: by its robots, or by the gates of what is written. */
 export type LessonMeasure = "robots" | "gates";
 
 /** A step of a lesson. */
@@ -428,6 +430,7 @@ export type ProgramReport = {
   circuits: Array<CircuitEntry>,
   tests: Array<TestEntry>,
   claims: Array<ClaimEntry>,
+  written: WrittenProgram,
 };
 
 /** What is known of a property. */
@@ -646,6 +649,8 @@ export type ShownSwarm = {
   /** The source of each bit of the outputs. */
   shown: Array<BitSource>,
   robots: Array<SwarmRobot>,
+  /** The gates of the circuit as it is written. */
+  gates: number,
   registers: Array<ShownRegister>,
   /** The table of the circuit over one of its outputs. */
   listing: ShownListing | null,
@@ -810,4 +815,14 @@ export type WaveRegister = {
   name: string,
   /** The most significant first. */
   bits: Array<WaveBit>,
+};
+
+/** A program as it is written. */
+export type WrittenProgram = {
+  /** Its tokens, with a space between two. */
+  text: string,
+  /** The words and signs of its circuits, each once, and `calls` if they call circuits of other files. */
+  words: Array<string>,
+  /** The lines of its tests and claims. */
+  kept: Array<string>,
 };

@@ -87,6 +87,8 @@ export async function firefox(url) {
         await new Promise(resolve => setTimeout(resolve, 100));
       }
     },
+    go: url => send("browsingContext.navigate", { context, url, wait: "complete" }),
+    reload: () => send("browsingContext.reload", { context, wait: "complete" }),
     /** Clicks the middle of an element. */
     click: async selector => {
       const [x, y] = await run(wanted => {

@@ -149,7 +149,7 @@ async function ofServer(requests) {
 }
 
 async function ofNode(requests) {
-  const name = readdirSync(SITE).find(file => file.endsWith(".bin"));
+  const name = siteFile(/\.bin$/);
   const module = await WebAssembly.compile(gunzipSync(readFileSync(path.join(SITE, name))));
   const engine = await Engine.start(module, message => assert.fail(message));
   engine.begin("", performance.now());
@@ -192,12 +192,16 @@ async function ofNode(requests) {
   return said;
 }
 
+function siteFile(name) {
+  return readdirSync(SITE).find(file => name.test(file));
+}
+
 /** The same in Chromium. The cycle of a frame is its second number (docs/play-protocol.md). */
 async function ofChromium(requests, page) {
   await page.exposeFunction("workers", () => page.workers().length);
   return page.evaluate(
-    async ([requests, program]) => {
-      const worker = new Worker("worker.js");
+    async ([requests, program, script]) => {
+      const worker = new Worker(script);
       const files = new Map();
       let hear = () => {};
       let see = () => {};
@@ -213,7 +217,8 @@ async function ofChromium(requests, page) {
           worker.postMessage({ say: "drawn" });
         }
       };
-      worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false, alone: 0 });
+      worker.postMessage({ say: "begin", program, first: "", files: [], keeps: false });
+      worker.postMessage({ say: "gather", after: 0 });
       const said = [];
       let id = 0;
       for (const { wait, ...request } of requests) {
@@ -248,7 +253,7 @@ async function ofChromium(requests, page) {
       worker.terminate();
       return said;
     },
-    [requests, { address: readdirSync(SITE).find(file => file.endsWith(".bin")), bytes: 1 }],
+    [requests, { address: siteFile(/\.bin$/), bytes: 1 }, siteFile(/^worker/)],
   );
 }
 

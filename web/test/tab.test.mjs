@@ -135,7 +135,7 @@ test("the files of the browser go into an archive and come back from it", { skip
   await walking(other);
   await other.locator('[data-do="open"]').click();
   await imported(other, archive.subarray(0, 99));
-  await other.getByText("Cannot import files.zip: this is not a zip archive, or its end is missing.").waitFor();
+  await other.getByText("Cannot import files.zip: this is not a zip archive, or it is damaged.").waitFor();
   await imported(other, archive);
   await other.getByText("2 files imported.").waitFor();
   await other.locator('[data-open="größe/逻辑.nb"]').click();

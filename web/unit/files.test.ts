@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import { byFolder, freePath } from "../src/editor/files";
+import { byFolder } from "../src/editor/files";
+import { freePath } from "../src/free_path";
 
 test("files are listed by their folders, the outer one first", () => {
   assert.deepEqual(byFolder(["b/x.nb", "a.nb", "b/c/y.nb", "a/z.nb", "c.nb"]), [

@@ -1,14 +1,13 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 
-import type { LessonCheck, LessonEntry, NicheEntry } from "../src/protocol";
+import type { LessonCheck, LessonEntry, NicheEntry, WrittenProgram } from "../src/protocol";
 import { holds } from "../src/learn/checks";
 import { Progress } from "../src/learn/progress";
 import { isLessonPath, lessonAddress } from "../src/learn/lessons";
 import { missing } from "../src/learn/missing";
 import { sizeOf, sizeText, starsOf } from "../src/learn/score";
 import type { Situation } from "../src/learn/situation";
-import { circuitsHave, gatesWritten, outputNames, testLines } from "../src/learn/source";
 
 type Values = Record<string, number>;
 
@@ -16,9 +15,10 @@ type Values = Record<string, number>;
 function situation(cycles: Values[], given: Partial<Situation> = {}): Situation {
   return {
     path: "",
-    text: "",
+    written: WRITTEN,
     isChecked: true,
     errors: 0,
+    problem: null,
     circuits: 1,
     tests: 0,
     passed: 0,
@@ -28,6 +28,8 @@ function situation(cycles: Values[], given: Partial<Situation> = {}): Situation 
     refuted: 0,
     circuit: null,
     robots: [],
+    gates: 0,
+    outputs: [],
     threads: 0,
     now: cycles.length,
     hold: 2,
@@ -40,11 +42,14 @@ function situation(cycles: Values[], given: Partial<Situation> = {}): Situation 
 
 function lesson(checks: LessonCheck[], given: Partial<LessonEntry> = {}): LessonEntry {
   const steps = checks.map(check => ({ task: "", checks: [check], hints: [] }));
-  return { name: "one", title: "", text: [], program: null, tab: "swarm", hints: [], best: null, steps, ...given };
+  const none = { program: null, written: WRITTEN, hints: [], best: null };
+  return { name: "one", title: "", text: [], tab: "swarm", ...none, steps, ...given };
 }
 
-function is(check: LessonCheck, given: Situation, program = ""): boolean {
-  return holds(check, given, lesson([check], { program }));
+const WRITTEN: WrittenProgram = { text: "test f", words: ["q", "=", "nand"], kept: ["a b | q", "0 1 | 1"] };
+
+function is(check: LessonCheck, given: Situation): boolean {
+  return holds(check, given, lesson([check]));
 }
 
 test("a value must stay for as long as a change needs to settle", () => {
@@ -105,16 +110,27 @@ test("an address names a lesson and its step, from 1", () => {
 });
 
 test("a step says why it does not count", () => {
-  const needs = (check: LessonCheck, given: Situation, program = ""): string =>
-    missing(lesson([check], { program }), 0, given, true).join();
+  const needs = (check: LessonCheck, given: Situation): string => missing(lesson([check]), 0, given, true).join("; ");
   const now = situation([{ a: 1, q: 0 }]);
   assert.equal(needs({ is: "shows", values: { a: 1, q: 1 } }, now), "the swarm shows a = 1, q = 1 – now q = 0");
   assert.match(needs({ is: "keeps", values: { a: 1 } }, now), / – not for long enough yet$/);
   assert.match(needs({ is: "has-shown", patterns: [{ a: 0 }, { a: 1 }] }, now), / – not yet a = 0$/);
-  assert.match(needs({ is: "without", words: ["xor", "nand"] }, situation([], { text: PROGRAM })), / – there is nand$/);
+  assert.match(needs({ is: "without", words: ["not", "nand"] }, situation([])), / – there is `nand`$/);
+  // The word is not taken for one of the sentence.
+  const not = situation([], { written: { ...WRITTEN, words: ["not", "calls"] } });
+  assert.equal(
+    needs({ is: "without", words: ["not", "calls"] }, not),
+    "the circuits are written without `not`, calls of standard circuits – there is `not`, calls of standard circuits",
+  );
   assert.match(needs({ is: "tests-pass" }, situation([], { tests: 3, passed: 1, failed: 1 })), / – 1 of 3 fail$/);
-  assert.match(needs({ is: "tests-pass" }, situation([], { errors: 2, circuits: 0 })), / – the program has 2 errors$/);
-  assert.match(needs({ is: "tests-kept" }, situation([], { text: "" }), PROGRAM), / – missing: test different/);
+  const wrong = situation([], { errors: 2, circuits: 0, problem: "no net is called `c`" });
+  const first = "first, the error in the program: no net is called `c`; ";
+  assert.equal(
+    needs({ is: "tests-pass" }, wrong),
+    `${first}all tests have been run and pass – the program has 2 errors`,
+  );
+  const lost = situation([], { written: { ...WRITTEN, kept: ["a b | q"] } });
+  assert.match(needs({ is: "tests-kept" }, lost), / – missing: 0 1 \| 1$/);
   const robots: LessonCheck = { is: "counts", what: "robots", than: "<=", number: 1 };
   assert.equal(needs(robots, situation([], { robots: ["nor", "nor"] })), "the circuit has at most 1 robot – it has 2");
   // A step that has not been begun says so only to who asks.
@@ -135,40 +151,26 @@ test("a search counts at once, and only the body of a niche that was clicked", (
   assert.equal(is({ is: "niche-chosen" }, situation([], { search: { ...old, chosen: niche }, design })), true);
 });
 
-const PROGRAM = `// and not a gate
-library nands { from: shipped, behaviors: [nand] }
-
-circuit different(a, b) -> (q) {
-    t = a nand b  // or so
-    q = nand(nand(a, t), nand(b, t))
-}
-
-test different "not or and" for all inputs {
-    q = a   xor b
-}
-`;
-
-test("gates are counted in circuits, not in tests, comments and libraries", () => {
-  assert.equal(gatesWritten(PROGRAM), 4);
-  assert.equal(gatesWritten("circuit x(a) -> (q) { q = not a }\ncircuit y(a) -> (q) { q = a and a }"), 2);
-  assert.equal(circuitsHave(PROGRAM, "xor"), false);
-  assert.equal(circuitsHave(PROGRAM, "nand"), true);
-  assert.equal(circuitsHave(PROGRAM, "-"), false);
-  assert.equal(circuitsHave(PROGRAM.replace("t = a nand b", "t = a - b"), "-"), true);
-  assert.deepEqual([...testLines(PROGRAM)], ['test different "not or and" for all inputs {', "q = a xor b", "}"]);
+test("a program is another one if more than comments has changed", () => {
+  const changed = (text: string): boolean =>
+    is({ is: "program-changed" }, situation([], { tests: 1, written: { ...WRITTEN, text } }));
+  assert.equal(changed(WRITTEN.text), false);
+  assert.equal(changed("test g"), true);
+  assert.equal(is({ is: "program-changed" }, situation([], { tests: 1, written: null, isChecked: false })), false);
 });
 
 test("tests may get more rows, but keep those they have", () => {
-  const kept = (text: string): boolean => is({ is: "tests-kept" }, situation([], { text }), PROGRAM);
-  assert.equal(kept(PROGRAM), true);
-  assert.equal(kept(PROGRAM.replace("q = a   xor b", "q = a xor b\n    r = a")), true);
-  assert.equal(kept(PROGRAM.replace("q = a   xor b", "q = a or b")), false);
+  const kept = (lines: string[]): boolean =>
+    is({ is: "tests-kept" }, situation([], { written: { ...WRITTEN, kept: lines } }));
+  assert.equal(kept(WRITTEN.kept), true);
+  assert.equal(kept(["1 1 | 0", ...WRITTEN.kept]), true);
+  assert.equal(kept(WRITTEN.kept.slice(1)), false);
 });
 
 test("a size counts where the circuit is right, and the best has three stars", () => {
   const checks: LessonCheck[] = [{ is: "tests-pass" }, { is: "without", words: ["xor"] }];
   const gates = lesson(checks, { best: { number: 4, of: "gates" } });
-  const right = situation([], { text: PROGRAM, tests: 1, passed: 1, robots: ["nand", "nand"] });
+  const right = situation([], { gates: 4, tests: 1, passed: 1, robots: ["nand", "nand"] });
   assert.equal(sizeOf(gates, right), 4);
   assert.equal(sizeOf({ ...gates, best: { number: 4, of: "robots" } }, right), 2);
   assert.equal(sizeOf({ ...gates, best: null }, right), null);
@@ -185,25 +187,20 @@ test("a size counts where the circuit is right, and the best has three stars", (
   assert.equal(progress.size(gates), 4);
 });
 
-test("outputs are found in a text", () => {
-  assert.deepEqual(outputNames("circuit x(a, b) -> (q, sum[3]) {}\ncircuit y() -> (z, s: light) {}"), [
-    "q",
-    "sum",
-    "z",
-    "s",
-  ]);
+test("an output is lit whatever its name is", () => {
+  const lit = (q: number): boolean => is({ is: "outputs-lit" }, situation([{ a: 1, q }], { outputs: ["q"] }));
+  assert.deepEqual([lit(0), lit(1)], [false, true]);
 });
 
 test("a step says what it still needs as soon as a part of it is done, or a test was run", () => {
-  const program = "test t {\n    a | q\n    0 | 1\n}\n";
   const checks: LessonCheck[] = [{ is: "tests-pass" }, { is: "tests-kept" }];
-  const one = lesson([], { program, steps: [{ task: "", checks, hints: [] }] });
+  const one = lesson([], { steps: [{ task: "", checks, hints: [] }] });
   const needs = (given: Partial<Situation>): string[] => missing(one, 0, situation([], given));
-  assert.deepEqual(needs({ text: program, tests: 1, passed: 1 }), []);
-  assert.deepEqual(needs({ text: program, tests: 1, failed: 1 }), ["all tests have been run and pass – 1 of 1 fail"]);
-  const kept = "every line of the lesson’s tests and claims is still there – missing: 0 | 1";
-  assert.deepEqual(needs({ text: program.replace("0 | 1", "0 | 0"), tests: 1, passed: 1 }), [kept]);
-  assert.deepEqual(needs({ text: program, tests: 1 }), [], "the task says enough");
+  assert.deepEqual(needs({ tests: 1, passed: 1 }), []);
+  assert.deepEqual(needs({ tests: 1, failed: 1 }), ["all tests have been run and pass – 1 of 1 fail"]);
+  const kept = "every line of the lesson’s tests and claims is still there – missing: 0 1 | 1";
+  assert.deepEqual(needs({ written: { ...WRITTEN, kept: ["a b | q"] }, tests: 1, passed: 1 }), [kept]);
+  assert.deepEqual(needs({ tests: 1 }), [], "the task says enough");
   const robots = lesson([{ is: "robots-only", gates: ["nand"] }]);
   const built = situation([], { robots: ["nor"], tests: 1, passed: 1 });
   assert.deepEqual(missing(robots, 0, built), ["all robots of the circuit are nand – there is also nor"]);
@@ -238,5 +235,4 @@ test("all claims must be proved, and a refuted one counts at once", () => {
   assert.equal(is("claims-refuted", { claims: 2, refuted: 1 }), true);
   const open = missing(lesson([{ is: "claims-proved" }]), 0, situation([], { claims: 1, refuted: 1 }), true);
   assert.deepEqual(open, ["all that is claimed is proved – a property is refuted"]);
-  assert.ok(testLines("prove f {\n    never q\n}").has("never q"));
 });

@@ -19,6 +19,7 @@ const SWARM = {
   ],
   outputs: [],
   robots: [],
+  gates: 0,
   registers: [],
   listing: null,
   shown: [],

@@ -37,6 +37,13 @@ impl MemoryFolder {
         files.world.insert(identity(path), text);
     }
 
+    /// Deletes a file.
+    pub fn remove(&self, path: &str) {
+        let mut files = lock(&self.files);
+        files.known.remove(path);
+        files.world.remove(&identity(path));
+    }
+
     /// A file that a page has written since it was asked last, and its text.
     pub fn take_written(&self) -> Option<(String, String)> {
         let mut files = lock(&self.files);
@@ -290,5 +297,7 @@ mod tests {
         assert_eq!(folder.world().read("latch.nb"), Err(FileError::NotFound), "a program is opened by its user");
         folder.insert("riscv/sum.hex", "0");
         assert_eq!(folder.world().read("riscv/sum.hex").unwrap(), "0");
+        folder.remove("riscv/sum.hex");
+        assert!(folder.stamp("riscv/sum.hex").is_none() && folder.world().read("riscv/sum.hex").unwrap().len() > 1);
     }
 }

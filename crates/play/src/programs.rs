@@ -8,7 +8,7 @@ use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::finding::findings;
 use crate::message::{
     CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
-    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, listed, looks,
+    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WrittenProgram, listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
@@ -47,6 +47,9 @@ pub(super) fn program(checked: &Checked) -> ProgramReport {
         circuits: circuits.collect(),
         tests: checked.program.tests.iter().enumerate().map(|(i, one)| test(i, one)).collect(),
         claims: checked.program.claims.iter().enumerate().map(|(i, one)| ClaimEntry::of(i, one)).collect(),
+        written: checked
+            .file
+            .map_or_else(WrittenProgram::default, |file| WrittenProgram::of(&checked.sources.file(file).text)),
     }
 }
 
@@ -141,6 +144,7 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
             .iter()
             .map(|recorded| robot(recorded, trace, assembly, (netlist, &nets), &all))
             .collect(),
+        gates: compiled.mapping.source.cells().count(),
         registers: state::registers(netlist),
         listing: source.and_then(|source| state::listing(checked, source, &assembly.outputs)),
         looks: looks(&all),

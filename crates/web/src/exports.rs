@@ -76,6 +76,13 @@ extern "C" fn insert(path: *mut u8, path_length: usize, place: *mut u8, length: 
     with_tab(|tab| tab.insert(&path, &text));
 }
 
+/// [`Tab::remove`].
+#[unsafe(no_mangle)]
+extern "C" fn remove(path: *mut u8, length: usize) {
+    let path = text(path, length);
+    with_tab(|tab| tab.remove(&path));
+}
+
 /// [`Tab::set_template`].
 #[unsafe(no_mangle)]
 extern "C" fn template(place: *mut u8, length: usize) {

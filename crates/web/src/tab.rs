@@ -68,6 +68,11 @@ impl Tab {
         self.folder.insert(path, text);
     }
 
+    /// Deletes a file.
+    pub fn remove(&self, path: &str) {
+        self.folder.remove(path);
+    }
+
     /// Sets the page that live pages are made of.
     pub fn set_template(&self, text: &str) {
         self.shell.set_template(text);

@@ -1,6 +1,7 @@
-// The unsaved text of each file, which survives a reload.
+// The unsaved text of each program, which survives a reload. Two tabs may have the same program: what another tab wrote
+// is never replaced.
 
-import { own, recall, remember } from "../memory";
+import { own, recalled, recallText, rememberText } from "../memory";
 
 export interface Draft {
   text: string;
@@ -10,14 +11,42 @@ export interface Draft {
   untouched?: boolean;
 }
 
-function name(folder: string, path: string): string {
-  return own(`draft:${folder}:${path}`);
-}
+export class Drafts {
+  /** The drafts as this tab has read or written them. */
+  readonly #known = new Map<string, string | null>();
 
-export function draftOf(folder: string, path: string): Draft | null {
-  return recall<Draft>(name(folder, path));
-}
+  constructor(private readonly folder: () => string) {}
 
-export function keepDraft(folder: string, path: string, draft: Draft | null): void {
-  remember(name(folder, path), draft);
+  /** The draft of a program that this tab shows from now on. */
+  open(path: string): Draft | null {
+    this.#known.set(path, recallText(this.#name(path)));
+    return this.of(path);
+  }
+
+  of(path: string): Draft | null {
+    const kept = recallText(this.#name(path));
+    return kept === null ? null : (JSON.parse(kept) as Draft);
+  }
+
+  /** Keeps a draft, or forgets it; false if another tab has written one that this tab has not read. */
+  keep(path: string, draft: Draft | null): boolean {
+    const [kept, text] = [recallText(this.#name(path)), draft && JSON.stringify(draft)];
+    if (kept !== null && kept !== text && kept !== (this.#known.get(path) ?? null)) {
+      return draft === null;
+    }
+    rememberText(this.#name(path), text);
+    this.#known.set(path, text);
+    return true;
+  }
+
+  /** The paths of the programs that somebody has changed and not saved. */
+  get paths(): string[] {
+    const prefix = this.#name("");
+    const paths = recalled().flatMap(name => (name.startsWith(prefix) ? [name.slice(prefix.length)] : []));
+    return paths.filter(path => this.of(path)?.untouched !== true).sort();
+  }
+
+  #name(path: string): string {
+    return own(`draft:${this.folder()}:${path}`);
+  }
 }

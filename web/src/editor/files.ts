@@ -1,8 +1,8 @@
 // Choosing a program: the files of the folder, the examples, or a new one.
 
 import { button, element, fill, iconButton } from "../element";
-import type { ExampleEntry, FileEntry } from "../protocol";
-import type { Origin } from "../program";
+import { freePath } from "../free_path";
+import type { ExampleEntry } from "../protocol";
 
 export const NEW_PROGRAM = `// A circuit of your own: name its inputs and outputs, and say what each output is.
 
@@ -20,24 +20,42 @@ test mine "both" {
 /** A folder with more files is closed at first. */
 const FEW = 12;
 
+/** What can be done with the programs of the list. */
+export interface FileDoors {
+  /** What the list of one's own programs is called. */
+  title: string;
+  /** Opens a program of this path: a file, an example or a draft. */
+  open: (path: string) => void;
+  openExample: (name: string) => void;
+  begin: (path: string) => void;
+  share: (link: string) => Promise<string | null>;
+  isUnsaved: (path: string) => boolean;
+  /** Whether the page can delete a program, and rename it. */
+  isOwn: (path: string) => boolean;
+  /** The result brings it back. */
+  remove: (path: string) => () => void;
+  rename: (path: string) => void;
+}
+
 export class FilePicker {
   readonly host = element("dialog", { class: "files", "aria-label": "Open a program" });
+  readonly #status = element("p", { class: "row", role: "status" });
 
   constructor(
-    private readonly open: (origin: Origin) => void,
-    private readonly begin: (path: string) => void,
-    private readonly share: (link: string) => Promise<string | null>,
-    /** The section of all files as an archive, if there is one. */
-    private readonly archive: HTMLElement | null = null,
+    private readonly doors: FileDoors,
+    /** The section of files that come and go. */
+    private readonly transfer: HTMLElement,
   ) {
     this.host.addEventListener("click", event => {
       if (event.target === this.host) {
         this.host.close();
       }
     });
+    this.host.addEventListener("close", () => fill(this.#status));
   }
 
-  show(files: FileEntry[], examples: ExampleEntry[]): void {
+  /** Shows the programs of these paths, which have a file or a draft, and the examples. */
+  show(paths: string[], examples: ExampleEntry[]): void {
     fill(
       this.host,
       element(
@@ -46,13 +64,21 @@ export class FilePicker {
         element("h2", {}, "Open a program"),
         iconButton("close", "Close", () => this.host.close()),
       ),
-      this.#new(files),
+      this.#new(paths),
+      ...byFolder(paths).map(([folder, inside]) => this.#folder(folder, inside)),
+      this.#status,
       this.#shared(),
-      this.archive,
-      ...byFolder(files.map(({ path }) => path)).map(([folder, paths]) => this.#folder(folder, paths)),
-      this.#list(
+      this.transfer,
+      section(
         "Examples",
-        examples.map(({ name, about }) => ({ label: name, about, origin: { example: name } })),
+        examples.map(({ name, about }) =>
+          element(
+            "li",
+            {},
+            this.#opener(name, () => this.doors.openExample(name)),
+            element("span", {}, about),
+          ),
+        ),
       ),
     );
     if (!this.host.open) {
@@ -60,42 +86,46 @@ export class FilePicker {
     }
   }
 
-  #list(title: string, entries: { label: string; about: string; origin: Origin }[]): HTMLElement {
-    const items = entries.map(({ label, about, origin }) =>
-      element(
-        "li",
-        {},
-        button(label.split("/").at(-1) ?? label, () => this.#choose(origin), { "data-open": label }),
-        about !== "" && element("span", {}, about),
-      ),
-    );
-    return element(
-      "section",
-      { class: entries.every(({ about }) => about === "") ? "names" : null },
-      element("h3", {}, title),
-      items.length === 0 ? element("p", {}, "none") : element("ul", {}, ...items),
-    );
-  }
-
   /** The files of a folder; those of folders below are closed at first if there are many. */
   #folder(folder: string, paths: string[]): HTMLElement {
-    const entries = paths.map(path => ({ label: path, about: "", origin: { path } }));
+    const items = paths.map(path => this.#item(path));
     if (folder === "") {
-      return this.#list("In this folder", entries);
+      return section(this.doors.title, items);
     }
-    const list = this.#list("", entries);
-    list.querySelector("h3")?.remove();
     return element(
       "details",
       { class: "folder", open: paths.length <= FEW, "data-folder": folder },
       element("summary", {}, `${folder} (${paths.length})`),
-      list,
+      element("section", { class: "names" }, element("ul", {}, ...items)),
     );
   }
 
-  #choose(origin: Origin): void {
-    this.host.close();
-    this.open(origin);
+  #item(path: string): HTMLElement {
+    const { doors } = this;
+    const remove = (): void => {
+      const undo = doors.remove(path);
+      fill(this.#status, `${path} was deleted. `, button("Undo", undo, { "data-do": "undo-delete" }));
+    };
+    return element(
+      "li",
+      {},
+      this.#opener(path, () => doors.open(path)),
+      doors.isUnsaved(path) && element("b", { class: "unsaved", title: "not saved" }, "•"),
+      ...(doors.isOwn(path)
+        ? [
+            iconButton("rename", `Rename ${path}`, () => doors.rename(path), { "data-rename": path }),
+            iconButton("close", `Delete ${path}`, remove, { "data-delete": path }),
+          ]
+        : []),
+    );
+  }
+
+  #opener(path: string, open: () => void): HTMLElement {
+    const choose = (): void => {
+      this.host.close();
+      open();
+    };
+    return button(path.split("/").at(-1) ?? path, choose, { "data-open": path });
   }
 
   /** A link that someone has sent; what is wrong with it is shown. */
@@ -109,17 +139,13 @@ export class FilePicker {
     });
     const fault = element("p", { class: "fail", role: "alert" });
     const open = async (): Promise<void> => {
-      const reason = await this.share(field.value);
+      const reason = await this.doors.share(field.value);
       fault.textContent = reason ?? "";
       if (reason === null) {
         this.host.close();
       }
     };
-    field.onkeydown = event => {
-      if (event.key === "Enter") {
-        void open();
-      }
-    };
+    onEnter(field, () => void open());
     return element(
       "section",
       {},
@@ -134,10 +160,10 @@ export class FilePicker {
     );
   }
 
-  #new(files: FileEntry[]): HTMLElement {
+  #new(paths: string[]): HTMLElement {
     const field = element("input", {
       type: "text",
-      value: freeName(files),
+      value: freePath("circuit1.nb", path => paths.includes(path)),
       "aria-label": "Name of the new file",
       spellcheck: "false",
     });
@@ -145,14 +171,10 @@ export class FilePicker {
       const name = withEnding(field.value);
       if (name !== null) {
         this.host.close();
-        this.begin(name);
+        this.doors.begin(name);
       }
     };
-    field.onkeydown = event => {
-      if (event.key === "Enter") {
-        make();
-      }
-    };
+    onEnter(field, make);
     return element(
       "section",
       {},
@@ -172,13 +194,19 @@ export function byFolder(paths: string[]): [string, string[]][] {
   return [...folders].sort(([a], [b]) => (a < b ? -1 : 1));
 }
 
-function freeName(files: FileEntry[]): string {
-  const taken = new Set(files.map(file => file.path));
-  let number = 1;
-  while (taken.has(`circuit${number}.nb`)) {
-    number++;
-  }
-  return `circuit${number}.nb`;
+/** Without the default, a key that closes a dialog would press the button to which the focus returns. */
+function onEnter(field: HTMLInputElement, run: () => void): void {
+  field.onkeydown = event => {
+    if (event.key === "Enter") {
+      event.preventDefault();
+      run();
+    }
+  };
+}
+
+function section(title: string, items: HTMLElement[]): HTMLElement {
+  const list = items.length === 0 ? element("p", {}, "none") : element("ul", {}, ...items);
+  return element("section", {}, element("h3", {}, title), list);
 }
 
 /** A path with the ending of a program; null if there is no name. */
@@ -187,8 +215,8 @@ export function withEnding(text: string): string | null {
   return path === "" ? null : path.endsWith(".nb") ? path : `${path}.nb`;
 }
 
-/** Asks for a path to save at. */
-export function askPath(suggested: string): Promise<string | null> {
+/** Asks for a path, to save there or for another purpose. */
+export function askPath(suggested: string, label = "Save as", action = "Save"): Promise<string | null> {
   return new Promise(resolve => {
     const field = element("input", {
       type: "text",
@@ -199,13 +227,13 @@ export function askPath(suggested: string): Promise<string | null> {
     let answer: string | null = null;
     const dialog = element(
       "dialog",
-      { class: "ask", "aria-label": "Save as" },
-      element("h2", {}, "Save as"),
+      { class: "ask", "aria-label": label },
+      element("h2", {}, label),
       field,
       element(
         "p",
         { class: "row" },
-        button("Save", () => accept(), { class: "primary", "data-do": "save-as" }),
+        button(action, () => accept(), { class: "primary", "data-do": "save-as" }),
         button("Cancel", () => dialog.close()),
       ),
     );
@@ -213,11 +241,7 @@ export function askPath(suggested: string): Promise<string | null> {
       answer = withEnding(field.value);
       dialog.close();
     };
-    field.onkeydown = event => {
-      if (event.key === "Enter") {
-        accept();
-      }
-    };
+    onEnter(field, accept);
     dialog.onclose = () => {
       dialog.remove();
       resolve(answer);
@@ -226,16 +250,6 @@ export function askPath(suggested: string): Promise<string | null> {
     dialog.showModal();
     field.select();
   });
-}
-
-/** A path like the wished one that is not taken: itself, or with a number. */
-export function freePath(wished: string, isTaken: (path: string) => boolean): string {
-  const [, stem = wished, ending = ""] = /^(.*?)(\.\w+)?$/.exec(wished) ?? [];
-  let path = wished;
-  for (let number = 2; isTaken(path); number++) {
-    path = `${stem}_${number}${ending}`;
-  }
-  return path;
 }
 
 /** Asks whether the unsaved text of a program may go, where the browser keeps no drafts. */

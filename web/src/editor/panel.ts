@@ -2,7 +2,6 @@
 
 import type { Connection } from "../connection";
 import type { BrowserFolder } from "../line";
-import { archiveSection } from "./archive";
 import { button, element } from "../element";
 import { Notices } from "../notices";
 import type { Origin, Program } from "../program";
@@ -10,9 +9,11 @@ import type { FileChange, FileText } from "../protocol";
 import { RequestError } from "../request";
 import { LinkError, decodeShare, type SharedProgram } from "../share/link";
 import { Editor } from "./editor";
-import { FilePicker, NEW_PROGRAM, askLeave, askPath, freePath } from "./files";
+import { freePath } from "../free_path";
+import { FilePicker, NEW_PROGRAM, askLeave, askPath } from "./files";
 import { problemList } from "./problems";
 import type { LanguageServer } from "./server";
+import { Transfer } from "./transfer";
 
 export interface EditDoors {
   /** The folder, if it is in the browser. */
@@ -28,6 +29,9 @@ export class EditPanel {
   readonly editor: Editor;
   readonly notices = new Notices();
   readonly #picker: FilePicker;
+  readonly #transfer: Transfer;
+  /** The files as they were listed last. */
+  #files: string[] = [];
   readonly #name = button("", () => void this.pick(), {
     class: "file",
     title: "Open another program",
@@ -41,12 +45,25 @@ export class EditPanel {
     server: LanguageServer,
     private readonly doors: EditDoors,
   ) {
+    this.#transfer = new Transfer(
+      doors.folder,
+      () => void this.pick(),
+      (path, text) => void this.leaveFor(() => this.#came(path, text)),
+    );
     this.editor = new Editor({ changed: text => program.edit(text), save: () => void this.save() });
     this.#picker = new FilePicker(
-      origin => void this.open(origin),
-      path => this.begin(path, NEW_PROGRAM),
-      link => this.openLink(link),
-      doors.folder === null ? null : archiveSection(doors.folder, () => void this.pick()),
+      {
+        title: doors.folder === null ? "In this folder" : "In this browser",
+        open: path => void this.leaveFor(() => this.#return(path)),
+        openExample: name => void this.leaveFor(() => this.open({ example: name })),
+        begin: path => void this.leaveFor(() => this.begin(path, NEW_PROGRAM)),
+        share: link => this.openLink(link),
+        isUnsaved: path => program.drafts.paths.includes(path),
+        isOwn: path => doors.folder !== null || !this.#files.includes(path),
+        remove: path => this.#remove(path),
+        rename: path => void this.#rename(path),
+      },
+      this.#transfer.host,
     );
     this.host = element(
       "section",
@@ -62,12 +79,29 @@ export class EditPanel {
     server.client.on(client => this.editor.serve(client));
     program.path.on(() => this.#showName());
     program.unsaved.follow(() => this.#showName());
+    program.forked.on(fork => {
+      if (fork !== null) {
+        doors.shown(true);
+        this.notices.show(
+          "forked",
+          `Another tab has unsaved changes of ${fork.from}. Yours are ${fork.path} from here on.`,
+        );
+      }
+    });
     connection.events.on(event => event?.event === "changed" && this.#changed(event));
     connection.state.on(state => {
       // What could not be saved or opened without the server now may be.
       if (state === "open") {
         this.notices.hide("save");
         this.notices.hide("open");
+      }
+    });
+    addEventListener("dragover", event => isOfFiles(event) && event.preventDefault());
+    // The editor would insert the text.
+    addEventListener("drop", event => isOfFiles(event) && void this.#dropped(event), { capture: true });
+    addEventListener("beforeunload", event => {
+      if (!program.isKept) {
+        event.preventDefault();
       }
     });
     addEventListener("keydown", event => {
@@ -107,6 +141,13 @@ export class EditPanel {
     this.#show({ path, text, stamp: null }, true);
   }
 
+  /** Shows another program, if the present one may go. */
+  async leaveFor(show: () => unknown): Promise<void> {
+    if (await this.mayLeave()) {
+      show();
+    }
+  }
+
   /** Whether the program may go: where the browser keeps no drafts, the user is asked. */
   async mayLeave(): Promise<boolean> {
     return this.program.isKept || (await askLeave(this.program.path.value));
@@ -132,10 +173,11 @@ export class EditPanel {
       return;
     }
     const before = program.path.value;
-    const files = new Set((await this.connection.request("files", {})).map(({ path }) => path));
+    const files = await this.#list();
     const path = freePath(shared.file, name => {
-      const draft = program.draftAlone(name);
-      return files.has(name) || (draft === null ? name === before : draft !== shared.text);
+      const draft = program.drafts.of(name);
+      const isExample = program.hello?.examples.some(example => example.name === name) === true;
+      return files.includes(name) || isExample || (draft === null ? name === before : draft.text !== shared.text);
     });
     this.notices.clear();
     program.beginDraft(
@@ -152,27 +194,86 @@ export class EditPanel {
 
   /** Opens a program again that was shown before: a file, an example, or a draft. */
   async #return(path: string): Promise<void> {
-    const draft = this.program.draftAlone(path);
-    for (const origin of [{ path }, { example: path }]) {
-      try {
-        this.#show(await this.connection.request("read", origin));
-        return;
-      } catch (error) {
-        if (!(error instanceof RequestError)) {
-          throw error;
-        }
-      }
+    const isExample = this.program.hello?.examples.some(({ name }) => name === path) === true;
+    const draft = this.program.drafts.of(path);
+    const isFile = (await this.#list()).includes(path);
+    if (draft !== null && !isFile && !isExample) {
+      this.begin(path, draft.text);
+    } else {
+      await this.open(isExample && !isFile ? { example: path } : { path });
     }
-    if (draft !== null) {
-      this.program.beginDraft(path, draft, null);
+  }
+
+  async #dropped(event: DragEvent): Promise<void> {
+    event.preventDefault();
+    event.stopPropagation();
+    const files = [...(event.dataTransfer?.files ?? [])];
+    await this.pick();
+    await this.#transfer.take(files);
+  }
+
+  /** Opens a program that has come from a disk: a file of the folder, or a text that has none. */
+  async #came(path: string, text: string | null): Promise<void> {
+    this.#picker.host.close();
+    if (text === null) {
+      await this.open({ path });
+    } else {
+      const files = await this.#list();
+      const name = freePath(path, wished => files.includes(wished) || this.program.isTaken(wished));
+      this.program.beginDraft(name, text, null);
       this.#showText();
     }
   }
 
+  /** Deletes a program that only this browser has. The result brings it back. */
+  #remove(path: string): () => void {
+    const { folder } = this.doors;
+    const { drafts } = this.program;
+    const text = new Map(folder?.files()).get(path);
+    const draft = drafts.open(path);
+    drafts.keep(path, null);
+    folder?.remove(path);
+    void this.pick();
+    return () => {
+      if (text !== undefined) {
+        folder?.insert(path, text);
+      }
+      drafts.keep(path, draft);
+      void this.pick();
+    };
+  }
+
+  async #rename(from: string): Promise<void> {
+    const { folder } = this.doors;
+    const { drafts } = this.program;
+    const to = await askPath(from, `Rename ${from}`, "Rename");
+    if (to === null || to === from) {
+      return;
+    }
+    const path = freePath(to, name => this.#files.includes(name) || this.program.isTaken(name));
+    const text = new Map(folder?.files()).get(from);
+    if (text !== undefined) {
+      folder?.insert(path, text);
+    }
+    drafts.keep(path, drafts.open(from));
+    this.#remove(from);
+    if (this.program.path.value === from) {
+      await this.pick();
+      this.#picker.host.close();
+      await this.#return(path);
+    }
+  }
+
+  /** The paths of the files as they are now. */
+  async #list(): Promise<string[]> {
+    this.#files = (await this.connection.request("files", {})).map(({ path }) => path);
+    return this.#files;
+  }
+
   async pick(): Promise<void> {
     try {
-      const files = await this.connection.request("files", {});
-      this.#picker.show(files, this.program.hello?.examples ?? []);
+      const paths = new Set([...(await this.#list()), ...this.program.drafts.paths]);
+      this.#picker.show([...paths], this.program.hello?.examples ?? []);
     } catch (error) {
       if (!(error instanceof RequestError)) {
         throw error;
@@ -291,4 +392,8 @@ export class EditPanel {
     this.program.adopt(file);
     this.editor.replace(file.text);
   }
+}
+
+function isOfFiles({ dataTransfer }: DragEvent): boolean {
+  return dataTransfer?.types.includes("Files") === true;
 }

@@ -1,8 +1,7 @@
 // The conditions of lessons.
 
-import type { LessonCheck, LessonCount, LessonEntry } from "../protocol";
+import type { LessonCheck, LessonCount, LessonEntry, WrittenProgram } from "../protocol";
 import type { Situation } from "./situation";
-import { circuitsHave, outputNames, testLines } from "./source";
 
 type Values = { [port: string]: number | undefined };
 
@@ -11,7 +10,7 @@ const LATELY = 400;
 
 /** Whether a condition of a lesson holds. */
 export function holds(check: LessonCheck, situation: Situation, lesson: LessonEntry): boolean {
-  const { now, text, tests, passed, failed, claims, proved, refuted, search, design } = situation;
+  const { now, written, tests, passed, failed, claims, proved, refuted, search, design } = situation;
   switch (check.is) {
     case "shows":
       return has(situation, check.values, now);
@@ -33,7 +32,7 @@ export function holds(check: LessonCheck, situation: Situation, lesson: LessonEn
     case "robots-only":
       return situation.robots.length > 0 && situation.robots.every(gate => check.gates.includes(gate));
     case "without":
-      return !check.words.some(word => circuitsHave(text, word));
+      return written !== null && !check.words.some(word => written.words.includes(word));
     case "circuit":
       return situation.circuit === check.name;
     case "tests-pass":
@@ -44,25 +43,28 @@ export function holds(check: LessonCheck, situation: Situation, lesson: LessonEn
       return claims > 0 && proved === claims;
     case "claims-refuted":
       return refuted > 0;
-    case "tests-kept": {
-      const kept = testLines(text);
-      return [...testLines(lesson.program ?? "")].every(line => kept.has(line));
-    }
+    case "tests-kept":
+      return written !== null && lostLine(written, lesson) === undefined;
     case "program-changed":
       return (
         situation.isChecked &&
         situation.errors === 0 &&
         situation.circuits > 0 &&
         tests > 0 &&
-        text.trim() !== (lesson.program ?? "").trim()
+        written?.text !== lesson.written?.text
       );
     case "outputs-lit":
-      return outputNames(text).some(name => (situation.port(name, now) ?? 0) > 0);
+      return situation.outputs.some(name => (situation.port(name, now) ?? 0) > 0);
     case "evolving":
       return search.running;
     case "niche-chosen":
       return search.chosen !== null && search.chosen.body.join() === design.body.join();
   }
+}
+
+/** A line of the lesson's tests and claims that a program does not have. */
+export function lostLine(written: WrittenProgram, lesson: LessonEntry): string | undefined {
+  return lesson.written?.kept.find(line => !written.kept.includes(line));
 }
 
 /** Whether these values were there lately. */

@@ -2,14 +2,13 @@
 
 import { counted } from "../counted";
 import type { LessonCheck, LessonEntry } from "../protocol";
-import { holds, wasShown } from "./checks";
+import { holds, lostLine, wasShown } from "./checks";
 import type { Situation } from "./situation";
-import { circuitsHave, testLines } from "./source";
 
 type Values = { [port: string]: number | undefined };
 
-/** Conditions of the text, which may hold before anything is done. */
-const OF_TEXT = ["tests-kept", "without", "robots-only"];
+/** Conditions that may hold before anything is done. */
+const AT_FIRST = ["tests-kept", "without", "robots-only", "circuit", "hides", "counts"];
 
 /**
  * What the step of that number still needs, once a learner has done a part of it or run a test, or asks for it. Before
@@ -18,9 +17,13 @@ const OF_TEXT = ["tests-kept", "without", "robots-only"];
 export function missing(lesson: LessonEntry, step: number, situation: Situation, isAsked = false): string[] {
   const checks = lesson.steps[step]?.checks ?? [];
   const open = checks.filter(check => !holds(check, situation, lesson));
-  const isBegun = checks.some(check => !OF_TEXT.includes(check.is) && !open.includes(check));
-  const isSaid = isAsked || isBegun || situation.passed + situation.failed > 0;
-  return isSaid ? open.map(check => joined(wordsOf(check), reason(check, situation, lesson))) : [];
+  const isBegun = checks.some(check => !AT_FIRST.includes(check.is) && !open.includes(check));
+  const { problem } = situation;
+  if (open.length === 0 || !(isAsked || isBegun || problem !== null || situation.passed + situation.failed > 0)) {
+    return [];
+  }
+  const wanted = open.map(check => joined(wordsOf(check), reason(check, situation, lesson)));
+  return problem === null ? wanted : [`first, the error in the program: ${problem}`, ...wanted];
 }
 
 function joined(wanted: string, why: string): string {
@@ -45,7 +48,7 @@ export function wordsOf(check: LessonCheck): string {
     case "robots-only":
       return `all robots of the circuit are ${check.gates.join(" or ")}`;
     case "without":
-      return `the circuits are written without ${check.words.join(", ")}`;
+      return `the circuits are written without ${quoted(check.words)}`;
     case "circuit":
       return `the circuit ${check.name} is chosen`;
     case "tests-pass":
@@ -71,7 +74,7 @@ export function wordsOf(check: LessonCheck): string {
 
 /** Why a condition does not hold; empty where there is no more to say. */
 function reason(check: LessonCheck, situation: Situation, lesson: LessonEntry): string {
-  const { now, text, tests, passed, failed, design } = situation;
+  const { now, written, tests, passed, failed, design } = situation;
   switch (check.is) {
     case "shows":
     case "keeps":
@@ -93,7 +96,7 @@ function reason(check: LessonCheck, situation: Situation, lesson: LessonEntry): 
       return others.length === 0 ? notCompiled(situation) : `there is also ${others.join(", ")}`;
     }
     case "without":
-      return `there is ${check.words.filter(word => circuitsHave(text, word)).join(", ")}`;
+      return `there is ${quoted(check.words.filter(word => written?.words.includes(word)))}`;
     case "circuit":
       return situation.circuit === null ? notCompiled(situation) : `${situation.circuit} is`;
     case "tests-pass":
@@ -107,15 +110,18 @@ function reason(check: LessonCheck, situation: Situation, lesson: LessonEntry): 
       return situation.refuted > 0 ? "a property is refuted" : "it has not been decided";
     case "claims-refuted":
       return situation.proved > 0 ? "all that was decided is proved" : "nothing has been decided";
-    case "tests-kept": {
-      const kept = testLines(text);
-      return `missing: ${[...testLines(lesson.program ?? "")].find(line => !kept.has(line)) ?? ""}`;
-    }
+    case "tests-kept":
+      return written === null ? notCompiled(situation) : `missing: ${lostLine(written, lesson) ?? ""}`;
     case "program-changed":
-      return text.trim() === (lesson.program ?? "").trim() ? "it is still that of the lesson" : notCompiled(situation);
+      return written?.text === lesson.written?.text ? "it is still that of the lesson" : notCompiled(situation);
     default:
       return "";
   }
+}
+
+/** Words of a program, so that nobody reads them as words of the sentence. */
+function quoted(words: string[]): string {
+  return words.map(word => (word === "calls" ? "calls of standard circuits" : `\`${word}\``)).join(", ");
 }
 
 function notCompiled({ isChecked, errors, circuits }: Situation): string {

@@ -4,7 +4,6 @@ import { counted } from "../counted";
 import type { LessonEntry, LessonGoal } from "../protocol";
 import { holds } from "./checks";
 import type { Situation } from "./situation";
-import { gatesWritten } from "./source";
 
 export const STARS = 3;
 
@@ -13,7 +12,7 @@ export function sizeOf(lesson: LessonEntry, situation: Situation): number | null
   if (lesson.best === null || !isRight(lesson, situation)) {
     return null;
   }
-  return lesson.best.of === "robots" ? situation.robots.length : gatesWritten(situation.text);
+  return lesson.best.of === "robots" ? situation.robots.length : situation.gates;
 }
 
 /** Whether all conditions of the lesson hold that are about the program alone. */

@@ -3,7 +3,7 @@
 import type { LiveSwarm } from "../live/swarm";
 import type { Program } from "../program";
 import { toNumber } from "../ports";
-import type { PortEntry } from "../protocol";
+import type { PortEntry, WrittenProgram } from "../protocol";
 import type { Design } from "../robots/designer";
 import type { Search } from "../robots/evolution";
 import type { ClaimState } from "../tests/claims";
@@ -11,10 +11,13 @@ import type { TestState } from "../tests/panel";
 
 export interface Situation {
   path: string;
-  text: string;
+  /** The program as it is written; null while it is being checked. */
+  written: WrittenProgram | null;
   /** Whether the rest is about this text. */
   isChecked: boolean;
   errors: number;
+  /** The first error. */
+  problem: string | null;
   circuits: number;
   tests: number;
   passed: number;
@@ -26,6 +29,9 @@ export interface Situation {
   /** The circuit whose swarm is shown, and the gates that its robots are; none while they are not those of the text. */
   circuit: string | null;
   robots: string[];
+  /** The gates of the circuit as it is written, and the names of its outputs. */
+  gates: number;
+  outputs: string[];
   /** The threads of a wave machine; 0 if it is none. */
   threads: number;
   /** The cycles done. */
@@ -59,9 +65,10 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
   const refuted = decided.filter(({ properties }) => properties.some(({ verdict }) => verdict === "refuted"));
   return {
     path: program.path.value,
-    text: program.text,
+    written: checked?.written ?? null,
     isChecked: checked !== null,
     errors: checked?.errors ?? 0,
+    problem: checked?.diagnostics.find(({ severity }) => severity === "error")?.message ?? null,
     circuits: checked?.circuits.length ?? 0,
     tests: checked?.tests.length ?? 0,
     passed,
@@ -71,6 +78,8 @@ export function situationOf({ program, swarm, tests, robots }: Parts): Situation
     refuted: checked === null ? 0 : refuted.length,
     circuit: definition?.circuit ?? null,
     robots: definition?.robots.map(robot => robot.function) ?? [],
+    gates: definition?.gates ?? 0,
+    outputs: (isShown ? swarm.definition.value : null)?.outputs.map(({ name }) => name) ?? [],
     threads: definition?.waves?.threads ?? 0,
     now: isShown ? swarm.playback.cycle : 0,
     hold: swarm.definition.value?.hold ?? 4,

@@ -63,6 +63,7 @@ export class SwarmPanel {
     this.#status.dataset["state"] = stage.state;
     this.host.classList.toggle("stale", stage.state === "errors" || stage.state === "failed");
     this.host.classList.toggle("vacant", this.#hasNone() && this.#isVacant());
+    this.host.classList.toggle("foreign", this.swarm.definition.value !== null && this.#isVacant());
     const reason = this.swarm.stopped.value;
     switch (stage.state) {
       case "compiling":

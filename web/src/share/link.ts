@@ -36,7 +36,7 @@ export async function encodeShare(shared: SharedProgram): Promise<string> {
   }
   const { file, text, circuit, swarm, inputs, tab } = shared;
   const json = JSON.stringify({ format: FORMAT, file, text, circuit, swarm, inputs: Object.fromEntries(inputs), tab });
-  const code = MARK + encodeBase64Url(await pack(new TextEncoder().encode(json)));
+  const code = MARK + encodeBase64Url(pack(new TextEncoder().encode(json)));
   if (code.length > MOST_LINK) {
     throw new LinkError(`the link would have ${code.length} letters, more than ${MOST_LINK}; send the file`);
   }
@@ -69,7 +69,7 @@ async function parsed(code: string): Promise<unknown> {
   }
   let json: Uint8Array | null;
   try {
-    json = await unpack(bytes, MOST_BYTES);
+    json = unpack(bytes, MOST_BYTES);
   } catch {
     throw damaged();
   }

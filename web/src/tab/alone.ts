@@ -4,7 +4,7 @@ import { App } from "../app";
 import { rememberApart } from "../memory";
 import { restoreTheme } from "../theme";
 import { TabHost } from "./host";
-import { bytesOf } from "./seven";
+import { decodeBase64 } from "../share/packed";
 
 /** What an exporter puts into the page. */
 interface Sources {
@@ -26,7 +26,7 @@ restoreTheme();
 const worker = URL.createObjectURL(new Blob([part("worker")], { type: "text/javascript" }));
 const host = new TabHost({
   worker: () => new Worker(worker),
-  program: () => ({ packed: bytesOf(part("program")).buffer }),
+  program: () => ({ packed: decodeBase64(part("program")).buffer }),
   first,
   files,
   keeps: false,

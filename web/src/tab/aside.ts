@@ -1,52 +1,64 @@
-// A program beside that of the page, for work that takes long, such as measuring a robot. The page is not kept waiting
-// by it, and can stop it at any moment: its worker is ended then.
+// A program beside that of the page, for work that takes long. The page is not kept waiting by it, and can stop it at
+// any moment: its worker is ended then.
 
 import type { ServerMessage } from "../protocol";
-import type { FromWorker, Start, ToWorker } from "./messages";
-
-export interface AsideEvents {
-  /** A message for the page. */
-  received: (text: string) => void;
-  /** A file was written. */
-  wrote: (path: string, text: string) => void;
-  failed: (message: string) => void;
-}
+import type { FromWorker, ToWorker } from "./messages";
 
 export class Aside {
   #worker: Worker | null = null;
-  /** The requests that have no answer yet, by their numbers. */
-  readonly #open = new Map<number, string>();
+  /** The requests that have no answer yet: what is said to the program for each, by their numbers. */
+  readonly #open = new Map<number, string[]>();
 
   constructor(
-    private readonly start: () => { worker: Worker; begin: Start },
-    private readonly events: AsideEvents,
+    /** Starts a worker with all files. */
+    private readonly start: () => Worker,
+    private readonly said: (message: FromWorker, from: Aside) => void,
   ) {}
 
-  send(id: number, text: string): void {
-    this.#open.set(id, text);
-    this.#begun().postMessage({ say: "live", text } satisfies ToWorker);
+  has(id: number): boolean {
+    return this.#open.has(id);
+  }
+
+  /** Asks the program; what comes before the request itself has no answer that counts. */
+  send(id: number, ...texts: string[]): void {
+    this.#open.set(id, texts);
+    texts.forEach(text => this.post({ say: "live", text }));
+  }
+
+  /** Starts the program unless it runs. */
+  begin(): Worker {
+    if (this.#worker === null) {
+      const worker = this.start();
+      worker.onmessage = ({ data }: MessageEvent<FromWorker>) => worker === this.#worker && this.#receive(data);
+      this.#worker = worker;
+    }
+    return this.#worker;
+  }
+
+  post(message: ToWorker): void {
+    this.begin().postMessage(message);
+  }
+
+  /** Adds a file, or replaces it; without a text, deletes it. */
+  insert(path: string, text: string | null): void {
+    this.#worker?.postMessage({ say: "insert", path, text } satisfies ToWorker);
   }
 
   /** Stops a request, and begins the others again; whether it was one of this program. */
   cancel(id: number): boolean {
-    if (!this.#open.delete(id)) {
+    if (!this.has(id)) {
       return false;
     }
     this.#end();
-    const error = { message: "it was cancelled", code: "cancelled", help: null, instead: null, diagnostics: [] };
-    this.events.received(JSON.stringify({ id, error } satisfies ServerMessage));
-    this.#open.forEach((text, other) => this.send(other, text));
+    this.#refuse(id);
+    this.#open.forEach((texts, other) => this.send(other, ...texts));
     return true;
   }
 
-  /** Adds a file, or replaces it. */
-  insert(path: string, text: string): void {
-    this.#worker?.postMessage({ say: "insert", path, text } satisfies ToWorker);
-  }
-
+  /** Stops all requests. */
   close(): void {
-    this.#open.clear();
     this.#end();
+    [...this.#open.keys()].forEach(id => this.#refuse(id));
   }
 
   #end(): void {
@@ -54,27 +66,19 @@ export class Aside {
     this.#worker = null;
   }
 
-  #begun(): Worker {
-    if (this.#worker === null) {
-      const { worker, begin } = this.start();
-      worker.onmessage = ({ data }: MessageEvent<FromWorker>) => worker === this.#worker && this.#receive(data);
-      worker.postMessage({ say: "begin", ...begin } satisfies ToWorker);
-      this.#worker = worker;
-    }
-    return this.#worker;
+  #refuse(id: number): void {
+    this.#open.delete(id);
+    const error = { message: "it was cancelled", code: "cancelled", help: null, instead: null, diagnostics: [] };
+    this.said({ say: "live", data: JSON.stringify({ id, error } satisfies ServerMessage) }, this);
   }
 
   #receive(message: FromWorker): void {
     if (message.say === "live" && typeof message.data === "string") {
-      const said = JSON.parse(message.data) as ServerMessage;
-      if ("ok" in said || "error" in said) {
-        this.#open.delete(said.id);
+      const answer = JSON.parse(message.data) as ServerMessage;
+      if ("ok" in answer || "error" in answer) {
+        this.#open.delete(answer.id);
       }
-      this.events.received(message.data);
-    } else if (message.say === "wrote") {
-      this.events.wrote(message.path, message.text);
-    } else if (message.say === "failed") {
-      this.events.failed(message.message);
     }
+    this.said(message, this);
   }
 }

@@ -12,6 +12,7 @@ interface Exports {
   begin: (first: number, length: number, now: number) => void;
   template: (place: number, length: number) => void;
   room: (length: number) => number;
+  remove: (path: number, length: number) => void;
   insert: (path: number, pathLength: number, place: number, length: number) => void;
   receive: (place: number, length: number, now: number) => void;
   greet: () => void;
@@ -69,9 +70,13 @@ export class Engine {
     return this.#bytes(0);
   }
 
-  /** Adds a file, or replaces it. */
-  insert(path: string, text: string): void {
-    this.#exports.insert(...this.#put(path), ...this.#put(text));
+  /** Adds a file, or replaces it; without a text, deletes it. */
+  insert(path: string, text: string | null): void {
+    if (text === null) {
+      this.#exports.remove(...this.#put(path));
+    } else {
+      this.#exports.insert(...this.#put(path), ...this.#put(text));
+    }
   }
 
   /** Sets the page that live exports are made of. */

@@ -52,8 +52,13 @@ export class FileStore {
     this.#channel.postMessage([path, text]);
   }
 
-  /** Calls `take` for each file that another tab writes. */
-  follow(take: (path: string, text: string) => void): void {
-    this.#channel.onmessage = ({ data }) => take(...(data as [string, string]));
+  remove(path: string): void {
+    this.database.transaction(STORE, "readwrite").objectStore(STORE).delete(path);
+    this.#channel.postMessage([path, null]);
+  }
+
+  /** Calls `take` for each file that another tab writes, or deletes, with no text. */
+  follow(take: (path: string, text: string | null) => void): void {
+    this.#channel.onmessage = ({ data }) => take(...(data as [string, string | null]));
   }
 }

@@ -2,11 +2,11 @@
 
 import type { BrowserFolder, Dial, LineEvents, Ways } from "../line";
 import { Observable } from "../observable";
-import type { Request } from "../protocol";
-import { Aside } from "./aside";
+import type { Aside } from "./aside";
 import type { FromWorker, Source, Start, ToWorker } from "./messages";
+import { Programs } from "./programs";
 
-export interface TabOptions extends Omit<Start, "program" | "alone"> {
+export interface TabOptions extends Omit<Start, "program"> {
   /** Starts a worker. */
   worker: () => Worker;
   program: () => Source;
@@ -14,14 +14,8 @@ export interface TabOptions extends Omit<Start, "program" | "alone"> {
   template?: string;
 }
 
-/** Milliseconds in which the program is alone, so that the page is there soon. */
-const ALONE = 1000;
 /** The most files that are kept for the page to fetch, which it does at once. */
 const MOST_MADE = 8;
-/** Requests that take long, each with the program that does them, and what stops one. */
-const ASIDE = /"do":"(probe|evolve|keep|cancel)"/;
-const PLACES: { [Verb in Request["do"]]?: "probe" | "search" } = { probe: "probe", evolve: "search", keep: "search" };
-
 const KEEPS_NOTHING = "This browser keeps no files: save what you need with Take away.";
 
 export class TabHost implements Ways {
@@ -31,14 +25,17 @@ export class TabHost implements Ways {
   readonly folder: BrowserFolder = {
     files: () => [...this.#files].sort(([a], [b]) => (a < b ? -1 : 1)),
     insert: (path, text) => this.#insert(path, text),
+    remove: path => this.#insert(path, null),
   };
   readonly isPublic = true;
   /** The addresses of what the program has made. */
   readonly #made = new Map<string, string>();
   /** The texts of the files by their paths. */
   readonly #files = new Map<string, string>();
-  /** Searches are worth the help of others; a body of the designer is not. */
-  readonly #asides = { probe: this.#aside(null), search: this.#aside(0) };
+  readonly #programs = new Programs(
+    () => this.#started({ module: this.#module! }, "", false),
+    (message, from) => this.#receive(from, message),
+  );
   /** The paths of files that the browser could not keep. */
   readonly #unkept = new Set<string>();
   #module: WebAssembly.Module | null = null;
@@ -57,13 +54,12 @@ export class TabHost implements Ways {
   /** Loads what live exports are made of. */
   prepare(): Promise<void> {
     const { template } = this.options;
-    const worker = this.#worker;
-    if (template === undefined || worker === null) {
+    if (template === undefined || !this.#isReady) {
       return Promise.resolve();
     }
     return new Promise(resolve => {
       this.#prepared = resolve;
-      post(worker, { say: "template", address: template });
+      this.#programs.work.post({ say: "template", address: template });
     });
   }
 
@@ -79,7 +75,7 @@ export class TabHost implements Ways {
     }
     return {
       send: text => {
-        if (name === "language" || !ASIDE.test(text) || !this.#sendAside(JSON.parse(text) as Request, text)) {
+        if (name === "language" || !this.#isReady || !this.#programs.send(text)) {
           post(worker, { say: name, text });
         }
       },
@@ -91,34 +87,8 @@ export class TabHost implements Ways {
     };
   }
 
-  /** Sends a request to the program beside that of the page; whether it is one of its requests. */
-  #sendAside(request: Request, text: string): boolean {
-    const { probe, search } = this.#asides;
-    if (request.do === "cancel") {
-      return probe.cancel(request.of) || search.cancel(request.of);
-    }
-    const place = PLACES[request.do];
-    if (place === undefined || this.#module === null) {
-      return false;
-    }
-    this.#asides[place].send(request.id, text);
-    return true;
-  }
-
-  #aside(alone: number | null): Aside {
-    const start = (): { worker: Worker; begin: Start } => ({
-      worker: this.options.worker(),
-      begin: { program: { module: this.#module! }, first: "", files: [...this.#files], keeps: false, alone },
-    });
-    return new Aside(start, {
-      received: text => this.#lines.live?.received(text),
-      wrote: (path, text) => this.#insert(path, text),
-      failed: message => this.#worker !== null && this.#fail(this.#worker, message),
-    });
-  }
-
-  /** Adds a file to all programs, and to those that the browser keeps. */
-  #insert(path: string, text: string): void {
+  /** Adds a file to all programs, and to those that the browser keeps; without a text, deletes it. */
+  #insert(path: string, text: string | null): void {
     if (this.#worker !== null) {
       post(this.#worker, { say: "insert", path, text });
     }
@@ -131,40 +101,54 @@ export class TabHost implements Ways {
   }
 
   /** Notes a file that the program of the page has. */
-  #note(path: string, text: string): void {
-    this.#files.set(path, text);
-    Object.values(this.#asides).forEach(aside => aside.insert(path, text));
+  #note(path: string, text: string | null): void {
+    if (text === null) {
+      this.#files.delete(path);
+    } else {
+      this.#files.set(path, text);
+    }
+    this.#programs.insert(path, text);
   }
 
   #start(): Worker {
-    const worker = this.options.worker();
-    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#receive(worker, data);
-    worker.onerror = event => {
-      event.preventDefault();
-      this.#fail(worker, event.message ?? "the worker cannot be started");
-    };
     const { first, keeps, program } = this.options;
-    post(worker, { say: "begin", program: program(), first, files: [...this.#files], keeps, alone: ALONE });
+    const worker = this.#started(program(), first, keeps);
+    worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.#receive(worker, data);
     return worker;
   }
 
-  #receive(worker: Worker, message: FromWorker): void {
+  #started(program: Source, first: string, keeps: boolean): Worker {
+    const worker = this.options.worker();
+    worker.onerror = event => {
+      event.preventDefault();
+      this.#fail(event.message ?? "the worker cannot be started");
+    };
+    post(worker, { say: "begin", program, first, files: [...this.#files], keeps });
+    return worker;
+  }
+
+  /** Takes a message of the program of the page, or of one beside it. */
+  #receive(from: Worker | Aside, message: FromWorker): void {
     switch (message.say) {
       case "loading":
         this.status.set(`Loading the simulator: ${share(message.done, message.all)} of ${megabytes(message.all)}`);
         break;
       case "ready":
+        if (from !== this.#worker) {
+          break;
+        }
         this.#isReady = true;
         this.#module = message.module;
         message.files.forEach(([path, text]) => this.#files.set(path, text));
         this.status.set(message.keeps || !this.options.keeps ? "" : KEEPS_NOTHING);
+        this.#programs.prepare();
         this.#lines.live?.opened();
         this.#lines.language?.opened();
         break;
       case "live":
         this.#lines.live?.received(message.data);
-        if (typeof message.data !== "string") {
-          post(worker, { say: "drawn" });
+        if (typeof message.data !== "string" && !(from instanceof Worker)) {
+          from.post({ say: "drawn" });
         }
         break;
       case "language":
@@ -184,25 +168,30 @@ export class TabHost implements Ways {
         break;
       }
       case "wrote":
-        this.#note(message.path, message.text);
+        if (from === this.#worker) {
+          this.#note(message.path, message.text);
+        } else {
+          this.#insert(message.path, message.text);
+        }
         break;
       case "kept":
         this.#unkept[message.isKept ? "delete" : "add"](message.path);
         this.#showUnkept();
         break;
       case "failed":
-        this.#fail(worker, message.message);
+        this.#fail(message.message);
         break;
     }
   }
 
-  #fail(worker: Worker, message: string): void {
-    worker.terminate();
-    if (worker !== this.#worker) {
+  /** A program has failed: all are started again. */
+  #fail(message: string): void {
+    if (this.#worker === null) {
       return;
     }
-    Object.values(this.#asides).forEach(aside => aside.close());
+    this.#worker.terminate();
     this.#worker = null;
+    this.#programs.close();
     this.#isReady = false;
     this.#prepared();
     this.status.set(`The program failed and is started again: ${message}`);

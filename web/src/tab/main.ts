@@ -4,18 +4,31 @@ import { App } from "../app";
 import { restoreTheme } from "../theme";
 import { TabHost } from "./host";
 
-/** The program's name, with a hash, and its size; put in by the build. */
-declare const PROGRAM: { name: string; bytes: number };
+/** The names of the program and of the worker, with hashes, and the program's size; put in by the build. */
+declare const PROGRAM: { name: string; bytes: number; worker: string };
 
 restoreTheme();
 const host = new TabHost({
-  worker: () => new Worker(new URL("worker.js", document.baseURI)),
+  worker: () => new Worker(new URL(PROGRAM.worker, document.baseURI)),
   program: () => ({ address: new URL(PROGRAM.name, document.baseURI).href, bytes: PROGRAM.bytes }),
   template: new URL("alone.html", document.baseURI).href,
   first: "",
   files: [],
   keeps: true,
 });
-new App(host).start();
+const app = new App(host);
+app.start();
 // Without a network the page still opens. Where this is not to be had, such as on an insecure address, it needs one.
-navigator.serviceWorker?.register("offline.js").catch(() => {});
+const offline = navigator.serviceWorker as ServiceWorkerContainer | undefined;
+const script = (document.currentScript as HTMLScriptElement).src;
+const look = (kept?: ServiceWorkerRegistration): void => void kept?.update().catch(() => {});
+offline?.register("offline.js").then(
+  kept => document.addEventListener("visibilitychange", () => look(kept)),
+  () => {},
+);
+// A new version of the page says what it consists of.
+offline?.addEventListener("message", ({ data }: MessageEvent<string[]>) => {
+  if (!data.some(file => script.endsWith(file))) {
+    app.offerReload();
+  }
+});

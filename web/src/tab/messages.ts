@@ -14,16 +14,16 @@ export interface Start {
   files: KeptFiles;
   /** Whether the browser keeps files. */
   keeps: boolean;
-  /** Milliseconds until others help to simulate; null if none do. */
-  alone: number | null;
 }
 
 export type ToWorker =
   | ({ say: "begin" } & Start)
   | { say: "live" | "language"; text: string }
   | { say: "greet" }
-  /** A file that was written elsewhere. */
-  | { say: "insert"; path: string; text: string }
+  /** In so many milliseconds others help to simulate. */
+  | { say: "gather"; after: number }
+  /** A file that was written elsewhere, or deleted if it has no text. */
+  | { say: "insert"; path: string; text: string | null }
   /** The address of the page that live exports are made of. */
   | { say: "template"; address: string }
   /** The last frame was drawn. */
@@ -38,8 +38,8 @@ export type FromWorker =
   | { say: "live"; data: string | ArrayBuffer }
   | { say: "language"; text: string }
   | { say: "template" }
-  /** A file was saved here, or by another tab. */
-  | { say: "wrote"; path: string; text: string }
+  /** A file was saved here, or by another tab, which may have deleted it. */
+  | { say: "wrote"; path: string; text: string | null }
   /** Whether the browser keeps a file that was saved. */
   | { say: "kept"; path: string; isKept: boolean }
   /** An assistant is ready, or has done a part. */

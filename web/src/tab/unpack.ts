@@ -1,8 +1,9 @@
 // Unpacks the page of a file of its own, and starts it. The document's policy permits its script and style by their
 // hashes.
 
-import { unpack } from "../share/packed";
-import { bytesOf } from "./seven";
+import { inflateSync } from "fflate";
+
+import { decodeBase64 } from "../share/packed";
 
 interface PackedPage {
   style: string;
@@ -18,12 +19,8 @@ function add(tag: "style" | "script", text: string, attributes: Record<string, s
   document.head.append(made);
 }
 
-async function start(): Promise<void> {
-  const bytes = await unpack(bytesOf(document.getElementById("page")?.textContent ?? ""), Infinity);
-  const { style, script, worker } = JSON.parse(new TextDecoder().decode(bytes ?? undefined)) as PackedPage;
-  add("style", style);
-  add("script", worker, { type: "text/plain", id: "worker" });
-  add("script", script);
-}
-
-void start();
+const packed = decodeBase64(document.getElementById("page")?.textContent ?? "");
+const { style, script, worker } = JSON.parse(new TextDecoder().decode(inflateSync(packed))) as PackedPage;
+add("style", style);
+add("script", worker, { type: "text/plain", id: "worker" });
+add("script", script);

@@ -8,6 +8,7 @@ import type { FromWorker, Source, ToWorker } from "./messages";
 
 const pause = new MessageChannel();
 let engine: Engine | null = null;
+let compiled: WebAssembly.Module | null = null;
 let crew: Crew | null = null;
 let store: FileStore | null = null;
 /** Messages that came before the program was there. */
@@ -48,7 +49,7 @@ function fail(message: string): void {
   say({ say: "failed", message });
 }
 
-async function begin({ program, first, files, keeps, alone }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
+async function begin({ program, first, files, keeps }: Extract<ToWorker, { say: "begin" }>): Promise<void> {
   const compiling = "module" in program ? program.module : WebAssembly.compileStreaming(await read(program));
   store = keeps ? await FileStore.open() : null;
   const all = [...files, ...((await store?.all()) ?? [])];
@@ -66,13 +67,15 @@ async function begin({ program, first, files, keeps, alone }: Extract<ToWorker, 
   say({ say: "ready", keeps: store !== null, module, files: all });
   guard(() => waiting.splice(0).forEach(message => take(started, message)));
   work();
-  if (alone !== null) {
-    setTimeout(() => gather(module), alone);
-  }
+  compiled = module;
 }
 
 /** Starts others that simulate. A browser that has none, or not in this place, goes on without them. */
-function gather(module: WebAssembly.Module): void {
+function gather(): void {
+  const module = compiled;
+  if (module === null || crew !== null) {
+    return;
+  }
   const tell = (call: (engine: Engine) => void): void => {
     const told = engine;
     if (told !== null) {
@@ -132,7 +135,7 @@ async function fetched({ address, bytes }: { address: string; bytes: number }): 
 
 /** Gives the program the page that live exports are made of. Without it the program says that they cannot be made. */
 async function template(engine: Engine, address: string): Promise<void> {
-  const response = await fetch(address).catch(() => null);
+  const response = await fetch(address, { cache: "no-cache" }).catch(() => null);
   if (response?.ok === true) {
     const text = await response.text();
     guard(() => engine.template(text));
@@ -140,8 +143,12 @@ async function template(engine: Engine, address: string): Promise<void> {
   say({ say: "template" });
 }
 
-/** Keeps a file in the browser, if it keeps any. */
-function keep(path: string, text: string): void {
+/** Keeps a file in the browser, if it keeps any, or deletes it. */
+function keep(path: string, text: string | null): void {
+  if (text === null) {
+    store?.remove(path);
+    return;
+  }
   store?.put(path, text, isKept => say({ say: "kept", path, isKept }));
 }
 
@@ -156,6 +163,9 @@ function take(engine: Engine, message: ToWorker): void {
       break;
     case "greet":
       engine.greet();
+      break;
+    case "gather":
+      setTimeout(gather, message.after);
       break;
     case "insert":
       engine.insert(message.path, message.text);

@@ -2,7 +2,7 @@
 
 use super::mistake::{LessonMistake, Mistaken};
 use super::piece::Piece;
-use crate::message::{LessonCheck, LessonComparison, LessonCount, PortValues};
+use crate::message::{CALLS, LessonCheck, LessonComparison, LessonCount, PortValues};
 use nbc_base::model::Function;
 
 /// The words with which checks begin.
@@ -26,9 +26,9 @@ pub(super) const CHECKS: [&str; 17] = [
     "niche",
 ];
 
-/// The words that can be forbidden: the operators of gates and numbers.
-const OPERATORS: [&str; 14] =
-    ["not", "and", "or", "xor", "nand", "nor", "xnor", "if", "match", "table", "+", "-", "*", "=="];
+/// The words that can be forbidden: the operators of gates and numbers, and calls of the standard circuits.
+const OPERATORS: [&str; 15] =
+    ["not", "and", "or", "xor", "nand", "nor", "xnor", "if", "match", "table", "+", "-", "*", "==", CALLS];
 
 /// Reads a check. The ports that it names are added to `ports`.
 ///

@@ -4,7 +4,7 @@ use super::checking::{check, one_of};
 use super::mistake::{LessonMistake, Mistaken};
 use super::piece::{Piece, lines};
 use super::solving::deed;
-use crate::message::{LessonCheck, LessonEntry, LessonGoal, LessonMeasure, LessonStep, LessonTab};
+use crate::message::{LessonCheck, LessonEntry, LessonGoal, LessonMeasure, LessonStep, LessonTab, WrittenProgram};
 
 /// The most hints in one place.
 pub(super) const HINTS: usize = 3;
@@ -49,6 +49,7 @@ pub(super) fn read<'a>(name: &str, text: &'a str) -> ReadLesson<'a> {
         title: String::new(),
         text: Vec::new(),
         program: None,
+        written: None,
         tab: LessonTab::Swarm,
         hints: Vec::new(),
         best: None,
@@ -165,6 +166,7 @@ impl<'a> Reader<'a> {
         } else {
             self.lesson.program = Some(text);
             self.lesson.entry.program = Some(text.text.to_owned());
+            self.lesson.entry.written = Some(WrittenProgram::of(text.text));
         }
     }
 

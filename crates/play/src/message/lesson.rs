@@ -7,6 +7,7 @@ use serde::Serialize;
 use ts_rs::TS;
 
 use super::finding::Finding;
+use super::written::WrittenProgram;
 
 /// The answer to `lessons`.
 #[derive(Clone, Debug, Serialize)]
@@ -29,6 +30,8 @@ pub(crate) struct LessonEntry {
     pub(crate) text: Vec<String>,
     /// The program that it begins with.
     pub(crate) program: Option<String>,
+    /// The same as checks look at it.
+    pub(crate) written: Option<WrittenProgram>,
     /// The tab in which it begins.
     pub(crate) tab: LessonTab,
     /// Hints for all of its steps.
@@ -46,7 +49,7 @@ pub(crate) struct LessonGoal {
     pub(crate) of: LessonMeasure,
 }
 
-/// How a circuit is measured: by its robots, or by the gates as they are written.
+/// How a circuit is measured: by its robots, or by the gates of what is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]

@@ -12,6 +12,7 @@ mod lesson;
 mod program;
 mod swarm;
 mod test_result;
+mod written;
 
 use serde::Serialize;
 #[cfg(test)]
@@ -36,6 +37,7 @@ pub(super) use swarm::{
     ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, WaveBit, WaveRegister,
 };
 pub(super) use test_result::{TestAnswer, TestResult, listed};
+pub(super) use written::{CALLS, WrittenProgram};
 
 use crate::refusal::Refusal;
 

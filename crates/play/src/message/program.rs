@@ -6,6 +6,7 @@ use ts_rs::TS;
 
 use super::claim::ClaimEntry;
 use super::finding::Finding;
+use super::written::WrittenProgram;
 use nbc_base::model::Column;
 
 /// A checked program.
@@ -18,6 +19,7 @@ pub(crate) struct ProgramReport {
     pub(crate) circuits: Vec<CircuitEntry>,
     pub(crate) tests: Vec<TestEntry>,
     pub(crate) claims: Vec<ClaimEntry>,
+    pub(crate) written: WrittenProgram,
 }
 
 /// A circuit whose parameters are known.

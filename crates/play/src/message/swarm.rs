@@ -29,6 +29,8 @@ pub(crate) struct ShownSwarm {
     /// The source of each bit of the outputs.
     pub(crate) shown: Vec<BitSource>,
     pub(crate) robots: Vec<SwarmRobot>,
+    /// The gates of the circuit as it is written.
+    pub(crate) gates: usize,
     pub(crate) registers: Vec<ShownRegister>,
     /// The table of the circuit over one of its outputs.
     pub(crate) listing: Option<ShownListing>,

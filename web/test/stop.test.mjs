@@ -1,0 +1,149 @@
+// While the page computes it answers, and what takes long ends at once.
+
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { FIREFOX, firefox } from "./bidi.mjs";
+import { visit, walking } from "./browser.mjs";
+import { served } from "./opened.mjs";
+import { LATCH } from "./program.mjs";
+
+/** Multiplication does not depend on the order, which takes minutes to prove. */
+const HARD = `circuit product(a[10], b[10], c[10]) -> (same) {
+    same = (a * b) * c == a * (b * c)
+}
+
+prove product "the order does not matter" {
+    always same
+}
+
+test product "of nothing is the same" {
+    a b c | same
+    0 0 0 | 1
+}
+`;
+
+const here = served({ "latch.nb": LATCH, "hard.nb": HARD }, "latch.nb");
+const at = name => `${here.program.address}#${name}`;
+const shows = (page, name) => page.waitForFunction(want => document.querySelector(".file").textContent === want, name);
+
+/** Milliseconds from a click until what it ends is gone. */
+async function stops(page, selector, gone) {
+  const took = await page.evaluate(
+    ([button, work]) =>
+      new Promise(done => {
+        const begun = performance.now();
+        const look = () => document.querySelector(work) === null && done(performance.now() - begun);
+        new MutationObserver(look).observe(document.body, { subtree: true, childList: true, attributes: true });
+        document.querySelector(button).click();
+        look();
+      }),
+    [selector, gone],
+  );
+  assert.ok(took < 300, `${Math.round(took)} ms`);
+  return Math.round(took);
+}
+
+const COMPILING = '.swarm .status[data-state="compiling"]';
+
+test("while a large circuit is compiled other programs open, and Stop ends it", async t => {
+  const page = await visit(here.program.url);
+  await walking(page);
+  await page.locator("[data-do=open]").click();
+  await page.locator('.files [data-open="hard.nb"]').click();
+  await shows(page, "hard.nb");
+  await page.locator(COMPILING).waitFor();
+  // The robots of the program before are not taken for those of this one, and rest.
+  await page.locator(".swarm.foreign").waitFor({ state: "attached" });
+  const opacity = () =>
+    page.evaluate(() => Number(getComputedStyle(document.querySelector(".swarm > .scene")).opacity));
+  await page.waitForTimeout(800);
+  assert.ok((await opacity()) < 0.5);
+  const cycles = () => page.locator(".cycle").textContent();
+  const before = await cycles();
+  await page.waitForTimeout(1000);
+  assert.equal(await cycles(), before);
+  t.diagnostic(`stopped after ${await stops(page, ".swarm .status button", COMPILING)} ms`);
+  await page.getByText("compiling was stopped").waitFor();
+  // What compiles does not keep the list of programs waiting, nor another circuit.
+  await page.reload();
+  await page.locator(COMPILING).waitFor();
+  const begun = Date.now();
+  await page.locator("[data-do=open]").click();
+  await page.locator('.files [data-open="latch.nb"]').first().click();
+  await shows(page, "latch.nb");
+  await walking(page);
+  assert.ok(Date.now() - begun < 10_000, `${Date.now() - begun} ms`);
+  assert.ok((await opacity()) === 1);
+  await page.leave();
+});
+
+test("proofs and tests stop at once, and what was found stays", async t => {
+  const page = await visit(at("hard.nb"));
+  await shows(page, "hard.nb");
+  await page.locator("#tab-tests").click();
+  await page.locator(".test [data-do=logic]").click();
+  await page.getByText("✓ passes as logic").waitFor();
+  await page.locator("[data-do=prove]").click();
+  await page.locator("[data-claim][data-state=running]").waitFor();
+  await page.waitForTimeout(1500);
+  t.diagnostic(
+    `the proof stopped after ${await stops(page, "[data-claim] [data-do=stop]", "[data-claim][data-state=running]")} ms`,
+  );
+  assert.equal(await page.getByText("✓ passes as logic").count(), 1);
+  await page.getByText("stopped", { exact: true }).waitFor();
+  await page.locator("[data-do=open]").click();
+  await page.locator('.files [data-open="computer.nb"]').click();
+  await shows(page, "computer.nb");
+  await page.locator(".test [data-do=physics]").first().click();
+  await page.locator(".test[data-state=running]").waitFor();
+  await page.waitForTimeout(3000);
+  t.diagnostic(`the test stopped after ${await stops(page, ".test [data-do=stop]", ".test[data-state=running]")} ms`);
+  await page.leave();
+});
+
+test("an evolution stops at once", async t => {
+  const page = await visit(here.program.url);
+  await walking(page);
+  await page.locator("#tab-robots").click();
+  await page.locator("[data-robot=nand_5x5] [data-do=design]").first().click();
+  await page.locator("[data-do=evolve]").click();
+  const running = ".row:has([data-do=evolve]) progress:not([hidden])";
+  await page.locator(running).waitFor();
+  await page.waitForTimeout(2000);
+  t.diagnostic(`stopped after ${await stops(page, "[data-do=evolve]", running)} ms`);
+  await page.leave();
+});
+
+test("a page that is paused does nothing", async () => {
+  const page = await visit(here.program.url);
+  await walking(page);
+  await page.locator(".controls [data-do=play]").click();
+  const client = await page.context().newCDPSession(page);
+  await client.send("Performance.enable");
+  const used = async () =>
+    (await client.send("Performance.getMetrics")).metrics.find(({ name }) => name === "TaskDuration").value;
+  await page.waitForTimeout(8000);
+  const before = await used();
+  await page.waitForTimeout(5000);
+  const spent = (await used()) - before;
+  assert.ok(spent < 0.1, `${spent} s in 5 s`);
+  await page.leave();
+});
+
+const noFox = FIREFOX === undefined && "no Firefox on this machine";
+
+test("in Firefox Stop ends the compilation of a large circuit", { skip: noFox }, async () => {
+  const fox = await firefox(at("hard.nb"));
+  await fox.until(wanted => document.querySelector(wanted) !== null, COMPILING);
+  const took = await fox.run(async wanted => {
+    const begun = performance.now();
+    document.querySelector(".swarm .status button").click();
+    while (document.querySelector(wanted) !== null) {
+      await new Promise(done => setTimeout(done, 5));
+    }
+    return performance.now() - begun;
+  }, COMPILING);
+  assert.ok(took < 300, `${took} ms`);
+  await fox.leave();
+});
