@@ -23,6 +23,10 @@ const WORDS: usize = 32;
 const BATCH: usize = 16;
 const IN_A_WORD: usize = 4;
 
+/// The most clauses that the solver learns to merge a gate with one that seems equal: what is hard to see there may be
+/// easy at the outputs.
+const GATE_PORTION: u64 = 1_000;
+
 /// The calls and the variables after which a solver is replaced: each pattern that it finds costs time for each
 /// variable, and what it has learned is mostly of signals that are proved already.
 const MOST_CALLS: usize = 100;
@@ -190,7 +194,7 @@ impl SatSweep {
         let hash = self.hashes[signal as usize];
         for class in self.classes.get(&hash).cloned().unwrap_or_default() {
             let opposite = self.is_turned(signal) != self.is_turned(class);
-            match self.compared((class, opposite), (signal, false)) {
+            match self.compared_within((class, opposite), (signal, false), self.portion.min(GATE_PORTION)) {
                 // From here on the class represents the gate.
                 Compared::Equal => return (class, opposite),
                 Compared::Different(pattern) => self.found.push(pattern),
@@ -223,11 +227,15 @@ impl SatSweep {
 
     /// Whether two signals, each maybe inverted, are equal.
     pub fn compared(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Compared {
+        self.compared_within(one, two, self.portion)
+    }
+
+    fn compared_within(&mut self, one: (Signal, bool), two: (Signal, bool), portion: u64) -> Compared {
         if one == two {
             return Compared::Equal;
         }
         for value in [false, true] {
-            match self.solve(&[(one, value), (two, !value)]) {
+            match self.solve(&[(one, value), (two, !value)], portion) {
                 Solved::Yes => return Compared::Different(self.inputs_found()),
                 Solved::No => {}
                 Solved::Open => return Compared::Open,
@@ -238,7 +246,7 @@ impl SatSweep {
 
     /// Inputs at which signals, each maybe inverted, have these values.
     pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
-        match self.solve(wanted) {
+        match self.solve(wanted, self.portion) {
             Solved::Yes => Some(self.inputs_found()),
             Solved::No => None,
             Solved::Open => panic!("a solver without limits ends with an answer"),
@@ -249,7 +257,7 @@ impl SatSweep {
         (0..self.inputs).map(|input| self.cones.is_on(input as Signal + 2)).collect()
     }
 
-    fn solve(&mut self, wanted: &[((Signal, bool), bool)]) -> Solved {
+    fn solve(&mut self, wanted: &[((Signal, bool), bool)], portion: u64) -> Solved {
         self.calls += 1;
         if self.cones.calls >= MOST_CALLS && self.cones.variable.len() > MANY_VARIABLES {
             self.propagations += self.cones.propagations();
@@ -259,7 +267,7 @@ impl SatSweep {
         let assumed: Vec<_> = wanted.iter().map(|&((signal, inverted), value)| (signal, value != inverted)).collect();
         let first_gate = 2 + self.inputs;
         let gate = |signal: Signal| (signal as usize).checked_sub(first_gate).map(|at| self.gates[at]);
-        self.cones.solve(&assumed, gate, self.portion)
+        self.cones.solve(&assumed, gate, portion)
     }
 
     /// Simulates the patterns that were found, and those that differ from them in some inputs.
