@@ -10,7 +10,7 @@ use crate::verilog::compare::ModuleComparison;
 use crate::verilog::messages::{self, SandboxFiles};
 use crate::verilog::netlist::WordNetlist;
 use crate::verilog::parameter::ParameterValue;
-use crate::verilog::sandbox::{self, Sandbox, SandboxRun, is_plain};
+use crate::verilog::sandbox::{self, SECOND_SECONDS, SECONDS, Sandbox, SandboxRun, is_plain};
 use crate::verilog::tree::{DesignTree, Statements};
 use crate::verilog::wording;
 use nbc_base::source::{
@@ -210,7 +210,7 @@ impl Reading<'_> {
     /// Runs a script of slang; its warnings.
     fn slang(&self, script: &str) -> Result<Vec<VerilogNote>, VerilogError> {
         self.sandbox.write("slang.json", "[]")?;
-        let SandboxRun { is_good, is_late, messages } = self.sandbox.run(script)?;
+        let SandboxRun { is_good, is_late, messages } = self.sandbox.run(script, SECONDS)?;
         let notes = messages::notes(&self.sandbox.result("slang.json").unwrap_or_default(), &self.names);
         match is_good {
             true => Ok(notes),
@@ -282,7 +282,7 @@ impl Reading<'_> {
             lines(STATEMENTS),
             lines(GATES)
         );
-        if !self.sandbox.run(&script)?.is_good {
+        if !self.sandbox.run(&script, SECOND_SECONDS)?.is_good {
             return Ok(module);
         }
         let other = VerilogModule { blif: self.sandbox.result(BLIF).unwrap_or_default(), ..module.clone() };

@@ -13,8 +13,9 @@ use nbc_base::diag::io_words;
 use nbc_base::source::VerilogError;
 use nbc_circuit::CancelFlag;
 
-/// Seconds that a run may take.
+/// Seconds that a run may take, and one of the second reader.
 pub(super) const SECONDS: u64 = 60;
+pub(super) const SECOND_SECONDS: u64 = 15;
 /// Seconds of the first run after an installation, which compiles the sandbox.
 const FIRST_SECONDS: u64 = 600;
 /// What it says meanwhile.
@@ -96,8 +97,8 @@ impl<'a> Sandbox<'a> {
         self.result(PRINTED).unwrap_or_default()
     }
 
-    /// Runs a script.
-    pub(super) fn run(&self, script: &str) -> Result<SandboxRun, VerilogError> {
+    /// Runs a script for so many seconds at most.
+    pub(super) fn run(&self, script: &str, seconds: u64) -> Result<SandboxRun, VerilogError> {
         const SCRIPT: &str = "script.ys";
         self.write(SCRIPT, script)?;
         let folder = self.folder.path();
@@ -110,7 +111,7 @@ impl<'a> Sandbox<'a> {
         command.envs(["TMPDIR", "TEMP", "TMP"].map(|name| (name, folder)));
         command.stdin(Stdio::piped()).stdout(file(PRINTED)?).stderr(file(MESSAGES)?);
         let mut child = command.spawn().map_err(|_| VerilogError::NotInstalled)?;
-        let (status, is_late) = self.wait(&mut child)?;
+        let (status, is_late) = self.wait(&mut child, seconds)?;
         if status.code() == Some(127) {
             return Err(VerilogError::NotInstalled);
         }
@@ -119,7 +120,7 @@ impl<'a> Sandbox<'a> {
     }
 
     /// Waits until the process ends; ends it after a cancellation or when its time is over.
-    fn wait(&self, child: &mut Child) -> Result<(ExitStatus, bool), VerilogError> {
+    fn wait(&self, child: &mut Child, seconds: u64) -> Result<(ExitStatus, bool), VerilogError> {
         let begin = Instant::now();
         let is_over = |seconds: u64| begin.elapsed() > Duration::from_secs(seconds);
         let mut is_late = false;
@@ -128,7 +129,7 @@ impl<'a> Sandbox<'a> {
                 return Ok((status, is_late));
             }
             let is_first = || self.result(MESSAGES).is_some_and(|said| said.contains(PREPARING));
-            is_late = is_over(SECONDS) && (is_over(FIRST_SECONDS) || !is_first());
+            is_late = is_over(seconds) && (is_over(FIRST_SECONDS) || !is_first());
             if is_late || self.cancel.is_raised() {
                 drop(child.stdin.take());
                 if cfg!(not(unix)) {
