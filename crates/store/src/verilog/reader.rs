@@ -123,6 +123,14 @@ impl Reading<'_> {
             _ => self.tree()?,
         };
         let (mut tops, left_out) = tree.tops();
+        // A module may be used in a block only that is never made, as a mark that it has no default parameters.
+        if let ([], [only]) = (&tops[..], &self.modules_beside(&left_out)[..]) {
+            let parameters = match wanted {
+                WantedModules::Top(top) if top.name.is_none() => top.parameters.clone(),
+                _ => BTreeMap::new(),
+            };
+            return self.modules(&WantedModules::Top(&TopModule { name: Some(only.clone()), parameters }));
+        }
         if let WantedModules::Top(top) = wanted {
             match &top.name {
                 Some(name) => tops = vec![name.clone()],
@@ -304,6 +312,16 @@ impl Reading<'_> {
             wording::incomplete_events(&found.target, &found.missing, nets.get(&found.target).cloned())
         };
         of_module.map(note).collect()
+    }
+
+    /// The modules that the files seem to declare beside these.
+    fn modules_beside(&self, others: &[String]) -> Vec<String> {
+        let texts = self.sources.split_whitespace().filter_map(|name| self.sandbox.result(name));
+        let declared = |text: String| -> Vec<String> {
+            let rest = text.lines().filter_map(|line| line.trim_start().strip_prefix("module "));
+            rest.filter_map(|rest| Some(words(rest).next()?.to_owned())).collect()
+        };
+        texts.flat_map(declared).filter(|module| !others.contains(module)).collect()
     }
 
     /// The first place of a constant.
