@@ -31,7 +31,7 @@ fn a_result_says_what_both_readers_make_of_a_file() {
     assert!(said.contains("proved from the file, read alike by slang and by yosys,"), "{said}");
     assert_eq!(proof, serde_json::json!({"from": "slang", "version": version, "second": "alike"}));
     assert!(said.contains(&format!("read by Yosys {version}\n")), "{said}");
-    // A class of SystemVerilog's types that Yosys does not read.
+    // Yosys does not read `timeunit`.
     let (said, proof) =
         read("module m(input logic a, output logic q);\n  timeunit 1ns;\n  assign q = ~a;\nendmodule\n");
     assert!(said.contains("proved from slang's reading of the file, which yosys cannot read,"), "{said}");

@@ -79,9 +79,8 @@ limits! {
     ModelBytes = 512 << 20, "bytes", "of the models of a BLIF file, roughly, those inside others counted each time";
     AigerVariables = 4_000_000, "variables", "of an AIGER file";
     AigerPorts = 1_000_000, "inputs, and as many latches,", "of an AIGER file";
-    VerilogFiles = 4096, "files", "that a Verilog file includes, each counted as often as it is included";
-    VerilogBytes = 8 << 20, "bytes", "of a Verilog file with what it includes, after its macros";
-    VerilogNesting = 64, "levels", "of macros and included files of a Verilog file";
+    VerilogFiles = 4096, "paths", "in quotes in Verilog files, which are looked for";
+    VerilogBytes = 8 << 20, "bytes", "of the files that Verilog files name in quotes";
     ProgressBytes = 256 << 20, "bytes", "of the progress of an evolution run";
     CheckpointBytes = 1 << 30, "bytes", "of a checkpoint";
     PageMessage = 1 << 20, "bytes", "of a message of a page of `nbc play`";

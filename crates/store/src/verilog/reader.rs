@@ -11,7 +11,7 @@ use crate::verilog::messages::{self, SandboxFiles};
 use crate::verilog::netlist::WordNetlist;
 use crate::verilog::parameter::ParameterValue;
 use crate::verilog::sandbox::{self, SECOND_SECONDS, SECONDS, Sandbox, SandboxRun, is_plain};
-use crate::verilog::tree::{DesignTree, Statements};
+use crate::verilog::tree::{DesignTree, IncompleteEvents, Statements};
 use crate::verilog::wording;
 use nbc_base::source::{
     SecondReading, VerilogError, VerilogFiles, VerilogModule, VerilogModules, VerilogNote, VerilogPlace,
@@ -124,10 +124,13 @@ impl Reading<'_> {
         };
         let (mut tops, left_out) = tree.tops();
         // A module may be used in a block only that is never made, as a mark that it has no default parameters.
-        if let ([], [only]) = (&tops[..], &self.modules_beside(&left_out)[..]) {
+        if tops.is_empty()
+            && !matches!(wanted, WantedModules::Top(TopModule { name: Some(_), .. }))
+            && let [only] = &self.modules_beside(&left_out)[..]
+        {
             let parameters = match wanted {
-                WantedModules::Top(top) if top.name.is_none() => top.parameters.clone(),
-                _ => BTreeMap::new(),
+                WantedModules::Top(top) => top.parameters.clone(),
+                WantedModules::All => BTreeMap::new(),
             };
             return self.modules(&WantedModules::Top(&TopModule { name: Some(only.clone()), parameters }));
         }
@@ -155,7 +158,10 @@ impl Reading<'_> {
         }
         let statements = tree.statements(&tops);
         let mut words = self.netlists(&tops, "")?;
-        let stale = |top: &String| words.stale(top).into_iter().map(|net| format!("delete {top}/w:{net}\n")).collect();
+        let stale = |top: &String| -> String {
+            let nets = words.stale(top).into_iter().filter(|net| net.split('.').all(is_plain));
+            nets.map(|net| format!("delete {top}/w:{net}\n")).collect()
+        };
         let stale: Vec<String> = tops.iter().map(stale).collect();
         // slang joins the calls of a function at its arguments, which would join what drives them.
         if stale.iter().any(|commands| !commands.is_empty()) {
@@ -177,8 +183,6 @@ impl Reading<'_> {
             let blif = blif.ok_or_else(|| faults(wording::no_result("")))?;
             let nets = words.places(name, &self.names);
             notes.extend(self.of_statements(&statements, name, &nets));
-            let early = statements.early.iter().filter(|_| at == 0);
-            notes.extend(early.map(|net| wording::read_early(net, nets.get(net).cloned())));
             let module = VerilogModule {
                 name: name.clone(),
                 blif: with_ports_in_order(blif, &tree.ports(name)),
@@ -188,6 +192,8 @@ impl Reading<'_> {
             };
             modules.push(self.compared(module, words.declared(name, &self.names), &mut notes)?);
         }
+        let early = statements.early.iter();
+        notes.extend(early.map(|net| wording::read_early(net, modules[0].nets.get(net).cloned())));
         if statements.has_assertions {
             notes.push(wording::assertions());
         }
@@ -308,7 +314,7 @@ impl Reading<'_> {
         nets: &BTreeMap<String, VerilogPlace>,
     ) -> Vec<VerilogNote> {
         let of_module = statements.incomplete.iter().filter(|found| found.module == module);
-        let note = |found: &crate::verilog::tree::IncompleteEvents| {
+        let note = |found: &IncompleteEvents| {
             wording::incomplete_events(&found.target, &found.missing, nets.get(&found.target).cloned())
         };
         of_module.map(note).collect()
