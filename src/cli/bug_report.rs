@@ -35,9 +35,6 @@ struct Report {
 
 impl BugReportArguments {
     /// Prints it.
-    ///
-    /// # Errors
-    /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let kernel = Kernel::default();
         let parts =

@@ -72,9 +72,6 @@ enum Emit {
 
 impl BuildArguments {
     /// Compiles, proves and prints.
-    ///
-    /// # Errors
-    /// When the file has errors, the library lacks a function, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (kind, chosen) = (self.emit(context.format)?, self.cells.chosen()?);
         let mut session = Session::new(DiskWorld);

@@ -25,9 +25,6 @@ pub struct CheckArguments {
 
 impl CheckArguments {
     /// Checks and prints.
-    ///
-    /// # Errors
-    /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut session = Session::new(DiskWorld);
         let mut check = |path: &String| match path.as_str() {

@@ -24,9 +24,6 @@ pub struct CompletionsArguments {
 
 impl CompletionsArguments {
     /// Prints the script, or writes it.
-    ///
-    /// # Errors
-    /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
             return Err(UsageError::NoJson { what: "a completion script" }.into());

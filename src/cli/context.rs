@@ -93,17 +93,11 @@ impl Context {
 
     /// Prints to standard output. A closed pipe is ignored and the command continues, because its work decides the exit
     /// status.
-    ///
-    /// # Errors
-    /// When the output cannot be written, for example on a full disk.
     pub fn print(&mut self, text: impl fmt::Display) -> Result<(), Failure> {
         Ok(self.out.write_all(visible(&text.to_string()).as_bytes())?)
     }
 
     /// Prints verdicts: [`Context::print`], with the words for passing and failing in green and red.
-    ///
-    /// # Errors
-    /// As [`Context::print`].
     pub fn print_verdicts(&mut self, text: &str) -> Result<(), Failure> {
         let text = visible(text);
         let text = if self.paint { painted(&text).into() } else { text };
@@ -111,9 +105,6 @@ impl Context {
     }
 
     /// Clears the screen, if text is printed to a terminal.
-    ///
-    /// # Errors
-    /// As [`Context::print`].
     pub fn clear(&mut self) -> Result<(), Failure> {
         if self.format == OutputFormat::Text && io::stdout().is_terminal() {
             self.out.write_all(b"\x1b[2J\x1b[3J\x1b[H")?;
@@ -122,9 +113,6 @@ impl Context {
     }
 
     /// Prints a value as one line of JSON, with its schema.
-    ///
-    /// # Errors
-    /// As [`Context::print`].
     pub fn print_json(&mut self, schema: Schema, value: &impl Serialize) -> Result<(), Failure> {
         let mut writer = serde_json::Serializer::with_formatter(&mut self.out, Visible);
         Document::new(schema, value).serialize(&mut writer).map_err(io::Error::from)?;
@@ -132,9 +120,6 @@ impl Context {
     }
 
     /// Prints a result in the requested format: the value as JSON, or the text.
-    ///
-    /// # Errors
-    /// As [`Context::print`].
     pub fn print_result<T: fmt::Display>(
         &mut self,
         schema: Schema,
@@ -148,9 +133,6 @@ impl Context {
     }
 
     /// Flushes standard output.
-    ///
-    /// # Errors
-    /// As [`Context::print`].
     pub fn flush(&mut self) -> Result<(), Failure> {
         Ok(self.out.flush()?)
     }
@@ -212,9 +194,6 @@ impl Context {
     }
 
     /// Writes a file that the user named, and says so on standard error.
-    ///
-    /// # Errors
-    /// When the file cannot be written.
     pub fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
         store::write(path, bytes).map_err(|error| Failure::unwritable(path, &error))?;
         self.wrote(path);
@@ -222,9 +201,6 @@ impl Context {
     }
 
     /// Writes a drawing, as PNG if the path ends so and else as SVG, and says so.
-    ///
-    /// # Errors
-    /// When it cannot be written.
     pub fn write_picture(&self, path: &Path, svg: &Svg) -> Result<(), Failure> {
         let is_png = path.extension().is_some_and(|extension| extension == "png");
         self.write(path, &if is_png { png(svg) } else { svg.finish().into_bytes() })

@@ -23,9 +23,6 @@ pub struct ExplainArguments {
 
 impl ExplainArguments {
     /// Prints the page of a code, or the list of codes.
-    ///
-    /// # Errors
-    /// When no code has that name, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Some(word) = self.code else { return list(context) };
         if let Some((name, text)) = PRELUDE.iter().find(|(name, _)| name.strip_suffix(".nb") == Some(&word)) {

@@ -31,9 +31,6 @@ pub struct FmtArguments {
 
 impl FmtArguments {
     /// Formats the files. A file that cannot be parsed is not changed.
-    ///
-    /// # Errors
-    /// When a file cannot be read, parsed or written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut told = Vec::new();
         for path in &self.files {

@@ -31,9 +31,6 @@ pub(super) struct HardenArguments {
 impl HardenArguments {
     /// Finds the robots to leave out of the swarm of a circuit; nothing if hardening is not asked for, and `None` after
     /// an interruption.
-    ///
-    /// # Errors
-    /// When the circuit has no test or cannot be compiled.
     pub(super) fn find(
         &self,
         session: &Session,

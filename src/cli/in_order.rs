@@ -13,9 +13,6 @@ use std::thread;
 ///
 /// These are not rayon's threads, which run the parts of a simulation: a rayon thread that waits for a part would start
 /// another item, and return only when that is done.
-///
-/// # Errors
-/// The first error of `hand_on`.
 pub(super) fn in_order<T: Sync, R: Send, E>(
     most: usize,
     items: &[T],

@@ -16,9 +16,6 @@ pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
     /// Watches the signals from now on.
-    ///
-    /// # Errors
-    /// When the system cannot watch signals.
     #[cfg(unix)]
     pub fn watch() -> io::Result<Self> {
         use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
@@ -34,9 +31,6 @@ impl Interrupt {
     }
 
     /// Watches Ctrl-C and the end of the console from now on.
-    ///
-    /// # Errors
-    /// When the system cannot watch them.
     #[cfg(windows)]
     pub fn watch() -> io::Result<Self> {
         let interrupt = Self::default();

@@ -54,9 +54,6 @@ pub struct LearnArguments {
 
 impl LearnArguments {
     /// Reads, learns, writes and reports.
-    ///
-    /// # Errors
-    /// When the rows cannot be read or learned from, or the circuit cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
         let format = |path: &PathBuf| CircuitFormat::of_path(&path.to_string_lossy());

@@ -50,9 +50,6 @@ pub struct NewArguments {
 
 impl NewArguments {
     /// Writes the program.
-    ///
-    /// # Errors
-    /// When the name is none of the language, or the file exists or cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let path = self.name.with_extension("nb");
         let shown = path.display().to_string();

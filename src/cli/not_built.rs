@@ -21,9 +21,6 @@ macro_rules! commands {
 
         impl $arguments {
             /// Says which feature is missing.
-            ///
-            /// # Errors
-            /// Always.
             pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
                 let _ = self.rest;
                 Err($missing.into())
@@ -70,9 +67,6 @@ pub(super) mod cluster {
 
     impl NoQueue {
         /// Cannot be called.
-        ///
-        /// # Errors
-        /// Never.
         pub fn end(self) -> Result<(), MissingFeature> {
             match self.0 {}
         }
@@ -85,9 +79,6 @@ pub(super) mod cluster {
     }
 
     /// No workers.
-    ///
-    /// # Errors
-    /// When workers are asked for.
     pub fn open_queue(
         arguments: &QueueArguments,
         _interrupt: &Interrupt,
@@ -122,9 +113,6 @@ pub(super) mod gpu {
 
     impl OnlyProcessor {
         /// This processor, if no other device is asked for.
-        ///
-        /// # Errors
-        /// When one is.
         pub fn open(choice: DeviceChoice, processor: LaneBackend, _context: &Context) -> Result<Self, Failure> {
             match choice {
                 DeviceChoice::Processor | DeviceChoice::Auto => Ok(Self(processor)),
@@ -143,17 +131,11 @@ pub(super) mod gpu {
         }
 
         /// Does nothing, because no device can have failed.
-        ///
-        /// # Errors
-        /// Never.
         pub fn check(&self) -> Result<(), Failure> {
             Ok(())
         }
 
         /// Does nothing, because no device can have failed.
-        ///
-        /// # Errors
-        /// Never.
         pub fn end(&self, _context: &Context) -> Result<(), Failure> {
             Ok(())
         }

@@ -87,9 +87,6 @@ pub struct PlayArguments {
 
 impl PlayArguments {
     /// Serves until a signal arrives, or exports a circuit.
-    ///
-    /// # Errors
-    /// When the file cannot be found, the address cannot be listened at, or the circuit cannot be exported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Self { file, port, host, no_open, page, token, export, live, making, lessons, class, public_page, pages } =
             self;

@@ -68,9 +68,6 @@ pub struct ProveArguments {
 
 impl ProveArguments {
     /// Proves, and prints each result as soon as it is there.
-    ///
-    /// # Errors
-    /// When a file has errors or claims nothing; then nothing is proved.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut session = Session::new(interrupt.world());

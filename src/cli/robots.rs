@@ -55,9 +55,6 @@ pub(super) fn find<'a>(library: &'a Library, name: &str) -> Result<&'a Robot, Fa
 }
 
 /// As [`robots`].
-///
-/// # Errors
-/// Those of [`robots`], and when there is no robot file.
 pub(super) fn robots_of(path: &Path) -> Result<Library, Failure> {
     let found = robots(path)?;
     if found.robots.is_empty() {

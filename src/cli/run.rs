@@ -70,9 +70,6 @@ struct Drawn<'a> {
 
 impl RunArguments {
     /// Runs the file's tests and simulations, and writes the results.
-    ///
-    /// # Errors
-    /// When the file has errors, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;

@@ -50,9 +50,6 @@ pub struct SeeArguments {
 
 impl SeeArguments {
     /// Reads the bodies, shows the images and reports.
-    ///
-    /// # Errors
-    /// When the file has errors, the run cannot be read, or they do not fit each other.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut session = Session::new(interrupt.world());

@@ -71,9 +71,6 @@ struct Outcome<'a> {
 
 impl SimulateArguments {
     /// Simulates and prints.
-    ///
-    /// # Errors
-    /// When the schedule, the body or the world is invalid.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::default() };
         let body = self.body(context)?;

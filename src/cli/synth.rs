@@ -72,9 +72,6 @@ enum RegisterWord {
 
 impl SynthArguments {
     /// Reads, synthesizes, proves and writes.
-    ///
-    /// # Errors
-    /// When the input cannot be read or mapped, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
         let format = |path: &PathBuf| CircuitFormat::of_path(&path.to_string_lossy());

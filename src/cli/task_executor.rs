@@ -28,9 +28,6 @@ impl TaskExecutor {
     /// Connects to the workers, if `queue` names a server. A signal stops their work, and that of a device which is
     /// opened with [`Interrupt::ending`]; `note` receives notes on its
     /// progress.
-    ///
-    /// # Errors
-    /// When the server cannot be used.
     pub fn open(
         device: OpenDevice,
         queue: &QueueArguments,
@@ -43,9 +40,6 @@ impl TaskExecutor {
     }
 
     /// The same on the device that the user chose. Notes are shown by `bar`.
-    ///
-    /// # Errors
-    /// When the device or the server cannot be used.
     pub fn choose(
         device: DeviceArguments,
         queue: &QueueArguments,
@@ -99,17 +93,11 @@ impl TaskExecutor {
     }
 
     /// Checks that the device has not failed.
-    ///
-    /// # Errors
-    /// When it has, and the user asked for no other.
     pub fn check(&self) -> Result<(), Failure> {
         self.device.check()
     }
 
     /// Waits until the workers have stopped, and reports a failure of the device.
-    ///
-    /// # Errors
-    /// When the queue or the device has failed.
     pub fn end(self, context: &Context) -> Result<(), Failure> {
         if let Some(queue) = self.queue {
             queue.end()?;

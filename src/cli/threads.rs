@@ -17,9 +17,6 @@ const MOST: usize = 1024;
 
 /// Starts the threads. If the system cannot start all of them, there are fewer and a warning is logged. Results do not
 /// depend on the number.
-///
-/// # Errors
-/// When `RAYON_NUM_THREADS` is not a number.
 pub(super) fn start(context: &Context) -> Result<(), Failure> {
     let wanted = wanted(env::var_os(VARIABLE).map(|value| value.to_string_lossy().into_owned()).as_deref())?;
     let mut idle: Vec<Idle> = (0..wanted).map_while(|_| Idle::start()).collect();

@@ -64,9 +64,6 @@ impl Stamps {
 
 impl WatchArguments {
     /// Checks and tests until a signal arrives.
-    ///
-    /// # Errors
-    /// When a path is not UTF-8, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let signal = Interrupt::watch()?;
         let device = self.test.device(context)?;

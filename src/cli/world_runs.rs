@@ -7,9 +7,6 @@ use nbc_swarm::Robustness;
 
 /// Runs each experiment in all worlds, and tells each result as soon as those before it are complete. Returns those
 /// that are complete; after an interruption, that is not all.
-///
-/// # Errors
-/// The first error of `tell`.
 pub(super) fn world_runs(
     session: &Session,
     yields: &Yields<'_>,

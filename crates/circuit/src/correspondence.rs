@@ -75,9 +75,6 @@ pub fn reduce(design: &Design) -> (Design, Removed) {
 
 /// Proves a design equal to the one that was read: by its logic, by induction over its states, and by their start.
 /// `removed` says what the registers are that it does without, which the proof checks.
-///
-/// # Errors
-/// The first difference that is found.
 pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, ProofError> {
     let names = made.registers.iter().enumerate().map(|(at, register)| (register.name.as_str(), at));
     let places: BTreeMap<&str, usize> = names.collect();

@@ -39,9 +39,6 @@ pub enum EnvironmentFault {
 
 impl Environment {
     /// An environment before its first step, with the first words of its memories; missing words are 0.
-    ///
-    /// # Errors
-    /// When it is no circuit with one clock.
     pub fn new(netlist: &Netlist, ports: Vec<MemoryPorts>, contents: Vec<Vec<u128>>) -> Result<Self, EnvironmentFault> {
         let step = Self::step(netlist, &ports)?;
         let memories = ports.iter().zip(contents).map(|(memory, mut words)| {
@@ -87,9 +84,6 @@ impl Environment {
     }
 
     /// Applies the declared inputs; the outputs follow, with the words that are read.
-    ///
-    /// # Errors
-    /// When words read and addresses depend on each other in a circle.
     ///
     /// # Panics
     /// When there are not as many values as declared inputs.

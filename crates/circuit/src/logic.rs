@@ -96,10 +96,6 @@ impl Logic {
 
     /// Holds the inputs, in order of the ports, until nothing changes, and returns the outputs.
     ///
-    /// # Errors
-    /// When the circuit does not settle. It then has run for as many steps as any circuit of this size that settles
-    /// needs.
-    ///
     /// # Panics
     /// When there are not as many values as inputs.
     pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Oscillation> {

@@ -17,18 +17,12 @@ use nbc_base::budget::Limit;
 use nbc_base::model::Function;
 
 /// Maps a netlist onto a library for few robots, at normal effort.
-///
-/// # Errors
-/// As [`map_with`].
 pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError> {
     map_with(netlist, library, &MapOptions::default())
 }
 
 /// Maps a netlist onto a library. Memory elements and their guards stay as written, split into cells function by
 /// function; the logic around them is synthesized.
-///
-/// # Errors
-/// When the netlist is not well formed or the library cannot make a function of the circuit.
 pub fn map_with(netlist: &Netlist, library: &CellLibrary, options: &MapOptions) -> Result<Netlist, MapError> {
     let cells = netlist.cells().count();
     if Limit::Cells.permit(cells as u64).is_err() {

@@ -221,9 +221,6 @@ pub struct View {
 
 impl View {
     /// Cuts a netlist open at `cuts`; fails with a net that still lies on a loop.
-    ///
-    /// # Errors
-    /// A net on a loop without a cut.
     pub fn of(netlist: &Netlist, cuts: &[NetId]) -> Result<Self, NetId> {
         let mut network = Network::new(netlist.inputs().len() + cuts.len());
         let mut signal = BTreeMap::new();

@@ -22,9 +22,6 @@ const KIND: CellKind = CellKind::uniform(1, 1.0);
 /// Proves that a netlist stores in every step what it stored before its registers were given another form. Latches that
 /// one of these pulses opens take their data at an edge of its clock. `None` if latches of one of the two are not
 /// recognized, such as some whose data depend on what opens them.
-///
-/// # Errors
-/// The first difference that is found.
 pub fn prove_forms(before: &Netlist, after: &Netlist, pulses: &[Pulse]) -> Option<Result<Proof, ProofError>> {
     let made = Bits::of(after).taken(pulses, |_| Some(false));
     let edges: BTreeMap<&str, bool> = made.registers.iter().map(|one| (one.name.as_str(), is_edge(one))).collect();
@@ -33,9 +30,6 @@ pub fn prove_forms(before: &Netlist, after: &Netlist, pulses: &[Pulse]) -> Optio
 
 /// Proves that a netlist with a latch or flip-flop of cells for each register of a design stores what they store.
 /// `None` if a register is set or reset without its clock, the logic has feedback, or latches are not recognized.
-///
-/// # Errors
-/// The first difference that is found.
 pub fn prove_expanded(design: &Design, netlist: &Netlist) -> Option<Result<Proof, ProofError>> {
     let is_forced = design.registers.iter().any(|register| register.forcing != Forcing::Never);
     if is_forced || View::of(&design.logic, &[]).is_err() {

@@ -81,9 +81,6 @@ impl AnswerMessage {
     }
 
     /// Reads a message. It does not check whether the task can have this result.
-    ///
-    /// # Errors
-    /// [`MessageFault`] for anything but an answer.
     pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
         let AnswerRecord { key, result } = decode(bytes)?;
         let result = match result {

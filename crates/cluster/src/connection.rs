@@ -61,9 +61,6 @@ pub struct Connection {
 
 impl Connection {
     /// Connects. If the connection breaks later, the client connects again by itself.
-    ///
-    /// # Errors
-    /// When the server cannot be reached or refuses the client.
     pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, ClusterError> {
         let shown = without_passwords(&server.address);
         let runtime = Builder::new_multi_thread()
@@ -115,9 +112,6 @@ impl Connection {
     }
 
     /// The stream of tasks, which is made if there is none.
-    ///
-    /// # Errors
-    /// The words of the server.
     pub async fn stream(jetstream: &jetstream::Context) -> Result<Stream, String> {
         let config = stream::Config {
             name: STREAM.to_owned(),
@@ -139,9 +133,6 @@ impl Connection {
     }
 
     /// The queue of the tasks for one kind of physics, which is made if there is none.
-    ///
-    /// # Errors
-    /// The words of the server.
     pub async fn queue(jetstream: &jetstream::Context, token: &str) -> Result<PullConsumer, String> {
         let stream = Self::stream(jetstream).await?;
         let name = format!("workers-{token}");
@@ -159,9 +150,6 @@ impl Connection {
     }
 
     /// As [`Connection::queue`], for a program that begins.
-    ///
-    /// # Errors
-    /// When the server cannot keep the queue.
     pub fn open_queue(&self, token: &str) -> Result<PullConsumer, ClusterError> {
         let jetstream = jetstream::ContextBuilder::new().timeout(OPENING).build(self.client.clone());
         let queue = self.runtime.block_on(Self::queue(&jetstream, token));

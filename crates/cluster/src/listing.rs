@@ -68,9 +68,6 @@ pub struct ClusterWatch {
 
 impl ClusterWatch {
     /// Connects.
-    ///
-    /// # Errors
-    /// When the server cannot be used.
     pub fn open(server: &NatsServer, log: Log) -> Result<Self, ClusterError> {
         let connection = Connection::open(server, "nbc workers", log)?;
         let entered = connection.enter();

@@ -91,9 +91,6 @@ pub fn encode(message: &impl Serialize) -> Vec<u8> {
 }
 
 /// Reads a message of plain values.
-///
-/// # Errors
-/// [`MessageFault`] for bytes that are not such a message.
 pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, MessageFault> {
     if bytes.len() > MOST_BYTES {
         return Err(MessageFault::TooLong);
@@ -109,9 +106,6 @@ pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, MessageFault> {
 
 impl WorkerNote {
     /// Reads and checks.
-    ///
-    /// # Errors
-    /// [`MessageFault`] for anything but a note.
     pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
         let note: Self = decode(bytes)?;
         if is_name(&note.name) && is_name(&note.program) { Ok(note) } else { Err(MessageFault::Values) }
@@ -120,9 +114,6 @@ impl WorkerNote {
 
 impl SearchNote {
     /// Reads and checks.
-    ///
-    /// # Errors
-    /// [`MessageFault`] for anything but a note.
     pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
         let note: Self = decode(bytes)?;
         if is_name(&note.name) && is_name(&note.program) { Ok(note) } else { Err(MessageFault::Values) }
@@ -131,9 +122,6 @@ impl SearchNote {
 
 impl AnswerReply {
     /// Reads.
-    ///
-    /// # Errors
-    /// [`MessageFault`] for anything but a reply.
     pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
         decode(bytes)
     }

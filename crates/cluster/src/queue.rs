@@ -43,9 +43,6 @@ pub struct Queue {
 
 impl Queue {
     /// Connects and prepares the queue.
-    ///
-    /// # Errors
-    /// When the server cannot be used.
     pub fn open(server: &NatsServer, is_trusting: bool, log: Log) -> Result<Self, ClusterError> {
         let search = random_name();
         let connection = Connection::open(server, &format!("nbc evolve {search}"), log)?;
@@ -74,9 +71,6 @@ impl Queue {
 
     /// Sends the requested tasks and passes on their results, until all senders of requests are dropped or `cancel` is
     /// raised. `note` receives notes on the progress.
-    ///
-    /// # Errors
-    /// When results were used that may be wrong.
     pub fn work(
         &mut self,
         mut requests: UnboundedReceiver<BatchRequest>,

@@ -40,9 +40,6 @@ pub struct QueueExecutor {
 
 impl QueueExecutor {
     /// Opens the queue. Notes on the progress go to `note`.
-    ///
-    /// # Errors
-    /// When the server cannot be used.
     pub fn open(options: QueueOptions, note: impl Fn(String) + Send + 'static) -> Result<Self, ClusterError> {
         let (requests, requested) = unbounded_channel();
         let (opened, opening) = mpsc::channel();
@@ -64,9 +61,6 @@ impl QueueExecutor {
     }
 
     /// Ends the work.
-    ///
-    /// # Errors
-    /// When it has failed.
     pub fn end(self) -> Result<(), ClusterError> {
         let Self { requests, thread } = self;
         drop(requests);

@@ -139,9 +139,6 @@ impl TaskMessage {
     }
 
     /// Reads and checks.
-    ///
-    /// # Errors
-    /// [`MessageFault`] for anything but what [`TaskMessage::encode`] makes of a task that can be simulated.
     pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
         decode::<TaskRecord>(bytes)?.check().ok_or(MessageFault::Values)
     }

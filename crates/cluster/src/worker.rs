@@ -41,9 +41,6 @@ pub struct Worker {
 
 impl Worker {
     /// Connects to the server.
-    ///
-    /// # Errors
-    /// When the server cannot be used, or the name cannot be that of a worker.
     pub fn open(options: WorkerOptions) -> Result<Self, ClusterError> {
         let WorkerOptions { server, name, cancel, log } = options;
         let name = name.unwrap_or_else(default_name);
@@ -73,9 +70,6 @@ impl Worker {
     }
 
     /// Does tasks on this number of threads until the worker is cancelled.
-    ///
-    /// # Errors
-    /// When a search rejects the results.
     pub fn work(&self, threads: usize) -> Result<(), ClusterError> {
         self.state.report(threads as u32);
         self.state.listen();

@@ -63,9 +63,6 @@ impl WorkerState {
     }
 
     /// Counts deliveries that have ended.
-    ///
-    /// # Errors
-    /// When a search has rejected a result.
     pub fn count(&self, ended: Vec<DeliveryEnd>) -> Result<(), ClusterError> {
         for one in ended {
             match one {

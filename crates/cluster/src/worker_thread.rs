@@ -55,9 +55,6 @@ impl<'a> WorkerThread<'a> {
     }
 
     /// Works until a signal arrives.
-    ///
-    /// # Errors
-    /// When a search rejects the results.
     pub fn work(&mut self) -> Result<(), ClusterError> {
         let handle = self.worker.connection.runtime.handle().clone();
         while !self.worker.is_ending() {

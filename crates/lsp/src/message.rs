@@ -7,9 +7,6 @@ use serde_json::{Value, json};
 const NO_MESSAGE: &str = "expected a request, a notification or a response";
 
 /// The message that a value is.
-///
-/// # Errors
-/// The answer to a value that is not a message, which has the number of its request if there is one.
 pub fn message(value: Value) -> Result<Message, Value> {
     let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned().unwrap_or_default();
     match Some(value).filter(Value::is_object).and_then(|value| serde_json::from_value(value).ok()) {
@@ -25,9 +22,6 @@ pub fn refusal(id: &Value, code: ErrorCode, reason: &str) -> Value {
 }
 
 /// The value of a text from a client.
-///
-/// # Errors
-/// The answer to a text that is not JSON.
 pub fn parse(text: &[u8]) -> Result<Value, Value> {
     serde_json::from_slice(text)
         .map_err(|error| refusal(&Value::Null, ErrorCode::ParseError, &format!("the message is not JSON: {error}")))

@@ -31,8 +31,5 @@ pub trait LanguageShell: Send + Sync {
     fn shows_results(&self) -> bool;
 
     /// Writes a result of a command, into a folder for those of one source. Returns its path.
-    ///
-    /// # Errors
-    /// The reason, for people.
     fn write_result(&self, folder: &str, name: &str, text: &str) -> Result<String, String>;
 }

@@ -49,9 +49,6 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
 }
 
 /// A message of the page; `None` if it is not for the server. Folders that it names are replaced by the served folder.
-///
-/// # Errors
-/// The answer to a text that is not a message.
 fn read(text: &str, served: &Served) -> Result<Option<Message>, Value> {
     let mut value = nbc_lsp::parse(text.as_bytes())?;
     if value["method"] == "initialize" {

@@ -86,9 +86,6 @@ pub struct PlayServer {
 
 impl PlayServer {
     /// Listens at the address.
-    ///
-    /// # Errors
-    /// When the file or the page cannot be found, or the address cannot be listened at.
     pub fn bind(options: &PlayOptions) -> Result<Self, PlayError> {
         let runtime = Builder::new_current_thread().enable_all().build().map_err(system)?;
         let (folder, file) = place(options.file.as_deref())?;

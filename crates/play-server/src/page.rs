@@ -56,9 +56,6 @@ impl Default for Page {
 
 impl Page {
     /// The page in a folder, or else the one in the program.
-    ///
-    /// # Errors
-    /// When a part of it cannot be read.
     pub(super) fn of(folder: Option<&Path>) -> io::Result<Self> {
         let Some(folder) = folder else { return Ok(Self::default()) };
         let read = |name: &str| fs::read_to_string(folder.join(name));

@@ -11,9 +11,6 @@ pub fn is_token(text: &str) -> bool {
 }
 
 /// A token that nobody can guess.
-///
-/// # Errors
-/// When the system has no random numbers.
 pub(super) fn random_token() -> Result<String, PlayError> {
     let mut bytes = [0; TOKEN];
     getrandom::fill(&mut bytes).map_err(|error| PlayError::System { reason: error.to_string() })?;

@@ -28,9 +28,6 @@ const MOST_CYCLES: u32 = 20;
 const FOLDER: &str = "robots";
 
 /// The built-in robots, and those of the libraries that a program declares.
-///
-/// # Errors
-/// When robots cannot be read.
 pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<RobotCards, Refused> {
     let painted = Palette::three();
     let mut all: Vec<(Robot, bool)> = session.shipped().robots.iter().map(|robot| (robot.clone(), true)).collect();
@@ -84,9 +81,6 @@ fn palette(looks: &Looks, painted: &Palette) -> Vec<PaletteEntry> {
 }
 
 /// A body that can be simulated: of the paper's materials, or of those with a third stimulus if it uses one of them.
-///
-/// # Errors
-/// The reason why it cannot.
 pub(super) fn body(rows: &[String]) -> Result<Body, Refused> {
     let body = Body::parse(rows, &Palette::paper()).or_else(|_| Body::parse(rows, &Palette::three()));
     let body = body.map_err(|error| Refused::Body(error.to_string()))?;
@@ -103,9 +97,6 @@ fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
 }
 
 /// Simulates a body under each pattern, and measures it as a gate.
-///
-/// # Errors
-/// When it cannot be simulated.
 pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> JobEnd {
     let body = body(rows)?;
     let cycles = cycles.clamp(1, MOST_CYCLES);
@@ -150,9 +141,6 @@ fn character(character: &Character) -> CharacterSketch {
 
 /// Measures a body and writes its robot file, into a folder beside the program that is to use it. Where a class shares
 /// the folder, no robot is replaced.
-///
-/// # Errors
-/// When the name is not that of a robot, there is one already, the body cannot be simulated, or nothing can be written.
 pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, job: &Job) -> JobEnd {
     if !is_word(&request.name) {
         return Err(Refused::Name(request.name.clone()));

@@ -69,9 +69,6 @@ impl Class {
     }
 
     /// Takes a learner into the class. Who has the key of a name takes it over from another page.
-    ///
-    /// # Errors
-    /// When the name is none or taken, or the class is full.
     pub(super) fn join(self: &Arc<Self>, name: &str, key: Option<&str>, now: Duration) -> Result<Membership, Refused> {
         let name = name.trim();
         if name.is_empty() || name.chars().count() > LONGEST || name.contains(|c| c == '\n' || is_hidden(c)) {

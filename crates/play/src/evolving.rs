@@ -38,9 +38,6 @@ struct BegunGeneration {
 
 impl SharedSearch {
     /// A search that begins.
-    ///
-    /// # Errors
-    /// When the body is not one, or the box is too small or too large.
     pub(super) fn begin(request: &EvolveRequest, shell: Arc<dyn Shell>) -> Result<Self, Refused> {
         let start = request.body.as_deref().map(bodies::body).transpose()?;
         let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
@@ -54,9 +51,6 @@ impl SharedSearch {
     }
 
     /// Does a generation, or a part of it, and reports the niches that have changed.
-    ///
-    /// # Errors
-    /// When it is stopped.
     pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
         job.check()?;
         let Some((bodies, found)) = self.generation(job) else { return Ok(PortionEnd::Waits) };

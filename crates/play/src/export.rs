@@ -46,9 +46,6 @@ pub struct ExportedPage {
 }
 
 /// Makes the page of a compiled circuit of a program. The session must record poses for a live swarm.
-///
-/// # Errors
-/// When the circuit has too many robots.
 pub fn export(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedPage, ExportError> {
     let data = exported(session, checked, compiled)?;
     let text = serde_json::to_vec(&data).expect("a swarm can be written as JSON");

@@ -177,9 +177,6 @@ impl Job {
     }
 
     /// Must be called now and then, so that the request can be stopped.
-    ///
-    /// # Errors
-    /// When the request must stop.
     pub(super) fn check(&self) -> Result<(), Refused> {
         if self.stop.is_raised() { Err(self.reason(Refused::Cancelled)) } else { Ok(()) }
     }

@@ -37,9 +37,6 @@ struct LiveSources<'a> {
 
 /// Makes a live page of a circuit of a program: `template` with all files that the circuit is made of. The warnings of
 /// its swarm come with it.
-///
-/// # Errors
-/// When it cannot be compiled.
 pub fn live_page(
     template: &str,
     world: SharedWorld,

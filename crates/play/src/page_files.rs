@@ -39,9 +39,6 @@ impl PageFiles {
     }
 
     /// The text of a file. From now on, changes of the file are reported.
-    ///
-    /// # Errors
-    /// When it cannot be read.
     pub(super) fn read(&mut self, path: String) -> Result<FileText, Refused> {
         let stamp = self.folder.stamp(&path);
         let text =
@@ -51,9 +48,6 @@ impl PageFiles {
     }
 
     /// Saves a program, if nobody else has changed it since the page last knew it.
-    ///
-    /// # Errors
-    /// When it was changed, or cannot be written there.
     pub(super) fn save(&mut self, path: String, text: &str, known: Option<&str>) -> Result<FileStamp, Refused> {
         if !path.ends_with(".nb") {
             return Err(Refused::Ending { path, expected: ".nb" });
@@ -76,9 +70,6 @@ impl PageFiles {
     }
 
     /// Writes a file below the folder.
-    ///
-    /// # Errors
-    /// When it cannot be written.
     pub(super) fn write(&self, path: &str, text: &str) -> Result<(), Refused> {
         self.may_write(path)?;
         let written = self.folder.write(path, text);
@@ -86,18 +77,12 @@ impl PageFiles {
     }
 
     /// Makes a folder, unless it is there.
-    ///
-    /// # Errors
-    /// When it cannot be made.
     pub(super) fn make_folder(&self, path: &str) -> Result<(), Refused> {
         let made = self.folder.make_folder(path);
         made.map_err(|reason| Refused::Unwritable { path: path.to_owned(), reason })
     }
 
     /// Whether a file or a folder can be made.
-    ///
-    /// # Errors
-    /// When the folder around it is missing, or it is outside.
     pub(super) fn may_write(&self, path: &str) -> Result<(), Refused> {
         self.folder.may_write(path).map_err(|error| Refused::Unreadable { path: path.to_owned(), error })
     }
@@ -123,9 +108,6 @@ pub(super) fn is_circuit(path: &str) -> bool {
 }
 
 /// A program beside a circuit file of another tool, which makes a swarm of each of its circuits. It has no file yet.
-///
-/// # Errors
-/// When the circuit file cannot be read.
 pub(super) fn program_around(files: &dyn PageFolder, session: &mut Session, path: &str) -> Result<FileText, Refused> {
     let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (folder, name));
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
@@ -160,9 +142,6 @@ pub(super) fn examples() -> Vec<ExampleEntry> {
 }
 
 /// An example, in the form of [`PageFiles::read`].
-///
-/// # Errors
-/// When there is none of that name.
 pub(super) fn example(name: &str) -> Result<FileText, Refused> {
     let text = EXAMPLES.get_file(name).and_then(File::contents_utf8);
     let text = text.ok_or_else(|| Refused::NoExample(name.to_owned()))?;

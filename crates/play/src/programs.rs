@@ -89,9 +89,6 @@ fn row(test: &CircuitTest, row: &TestRow) -> TestRowEntry {
 }
 
 /// The circuit of that name, and the options to compile it with.
-///
-/// # Errors
-/// When there is no such circuit.
 pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(Instance, CompileOptions), Refused> {
     let circuit = checked.circuit(choice)?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
@@ -101,9 +98,6 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
 }
 
 /// A compiled circuit as a swarm that is run through the cycles before it is shown.
-///
-/// # Errors
-/// When it has too many robots, or the request is stopped.
 pub(super) fn loading(
     (session, checked): (&Session, &Checked),
     compiled: Compiled,

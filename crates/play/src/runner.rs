@@ -45,9 +45,6 @@ impl LoadingSwarm {
     }
 
     /// Simulates some cycles. The page learns of the end when the swarm is shown.
-    ///
-    /// # Errors
-    /// When it is stopped.
     pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
         for _ in 0..PORTION {
             job.check()?;
@@ -159,9 +156,6 @@ impl Runner {
     }
 
     /// The last cycles up to now, to be simulated again.
-    ///
-    /// # Errors
-    /// When there is no swarm.
     pub(super) fn excerpt(&self, cycles: u32) -> Result<Excerpt, Refused> {
         self.shown.as_ref().map(|shown| shown.excerpt(cycles)).ok_or(Refused::NoSwarm)
     }

@@ -30,9 +30,6 @@ pub(super) struct TestMoment<'a> {
 }
 
 /// The circuit of a test, with the test as its script.
-///
-/// # Errors
-/// When there is no such test or row, or its circuit cannot be compiled.
 pub(super) fn begin(
     session: &Session,
     checked: &Checked,

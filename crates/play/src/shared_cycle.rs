@@ -28,9 +28,6 @@ impl SharedCycle {
 
     /// Begins a cycle of a swarm that was made of an assembly for `cycles`, gives its parts to a crew, and simulates
     /// one of them.
-    ///
-    /// # Errors
-    /// When a robot has failed before.
     pub(super) fn begin(
         crew: &dyn Crew,
         swarm: &LiveSwarm,

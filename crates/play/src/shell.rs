@@ -88,20 +88,11 @@ pub trait PageFolder: Send + Sync {
     fn stamp(&self, path: &str) -> Option<String>;
 
     /// Whether a file or folder may be made or replaced at `path`.
-    ///
-    /// # Errors
-    /// When the folder around it is missing, or it is outside.
     fn may_write(&self, path: &str) -> Result<(), FileError>;
 
     /// Writes a file.
-    ///
-    /// # Errors
-    /// The reason, for people.
     fn write(&self, path: &str, text: &str) -> Result<(), String>;
 
     /// Makes a folder, unless it is there.
-    ///
-    /// # Errors
-    /// The reason, for people.
     fn make_folder(&self, path: &str) -> Result<(), String>;
 }

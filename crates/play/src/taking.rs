@@ -40,9 +40,6 @@ impl TakeKind {
 }
 
 /// Makes a file.
-///
-/// # Errors
-/// When it was stopped, or the film cannot be drawn.
 pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &mut Job) -> Result<Vec<u8>, Refused> {
     let run = session.replay(excerpt, job);
     if run.end == RunEnd::Cancelled {
@@ -63,9 +60,6 @@ pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &m
 }
 
 /// A circuit as one HTML file, with the name of the file.
-///
-/// # Errors
-/// When it cannot be compiled, or has too many robots.
 pub(super) fn exported(
     session: &Session,
     checked: &Checked,
@@ -80,9 +74,6 @@ pub(super) fn exported(
 }
 
 /// A circuit as one HTML file with the whole program, with the name of the file.
-///
-/// # Errors
-/// When it cannot be compiled, or nothing is there to make such pages of.
 pub(super) fn live(
     site: &PlaySite,
     checked: &Checked,

@@ -46,18 +46,12 @@ impl TextChecker {
     }
 
     /// The source at `path` as it is now, parsed and checked.
-    ///
-    /// # Errors
-    /// When the request is stopped meanwhile.
     pub(super) fn checked(&self, path: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
         self.with(job, |session| session.checked(path))
     }
 
     /// Uses the session with the texts as they are now. Others wait meanwhile, so that a page translates one Verilog
     /// file at a time.
-    ///
-    /// # Errors
-    /// When the request is stopped meanwhile.
     pub(super) fn with<R>(&self, job: &Job, work: impl FnOnce(&mut Session) -> R) -> Result<R, Refused> {
         let mut session = lock(&self.session);
         job.check()?;
@@ -77,18 +71,12 @@ impl TextChecker {
     }
 
     /// The source at `path` without errors.
-    ///
-    /// # Errors
-    /// Its errors, or when the request is stopped meanwhile.
     pub(super) fn open(&self, path: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
         let checked = self.checked(path, job)?;
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }
     }
 
     /// The source at `path` with `more` at its end, without errors.
-    ///
-    /// # Errors
-    /// As [`TextChecker::open`].
     pub(super) fn open_with(&self, path: &str, more: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
         let checked = self.open(path, job)?;
         let own = checked.file.map_or("", |file| &checked.sources.file(file).text);

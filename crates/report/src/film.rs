@@ -369,9 +369,6 @@ fn changed(old: &[u8], fresh: &[u8], row: usize) -> Option<[usize; 4]> {
 }
 
 /// Writes an endless GIF of the robots on a stage, calling `observe` with the number of frames done after each.
-///
-/// # Errors
-/// When `out` cannot be written.
 pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
     let mut painter = Painter::new(film, &stage);
     let (width, height) = painter.size();
@@ -399,9 +396,6 @@ pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut d
 }
 
 /// Writes an endless APNG of the robots on a stage, calling `observe` with the number of frames done after each.
-///
-/// # Errors
-/// When `out` cannot be written.
 pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
     let mut painter = Painter::new(film, &stage);
     let (width, height) = painter.size();

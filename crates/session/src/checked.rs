@@ -71,9 +71,6 @@ impl Checked {
     }
 
     /// Checks that the source declares a file of this name, and that a memory begins with it.
-    ///
-    /// # Errors
-    /// When another path for it would change nothing.
     pub fn declares_file(&self, name: &str) -> Result<(), Diagnostic> {
         contents::declared_file(&self.program, name)
     }

@@ -19,9 +19,6 @@ impl Checked {
     /// The chosen circuit: the one named, else that of the chosen swarm, else the last circuit declared in the source
     /// itself that is not an environment. If it needs numbers for its parameters, those of its swarm or its test are
     /// used.
-    ///
-    /// # Errors
-    /// When there is no such circuit or swarm.
     pub fn circuit(&self, choice: &Choice) -> Result<Instance, Diagnostics> {
         match (&choice.circuit, &choice.swarm) {
             (Some(circuit), _) => self.named(circuit),
@@ -112,9 +109,6 @@ pub(super) fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p
 }
 
 /// Checks that at most one swarm is declared for a circuit, unless `chosen` names one.
-///
-/// # Errors
-/// When there are several to choose from.
 pub fn check_swarm_is_clear(program: &Program, circuit: &Instance, chosen: Option<&str>) -> Result<(), Diagnostic> {
     match (chosen, &swarms_of(program, circuit)[..]) {
         (None, [first, second, ..]) => {
@@ -126,9 +120,6 @@ pub fn check_swarm_is_clear(program: &Program, circuit: &Instance, chosen: Optio
 }
 
 /// The declared swarm of that name.
-///
-/// # Errors
-/// When there is none.
 pub(super) fn declared_swarm<'p>(program: &'p Program, name: &str) -> Result<&'p Swarm, Diagnostic> {
     program.swarm(name).ok_or_else(|| {
         let meant = Suggestion::of(name, program.swarms.iter().map(|swarm| swarm.name.as_str()));

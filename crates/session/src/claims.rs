@@ -47,9 +47,6 @@ impl DecidedClaim {
 
 impl ClaimSearch {
     /// A search that has done nothing yet.
-    ///
-    /// # Errors
-    /// When the circuit cannot be built, or has no steps.
     pub(super) fn new(
         program: &Program,
         claim: &Claim,

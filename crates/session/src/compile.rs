@@ -52,9 +52,6 @@ impl Compiled {
 
 /// Maps a netlist onto a library's cells, and proves that the result is equal to it.
 ///
-/// # Errors
-/// When the library lacks functions, or the netlist is not well formed or too large.
-///
 /// # Panics
 /// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
 pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
@@ -69,9 +66,6 @@ pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOpti
 }
 
 /// Maps an elaborated circuit onto cells as requested at `place`. `gates` is what limits it before.
-///
-/// # Errors
-/// When the circuit is too large, or the library lacks a function.
 pub(super) fn map_onto(
     source: Netlist,
     cells: &CellLibrary,
@@ -90,9 +84,6 @@ fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagno
 
 /// Maps a planned circuit that was elaborated onto its robots as requested at `place`. `gates` is what limits it
 /// before.
-///
-/// # Errors
-/// As [`map_onto`], and when the circuit cannot be the wave machine that it is to be.
 pub(super) fn map(
     source: Netlist,
     plan: &Plan,
@@ -116,9 +107,6 @@ pub(super) fn map(
 }
 
 /// Maps the part of a planned circuit that drives the net declared at `net`.
-///
-/// # Errors
-/// When the circuit cannot be built, and as [`map_onto`].
 pub(super) fn map_net(
     program: &Program,
     plan: &Plan,
@@ -134,9 +122,6 @@ pub(super) fn map_net(
 }
 
 /// Compiles an elaborated circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
-///
-/// # Errors
-/// As [`map`].
 pub(super) fn compile(
     program: &Program,
     source: Netlist,

@@ -7,9 +7,6 @@ use nbc_base::source::{SourceWorld, without_mark};
 use nbc_circuit::elaborate::MemoryPorts;
 
 /// Checks that a file of this name is declared, and that a memory begins with it.
-///
-/// # Errors
-/// When another path for it would change nothing.
 pub(super) fn declared_file(program: &Program, name: &str) -> Result<(), Diagnostic> {
     let place = program.files.iter().position(|file| file.name == name).ok_or_else(|| {
         let meant = Suggestion::of(name, program.files.iter().map(|file| file.name.as_str()));
@@ -24,9 +21,6 @@ pub(super) fn declared_file(program: &Program, name: &str) -> Result<(), Diagnos
 
 /// The first words of a memory; `files` are the paths of files that replace declared ones, by name. A memory without a
 /// file begins with zeros.
-///
-/// # Errors
-/// When the file cannot be read, or does not fit.
 pub(super) fn first_words(
     world: &dyn SourceWorld,
     program: &Program,
@@ -66,9 +60,6 @@ enum Words {
 /// The words of a file by its ending: `.bin` has bytes, the lowest of a word first; `.csv` numbers between commas and
 /// ends of lines; any other, such as `.hex`, hexadecimal digits between blanks, with `@` before the place of the next
 /// word.
-///
-/// # Errors
-/// The line, from 1, that is no number or does not fit into a word.
 fn words(path: &str, bytes: &[u8], memory: &MemoryPorts) -> Result<Words, usize> {
     let width = memory.width;
     if path.ends_with(".bin") {

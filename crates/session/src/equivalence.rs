@@ -21,9 +21,6 @@ pub(super) struct Equivalence {
 
 impl Equivalence {
     /// The tested circuit and the one that it is tested against.
-    ///
-    /// # Errors
-    /// When the other circuit cannot be built, one of them has no steps, or they make different ones.
     pub(super) fn new(
         program: &Program,
         test: &CircuitTest,

@@ -26,9 +26,6 @@ impl EvolutionRun {
     }
 
     /// The run of a checkpoint that is called `name`.
-    ///
-    /// # Errors
-    /// When the checkpoint does not belong to the declaration and the seed.
     #[cfg(feature = "disk")]
     pub fn resume(checkpoint: Checkpoint, name: &str, evolution: &Evolution, seed: u64) -> Result<Self, Diagnostic> {
         let work = Work { env_steps: checkpoint.env_steps, left_out: checkpoint.left_out };

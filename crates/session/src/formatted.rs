@@ -14,9 +14,6 @@ pub struct Formatted {
 }
 
 /// Formats a source that can be parsed; names and widths may be wrong.
-///
-/// # Errors
-/// When the file cannot be read or parsed.
 pub(super) fn format(world: &dyn SourceWorld, path: &str) -> Result<Formatted, Diagnostics> {
     let mut sources = Sources::default();
     let file = check::open(world, path, &mut sources)?;

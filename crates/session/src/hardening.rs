@@ -55,9 +55,6 @@ impl Session {
     /// Finds the robots to leave out of the swarm of a circuit. `run` makes the runs of each choice of robots, and
     /// returns fewer results than experiments if it was stopped; `tell` receives each choice with its yield. `None` if
     /// it was stopped.
-    ///
-    /// # Errors
-    /// When the circuit has no test or cannot be compiled; those of `run`.
     pub fn harden<E: From<Diagnostics>>(
         &self,
         checked: &Checked,

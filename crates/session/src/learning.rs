@@ -59,9 +59,6 @@ pub struct Learned {
 
 impl Learning {
     /// Reads rows, and begins to learn.
-    ///
-    /// # Errors
-    /// When the rows cannot be read, there is nothing to learn from, or too much, or the options are out of range.
     pub fn new(request: &LearningRequest<'_>) -> Result<Self, Vec<Diagnostic>> {
         let LearningRequest { circuit, rows, outputs, options } = *request;
         let one = |fault: Diagnostic| vec![fault];

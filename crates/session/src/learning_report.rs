@@ -106,9 +106,6 @@ impl LearningReport {
     }
 
     /// Which values are taken for which, as a picture.
-    ///
-    /// # Errors
-    /// When the circuit has several outputs, or one with more than 16 values.
     pub fn draw_confusion(&self) -> Result<Svg, Diagnostic> {
         let confusion = self.confusion.as_ref();
         let confusion = confusion.ok_or_else(|| LearningError::NoConfusion { circuit: self.circuit.clone() })?;

@@ -31,9 +31,6 @@ pub struct Plan {
 
 /// The plans of a circuit: one for each swarm that is declared for it, or that of the default library if there is none;
 /// only the chosen one if a swarm is chosen.
-///
-/// # Errors
-/// When robots cannot be read, or the chosen swarm is not one of the circuit's.
 pub(super) fn plans(
     sources: RobotSources<'_>,
     program: &Program,
@@ -54,9 +51,6 @@ pub(super) fn plans(
 }
 
 /// The one plan of a circuit.
-///
-/// # Errors
-/// As [`plans`], and when several swarms are declared and none is chosen.
 pub(super) fn plan(
     sources: RobotSources<'_>,
     program: &Program,
@@ -68,9 +62,6 @@ pub(super) fn plan(
 }
 
 /// The plan of a circuit for a declared swarm, or for the default library.
-///
-/// # Errors
-/// When robots cannot be read.
 pub(super) fn of_swarm(
     sources: RobotSources<'_>,
     program: &Program,
@@ -93,9 +84,6 @@ pub(super) fn of_swarm(
 
 /// The robots of a declared library, or of the default library, unless the options have others, without those that the
 /// options leave out.
-///
-/// # Errors
-/// When they cannot be read.
 pub(super) fn robots(
     sources: RobotSources<'_>,
     program: &Program,

@@ -74,10 +74,6 @@ pub struct RecognizedSet {
 impl Recognition {
     /// The recognition of a schedule's images by bodies of an evolution. Its sets are those of the evolution's schedule
     /// in the same order.
-    ///
-    /// # Errors
-    /// When there are no bodies, the program has no such evolution or schedule, or the two do not fit each other or the
-    /// bodies.
     pub fn new(
         program: &Program,
         evolution: &str,

@@ -126,9 +126,6 @@ impl RobotRequest {
 }
 
 /// A behavior by its letters such as `RRRL`, or by its function such as `nand`.
-///
-/// # Errors
-/// What is expected instead, in words.
 pub fn behavior(word: &str) -> Result<Behavior, String> {
     let function = || Function::parse(word).map(Behavior::from);
     let expected = || {

@@ -38,9 +38,6 @@ pub(super) struct RobotSources<'a> {
 
 impl<'a> RobotSources<'a> {
     /// The robots of a declared library; evolution runs are in the folder `runs`.
-    ///
-    /// # Errors
-    /// The errors of the folder or its files, at the declaration.
     pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
         let mut library = match &declared.from {
             Origin::Shipped => self.built_in.shipped().clone(),

@@ -14,9 +14,6 @@ use crate::test::{TestCase, TestOptions, TestRun};
 impl Session {
     /// Runs tests and simulations of a checked source, in order. Tests run at the level of the options, simulations
     /// always in physics.
-    ///
-    /// # Errors
-    /// When a circuit cannot be compiled. A test that fails or is cancelled is no error.
     pub fn run_list(
         &self,
         checked: &Checked,
@@ -49,9 +46,6 @@ impl Session {
     }
 
     /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
-    ///
-    /// # Errors
-    /// As [`Session::cases`]. A test that fails or is cancelled is no error.
     pub fn test(
         &self,
         checked: &Checked,
@@ -65,9 +59,6 @@ impl Session {
     }
 
     /// A test that is ready to run, to be advanced in portions.
-    ///
-    /// # Errors
-    /// As [`Session::cases`].
     pub fn begin_test(
         &self,
         checked: &Checked,

@@ -13,18 +13,12 @@ type Entry<T> = (T, Span, u32);
 
 /// Reads a schedule: entries with blanks between them, each of a bit for each of so many stimuli, `*`, and a number of
 /// cycles or env steps. Messages call the text `name`.
-///
-/// # Errors
-/// A diagnostic for each entry that is wrong, at its place.
 pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule, Diagnostics> {
     read(name, text, |file| parse(file, stimuli))
 }
 
 /// Reads a schedule whose entries name sets of images, to a body that senses images of a size. Each image
 /// of a set is shown for the time of the entry.
-///
-/// # Errors
-/// As [`read_schedule`], and when there is no such set, it has images of another size, or there are more than four.
 pub fn read_image_schedule(
     name: &str,
     text: &str,

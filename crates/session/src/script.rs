@@ -99,9 +99,6 @@ pub struct EnvironmentRow {
 }
 
 /// Builds the environment of a test, with the files of its memories, to find its errors.
-///
-/// # Errors
-/// When it cannot be built, or a file cannot be read.
 pub(super) fn environment(
     world: &dyn SourceWorld,
     program: &Program,
@@ -114,9 +111,6 @@ pub(super) fn environment(
 
 impl Performance {
     /// The performance of a test's script; `files` are the paths of files that replace declared ones.
-    ///
-    /// # Errors
-    /// When the environment cannot be built, or a file cannot be read.
     pub(super) fn new(
         world: &dyn SourceWorld,
         program: &Program,
@@ -142,9 +136,6 @@ impl Performance {
     }
 
     /// What the environment does in the first rows; `None` without an environment.
-    ///
-    /// # Errors
-    /// When the circuit and its environment never agree.
     pub(super) fn watch(mut self, rows: usize) -> Result<Option<EnvironmentRun>, Diagnostic> {
         self.watched = self.beside.as_ref().map(Beside::at_start);
         let is_long = |run: &Option<EnvironmentRun>| run.as_ref().is_none_or(|run| run.rows.len() >= rows);
@@ -158,9 +149,6 @@ impl Performance {
     }
 
     /// The rows of the next step, or of the next repetition of one; none after the last.
-    ///
-    /// # Errors
-    /// When the circuit and its environment never agree.
     pub(super) fn step(&mut self) -> Result<Option<Vec<PerformedRow>>, Diagnostic> {
         let (at, times) = self.next;
         let Some(step) = self.script.steps.get(at) else { return Ok(None) };

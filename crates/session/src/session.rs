@@ -90,18 +90,12 @@ impl Session {
     }
 
     /// The source at `path`, without errors.
-    ///
-    /// # Errors
-    /// All its diagnostics, if one of them is an error.
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
         let checked = self.checked(path);
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
     }
 
     /// The source at `path` in its canonical form.
-    ///
-    /// # Errors
-    /// When it cannot be read or parsed.
     pub fn formatted(&self, path: &str) -> Result<Formatted, Diagnostics> {
         formatted::format(self.documents.world(), path)
     }
@@ -112,9 +106,6 @@ impl Session {
     }
 
     /// The robots of a folder of the world, best first.
-    ///
-    /// # Errors
-    /// When the folder or one of its robot files cannot be read.
     pub fn library(&self, folder: &str) -> Result<Library, Diagnostics> {
         if let Some(library) = store::built_in(folder) {
             return Ok(library);
@@ -124,9 +115,6 @@ impl Session {
     }
 
     /// The robots of a declared library, or of the default library, best first for each function.
-    ///
-    /// # Errors
-    /// When they cannot be read.
     pub fn robots(
         &self,
         checked: &Checked,
@@ -140,9 +128,6 @@ impl Session {
 
     /// An evolution of a program with the robots of the library that it begins with, if it has one; robots of other
     /// evolutions are in the folder `runs`.
-    ///
-    /// # Errors
-    /// When the robots cannot be read, or none of them fits.
     pub fn started(&self, checked: &Checked, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
         let started = start_bodies::started(self.sources(checked), &checked.program, evolution, runs);
         started.map_err(|faults| checked.fail(faults))
@@ -153,9 +138,6 @@ impl Session {
     }
 
     /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
-    ///
-    /// # Errors
-    /// When the circuit cannot be built, robots cannot be read, or a function is missing among them.
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
@@ -165,9 +147,6 @@ impl Session {
     }
 
     /// Maps the part of a circuit that drives one net, which is declared at `net`, onto the robots of its swarm.
-    ///
-    /// # Errors
-    /// As [`Session::map`].
     pub fn map_net(
         &self,
         checked: &Checked,
@@ -182,9 +161,6 @@ impl Session {
     }
 
     /// Elaborates a circuit, maps it onto these cells, which need not be robots, and proves the result.
-    ///
-    /// # Errors
-    /// When the circuit cannot be built, or a function is missing among the cells.
     pub fn map_onto(
         &self,
         checked: &Checked,
@@ -199,10 +175,6 @@ impl Session {
     }
 
     /// Compiles a circuit to the swarm that is declared for it: elaborate, map, prove, time, assemble.
-    ///
-    /// # Errors
-    /// When the circuit cannot be built, robots cannot be read or a function is missing among them, or several swarms
-    /// are declared and none is chosen.
     pub fn compile(
         &self,
         checked: &Checked,
@@ -220,9 +192,6 @@ impl Session {
 
     /// Makes a test ready to run: one case for each swarm that is declared for its circuit, or one at the level of
     /// logic.
-    ///
-    /// # Errors
-    /// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
     pub fn cases(
         &self,
         checked: &Checked,
@@ -233,9 +202,6 @@ impl Session {
     }
 
     /// What the environment of a test does in its first `rows` rows in physics; `None` without an environment.
-    ///
-    /// # Errors
-    /// When it cannot be built, or the circuit and its environment never agree.
     pub fn environment(
         &self,
         checked: &Checked,
@@ -248,9 +214,6 @@ impl Session {
     }
 
     /// Begins to decide a claim; the search ends when its budget does, or when the flag is raised.
-    ///
-    /// # Errors
-    /// When the circuit cannot be built, or has no steps of which something can be claimed.
     pub fn prove(
         &self,
         checked: &Checked,
@@ -262,9 +225,6 @@ impl Session {
     }
 
     /// Runs a declared simulation in physics.
-    ///
-    /// # Errors
-    /// When the swarm's circuit cannot be compiled, or its robots cannot be read.
     pub fn simulate(
         &self,
         checked: &Checked,
@@ -288,9 +248,6 @@ impl Session {
     }
 
     /// Runs every test and every simulation of a source in physics.
-    ///
-    /// # Errors
-    /// When the source has errors or its circuits cannot be compiled. A test that fails is no error.
     pub fn run(
         &mut self,
         path: &str,
@@ -304,9 +261,6 @@ impl Session {
 }
 
 /// Runs every test and every simulation of a file of the disk in physics; see [`Session::run`].
-///
-/// # Errors
-/// As [`Session::run`].
 #[cfg(feature = "disk")]
 pub fn run_file(path: impl AsRef<std::path::Path>, options: &CompileOptions) -> Result<RunReport, Diagnostics> {
     Session::new(crate::store::DiskWorld).run(&path.as_ref().to_string_lossy(), options, &mut ())

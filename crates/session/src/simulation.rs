@@ -32,9 +32,6 @@ impl SimulationRun {
 }
 
 /// The swarm of a simulation, compiled.
-///
-/// # Errors
-/// When the swarm's circuit cannot be compiled, or its robots cannot be read.
 pub(super) fn compiled(
     sources: RobotSources<'_>,
     program: &Program,

@@ -6,9 +6,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Body, Evolution, Palette, Program, StartBodies};
 
 /// The evolution with the bodies of its library, if it begins with one.
-///
-/// # Errors
-/// When the robots cannot be read, or none of them fits.
 pub(super) fn started(
     sources: RobotSources<'_>,
     program: &Program,

@@ -60,9 +60,6 @@ pub enum AssumedStates {
 impl Synthesis {
     /// Maps a design as it was read, and proves the result.
     ///
-    /// # Errors
-    /// When the design cannot be mapped onto the cells.
-    ///
     /// # Panics
     /// When the result is not equal to the design, which is a fault of the compiler.
     pub fn of(read: &Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
@@ -94,9 +91,6 @@ impl Synthesis {
 }
 
 /// The functions of these names.
-///
-/// # Errors
-/// When one of them is unknown.
 pub fn named_functions(names: &[String]) -> Result<Vec<Function>, Diagnostic> {
     let parse = |name: &String| {
         Function::parse(name.trim()).ok_or_else(|| {
@@ -109,9 +103,6 @@ pub fn named_functions(names: &[String]) -> Result<Vec<Function>, Diagnostic> {
 
 /// Cells of these functions, which cost the same. `all` alone is all functions of two inputs, and `all3` those of two
 /// and three.
-///
-/// # Errors
-/// When a function is unknown.
 pub fn cell_library(names: &[String]) -> Result<CellLibrary, Diagnostic> {
     let of_two = || Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
     Ok(match names {

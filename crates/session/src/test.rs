@@ -91,9 +91,6 @@ pub(super) enum TestSubject {
 
 /// The cases of a test: one for each swarm that is declared for its circuit in each world that the test names, or one
 /// at the level of logic, which has no worlds. A test for ever is always at the level of logic.
-///
-/// # Errors
-/// When the circuit or its reference cannot be built, the circuit cannot be compiled, or robots cannot be read.
 pub(super) fn cases(
     sources: RobotSources<'_>,
     program: &Program,
@@ -186,9 +183,6 @@ fn performance(
 }
 
 /// What the environment of a test does in its first rows, at the level of logic; `None` without an environment.
-///
-/// # Errors
-/// As [`cases`].
 pub(super) fn environment(
     sources: RobotSources<'_>,
     program: &Program,
@@ -431,9 +425,6 @@ fn enough(test: &CircuitTest, rows: &[RowVerdict]) -> bool {
 
 /// The rows of a test without a script. For a test over all inputs, of which the checker allows few, they are computed
 /// from its reference.
-///
-/// # Errors
-/// When the reference cannot be built.
 fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let reference = match &test.stimulation {
         Stimulation::Rows(rows) => return Ok(rows.clone()),

@@ -13,9 +13,6 @@ const BEATS: [u32; 2] = [1, 2];
 /// The best wave machine of a circuit for its times, proved: the one whose robots and cycles of a step are the smallest
 /// product.
 ///
-/// # Errors
-/// When the circuit cannot be one, or the library cannot make it.
-///
 /// # Panics
 /// When the machine is not proved to make the steps of the circuit, which is a fault of the compiler.
 pub(super) fn map_waves(
@@ -49,9 +46,6 @@ pub(super) fn map_waves(
 /// The steps of a wave machine that the rows of a test are: the first is before the first edge of the clock, and each
 /// other is one edge. A machine without state makes a step of each row. `clock` is the input that is the clock, and
 /// whether it makes a step when it rises; `step` is the length of a step, if it is known.
-///
-/// # Errors
-/// A diagnostic for each row that is no step.
 pub(super) fn steps(
     test: &CircuitTest,
     rows: &[TestRow],

@@ -9,25 +9,16 @@ use nbc_base::diag::Diagnostic;
 
 /// Writes a file atomically: at any time, its path has either the old contents or all of `bytes`. A new file in the
 /// same folder is flushed to the disk and then takes the old name.
-///
-/// # Errors
-/// When the folder is missing or read-only, or the disk is full; the path is then as it was.
 pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }
 
 /// Writes a file as [`write()`] does.
-///
-/// # Errors
-/// A diagnostic that names the path and the reason.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     write(path, bytes).map_err(|error| Diagnostic::unwritable(path, &error))
 }
 
 /// Like [`write()`], for content that is made piece by piece.
-///
-/// # Errors
-/// As [`write()`], and when `content` fails.
 pub fn write_with(path: &Path, content: impl FnOnce(&mut dyn Write) -> io::Result<()>) -> io::Result<()> {
     // The target of a link is replaced, not the link; a device such as /dev/null is written directly.
     let target = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
@@ -63,9 +54,6 @@ pub(super) fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io:
 }
 
 /// Creates a folder and its parents.
-///
-/// # Errors
-/// When one of them is a file, or may not be made.
 pub fn create_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }

@@ -60,9 +60,6 @@ impl Checkpoint {
     }
 
     /// Reads the checkpoint file at `path`; `None` if there is no such file.
-    ///
-    /// # Errors
-    /// When the file cannot be read, and as [`Checkpoint::read`].
     pub fn open(path: &Path) -> Result<Option<Self>, Diagnostic> {
         let name = path.display().to_string();
         match read(path, Limit::CheckpointBytes.most()) {
@@ -73,9 +70,6 @@ impl Checkpoint {
     }
 
     /// Reads the bytes of a checkpoint file called `name`.
-    ///
-    /// # Errors
-    /// A diagnostic for bytes that are not a checkpoint, of another format, or damaged, and for an impossible search.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, Diagnostic> {
         Self::read_bytes(bytes).map_err(|error| error.of(name))
     }
@@ -92,9 +86,6 @@ impl Checkpoint {
     }
 
     /// The search as it was, for the declaration it was made by.
-    ///
-    /// # Errors
-    /// A diagnostic when the declaration or the seed is different, or its bodies do not belong to that declaration.
     pub fn resume(self, name: &str, evolution: &Evolution, seed: u64) -> Result<Search, Diagnostic> {
         let declared = || evolution.name.clone();
         let error = if self.state.seed != seed {
@@ -116,9 +107,6 @@ pub(super) fn framed(magic: &str, format: &str, text: &str) -> Vec<u8> {
 }
 
 /// The format of a file with such a header, and its text, or that it is damaged.
-///
-/// # Errors
-/// When it has no such header.
 pub(super) fn unframed<'b>(
     magic: &str,
     bytes: &'b [u8],

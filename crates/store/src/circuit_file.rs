@@ -44,9 +44,6 @@ impl CircuitRead {
 }
 
 /// Reads a model with properties.
-///
-/// # Errors
-/// A file that cannot be read, is no AIGER file, or is damaged.
 pub fn read_model(path: &Path) -> Result<AigerModel, Diagnostics> {
     let file = path.display().to_string();
     if CircuitSource::of_path(&file) != Some(CircuitSource::Aiger) {
@@ -57,9 +54,6 @@ pub fn read_model(path: &Path) -> Result<AigerModel, Diagnostics> {
 }
 
 /// Reads a circuit.
-///
-/// # Errors
-/// A file that cannot be read, of an unknown format, or damaged; a module that it does not have; or no outputs.
 pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let read = read(from)?;
     if read.design.outputs() > 0 {
@@ -161,9 +155,6 @@ fn verilog_top(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
 }
 
 /// A design as the bytes of a file; a program of the language is written as the formatter writes it.
-///
-/// # Errors
-/// The reason why the format cannot express the design.
 pub fn encode_circuit(design: &Design, format: CircuitFormat) -> Result<Vec<u8>, Diagnostic> {
     let bytes = format.encode(design)?;
     if format != CircuitFormat::Nb {
@@ -187,9 +178,6 @@ pub fn with_comment(bytes: Vec<u8>, format: CircuitFormat, lines: &[String]) -> 
 }
 
 /// The text of a file of rows, with its place.
-///
-/// # Errors
-/// When the file cannot be read.
 pub fn read_rows(path: &Path) -> Result<(Sources, FileId), Diagnostics> {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text(path)?);

@@ -13,9 +13,6 @@ const STANDARD_INPUT: &str = "/dev/stdin";
 
 /// The bytes of a regular file of at most `limit` bytes. Folders, pipes and devices are rejected before they are
 /// opened, because a pipe waits for its writer and a device may never end. Standard input is read in any case.
-///
-/// # Errors
-/// When there is no such file, or it is not a regular one, too large, or the system rejects it.
 pub fn read(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     if cfg!(windows) && path == Path::new(STANDARD_INPUT) {
         return up_to(limit, io::stdin().lock());
@@ -39,9 +36,6 @@ fn up_to(limit: u64, file: impl Read) -> Result<Vec<u8>, FileError> {
 }
 
 /// Like [`read`], for text.
-///
-/// # Errors
-/// As [`read`], and when the bytes are not UTF-8.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     let bytes = read(path, limit)?;
     String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
@@ -74,25 +68,16 @@ fn kind(of: FileType) -> &'static str {
 }
 
 /// The text of a source.
-///
-/// # Errors
-/// As [`read_text`].
 pub(super) fn source(path: &Path) -> Result<String, FileError> {
     read_text(path, Limit::SourceBytes.most())
 }
 
 /// The bytes of a source.
-///
-/// # Errors
-/// As [`read`].
 pub(super) fn source_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     read(path, Limit::SourceBytes.most())
 }
 
 /// The names of the entries of a folder, in order.
-///
-/// # Errors
-/// When it is not a folder, or the system rejects it.
 pub(super) fn list(folder: &Path) -> Result<Vec<String>, FileError> {
     if folder.is_file() {
         return Err(FileError::Io("it is not a folder".to_owned()));

@@ -19,9 +19,6 @@ pub struct FolderWorld {
 
 impl FolderWorld {
     /// The files below `root`.
-    ///
-    /// # Errors
-    /// When it is not a folder, or cannot be found.
     pub fn new(root: &Path) -> io::Result<Self> {
         let root = fs::canonicalize(root)?;
         if root.is_dir() { Ok(Self { root }) } else { Err(io::ErrorKind::NotADirectory.into()) }
@@ -33,9 +30,6 @@ impl FolderWorld {
     }
 
     /// The place of an existing file or folder.
-    ///
-    /// # Errors
-    /// When there is none, or it is outside of the folder.
     pub fn existing(&self, path: &str) -> Result<PathBuf, FileError> {
         let mut place = self.root.clone();
         // Part by part, because what is beyond a link that leads out must not even be looked for.
@@ -49,9 +43,6 @@ impl FolderWorld {
     }
 
     /// The place of a file that may not exist yet, in a folder that does.
-    ///
-    /// # Errors
-    /// When it is outside of the folder, or its own folder is missing.
     pub fn writable(&self, path: &str) -> Result<PathBuf, FileError> {
         match self.existing(path) {
             Err(FileError::NotFound) => {}

@@ -52,9 +52,6 @@ fn read_built_in(folders: &[&Dir<'_>]) -> Library {
 }
 
 /// The robots of a folder's `.yaml` files, best first within each function.
-///
-/// # Errors
-/// The errors of the folder or its files.
 pub fn read_library(world: &dyn SourceWorld, folder: &str) -> Result<Library, Vec<Diagnostic>> {
     let mut names =
         world.list(folder).map_err(|error| vec![LibraryError { folder: folder.to_owned(), error }.into()])?;

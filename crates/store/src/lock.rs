@@ -27,9 +27,6 @@ pub enum LockFault {
 }
 
 /// Takes a folder for this process, without waiting.
-///
-/// # Errors
-/// When another process has it, or no lock can be made there.
 pub fn lock_folder(folder: &Path) -> Result<FolderLock, LockFault> {
     let path = folder.join(NAME);
     if is_link(&path) {

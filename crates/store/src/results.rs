@@ -31,9 +31,6 @@ impl ResultPlace {
     }
 
     /// Makes the folder.
-    ///
-    /// # Errors
-    /// When it cannot be made, or a part of the path that the user did not choose is a link.
     pub fn create(&self) -> io::Result<PathBuf> {
         self.refuse_links()?;
         let path = self.path();
@@ -42,9 +39,6 @@ impl ResultPlace {
     }
 
     /// Checks that files can be written there, and leaves the disk as it was.
-    ///
-    /// # Errors
-    /// As [`ResultPlace::create`], and when no file can be made in the folder.
     pub fn probe(&self) -> io::Result<()> {
         self.refuse_links()?;
         let path = self.path();
@@ -77,9 +71,6 @@ pub(super) fn is_link(path: &Path) -> bool {
 }
 
 /// Writes a file of results as [`write()`] does, but replaces a link instead of the file that it leads to.
-///
-/// # Errors
-/// As [`write()`].
 pub fn write_result(path: &Path, bytes: &[u8]) -> io::Result<()> {
     if is_link(path) { replace(path, |out| out.write_all(bytes)) } else { write(path, bytes) }
 }

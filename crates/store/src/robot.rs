@@ -69,10 +69,6 @@ impl RobotRecord {
 }
 
 /// Reads a robot file.
-///
-/// # Errors
-/// A diagnostic with its place for text that is not YAML, for missing, unknown or invalid fields, for an invalid body,
-/// for numbers that a robot cannot have, and for a file of another version.
 pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     let version: Version = yaml::read(file)?;
     if !(1..=FORMAT).contains(&version.format) {

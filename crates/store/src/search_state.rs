@@ -56,9 +56,6 @@ impl SearchRecord {
     }
 
     /// The state of a search by that declaration.
-    ///
-    /// # Errors
-    /// The niche or body that cannot belong to it.
     pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, StateError> {
         let Self { seed, generation, counts, mirrors, mirror_bodies, niches } = self;
         let bins = declared

@@ -58,19 +58,12 @@ impl Row {
 
 /// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first.
 /// `materials` may define the codes.
-///
-/// # Errors
-/// A diagnostic with its place when there is no body, or one that is ragged, empty, or made of unknown materials, or
-/// not in one piece.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
     let BodyFile { body, materials } = yaml::read(file).map_err(with_body_example)?;
     self::body(file, &body.into_text(), &materials.unwrap_or_else(Palette::paper))
 }
 
 /// The body of these rows, in one piece.
-///
-/// # Errors
-/// As [`read_body`].
 pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -> Result<Body, Diagnostic> {
     let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, error))?;
     if body.is_connected() {

@@ -12,9 +12,6 @@ const MAX_CYCLES: u32 = 1000;
 const MAX_NAME: usize = 100;
 
 /// Rejects a robot with values that a measurement cannot give.
-///
-/// # Errors
-/// A diagnostic at the field that is wrong.
 pub(super) fn check(file: &SourceFile, robot: &Robot) -> Result<(), Diagnostic> {
     let flaw =
         words(robot).or_else(|| motion(robot)).or_else(|| character(&robot.character)).or_else(|| weights(robot));

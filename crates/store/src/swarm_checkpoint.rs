@@ -35,17 +35,11 @@ impl SwarmCheckpoint {
     }
 
     /// Writes the file, whole or not at all.
-    ///
-    /// # Errors
-    /// When it cannot be written.
     pub fn save(&self, path: &Path) -> Result<(), Diagnostic> {
         write_file(path, &framed(MAGIC, FORMAT, &serde_json::to_string(self).expect("a swarm can be written as JSON")))
     }
 
     /// Reads the file of a task; `None` if there is none.
-    ///
-    /// # Errors
-    /// When it cannot be read, is damaged, or belongs to another task.
     pub fn open(path: &Path, task: &SwarmTask) -> Result<Option<Self>, Diagnostic> {
         let name = path.display().to_string();
         let bytes = match read(path, Limit::CheckpointBytes.most()) {

@@ -8,9 +8,6 @@ use nbc_base::VERSION;
 use tempfile::{Builder, TempPath};
 
 /// Makes the folder if it is missing. Only its user can read it.
-///
-/// # Errors
-/// When it cannot be made, or another user has made one of that name.
 pub fn temporary_folder() -> io::Result<PathBuf> {
     of_user(&std::env::temp_dir())
 }
@@ -21,9 +18,6 @@ pub struct PrivateFile(TempPath);
 
 impl PrivateFile {
     /// Writes a text to a new file in the folder for temporary files. Its name has this start and this end.
-    ///
-    /// # Errors
-    /// When it cannot be written.
     pub fn create(start: &str, end: &str, text: &str) -> io::Result<Self> {
         // Files that this makes are readable by their user only.
         let mut file = Builder::new().prefix(start).suffix(end).tempfile_in(temporary_folder()?)?;

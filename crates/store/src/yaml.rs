@@ -15,9 +15,6 @@ const RESERVED: [&str; 13] =
     ["y", "n", "yes", "no", "on", "off", "true", "false", "null", "inf", "nan", "infinity", "~"];
 
 /// Reads a text of one document.
-///
-/// # Errors
-/// A diagnostic with its place.
 pub(super) fn read<T: DeserializeOwned>(file: &SourceFile) -> Result<T, Diagnostic> {
     if Limit::RobotBytes.permit(file.text.len() as u64).is_err() {
         return Err(RobotFileError::TooLarge { most: Limit::RobotBytes.most() }.of(&file.name, None));

@@ -144,9 +144,6 @@ pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
 /// start value start as if the circuit had settled with all inputs 0. Otherwise both robots of a memory element would
 /// be driven, and could keep switching each other forever.
 ///
-/// # Errors
-/// [`AssembleError::MissingFunction`] when no robot fits a cell.
-///
 /// # Panics
 /// When the netlist still has wires, which `dissolve-wires` takes out.
 pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, AssembleError> {
@@ -175,9 +172,6 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
 }
 
 /// The swarm of a wave machine: as [`assemble`], with what the pins that read state sense at first.
-///
-/// # Errors
-/// As [`assemble`].
 pub fn assemble_waves(machine: &WaveMachine, library: &Library) -> Result<Assembly, AssembleError> {
     let mut assembly = assemble(&machine.netlist, library)?;
     assembly.beat = machine.beat;

@@ -41,9 +41,6 @@ const TOPPLED: f64 = 0.7;
 /// The clock is the smallest number of cycles (from 1 to 8) such that in 1,024 random switches, held for that many to
 /// three cycles more, no output was wrong from that cycle of a hold on. If there is none, it is the one with the fewest
 /// wrong holds.
-///
-/// # Errors
-/// The fault of a simulation.
 pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
     let probe = Probe::new(simulator, body, behavior);
     let tally = probe.best_clock(SWITCHES)?;
@@ -52,18 +49,12 @@ pub fn characterize(simulator: &Simulator, body: &Body, behavior: Behavior) -> R
 }
 
 /// As the characterization of a robot, but over an eighth of the switches and without settle times.
-///
-/// # Errors
-/// The fault of a simulation.
 pub fn sketch(simulator: &Simulator, body: &Body, behavior: Behavior) -> Result<Character, Fault> {
     let tally = Probe::new(simulator, body, behavior).best_clock(FIRST_SWITCHES)?;
     Ok(tally.character(Vec::new(), false))
 }
 
 /// The smallest clock of at most `most` cycles whose first, cheap sequences have no errors, with their margin.
-///
-/// # Errors
-/// The fault of a simulation.
 pub fn screen(simulator: &Simulator, body: &Body, behavior: Behavior, most: u32) -> Result<Option<(u32, f64)>, Fault> {
     let probe = Probe::new(simulator, body, behavior);
     for clock in 1..=most {

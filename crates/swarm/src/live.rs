@@ -99,9 +99,6 @@ impl LiveSwarm {
     /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper,
     /// section 4).
     ///
-    /// # Errors
-    /// When the simulation of a robot fails in this cycle, or has failed before: the swarm has come to its end.
-    ///
     /// # Panics
     /// When there are not as many bits as the input ports have.
     pub fn step(&mut self, inputs: &[bool]) -> Result<&CycleTrace, RobotFault> {
@@ -115,9 +112,6 @@ impl LiveSwarm {
     }
 
     /// Begins a cycle as [`LiveSwarm::step`] does. Until it has ended, the swarm is as it was before.
-    ///
-    /// # Errors
-    /// When the simulation of a robot has failed before.
     ///
     /// # Panics
     /// When there are not as many bits as the input ports have.
@@ -140,9 +134,6 @@ impl LiveSwarm {
     }
 
     /// Ends a begun cycle with the states of all robots, part by part in order, as [`LiveSwarm::step`] would.
-    ///
-    /// # Errors
-    /// When the simulation of a robot has failed in this cycle.
     ///
     /// # Panics
     /// When robots or stops are missing.

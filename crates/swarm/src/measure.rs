@@ -26,9 +26,6 @@ pub fn walk(simulator: &Simulator, bodies: &[Body]) -> Vec<Result<Displacements,
 }
 
 /// Measures a body by the paper's fixed simulations and as a gate.
-///
-/// # Errors
-/// The fault of a simulation.
 pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault> {
     let displacement = walk(simulator, std::slice::from_ref(body)).remove(0)?;
     let behavior = displacement.behavior();

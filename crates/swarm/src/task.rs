@@ -52,9 +52,6 @@ impl TaskResult {
     }
 
     /// The result of a screening.
-    ///
-    /// # Errors
-    /// The fault of a simulation.
     pub fn screened(self) -> Result<Option<(u32, f64)>, Fault> {
         match self {
             Self::Screening(screened) => screened,
@@ -63,9 +60,6 @@ impl TaskResult {
     }
 
     /// The result of a measurement.
-    ///
-    /// # Errors
-    /// The fault of a simulation.
     pub fn measured(self) -> Result<Measurement, Fault> {
         match self {
             Self::Measurement(measured) => measured,

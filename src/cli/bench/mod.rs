@@ -70,9 +70,6 @@ struct Figures {
 
 impl BenchArguments {
     /// Measures and prints.
-    ///
-    /// # Errors
-    /// When the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let kernel = Kernel::default();
         let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;

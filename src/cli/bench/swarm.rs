@@ -39,9 +39,6 @@ pub(super) struct SwarmFigures {
 
 impl SwarmFigures {
     /// Measures the swarm on one thread, and on all.
-    ///
-    /// # Errors
-    /// When the circuit has an error.
     pub(super) fn measure(kernel: Kernel) -> Result<Self, Failure> {
         let assembly = assembly()?;
         let mut boxes: BTreeMap<usize, f64> = BTreeMap::new();

@@ -32,9 +32,6 @@ impl NatsArguments {
 }
 
 /// The workers at a server, if the options name one. A signal stops their work; `note` receives notes on its progress.
-///
-/// # Errors
-/// When the server cannot be used.
 pub fn open_queue(
     arguments: &QueueArguments,
     interrupt: &Interrupt,

@@ -31,9 +31,6 @@ pub struct WorkerArguments {
 
 impl WorkerArguments {
     /// Works until a signal arrives.
-    ///
-    /// # Errors
-    /// When the server cannot be used, or a search rejects the results.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let cancel = Interrupt::watch()?.cancel();
         let worker = Worker::open(WorkerOptions { server: self.server.server(), name: self.name, cancel, log })?;

@@ -24,9 +24,6 @@ pub struct WorkersArguments {
 
 impl WorkersArguments {
     /// Listens for a few seconds and lists who reported.
-    ///
-    /// # Errors
-    /// When the server cannot be used.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut watch = ClusterWatch::open(&self.server.server(), log)?;

@@ -34,9 +34,6 @@ pub(super) use pictures::run_page;
 
 impl DrawArguments {
     /// Draws and writes.
-    ///
-    /// # Errors
-    /// When the subject is invalid, has no such picture, or the file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Self { kind: Kind(kind), output, request } = self;
         let canvas = Canvas::new(&output, kind)?;

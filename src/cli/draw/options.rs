@@ -5,9 +5,6 @@ use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording::DrawError;
 
 /// Rejects the first option that cannot change the picture.
-///
-/// # Errors
-/// A diagnostic that says what the option is for.
 pub(super) fn check_options(
     request: &DrawRequest,
     kind: &dyn PictureKind,

@@ -61,9 +61,6 @@ pub struct EvolveArguments {
 
 impl EvolveArguments {
     /// The folder of runs, in which the robots of other evolutions are.
-    ///
-    /// # Errors
-    /// When it is not UTF-8.
     pub(super) fn runs(&self) -> Result<&str, UsageError> {
         source_path(self.out.as_deref().unwrap_or(Path::new(RUNS)))
     }

@@ -43,9 +43,6 @@ pub(super) struct MadeRun<'a> {
 impl<'a> Campaign<'a> {
     /// Makes the runs of the declarations and passes them to `hand_on` in their order. Returns whether all were
     /// finished; after an interruption, those that were begun are passed on.
-    ///
-    /// # Errors
-    /// When a run cannot be opened, evaluated or saved; the other runs are saved first. Errors of `hand_on`.
     pub(super) fn make(
         self,
         evolutions: &'a [Evolution],

@@ -62,9 +62,6 @@ struct Comparison {
 
 impl EvolveArguments {
     /// Runs the evolutions.
-    ///
-    /// # Errors
-    /// When the file has errors, a checkpoint is rejected, or results cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let declared = match self.declared(&interrupt, context) {

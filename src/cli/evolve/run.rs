@@ -53,9 +53,6 @@ pub(super) struct RunFolder<'a> {
 
 impl<'a> RunFolder<'a> {
     /// A new run, or one that continues from its checkpoint. `warn` shows what is wrong with its history.
-    ///
-    /// # Errors
-    /// When its folder is in use by another process, contains a run without `--resume`, or cannot be used.
     pub(super) fn open(
         arguments: &EvolveArguments,
         evolution: &Evolution,

@@ -49,9 +49,6 @@ struct Robots {
 
 impl ExportArguments {
     /// Reads and exports.
-    ///
-    /// # Errors
-    /// When there is no run and no robot of that name, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (target, what) = (self.target(context.format)?, Path::new(&self.what));
         if is_run(what) {

@@ -53,9 +53,6 @@ struct BoxReport {
 
 impl DevicesArguments {
     /// Lists and tests.
-    ///
-    /// # Errors
-    /// When there is no driver, or the output cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let devices = OpenClDevice::all().map_err(DeviceFailure)?;
         let test = if self.self_test { SelfTest::FULL } else { SelfTest::QUICK };

@@ -17,9 +17,6 @@ pub struct OpenDevice {
 
 impl OpenDevice {
     /// Opens the chosen device; `processor` simulates if none is chosen, and what the device cannot simulate.
-    ///
-    /// # Errors
-    /// When the user asked for a device that cannot be used.
     pub fn open(choice: DeviceChoice, processor: LaneBackend, context: &Context) -> Result<Self, Failure> {
         let device = match choice {
             DeviceChoice::Processor => None,
@@ -46,9 +43,6 @@ impl OpenDevice {
     }
 
     /// Checks that the device has not failed.
-    ///
-    /// # Errors
-    /// When it has, and the user asked for no other.
     pub fn check(&self) -> Result<(), Failure> {
         match &self.device {
             Some((backend, true)) => backend.failure().map_or(Ok(()), |error| Err(DeviceFailure(error).into())),
@@ -57,9 +51,6 @@ impl OpenDevice {
     }
 
     /// Checks the same at the end of a command, and warns if this processor had to take over.
-    ///
-    /// # Errors
-    /// When the device has failed, and the user asked for no other.
     pub fn end(&self, context: &Context) -> Result<(), Failure> {
         self.check()?;
         if let Some(error) = self.device.as_ref().and_then(|(backend, _)| backend.failure()) {

@@ -87,9 +87,6 @@ struct Found<'a> {
 
 impl AddArguments {
     /// Selects, measures and writes robots.
-    ///
-    /// # Errors
-    /// When a run has no checkpoint, a body cannot be read, the server cannot be used, or a file cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let selection = self.selection();
         let asked = self.asked(&selection)?;
@@ -235,9 +232,6 @@ impl AddArguments {
 
 impl Found<'_> {
     /// The answer for the output.
-    ///
-    /// # Errors
-    /// When the simulation of a body in a file failed: it has no behavior.
     fn answer(&self, max_error: f64) -> Result<Answer, Failure> {
         match (self.asked.request.behavior(&self.selected), &self.selected, &self.asked.path) {
             (Some(behavior), selected, _) => Ok(Answer::of(behavior, selected, max_error)),

@@ -72,9 +72,6 @@ impl<'a> Measured<'a> {
     }
 
     /// Removes the file after a command that is done.
-    ///
-    /// # Errors
-    /// When a result could not be written.
     pub(super) fn end(self, is_done: bool) -> Result<(), Failure> {
         if is_done {
             // A file that stays is read again. A folder with robots is not empty, and stays.

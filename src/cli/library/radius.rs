@@ -40,9 +40,6 @@ impl RadiusArguments {
     }
 
     /// Measures the radius of every robot; a robot fails if its file has another radius for the same worlds.
-    ///
-    /// # Errors
-    /// When a robot file cannot be read or written, or the output cannot be written.
     pub(super) fn run(
         &self,
         library: &Library,

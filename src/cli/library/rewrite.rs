@@ -32,9 +32,6 @@ struct Rewritten {
 
 impl RewriteArguments {
     /// Reads all files before it writes the first one.
-    ///
-    /// # Errors
-    /// When a file is not a robot file or cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut files = Vec::new();
         for path in &self.paths {

@@ -13,9 +13,6 @@ use nbc_session::Verified;
 use nbc_session::report::Schema;
 
 /// Measures every robot again; a robot fails if its file has another value.
-///
-/// # Errors
-/// When the device or the server cannot be used, or the output cannot be written.
 pub fn verify(
     library: &Library,
     device: DeviceArguments,

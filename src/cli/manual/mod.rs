@@ -26,9 +26,6 @@ pub struct ManualArguments {
 
 impl ManualArguments {
     /// Writes a page for the program and one for each command, or one of all in Markdown.
-    ///
-    /// # Errors
-    /// When a page cannot be written.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
             return Err(UsageError::NoJson { what: "a manual page" }.into());

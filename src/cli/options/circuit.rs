@@ -62,9 +62,6 @@ impl FilesArguments {
     }
 
     /// Checks that each file is one that a source declares.
-    ///
-    /// # Errors
-    /// When none of them does, or a file is named twice.
     pub(in crate::cli) fn check(&self, sources: &[Arc<Checked>]) -> Result<(), Diagnostic> {
         for (at, (name, _)) in self.named_files.iter().enumerate() {
             if self.named_files[at + 1..].iter().any(|(other, _)| other == name) {

@@ -33,9 +33,6 @@ impl ImagesArguments {
     }
 
     /// The schedule of bodies with this text; `None` if there is no text and the bodies do not see.
-    ///
-    /// # Errors
-    /// When the text is invalid, and when bodies that see have no images or others have some.
     pub(in crate::cli) fn schedule<'a>(
         &self,
         text: Option<&str>,

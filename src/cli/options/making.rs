@@ -28,9 +28,6 @@ impl MakingArguments {
     }
 
     /// The options of compiling.
-    ///
-    /// # Errors
-    /// When the robots cannot be read.
     pub(in crate::cli) fn options(&self) -> Result<CompileOptions, Failure> {
         let robots = self.library.library.as_deref().map(robots::robots_of).transpose()?;
         let options = CompileOptions { robots, swarm: self.choice().swarm, ..self.runs.options() };

@@ -61,9 +61,6 @@ impl GoalArguments {
 
 impl CellsArguments {
     /// The cells that the user chose.
-    ///
-    /// # Errors
-    /// When a function is unknown.
     pub(in crate::cli) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
         let chosen = (!self.cells.is_empty()).then(|| nbc_session::cell_library(&self.cells));
         chosen.transpose().map_err(Failure::plain)
@@ -72,9 +69,6 @@ impl CellsArguments {
 
 impl MappingArguments {
     /// The cells that the user chose, else those of the robots.
-    ///
-    /// # Errors
-    /// When a function is unknown, or the robots cannot be read.
     pub(in crate::cli) fn library(&self) -> Result<CellLibrary, Failure> {
         if let Some(cells) = self.cells.chosen()? {
             return Ok(cells);

@@ -1,9 +1,6 @@
 //! Whole numbers as values of options.
 
 /// A whole number that is not negative.
-///
-/// # Errors
-/// The words for clap when the text is not one, or the number is too large.
 pub(in crate::cli) fn number<T: TryFrom<u64>>(text: &str) -> Result<T, String> {
     let number = text.parse::<u64>().ok().and_then(|number| T::try_from(number).ok());
     number.ok_or_else(|| format!("expected a whole number from 0 to {}", u64::MAX))

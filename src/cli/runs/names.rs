@@ -9,9 +9,6 @@ use nbc_circuit::is_same_instance;
 use nbc_session::{Checked, Choice, RunList};
 
 /// The tests and simulations of a file that have this name and are of the chosen circuit and swarm.
-///
-/// # Errors
-/// When the file has no such circuit or swarm.
 pub(in crate::cli) fn chosen_runs<'f>(
     file: &'f Checked,
     only: Option<&'f str>,

@@ -86,9 +86,6 @@ type Numbered = (usize, TestCase);
 
 impl TestArguments {
     /// Runs the tests in parallel and prints each result as soon as those before it are done.
-    ///
-    /// # Errors
-    /// When a file has errors or declares no test; then no test runs.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let device = self.device(context)?;
@@ -104,9 +101,6 @@ impl TestArguments {
     }
 
     /// The device for tests in physics.
-    ///
-    /// # Errors
-    /// When the user asked for one that cannot be used.
     pub(super) fn device(&self, context: &Context) -> Result<OpenDevice, Failure> {
         OpenDevice::open(self.device.choice(), LaneBackend::default(), context)
     }
@@ -117,17 +111,11 @@ impl TestArguments {
     }
 
     /// The paths of the files.
-    ///
-    /// # Errors
-    /// When one is not UTF-8.
     pub(super) fn paths(&self) -> Result<Vec<&str>, UsageError> {
         self.files.iter().map(|file| source_path(file)).collect()
     }
 
     /// Runs the tests of files without errors.
-    ///
-    /// # Errors
-    /// When a circuit cannot be compiled, or the output cannot be written.
     pub(super) fn test(
         &self,
         session: &Session,

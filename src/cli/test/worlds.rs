@@ -49,9 +49,6 @@ impl WorldsArguments {
     }
 
     /// Runs the cases in all worlds, and prints each result as soon as those before it are done.
-    ///
-    /// # Errors
-    /// When the output or the picture cannot be written.
     pub(super) fn test(
         &self,
         session: &Session,

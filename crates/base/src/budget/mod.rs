@@ -44,9 +44,6 @@ impl WorkBudget {
     }
 
     /// Counts what is about to be made.
-    ///
-    /// # Errors
-    /// When it is too much; then nothing is counted. When nobody waits any more.
     pub fn take(&mut self, limit: Limit, amount: u64) -> Result<(), OverBudget> {
         self.unseen = self.unseen.saturating_add(amount);
         if self.unseen > BETWEEN_LOOKS {
@@ -70,9 +67,6 @@ impl WorkBudget {
 
 impl Limit {
     /// Whether so much is permitted.
-    ///
-    /// # Errors
-    /// When it is too much.
     pub fn permit(self, amount: u64) -> Result<(), OverBudget> {
         if amount <= self.most() { Ok(()) } else { Err(OverBudget::Limit(self)) }
     }

@@ -34,9 +34,6 @@ impl Body {
     }
 
     /// A body of `height` rows of `width` codes, row by row from the top, which need not be valid.
-    ///
-    /// # Errors
-    /// [`BodyError`] names the first error.
     pub fn from_codes(width: usize, height: usize, codes: &[u8], palette: &Arc<Palette>) -> Result<Self, BodyError> {
         if width > Self::MAX_SIDE || height > Self::MAX_SIDE {
             return Err(BodyError::TooLarge { width, height, most: Self::MAX_SIDE });
@@ -61,9 +58,6 @@ impl Body {
     }
 
     /// Reads rows of codes of a palette, top row first: a digit or lower-case letter for each voxel.
-    ///
-    /// # Errors
-    /// [`BodyError`] names the first error. A body without any voxel is [`BodyError::Empty`].
     pub fn parse<S: AsRef<str>>(rows: &[S], palette: &Arc<Palette>) -> Result<Self, BodyError> {
         let materials = palette.materials().len();
         let expected = rows.first().map_or(0, |row| row.as_ref().chars().count());

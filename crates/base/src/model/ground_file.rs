@@ -27,9 +27,6 @@ struct FileObject {
 
 impl GroundProfile {
     /// The ground of a world file of Evolution Gym.
-    ///
-    /// # Errors
-    /// For a text that is not such a file, voxels that are not fixed, and too many of them.
     pub fn of_file(text: &str) -> Result<Self, GroundFileError> {
         let file: WorldFile =
             serde_json::from_str(text).map_err(|error| GroundFileError::NotWorld { reason: error.to_string() })?;

@@ -19,9 +19,6 @@ pub struct Image {
 
 impl Image {
     /// An image of that size, row by row from the top.
-    ///
-    /// # Errors
-    /// [`ImageError`] names the first error.
     pub fn new(size: ImageSize, pixels: Vec<f64>) -> Result<Self, ImageError> {
         let ImageSize { rows, columns } = size;
         if !size.is_valid() {

@@ -40,9 +40,6 @@ impl ImageFile<'_> {
     }
 
     /// All images of the file, in their order.
-    ///
-    /// # Errors
-    /// When it is not such a file, or has images of another size.
     pub fn read(&self) -> Result<Vec<LabeledImage>, ImageFileError> {
         let name = self.name.to_ascii_lowercase();
         let images = match name.rsplit(['.', '-']).next() {

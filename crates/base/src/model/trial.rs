@@ -39,9 +39,6 @@ impl Setting {
     pub const MAX_WIDTH: usize = 1_000_000;
 
     /// Checks that a body stands on the ground at its start.
-    ///
-    /// # Errors
-    /// When the ground is too wide or too narrow, or the body would start beside it.
     pub fn check(&self, body: &Body) -> Result<(), SettingError> {
         let (width, columns) = (self.world_width, body.width());
         if width > Self::MAX_WIDTH {

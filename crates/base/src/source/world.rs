@@ -18,23 +18,14 @@ pub enum EntryKind {
 /// The source of everything that the core reads: programs and robot files.
 pub trait SourceWorld {
     /// The text of the file at `path`.
-    ///
-    /// # Errors
-    /// When there is no such file, or it is not valid UTF-8.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
     /// The bytes of the file at `path`.
-    ///
-    /// # Errors
-    /// When there is no such file.
     fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
         self.read(path).map(String::into_bytes)
     }
 
     /// The modules of Verilog files, as one design.
-    ///
-    /// # Errors
-    /// When the files have faults, or this world has no reader for them.
     fn read_verilog(&self, _files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
         Err(VerilogError::NoReader)
     }
@@ -45,9 +36,6 @@ pub trait SourceWorld {
     }
 
     /// The names of the entries of a folder, in order.
-    ///
-    /// # Errors
-    /// When there is no such folder.
     fn list(&self, folder: &str) -> Result<Vec<String>, FileError>;
 
     /// What is at `path`; `None` if there is nothing that this world has.

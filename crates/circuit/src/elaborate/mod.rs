@@ -40,9 +40,6 @@ use build::Builder;
 use module::ModuleId;
 
 /// The netlist of a circuit.
-///
-/// # Errors
-/// The errors of the circuit and of those it contains: widths, bits, drivers, size.
 pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);
@@ -51,9 +48,6 @@ pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<
 
 /// The part of a circuit's netlist that drives a net: its outputs are the bits of the net declared at `net`, in every
 /// iteration of the loops around it. The rest is there too, without a listener.
-///
-/// # Errors
-/// As [`elaborate`].
 pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);
@@ -64,9 +58,6 @@ pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Resul
 }
 
 /// The netlist of a circuit whose outputs are followed by nets inside it, which are declared at these places.
-///
-/// # Errors
-/// As [`elaborate`].
 pub fn elaborate_watched(program: &Program, instance: &Instance, nets: &[Span]) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);
@@ -77,9 +68,6 @@ pub fn elaborate_watched(program: &Program, instance: &Instance, nets: &[Span]) 
 }
 
 /// The netlist of an environment, whose ports also have the accesses to its memories, and those of each memory.
-///
-/// # Errors
-/// As [`elaborate`].
 pub fn elaborate_environment(
     program: &Program,
     circuit: CircuitId,
@@ -92,9 +80,6 @@ pub fn elaborate_environment(
 }
 
 /// The netlist of a test's reference.
-///
-/// # Errors
-/// As [`elaborate`].
 pub fn elaborate_reference(program: &Program, circuit: &Circuit) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.reference(circuit);

@@ -7,9 +7,6 @@ use nbc_base::model::{OutputValue, Table, TableOutput, TablePattern, TableRow};
 use nbc_base::source::Span;
 
 /// The same table over inputs of `width` bits, with the bits of every pattern.
-///
-/// # Errors
-/// When a number has more bits.
 pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
     let mut table = table.clone();
     for row in &mut table.rows {

@@ -18,9 +18,6 @@ const EXTRA: [&str; 4] =
     ["bad-state properties", "invariant constraints", "justice properties", "fairness constraints"];
 
 /// Reads a file; `clock` names the clock of its latches.
-///
-/// # Errors
-/// The first error of the file, with its line or byte.
 pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
     AigerReader::new(bytes).read(clock)
 }

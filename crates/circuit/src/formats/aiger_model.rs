@@ -20,9 +20,6 @@ pub struct AigerModel {
 
 impl AigerModel {
     /// Reads a model.
-    ///
-    /// # Errors
-    /// The first error of the file, with its line or byte.
     pub fn read(bytes: &[u8]) -> Result<Self, Diagnostic> {
         let mut reader = AigerReader::new(bytes);
         let header = reader.header()?;

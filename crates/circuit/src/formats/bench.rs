@@ -10,9 +10,6 @@ use nbc_base::model::Function;
 use nbc_base::source::{FileId, Span};
 
 /// Reads a file; `clock` names the clock of its flip-flops.
-///
-/// # Errors
-/// The errors of the text, with their places.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     let mut draft = Draft::default();
     let mut start = 0;

@@ -15,17 +15,11 @@ use nbc_base::source::{FileId, Span};
 pub use crate::formats::blif_text::write;
 
 /// Reads the first model of a file and expands the models it instantiates.
-///
-/// # Errors
-/// The errors of the text, with their places.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     read_model(text, file, clock, None)
 }
 
 /// Reads a model by its name, or the first, and expands the models it instantiates.
-///
-/// # Errors
-/// As [`read`], and if there is no such model.
 pub fn read_model(
     text: &str,
     file: FileId,

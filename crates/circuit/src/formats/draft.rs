@@ -199,9 +199,6 @@ impl Draft {
     }
 
     /// The design, if the draft is sound.
-    ///
-    /// # Errors
-    /// Nets that are used and not defined, defined twice, or that depend on themselves.
     pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
         if Limit::FilePins.permit(self.size as u64).is_err() {
             return Err(self.errors);

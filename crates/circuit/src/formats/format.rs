@@ -59,9 +59,6 @@ pub enum CircuitFormat {
 
 impl CircuitFormat {
     /// The format for the extension of a path, in any case.
-    ///
-    /// # Errors
-    /// When no format has that extension.
     pub fn of_path(path: &str) -> Result<Self, Diagnostic> {
         let (_, ending) = path.rsplit_once('.').unwrap_or_default();
         Ok(match ending.to_ascii_lowercase().as_str() {
@@ -77,9 +74,6 @@ impl CircuitFormat {
     }
 
     /// A design in this format.
-    ///
-    /// # Errors
-    /// When the format cannot represent the design.
     pub fn encode(self, design: &Design) -> Result<Vec<u8>, Diagnostic> {
         self.check(design).map_err(Diagnostic::from)?;
         Ok(match self {

@@ -67,9 +67,6 @@ pub struct Pla {
 }
 
 /// Reads a PLA as a circuit. An output is 1 where a cube sets it to 1, and 0 elsewhere, also where it is open.
-///
-/// # Errors
-/// The errors of the text, with their places.
 pub fn read(text: &str, file: FileId) -> Result<Design, Vec<Diagnostic>> {
     let pla = parse(text, file)?;
     let mut draft = Draft::default();
@@ -102,9 +99,6 @@ pub fn opened(text: &str, file: FileId) -> Vec<Diagnostic> {
 }
 
 /// Reads a PLA as it is written.
-///
-/// # Errors
-/// The errors of the text, with their places.
 pub fn parse(text: &str, file: FileId) -> Result<Pla, Vec<Diagnostic>> {
     let mut reader = Reader::new(file);
     let mut start = 0;

@@ -6,9 +6,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, SourceFile, VerilogModule};
 
 /// Reads a translated module of Verilog files.
-///
-/// # Errors
-/// The errors of the translation, at the lines of the Verilog file.
 pub fn verilog_module(
     module: &VerilogModule,
     files: &[&SourceFile],
@@ -19,9 +16,6 @@ pub fn verilog_module(
 }
 
 /// The same with the errors at places of the translation, which is the text of `file`.
-///
-/// # Errors
-/// As [`verilog_module`].
 pub fn verilog_design(module: &VerilogModule, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     let design = blif::read_model(&module.blif, file, clock, Some(&module.name))?;
     Ok(Design { ascending: module.ascending.clone(), ..design })

@@ -25,9 +25,6 @@ impl Pass for DissolveWires {
 
 impl DissolveWires {
     /// Changes the netlist.
-    ///
-    /// # Errors
-    /// A pin without a driver, or wires that only drive each other.
     pub fn run_on(self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         check_drivers(netlist)?;
         let wires: Vec<_> = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Wire { .. })).collect();
@@ -48,9 +45,6 @@ impl DissolveWires {
 }
 
 /// Every pin that its node needs must have a driver.
-///
-/// # Errors
-/// A pin without one.
 pub fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
     for id in netlist.ids() {
         let wanted = match netlist.node(id) {

@@ -24,9 +24,6 @@ pub trait Pass: Sync {
     fn about(&self) -> &'static str;
 
     /// Changes the netlist.
-    ///
-    /// # Errors
-    /// When the netlist is not well formed.
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError>;
 
     /// The cells of a netlist that it would merge with others, and those others.
@@ -49,17 +46,11 @@ pub const ORDER: &[&dyn Pass] = &[
 ];
 
 /// Runs every pass in order.
-///
-/// # Errors
-/// When the netlist is not well formed.
 pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
     ORDER.iter().try_for_each(|pass| pass.run(netlist))
 }
 
 /// The netlist after each pass, in order.
-///
-/// # Errors
-/// When the netlist is not well formed.
 pub fn after_each(mut netlist: Netlist) -> Result<Vec<(&'static dyn Pass, Netlist)>, NetlistError> {
     let after = |pass: &&'static dyn Pass| pass.run(&mut netlist).map(|()| (*pass, netlist.clone()));
     ORDER.iter().map(after).collect()

@@ -8,9 +8,6 @@ use crate::proof::{exhaustive, sat, structural};
 const EXHAUSTIVE_INPUTS: usize = 16;
 
 /// Compares two networks of the same inputs and outputs; fails with an output and the inputs at which it differs.
-///
-/// # Errors
-/// The output and the pattern.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
     assert!(one.inputs == two.inputs && one.outputs.len() == two.outputs.len(), "networks of the same ports");
     match one.inputs <= EXHAUSTIVE_INPUTS {

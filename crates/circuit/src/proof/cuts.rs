@@ -20,9 +20,6 @@ pub(super) struct LoopCut {
 }
 
 /// The cuts of a netlist; after these passes its memory has the names that the mapping keeps.
-///
-/// # Errors
-/// When the netlist is not well formed.
 pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<LoopCut>, NetlistError> {
     if Loops::of(netlist).cores().is_empty() {
         return Ok(Vec::new());

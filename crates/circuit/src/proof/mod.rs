@@ -38,9 +38,6 @@ pub struct Proof {
 }
 
 /// Proves a mapped netlist equal to its source as it was written, before any pass.
-///
-/// # Errors
-/// The first difference that is found.
 pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
     prove_through(source, mapped, passes::ORDER)
 }
@@ -54,9 +51,6 @@ fn prove_through(source: &Netlist, mapped: &Netlist, passes: &[&dyn Pass]) -> Re
 /// Proves a design equal to the one that was read: outputs are equal in every state that belongs to one of the other's.
 /// `counterparts` says for each register that was read what it is in the other design. That need not be right: if it
 /// is not, the proof fails.
-///
-/// # Errors
-/// The first difference that is found.
 pub(crate) fn prove_design(read: &Design, made: &Design, counterparts: Vec<Counterpart>) -> Result<Proof, ProofError> {
     let ports = |design: &Design| {
         let names = |ids: &[NetId]| ids.iter().map(|&id| design.logic.net_name(id)).collect::<Vec<_>>();

@@ -85,9 +85,6 @@ type Pair = (String, Signal, Signal);
 
 impl StateRelation<'_> {
     /// Proves the outputs equal, and that the relation holds at the start and after each step.
-    ///
-    /// # Errors
-    /// The first difference that is found.
     pub fn prove(&self) -> Result<Method, ProofError> {
         self.starts()?;
         let Self { reference, result, .. } = self;

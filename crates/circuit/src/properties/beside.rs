@@ -41,9 +41,6 @@ pub(super) struct EnvironmentAnswer {
 
 impl EnvironmentStep {
     /// The step of an environment; `is_empty` says of each memory whether it begins with zeros.
-    ///
-    /// # Errors
-    /// When it is no circuit with one clock.
     pub fn new(netlist: &Netlist, memories: Vec<MemoryPorts>, is_empty: Vec<bool>) -> Result<Self, EnvironmentFault> {
         Ok(Self { step: Environment::step(netlist, &memories)?, memories, is_empty })
     }
@@ -77,9 +74,6 @@ impl EnvironmentStep {
 
     /// What a circuit and its environment answer each other before an edge. `inputs` are those of the circuit, `None`
     /// where the environment gives them, and `words` are free values for what it reads.
-    ///
-    /// # Errors
-    /// When what they answer depends on itself.
     pub(super) fn answer(
         &self,
         graph: &mut AndGraph,

@@ -56,9 +56,6 @@ impl Machine {
     /// The machine that a circuit is. Inputs are only those that make all outputs of `allowed` 1, of which each input
     /// port is an input.
     ///
-    /// # Errors
-    /// When its memory has no steps.
-    ///
     /// # Panics
     /// When the netlist is not well formed.
     pub(super) fn of(netlist: &Netlist, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {

@@ -32,9 +32,6 @@ impl Monitored {
     /// The system of a circuit and a monitor, maybe with an environment. The monitor has an output for each property,
     /// and one before it for what the property depends on, if it has a condition.
     ///
-    /// # Errors
-    /// When the circuit has no steps, a property reads their clock, or the environment has other steps.
-    ///
     /// # Panics
     /// When the monitor does not have these ports, or has other memory than registers of its clock.
     pub fn of(

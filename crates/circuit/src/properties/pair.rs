@@ -13,9 +13,6 @@ use nbc_base::source::CancelFlag;
 impl Monitored {
     /// The system of two circuits with the same ports.
     ///
-    /// # Errors
-    /// When one of them, the first or the second, has no steps, or other steps than the first.
-    ///
     /// # Panics
     /// When the circuits have different numbers of ports.
     pub fn of_two(circuits: [&Netlist; 2], cancel: &CancelFlag) -> Result<Self, (usize, NoSteps)> {

@@ -31,9 +31,6 @@ pub struct Reachable {
 /// A design with simpler logic that is equal in every reachable state, and what was assumed. Registers without a start
 /// value get the start value 0.
 ///
-/// # Errors
-/// Why the reachable states are not used.
-///
 /// # Panics
 /// When SAT does not prove the simpler logic equal, which would be a bug of the search.
 pub fn simplify(

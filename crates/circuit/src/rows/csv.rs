@@ -13,9 +13,6 @@ type Cell<'t> = (&'t str, Span);
 
 /// Reads a file. A number is decimal, or hexadecimal after `0x`, where each digit stands for four bits; a cell that is
 /// empty or `-` is any value. Text after `#` is a comment.
-///
-/// # Errors
-/// The errors of the text, with their places.
 pub(super) fn read(text: &str, file: FileId) -> Result<RowFile, Vec<Diagnostic>> {
     let mut lines = lines(text, file);
     let header = lines.next().ok_or_else(|| vec![RowFileError::Empty.at(Span::new(file, 0, 0))])?;

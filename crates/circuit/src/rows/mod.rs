@@ -36,9 +36,6 @@ impl RowFormat {
     }
 
     /// The rows of a file.
-    ///
-    /// # Errors
-    /// The errors of the text, with their places.
     pub fn read(self, source: &SourceFile) -> Result<RowFile, Vec<Diagnostic>> {
         self.parse(&source.text, source.id)
     }

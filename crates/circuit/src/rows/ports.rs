@@ -13,9 +13,6 @@ pub type RowPorts = (Vec<Column>, Vec<Column>);
 impl RowFile {
     /// The ports of the columns: the inputs, then the outputs. Columns `x[0]`, `x[1]`, … without a gap are one port.
     /// `outputs` names the outputs; by default they are those that the format says, or the last port.
-    ///
-    /// # Errors
-    /// When there is no such port, or no input is left.
     pub fn ports(&self, outputs: &[String]) -> Result<RowPorts, Diagnostic> {
         let widths = self.bus_widths();
         let (mut ports, mut seen): (Vec<(Column, Option<bool>)>, _) = (Vec::new(), BTreeSet::new());

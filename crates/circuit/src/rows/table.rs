@@ -11,9 +11,6 @@ use nbc_base::source::Span;
 
 /// The rows of a PLA. In those of type `fr` and `fdr`, a row for each line, or several if it leaves inputs open. Those
 /// of type `f` and `fd` say what the outputs are for all inputs, so there is a row for each.
-///
-/// # Errors
-/// When two columns have one name, or there would be too many rows.
 pub(super) fn rows(pla: Pla) -> Result<RowFile, Vec<Diagnostic>> {
     let start = pla.kind_span;
     let side = |ports: &[(String, Span)], is_output| {

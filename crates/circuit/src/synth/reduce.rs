@@ -44,9 +44,6 @@ const CARE_WORK: u64 = 20_000_000;
 const MOST_GATES: usize = 100_000;
 
 /// The network in cells of the library, as cheap as the effort finds it.
-///
-/// # Errors
-/// A function that the library cannot make.
 pub fn reduce(
     network: &Network,
     stages: &[u32],
@@ -127,9 +124,6 @@ pub fn cost(network: &Network, prices: &Prices) -> u32 {
 }
 
 /// Replaces each gate by the cheapest cells for its function, and shares equal cells.
-///
-/// # Errors
-/// A function that cannot be made.
 pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Network, Function> {
     let swept = network.swept();
     let mut graph = Graph::new(&Network::new(network.inputs), prices, stages, &[]);

@@ -26,9 +26,6 @@ pub struct Certificate {
 type Place = (Result<NetId, bool>, i64);
 
 /// Proves that each of a machine's threads makes the steps of its source.
-///
-/// # Errors
-/// The first thing that does not hold.
 pub fn certify(step: &ClockStep, machine: &WaveMachine) -> Result<Certificate, CertifyError> {
     let checker = Checker::new(step, machine)?;
     checker.check_starts()?;

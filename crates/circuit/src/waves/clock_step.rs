@@ -59,10 +59,6 @@ struct Register {
 
 impl ClockStep {
     /// The step of a circuit of which every register has the same clock.
-    ///
-    /// # Errors
-    /// When the circuit has other memory, other clocks, a clock that is read as data, or a register whose cells have
-    /// start values that contradict each other.
     pub fn of(source: &Netlist) -> Result<Self, WaveError> {
         const KIND: CellKind = CellKind::uniform(1, 1.0);
         let mut netlist = source.clone();

@@ -47,9 +47,6 @@ pub fn usable(library: &CellLibrary, beat: u32) -> CellLibrary {
 }
 
 /// Makes a wave machine of a clocked circuit.
-///
-/// # Errors
-/// When the circuit has other memory than registers of one clock, or the library cannot make it.
 pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -> Result<WaveMachine, WaveError> {
     let step = ClockStep::of(source)?;
     let beat = options.beat.max(1);

@@ -74,9 +74,6 @@ impl<'a> WaveCells<'a> {
 }
 
 /// The best logic that a search finds from some mapped networks on.
-///
-/// # Errors
-/// The fewest beats of a step, if all networks need more than the wanted ones.
 pub fn search(
     logic: &WaveLogic,
     starts: Vec<Network>,

@@ -26,9 +26,6 @@ pub(crate) fn port(column: &Column, place: Span, body: &mut tree::BodySyntax) ->
 
 /// The reference of a test against another circuit, with the ports of the tested one: a call of that other circuit with
 /// these values of its parameters.
-///
-/// # Errors
-/// When the ports of the two do not belong together.
 pub(crate) fn reference(
     [tested, other]: [&NameSyntax; 2],
     own: PortLists<'_>,
@@ -49,10 +46,6 @@ pub(crate) fn reference(
 }
 
 /// For each port of the other circuit, the place of its partner.
-///
-/// # Errors
-/// When there are not as many ports of the same widths; or the names that only one of the two has, if some are the same
-/// and others are not.
 fn paired(own: &[Column], theirs: &[Column]) -> Result<Vec<usize>, Option<[Vec<String>; 2]>> {
     let has = |ports: &[Column], name: &str| ports.iter().any(|port| port.name == name);
     let alone = |ports: &[Column], others: &[Column]| -> Vec<String> {

@@ -38,9 +38,6 @@ pub(crate) fn is_unknown(word: &str) -> bool {
 }
 
 /// The value of digits in a base; underscores separate. A sign is not a digit.
-///
-/// # Errors
-/// When a character is not a digit of the base, or the value needs more than 128 bits.
 pub fn value(digits: &str, radix: u32) -> Result<u128, IntErrorKind> {
     let digits: String = digits.chars().filter(|&c| c != '_').collect();
     if digits.starts_with('+') {

@@ -49,9 +49,6 @@ pub(crate) fn order(
 }
 
 /// The record named by `from`, of those in `checked`.
-///
-/// # Errors
-/// When it is unknown, or takes its own fields from the record that names it.
 pub(crate) fn base<'a, T>(
     value: &ValueSyntax,
     home: Home,

@@ -25,9 +25,6 @@ pub(crate) fn instance(
 }
 
 /// The circuit named in a text such as `adder[8]` on a command line.
-///
-/// # Errors
-/// When the text is not the name of a circuit with numbers for its parameters.
 pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Instance, Diagnostic> {
     let source = parse_instance(sources, file)?;
     let name = source.name.text.as_str();

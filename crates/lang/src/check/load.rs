@@ -51,9 +51,6 @@ pub(crate) struct Loaded {
 }
 
 /// Reads a file named on the command line into `sources`.
-///
-/// # Errors
-/// When the file cannot be read as source text.
 pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
     match world.read(path) {
         Ok(text) => Ok(sources.add(path, text)),

@@ -41,9 +41,6 @@ impl<'a> Vocabulary<'a> {
     }
 
     /// The integer that a name stands for: that of a `let`, or the value of a member. `None` if it has no such name.
-    ///
-    /// # Errors
-    /// When the value of the member is too wide for an integer.
     pub(crate) fn integer(&self, name: &str, place: Span, home: Home) -> Option<Result<i128, Diagnostic>> {
         if let Some((_, member)) = self.member(name, home) {
             self.members.refer_to(name, place, home);

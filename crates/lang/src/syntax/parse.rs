@@ -51,9 +51,6 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
 }
 
 /// Parses a text that names a circuit with its parameters, such as `adder[8]` on a command line.
-///
-/// # Errors
-/// When it is anything else.
 pub fn parse_instance(sources: &Sources, file: FileId) -> Result<InstanceSyntax, Diagnostic> {
     let text = sources.file(file).text.as_str();
     let mut converter = Converter::new(file, text, &[], 0);

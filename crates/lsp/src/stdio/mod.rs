@@ -23,9 +23,6 @@ use nbc_session::store::{DiskWorld, FolderWorld};
 use pending::Pending;
 
 /// Serves an editor on standard input and output until it ends the session or closes its connection.
-///
-/// # Errors
-/// When the client does not speak the protocol.
 pub fn serve_standard() -> Result<ServerEnd, ServerError> {
     let (connection, wire) = wire::open();
     // After an error the threads still wait for the client.
@@ -56,9 +53,6 @@ fn queued(connection: Connection) -> (Connection, Pending) {
 }
 
 /// Serves a client until it ends the session or closes its connection.
-///
-/// # Errors
-/// When it does not speak the protocol.
 pub fn serve(
     connection: Connection,
     world: impl SourceWorld + Clone + Send + Sync + 'static,

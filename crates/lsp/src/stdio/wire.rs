@@ -32,9 +32,6 @@ pub(super) fn open() -> (Connection, Wire) {
 
 impl Wire {
     /// Waits until all is written.
-    ///
-    /// # Errors
-    /// The rule of the protocol that the client broke, or the error of the output.
     pub(super) fn join(self) -> Result<(), String> {
         let read = self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()));
         // What came before a broken message is still answered.
@@ -78,9 +75,6 @@ fn refuse(answer: &Value) {
 
 /// The next message, or the answer to a text that is not one, after which the next can still be read; `None` at the end
 /// of the input.
-///
-/// # Errors
-/// When it is not known where the next text begins.
 fn read(input: &mut impl BufRead) -> Result<Option<Result<Message, Value>>, String> {
     let Some(length) = length(input)? else { return Ok(None) };
     if length > MOST {

@@ -31,9 +31,6 @@ const OPERATORS: [&str; 15] =
     ["not", "and", "or", "xor", "nand", "nor", "xnor", "if", "match", "table", "+", "-", "*", "==", CALLS];
 
 /// Reads a check. The ports that it names are added to `ports`.
-///
-/// # Errors
-/// When it is none.
 pub(super) fn check<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<LessonCheck, Mistaken> {
     let words = text.words();
     let Some((&first, rest)) = words.split_first() else {

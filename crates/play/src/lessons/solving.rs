@@ -11,9 +11,6 @@ const DEEDS: [&str; 16] = [
 ];
 
 /// Checks a line of a solution. The ports that it names are added to `ports`.
-///
-/// # Errors
-/// When it is none.
 pub(super) fn deed<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<(), Mistaken> {
     let words = text.words();
     let Some((&first, rest)) = words.split_first() else {

@@ -63,9 +63,6 @@ pub(crate) enum WantedModules<'a> {
 }
 
 /// The modules of Verilog files.
-///
-/// # Errors
-/// When the files have faults, or the reader is missing or stopped.
 pub(crate) fn read(
     files: &VerilogFiles,
     wanted: &WantedModules<'_>,

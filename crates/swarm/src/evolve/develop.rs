@@ -24,9 +24,6 @@ pub fn phenotype(genotype: &Genotype, palette: &Arc<Palette>, rules: Rules, widt
 }
 
 /// Whether a body is valid: at least three actuators, and in one piece.
-///
-/// # Errors
-/// The reason why it is invalid.
 pub fn validate(body: &Body) -> Result<(), Undeveloped> {
     let is_actuator = |code: &&u8| matches!(body.palette().kind(**code), Some(MaterialKind::Actuator(_)));
     let found = body.codes().iter().filter(is_actuator).count();
@@ -40,9 +37,6 @@ pub fn validate(body: &Body) -> Result<(), Undeveloped> {
 }
 
 /// Develops a network into a body that can be tried.
-///
-/// # Errors
-/// The reason why its body is invalid.
 pub fn develop(
     genotype: &Genotype,
     palette: &Arc<Palette>,

@@ -139,9 +139,6 @@ pub struct Arguments<'a> {
 
 impl Card {
     /// Opens a device.
-    ///
-    /// # Errors
-    /// When it has no doubles, or its driver fails.
     pub fn open(device: &OpenClDevice, group: Option<usize>) -> Result<Self, DeviceError> {
         if !device.has_doubles {
             return Err(DeviceError::NoDoubles { device: device.name.clone() });
@@ -170,9 +167,6 @@ impl Card {
     }
 
     /// A queue for a caller.
-    ///
-    /// # Errors
-    /// When the driver fails.
     pub fn queue(&self) -> Result<CardQueue<'_>, DeviceError> {
         self.check()?;
         let mut handles = self.lock();
@@ -260,9 +254,6 @@ impl Commands {
 
 impl CardQueue<'_> {
     /// Copies numbers to the device.
-    ///
-    /// # Errors
-    /// When there is no room, or the driver fails.
     pub fn upload<T: Plain>(&self, data: &[T]) -> Result<CardMemory<T>, DeviceError> {
         let mut memory = self.room(data.len().max(1))?;
         self.with(|commands| {
@@ -278,9 +269,6 @@ impl CardQueue<'_> {
     }
 
     /// Room for numbers on the device.
-    ///
-    /// # Errors
-    /// When there is none, or the driver fails.
     pub fn room<T: Plain>(&self, count: usize) -> Result<CardMemory<T>, DeviceError> {
         let bytes = CardMemory::<T>::bytes(count);
         let storage = &self.card.storage;
@@ -302,9 +290,6 @@ impl CardQueue<'_> {
 
     /// Copies numbers from the start of a memory of the device.
     ///
-    /// # Errors
-    /// When the driver fails.
-    ///
     /// # Panics
     /// When the memory is smaller.
     pub fn read<T: Plain>(&self, memory: &CardMemory<T>, count: usize) -> Result<Vec<T>, DeviceError> {
@@ -324,9 +309,6 @@ impl CardQueue<'_> {
 
     /// Simulates as many robots as groups, and returns the time in nanoseconds. The kernel is compiled if this is the
     /// first launch of its size.
-    ///
-    /// # Errors
-    /// When the kernel cannot be compiled, or the driver fails.
     pub fn launch(
         &mut self,
         capacity: Capacity,

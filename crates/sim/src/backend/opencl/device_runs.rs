@@ -83,9 +83,6 @@ impl DeviceWorld {
 
     /// Simulates each run until it is done, calling `record` with its center of mass after each of its env steps.
     /// Returns the runs that have no room in the memory of a group; nothing is done with them.
-    ///
-    /// # Errors
-    /// When the device fails. The clocks and the states of the runs may then be of different env steps.
     pub fn finish(&self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<Vec<usize>, DeviceError> {
         let mut groups: BTreeMap<Capacity, Vec<Member>> = BTreeMap::new();
         let mut too_large = Vec::new();

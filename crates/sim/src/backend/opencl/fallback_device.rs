@@ -22,9 +22,6 @@ pub struct FallbackDevice {
 
 impl FallbackDevice {
     /// Opens a device; see [`Card::open`].
-    ///
-    /// # Errors
-    /// When it cannot simulate.
     pub fn open(device: &OpenClDevice, processor: LaneBackend, group: Option<usize>) -> Result<Self, DeviceError> {
         Ok(Self { processor, card: Arc::new(Card::open(device, group)?), failure: Arc::default() })
     }

@@ -63,9 +63,6 @@ pub struct OpenClDevice {
 
 impl OpenClDevice {
     /// All devices of this machine.
-    ///
-    /// # Errors
-    /// When there is no loader or no driver.
     pub fn all() -> Result<Vec<Self>, DeviceError> {
         let platforms = get_platforms().map_err(|_| DeviceError::NoDriver)?;
         if platforms.is_empty() {

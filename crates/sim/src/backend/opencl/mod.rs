@@ -36,9 +36,6 @@ pub struct OpenClBackend {
 
 impl OpenClBackend {
     /// Opens a device and compares a few of its results with those of this processor.
-    ///
-    /// # Errors
-    /// When it cannot simulate, or its results differ.
     pub fn open(device: &OpenClDevice, processor: LaneBackend) -> Result<Self, DeviceError> {
         let backend = Self::unchecked(device, processor, None)?;
         let (_, problem) = backend.test(SelfTest::QUICK)?;
@@ -46,9 +43,6 @@ impl OpenClBackend {
     }
 
     /// Opens a device without comparing its results, with groups of that many work-items instead of the best number.
-    ///
-    /// # Errors
-    /// When it cannot simulate.
     pub fn unchecked(device: &OpenClDevice, processor: LaneBackend, group: Option<usize>) -> Result<Self, DeviceError> {
         Ok(Self { device: FallbackDevice::open(device, processor, group)? })
     }
@@ -74,9 +68,6 @@ impl OpenClBackend {
     }
 
     /// Compares the device with this processor, and says whether a result differs.
-    ///
-    /// # Errors
-    /// When the device fails.
     pub fn test(&self, test: SelfTest) -> Result<(Vec<BoxComparison>, Option<DeviceError>), DeviceError> {
         let comparisons = test.compare(self, self.processor());
         if let Some(error) = self.failure() {
