@@ -20,7 +20,6 @@ use crate::lattice::Lattice;
 use crate::meter::{Meter, Part, Stopwatch};
 use crate::state::State;
 
-/// A set of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
     /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM, that which WebAssembly was
@@ -40,7 +39,6 @@ pub struct Kernel {
 }
 
 impl Default for Kernel {
-    /// The fastest of this processor.
     fn default() -> Self {
         Self::widest(InstructionSet::best())
     }
@@ -52,7 +50,6 @@ impl InstructionSet {
         [Self::Baseline, Self::Avx2, Self::Avx512].into_iter().filter(|set| set.is_available()).collect()
     }
 
-    /// The best that this processor has.
     pub fn best() -> Self {
         Self::available().pop().expect("the baseline is always there")
     }
@@ -80,7 +77,6 @@ impl InstructionSet {
         if by_vector && self != Self::Avx512 { 4 } else { 8 }
     }
 
-    /// Its name as processors' makers write it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
@@ -91,23 +87,18 @@ impl InstructionSet {
 }
 
 impl Kernel {
-    /// The supported numbers of lanes.
     pub const WIDTHS: [usize; 3] = [1, 4, 8];
 
-    /// One simulation at a time.
     pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
 
     /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions, or when so many lanes
     /// are several vectors, which are no faster together than one after the other.
-    ///
-    /// # Panics
-    /// When there is no kernel of so many lanes.
+    /// Panics when there is no kernel of so many lanes.
     pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
         assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
         (set.is_available() && lanes <= set.most_lanes()).then_some(Self { set, lanes })
     }
 
-    /// The kernel with most lanes.
     fn widest(set: InstructionSet) -> Self {
         Self { set, lanes: set.most_lanes() }
     }
@@ -131,12 +122,10 @@ impl Kernel {
         if alike { same } else { different }
     }
 
-    /// The number of robots that it simulates at a time.
     pub fn lanes(self) -> usize {
         self.lanes
     }
 
-    /// The instruction set that its code uses.
     pub fn set(self) -> InstructionSet {
         self.set
     }
@@ -165,18 +154,13 @@ impl Kernel {
     }
 }
 
-/// The parameters of a batch besides its robots.
 #[derive(Clone, Copy)]
 pub(crate) struct Ground<'a> {
-    /// The numbers of the physics.
     pub constants: &'a Constants,
-    /// What the robots stand on.
     pub floor: &'a Floor,
-    /// Measures the time of each part, if requested.
     pub meter: Option<&'a Arc<Meter>>,
 }
 
-/// A batch of numbers `R` with the env step compiled for them.
 fn layout<R: Real, K: Stiffness<R>>(
     robots: &[(&Lattice, &State)],
     ground: Ground<'_>,
@@ -189,7 +173,6 @@ fn layout<R: Real, K: Stiffness<R>>(
     Box::new(Stepped { batch, step })
 }
 
-/// Vectors of x86-64's instruction sets.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::arch::x86_64::*;
@@ -203,12 +186,10 @@ mod x86 {
     use crate::lattice::Lattice;
     use crate::state::State;
 
-    /// Eight lanes of AVX-512.
     #[derive(Clone, Copy, Debug)]
     #[repr(transparent)]
     pub struct Avx512(__m512d);
 
-    /// Four lanes of AVX2.
     #[derive(Clone, Copy, Debug)]
     #[repr(transparent)]
     pub struct Avx2(__m256d);
@@ -250,7 +231,6 @@ mod x86 {
         Self(unsafe { _mm256_sub_pd(a.0, b.0) }),
         Self(unsafe { _mm256_mul_pd(a.0, b.0) })
     );
-    /// One lane of a vector, accessed in place.
     macro_rules! lane_access {
         () => {
             #[inline(always)]

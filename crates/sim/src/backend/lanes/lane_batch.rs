@@ -8,12 +8,9 @@ use crate::backend::lanes::stiffness::Stiffness;
 use crate::meter::Part;
 use crate::state::State;
 
-/// A batch that can be stepped.
 pub trait LaneBatch: Debug + Send {
-    /// Simulates one env step with the targets as they are.
     fn env_step(&mut self);
 
-    /// Sets the target widths of a lane's materials; see [`Batch::set_targets`].
     fn set_targets(&mut self, lane: usize, targets: &[f64]);
 
     /// The center of mass of a lane's robot, in voxels.
@@ -25,28 +22,22 @@ pub trait LaneBatch: Debug + Send {
     /// Saves all states, in case the next env step has to be undone.
     fn save(&mut self);
 
-    /// Reads a lane's points.
     fn unload(&self, lane: usize, state: &mut State);
 
     /// Reads a lane's points as they were at the last [`LaneBatch::save`].
     fn unload_saved(&self, lane: usize, state: &mut State);
 
-    /// Puts a lane's robot into another state.
     fn load(&mut self, lane: usize, state: &State);
 
     /// Ignores the time since the last call, if time is measured.
     fn resume(&mut self);
 
-    /// Adds the time since the last call, if time is measured.
     fn lap(&mut self, part: Part);
 }
 
-/// A batch with the step of its kernel.
 #[derive(Debug)]
 pub struct Stepped<R: Real, K: Stiffness<R>> {
-    /// The robots in lanes.
     pub batch: Batch<R, K>,
-    /// One env step, compiled for the numbers of the batch.
     pub step: fn(&mut Batch<R, K>),
 }
 

@@ -16,22 +16,16 @@ pub trait Real:
     + std::fmt::Debug
     + 'static
 {
-    /// The number of simulations.
     const LANES: usize;
 
-    /// The result of a comparison: yes or no in each lane.
     type Mask: Mask;
 
-    /// The same value in every lane.
     fn splat(value: f64) -> Self;
 
-    /// The value in one lane.
     fn lane(&self, lane: usize) -> f64;
 
-    /// Changes the value in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
 
-    /// The absolute value.
     fn abs(self) -> Self;
 
     /// `self` if it is greater, else `other` (also for not-a-number).
@@ -40,13 +34,10 @@ pub trait Real:
     /// `self` if it is less, else `other` (also for not-a-number).
     fn min(self, other: Self) -> Self;
 
-    /// Whether `self < other`.
     fn below(self, other: Self) -> Self::Mask;
 
-    /// Whether `self <= other`.
     fn at_most(self, other: Self) -> Self::Mask;
 
-    /// `yes` in lanes where the mask is set, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
     /// 1/sqrt(x) for positive x of single precision's range, root and quotient rounded to single precision.
@@ -60,7 +51,6 @@ pub trait Real:
         seed + (seed * error) * (Self::splat(0.5) + Self::splat(0.375) * error)
     }
 
-    /// 1/sqrt(x): the seed and the step.
     #[inline(always)]
     fn recip_sqrt(self) -> Self {
         self.recip_sqrt_from(self.recip_sqrt_seed())
@@ -119,21 +109,16 @@ macro_rules! operators {
 
 pub(super) use operators;
 
-/// Yes or no in each lane.
 pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Lane i as bit i.
     fn bits(self) -> u32;
 
-    /// The mask whose lane i is bit i.
     fn from_bits(bits: u32) -> Self;
 
-    /// Either.
     fn or(self, other: Self) -> Self;
 
-    /// Both.
     fn and(self, other: Self) -> Self;
 
-    /// Whether the mask is set in any lane.
     #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0

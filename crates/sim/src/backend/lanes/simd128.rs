@@ -8,10 +8,8 @@ use std::array::from_fn;
 
 use crate::backend::lanes::real::{Mask, Real, operators};
 
-/// Four lanes.
 pub type Four = Pairs<2>;
 
-/// `N` vectors of two numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<const N: usize>([v128; N]);
 

@@ -4,18 +4,15 @@ use std::array::from_fn;
 
 use crate::backend::lanes::real::{Mask, Real, operators};
 
-/// Four lanes.
 pub type Four = Lanes<4>;
 /// Eight lanes, where they are worth it.
 #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 pub type Eight = Lanes<8>;
 
-/// An array of `N` numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub struct Lanes<const N: usize>([f64; N]);
 
-/// Yes or no for each of `N` lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneMask<const N: usize>([bool; N]);
 
