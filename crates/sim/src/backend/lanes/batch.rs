@@ -16,7 +16,7 @@ use crate::backend::lanes::springs::{Driven, Frame, Springs, TileKey};
 use crate::backend::lanes::stiffness::Stiffness;
 use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, LatticePoint, Voxel};
-use crate::meter::{Part, Stopwatch};
+use crate::meter::{Meter, Stopwatch};
 use crate::state::State;
 use crate::terrain::Terrain;
 
@@ -62,6 +62,8 @@ pub struct SurfaceVoxel {
 /// Robots in lanes, one robot each.
 #[derive(Debug)]
 pub struct Batch<R: Real, K: Stiffness<R>> {
+    /// One env step, compiled for these numbers.
+    pub step: fn(&mut Self),
     pub constants: Constants,
     pub floor: Floor,
     pub stopwatch: Option<Stopwatch>,
@@ -77,6 +79,14 @@ pub struct Batch<R: Real, K: Stiffness<R>> {
     /// Lanes that went unstable, as bits.
     pub unstable: u32,
     pub touching: Touching,
+}
+
+/// The parameters of a batch besides its robots.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    pub constants: &'a Constants,
+    pub floor: &'a Floor,
+    pub meter: Option<&'a Arc<Meter>>,
 }
 
 #[derive(Clone, Debug)]
@@ -116,8 +126,9 @@ fn key(point: LatticePoint) -> Key {
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Lays out robots, one a lane, over the union of their boxes.
-    /// Panics when there are more robots than lanes, or none.
-    pub fn new(robots: &[(&Lattice, &State)], floor: &Floor, constants: &Constants) -> Self {
+    pub fn new(robots: &[(&Lattice, &State)], ground: Ground<'_>, step: fn(&mut Self)) -> Self {
+        let Ground { constants, floor, meter } = ground;
+        let stopwatch = meter.map(Stopwatch::new);
         assert!((1..=R::LANES).contains(&robots.len()), "a batch has a robot for each lane at most");
         let (bodies, states): (Vec<&Lattice>, Vec<&State>) = robots.iter().copied().unzip();
         let places: BTreeSet<Key> = bodies.iter().flat_map(|body| body.points().iter().map(|&p| key(p))).collect();
@@ -142,9 +153,10 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let fixed = fixed(&bodies, &occupants);
         let countable = occupants.iter().map(|occupant| occupant.countable.clone()).collect();
         Self {
+            step,
             constants: *constants,
             floor: floor.clone(),
-            stopwatch: None,
+            stopwatch,
             masses,
             loads,
             rows: rows(&places, &springs.frames[..springs.frame_stiffness.len()]),
@@ -158,28 +170,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    #[inline(always)]
-    pub fn lap(&mut self, part: Part) {
-        if let Some(stopwatch) = &mut self.stopwatch {
-            stopwatch.lap(part, self.occupants.len());
-        }
-    }
-
-    /// The center of mass of a lane's robot, in voxels: the plain mean over its points in order of creation.
-    pub fn center(&self, lane: usize) -> [f64; 2] {
-        let masses = &self.occupants[lane].masses;
-        let mean = |axis: usize| {
-            let sum: f64 = masses.iter().map(|&mass| self.masses.now[mass].at[axis].lane(lane)).sum();
-            sum / masses.len() as f64 / self.constants.cell
-        };
-        [mean(0), mean(1)]
-    }
-
-    pub fn load(&mut self, lane: usize, state: &State) {
-        self.masses.load(lane, &self.occupants[lane].masses, state);
-        self.unstable &= !(1 << lane);
-    }
-
     /// Puts the masses that never move back to where they were at the start of the substep.
     #[inline(always)]
     pub fn hold_fixed(&mut self) {
@@ -190,11 +180,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
                 mass.velocity[axis] = R::select(lanes, R::splat(0.0), mass.velocity[axis]);
             }
         }
-    }
-
-    /// Sets the targets of a lane's channels: fractions of the rest width or height (docs/physics.md 4).
-    pub fn set_targets(&mut self, lane: usize, targets: &[f64]) {
-        self.springs.set_targets(lane, &self.occupants[lane].driven, targets, &self.constants);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Runs in the lanes of one batch. The batch is kept between calls, because laying it out costs as much as some env
 //! steps.
 
-use crate::backend::lanes::kernel::Ground;
+use crate::backend::lanes::batch::Ground;
 use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::world::World;
 use crate::backend::run::Run;

@@ -5,19 +5,16 @@
 //! inside [`Kernel::batch`], after checking that the processor has the instructions.
 #![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
 
-use std::sync::Arc;
-
-use crate::backend::lanes::batch::{Batch, Floor};
-use crate::backend::lanes::lane_batch::{LaneBatch, Stepped};
+use crate::backend::lanes::batch::{Batch, Ground};
+use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::real::Real;
 use crate::backend::lanes::step::env_step;
 use crate::backend::lanes::stiffness::{Common, Own, Stiffness};
 #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 use crate::backend::lanes::vector::Eight;
 use crate::backend::lanes::vector::Four;
-use crate::constants::Constants;
 use crate::lattice::Lattice;
-use crate::meter::{Meter, Part, Stopwatch};
+use crate::meter::Part;
 use crate::state::State;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -154,33 +151,24 @@ impl Kernel {
     }
 }
 
-#[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
-    pub constants: &'a Constants,
-    pub floor: &'a Floor,
-    pub meter: Option<&'a Arc<Meter>>,
-}
-
 fn layout<R: Real, K: Stiffness<R>>(
     robots: &[(&Lattice, &State)],
     ground: Ground<'_>,
     step: fn(&mut Batch<R, K>),
 ) -> Box<dyn LaneBatch> {
-    let stopwatch = ground.meter.map(Stopwatch::new);
-    let mut batch = Batch::<R, K>::new(robots, ground.floor, ground.constants);
-    batch.stopwatch = stopwatch;
+    let mut batch = Batch::<R, K>::new(robots, ground, step);
     batch.lap(Part::Bookkeeping);
-    Box::new(Stepped { batch, step })
+    Box::new(batch)
 }
 
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::arch::x86_64::*;
 
-    use super::{Ground, layout};
-    use crate::backend::lanes::batch::Batch;
+    use super::layout;
+    use crate::backend::lanes::batch::{Batch, Ground};
     use crate::backend::lanes::lane_batch::LaneBatch;
-    use crate::backend::lanes::real::{Mask, Real, operators};
+    use crate::backend::lanes::real::{Mask, Real, inlined, operators};
     use crate::backend::lanes::step::env_step;
     use crate::backend::lanes::stiffness::Stiffness;
     use crate::lattice::Lattice;
@@ -250,24 +238,11 @@ mod x86 {
     }
 
     impl Mask for u8 {
-        #[inline(always)]
-        fn bits(self) -> u32 {
-            u32::from(self)
-        }
-
-        #[inline(always)]
-        fn from_bits(bits: u32) -> Self {
-            bits as u8
-        }
-
-        #[inline(always)]
-        fn or(self, other: Self) -> Self {
-            self | other
-        }
-
-        #[inline(always)]
-        fn and(self, other: Self) -> Self {
-            self & other
+        inlined! {
+            fn bits(self) -> u32 { u32::from(self) }
+            fn from_bits(bits: u32) -> Self { bits as u8 }
+            fn or(self, other: Self) -> Self { self | other }
+            fn and(self, other: Self) -> Self { self & other }
         }
     }
 
@@ -278,39 +253,16 @@ mod x86 {
 
         lane_access!();
 
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(unsafe { _mm512_set1_pd(value) })
-        }
-
-        #[inline(always)]
-        fn abs(self) -> Self {
-            Self(unsafe { _mm512_abs_pd(self.0) })
-        }
-
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(unsafe { _mm512_max_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm512_min_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn below(self, other: Self) -> u8 {
-            unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) }
-        }
-
-        #[inline(always)]
-        fn at_most(self, other: Self) -> u8 {
-            unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) }
-        }
-
-        #[inline(always)]
-        fn select(mask: u8, yes: Self, no: Self) -> Self {
-            Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+        inlined! {
+            fn splat(value: f64) -> Self { Self(unsafe { _mm512_set1_pd(value) }) }
+            fn abs(self) -> Self { Self(unsafe { _mm512_abs_pd(self.0) }) }
+            fn max(self, other: Self) -> Self { Self(unsafe { _mm512_max_pd(self.0, other.0) }) }
+            fn min(self, other: Self) -> Self { Self(unsafe { _mm512_min_pd(self.0, other.0) }) }
+            fn below(self, other: Self) -> u8 { unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) } }
+            fn at_most(self, other: Self) -> u8 { unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) } }
+            fn select(mask: u8, yes: Self, no: Self) -> Self {
+                Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+            }
         }
 
         #[inline(always)]
@@ -352,39 +304,20 @@ mod x86 {
 
         lane_access!();
 
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(unsafe { _mm256_set1_pd(value) })
-        }
-
-        #[inline(always)]
-        fn abs(self) -> Self {
-            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
-        }
-
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(unsafe { _mm256_max_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm256_min_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn below(self, other: Self) -> Avx2Mask {
-            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn at_most(self, other: Self) -> Avx2Mask {
-            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
-            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+        inlined! {
+            fn splat(value: f64) -> Self { Self(unsafe { _mm256_set1_pd(value) }) }
+            fn abs(self) -> Self { Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) }) }
+            fn max(self, other: Self) -> Self { Self(unsafe { _mm256_max_pd(self.0, other.0) }) }
+            fn min(self, other: Self) -> Self { Self(unsafe { _mm256_min_pd(self.0, other.0) }) }
+            fn below(self, other: Self) -> Avx2Mask {
+                Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+            }
+            fn at_most(self, other: Self) -> Avx2Mask {
+                Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0) })
+            }
+            fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
+                Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+            }
         }
 
         #[inline(always)]

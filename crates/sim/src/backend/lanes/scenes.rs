@@ -1,8 +1,8 @@
 //! Scenes that are advanced env step by env step, with targets from outside. They keep their lanes.
 
-use crate::backend::lanes::batch::Floor;
+use crate::backend::lanes::batch::{Floor, Ground};
 use crate::backend::lanes::grouping::{LaneGrouping, LaneRequest};
-use crate::backend::lanes::kernel::{Ground, Kernel};
+use crate::backend::lanes::kernel::Kernel;
 use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::threads;
 use crate::constants::Constants;

@@ -8,6 +8,7 @@
 use std::ops::Range;
 
 use crate::backend::lanes::batch::{Batch, Row};
+use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::backend::lanes::real::{Mask, Real};
 use crate::backend::lanes::springs::{DIAGONAL, Frame, MAIN};

@@ -5,11 +5,8 @@ use crate::backend::lanes::real::{Mask, Real};
 /// A spring's stiffness in every lane, in kilograms per substep squared; zero in lanes without the spring.
 pub trait Stiffness<R: Real>: Copy + Send + Sync + std::fmt::Debug + 'static {
     fn none() -> Self;
-
     fn value(&self) -> R;
-
     fn set_lane(&mut self, lane: usize, stiffness: f64);
-
     /// Clears a mask in lanes without the spring.
     fn mask(&self, mask: R::Mask) -> R::Mask;
 }
