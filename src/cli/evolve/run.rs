@@ -71,7 +71,7 @@ impl<'a> RunFolder<'a> {
                 let until = ResumedUntil {
                     folder: folder.display().to_string(),
                     done: checkpoint.state.generation,
-                    before: checkpoint.declared.generations(),
+                    before: checkpoint.declared.generations,
                     now: evolution.generations,
                 };
                 context::log(&until.text());

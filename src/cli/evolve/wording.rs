@@ -104,7 +104,7 @@ impl QuickRun<'_> {
 pub(in crate::cli) struct ResumedUntil {
     pub(in crate::cli) folder: String,
     pub(in crate::cli) done: u32,
-    pub(in crate::cli) before: Option<u32>,
+    pub(in crate::cli) before: u32,
     pub(in crate::cli) now: u32,
 }
 
@@ -112,13 +112,14 @@ impl ResumedUntil {
     /// A line on what is different; empty if nothing is.
     pub(in crate::cli) fn text(&self) -> String {
         let Self { folder, done, before, now } = self;
-        let before = before.filter(|before| before != now).map(|before| format!(", which was to have {before},"));
         let made = counted(*done as usize, "generation");
-        match before {
-            _ if done > now => format!("`{folder}` has {made} already, more than the {now} that are asked for\n"),
-            None => String::new(),
-            Some(before) => format!("`{folder}`{before} continues after {made} until it has {now}\n"),
+        if done > now {
+            return format!("`{folder}` has {made} already, more than the {now} that are asked for\n");
         }
+        if before == now {
+            return String::new();
+        }
+        format!("`{folder}`, which was to have {before}, continues after {made} until it has {now}\n")
     }
 }
 
@@ -130,9 +131,9 @@ mod tests {
     fn a_resumed_run_says_what_is_replaced() {
         let text = |done, before, now| ResumedUntil { folder: "out/a/seed-1".to_owned(), done, before, now }.text();
         let longer = "`out/a/seed-1`, which was to have 10, continues after 10 generations until it has 50\n";
-        assert_eq!(text(10, Some(10), 50), longer);
+        assert_eq!(text(10, 10, 50), longer);
         let fewer = "`out/a/seed-1` has 10 generations already, more than the 5 that are asked for\n";
-        assert_eq!(text(10, Some(10), 5), fewer);
-        assert_eq!((text(4, Some(10), 10), text(4, None, 10)), (String::new(), String::new()));
+        assert_eq!(text(10, 10, 5), fewer);
+        assert_eq!(text(4, 10, 10), "");
     }
 }
