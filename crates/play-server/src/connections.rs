@@ -18,7 +18,7 @@ pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 /// The time between two attempts while the system gives no more connections.
 const BREATH: Duration = Duration::from_millis(50);
 
-/// Accepts connections and answers their requests. Those without one are closed after some time.
+/// Connections without a request are closed after some time.
 pub(super) async fn serve(listener: TcpListener, router: Router, patience: Duration) -> Infallible {
     let mut open: VecDeque<AbortHandle> = VecDeque::new();
     loop {

@@ -14,11 +14,10 @@ use crate::socket::{WAITING, pump};
 use nbc_play::Line;
 
 /// Messages that may wait in the form in which the server takes them, which is much larger than their texts, and
-/// answers that may.
+/// answers that may wait.
 const READ: usize = 2;
 const ANSWERS: usize = 16;
 
-/// Serves one page until it is gone.
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (requests, waiting): (_, Receiver<Utf8Bytes>) = bounded(WAITING);
     let (post, outgoing, _) = post();

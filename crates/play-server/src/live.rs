@@ -11,7 +11,6 @@ use crate::served::Served;
 use crate::socket::{WAITING, pump};
 use nbc_play::Visit;
 
-/// Serves one page until it is gone.
 pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (requests, waiting) = bounded(WAITING);
     let (line, outgoing, woken) = post();

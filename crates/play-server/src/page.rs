@@ -12,23 +12,19 @@ use axum::response::{IntoResponse, Response};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-/// The cache header of files that never change.
 const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
 
-/// The texts of the page.
 pub(super) struct Page {
     own: Parts,
     teacher: Parts,
 }
 
-/// A document, its script and its style.
 struct Parts {
     html: Part,
     script: Part,
     style: Part,
 }
 
-/// A text of the page, also compressed.
 struct Part {
     /// The last part of its address.
     name: String,
@@ -38,7 +34,6 @@ struct Part {
 }
 
 impl Default for Page {
-    /// The one in the program.
     fn default() -> Self {
         let own = Parts::new(
             ("app", include_str!("../page/index.html")),
@@ -55,7 +50,6 @@ impl Default for Page {
 }
 
 impl Page {
-    /// The page in a folder, or else the one in the program.
     pub(super) fn of(folder: Option<&Path>) -> io::Result<Self> {
         let Some(folder) = folder else { return Ok(Self::default()) };
         let read = |name: &str| fs::read_to_string(folder.join(name));
@@ -64,29 +58,25 @@ impl Page {
         Ok(Self { own, teacher: Parts::new(teacher, read("class.js")?.into(), read("class.css")?.into()) })
     }
 
-    /// The document, which a browser asks for each time.
     pub(super) fn document(&self, request: &HeaderMap) -> Response {
         self.own.html.answer(request)
     }
 
-    /// A script or a style by its name.
     pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
         self.own.part(name, request)
     }
 
-    /// The document of the teacher's page.
     pub(super) fn teacher(&self, request: &HeaderMap) -> Response {
         self.teacher.html.answer(request)
     }
 
-    /// A script or a style of the teacher's page by its name.
     pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<Response> {
         self.teacher.part(name, request)
     }
 }
 
 impl Parts {
-    /// The parts whose document names `STEM.js` and `STEM.css`.
+    /// The document names `STEM.js` and `STEM.css`.
     fn new((stem, html): (&str, &str), script: Cow<'static, str>, style: Cow<'static, str>) -> Self {
         let script = Part::new(hashed(stem, "js", &script), "text/javascript; charset=utf-8", script);
         let style = Part::new(hashed(stem, "css", &style), "text/css; charset=utf-8", style);
@@ -124,7 +114,6 @@ impl Part {
     }
 }
 
-/// A name with a hash of the text.
 fn hashed(stem: &str, ending: &str, text: &str) -> String {
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);

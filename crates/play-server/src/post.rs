@@ -13,7 +13,6 @@ use nbc_play::Line;
 const ROOM: usize = 256;
 const MOST_BYTES: usize = 4 << 20;
 
-/// The end that takes messages.
 pub(super) struct Post {
     texts: mpsc::Sender<Utf8Bytes>,
     load: Arc<Load>,
@@ -21,7 +20,6 @@ pub(super) struct Post {
     wake: Sender<()>,
 }
 
-/// The end from which a socket reads messages.
 pub(super) struct Outgoing {
     texts: mpsc::Receiver<Utf8Bytes>,
     load: Arc<Load>,
@@ -47,7 +45,6 @@ struct Load {
 }
 
 impl Load {
-    /// Adds a text as soon as there is room.
     fn add(&self, size: usize) {
         let bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
         let is_full = |bytes: &mut Option<usize>| bytes.is_some_and(|bytes| bytes > 0 && bytes + size > MOST_BYTES);

@@ -19,14 +19,13 @@ const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; i
                       blob:; connect-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; \
                       frame-ancestors 'none'";
 
-/// The page that is sent while too many pages are open. It reloads itself, because a page that was just closed may
-/// still be counted.
+/// Sent while too many pages are open. It reloads itself, because a page that was just closed may still be counted.
 const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
                     <meta http-equiv=\"refresh\" content=\"5\">\n<title>nbc is full</title>\n\
                     <h1>This server has no room for another page</h1>\n\
                     <p>Close a page of it that nobody uses. This one tries again every five seconds.</p>\n";
 
-/// The routes. Every address begins with the token.
+/// Every address begins with the token.
 pub(super) fn router(served: Arc<Served>) -> Router {
     Router::new()
         .route("/{token}/", get(document))
@@ -91,7 +90,6 @@ async fn language_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUp
     accept(served, upgrade, language::serve)
 }
 
-/// Opens a web socket, unless there are too many.
 fn accept<F: Future<Output = ()> + Send + 'static>(
     served: Arc<Served>,
     upgrade: WebSocketUpgrade,

@@ -9,7 +9,6 @@ use serde::Serialize;
 use crate::served::Served;
 use nbc_play::{Class, course};
 
-/// Answers a request to the address of the teacher's page.
 pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> Response {
     if request.method() != Method::GET {
         return StatusCode::METHOD_NOT_ALLOWED.into_response();
