@@ -20,21 +20,17 @@ const PATIENCE: Duration = Duration::from_secs(30);
 const RATE: f64 = 200.0;
 const BURST: f64 = 2000.0;
 
-/// Messages of a page that may wait for the one before.
 pub(super) const WAITING: usize = 64;
 /// The bytes of messages that may wait for one page, and for all together. One message of a page may always wait.
 const MOST_BYTES: usize = 4 << 20;
 const MOST_IN_ALL: usize = 32 << 20;
-/// The time between two checks for room.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// The messages of a page that wait to be handled. While there are too many, the socket is not read, so further
 /// messages stay on the page's computer.
 struct Backlog<'a> {
-    /// The oldest first.
     sizes: VecDeque<usize>,
     bytes: usize,
-    /// The bytes of all pages.
     all: &'a AtomicUsize,
 }
 
@@ -49,7 +45,6 @@ impl<'a> Backlog<'a> {
         self.all.fetch_add(size, Ordering::Relaxed);
     }
 
-    /// Removes the oldest messages, so that this many are left.
     fn settle(&mut self, waiting: usize) {
         while self.sizes.len() > waiting
             && let Some(size) = self.sizes.pop_front()
@@ -131,7 +126,6 @@ impl Allowance {
         Self { left: BURST, at: now }
     }
 
-    /// Takes one message, if there is one left.
     fn take(&mut self, now: Instant) -> bool {
         let earned = now.saturating_duration_since(self.at).as_secs_f64() * RATE;
         self.left = (self.left + earned).min(BURST) - 1.0;
