@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::robots::robot_paths;
-use crate::cli::wording::UsageError;
+use crate::cli::robots::{read_source, robot_paths};
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use nbc_base::budget::Limit;
-use nbc_base::diag::{Diagnostic, counted};
+use nbc_base::diag::counted;
 use nbc_base::source::Sources;
 use nbc_session::report::Schema;
-use nbc_session::store::{self, DiskWorld};
+use nbc_session::store;
 
 /// Convert robot files to the newest format
 #[derive(Args)]
@@ -23,7 +22,6 @@ pub struct RewriteArguments {
     paths: Vec<PathBuf>,
 }
 
-/// The result for a file.
 #[derive(Serialize)]
 struct Rewritten {
     path: String,
@@ -37,7 +35,7 @@ impl RewriteArguments {
         for path in &self.paths {
             let found = robot_paths(path)?;
             if found.is_empty() {
-                return Err(UsageError::NoRobots { path: path.display().to_string() }.into());
+                return Err(wording::no_robots(path).into());
             }
             for path in found {
                 let (old, new) = texts(&path)?;
@@ -65,13 +63,11 @@ impl RewriteArguments {
 
 /// The text of a robot file, and its text in the newest format.
 fn texts(path: &Path) -> Result<(String, String), Failure> {
-    let name = path.display().to_string();
-    let old = store::read_text(path, Limit::RobotBytes.most())
-        .map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &name, &error)))?;
     let mut sources = Sources::default();
-    let id = sources.add(&name, old.as_str());
-    match store::read_robot(sources.file(id)) {
-        Ok(robot) => Ok((old, store::print_robot(&robot))),
+    let id = read_source(path, &mut sources)?;
+    let file = sources.file(id);
+    match store::read_robot(file) {
+        Ok(robot) => Ok((file.text.clone(), store::print_robot(&robot))),
         Err(fault) => Err(Failure::input(vec![fault], sources)),
     }
 }
