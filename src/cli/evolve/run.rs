@@ -68,7 +68,7 @@ impl<'a> RunFolder<'a> {
             Some(checkpoint) => {
                 let (done, before) = (checkpoint.state.generation, checkpoint.declared.generations);
                 context::log(&wording::resumed_until(&folder, done, before, evolution.generations));
-                EvolutionRun::resume(checkpoint, &path.display().to_string(), evolution, seed).map_err(Failure::plain)?
+                EvolutionRun::resume(checkpoint, &path.display().to_string(), evolution, seed)?
             }
         };
         let opened = Self {
