@@ -51,14 +51,12 @@ pub fn cells(library: &Library) -> CellLibrary {
     Function::all().chain(wide).filter_map(|function| Some((function, kind(library, function)?))).collect()
 }
 
-/// A robot as a cell of some function.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fit<'a> {
     pub robot: &'a Robot,
     pub uses: Vec<StimulusUse>,
 }
 
-/// What a stimulus of a robot is in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StimulusUse {
     /// A pin of the cell; absent if the cell does not have that pin.

@@ -22,14 +22,11 @@ pub struct LiveSwarm {
     sensing: Sensing,
     /// Env steps of a cycle at whose end something is read, in order.
     stops: BTreeSet<u32>,
-    /// Env steps from frame to frame of the recording.
     stride: u32,
     trace: SwarmTrace,
-    /// Cycles that were simulated and are no longer in the trace.
     forgotten: usize,
 }
 
-/// A swarm at the end of a cycle, with its trace and recording.
 #[derive(Clone, Debug)]
 pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,
@@ -38,7 +35,6 @@ pub struct SwarmSnapshot {
     forgotten: usize,
 }
 
-/// A cycle of a swarm before its robots have moved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BegunCycle {
     inputs: Vec<bool>,
@@ -124,7 +120,6 @@ impl LiveSwarm {
     }
 
     /// Ends a begun cycle with the states of all robots, part by part in order, as [`LiveSwarm::step`] would.
-    /// Panics when robots or stops are missing.
     pub fn end(&mut self, begun: BegunCycle, parts: &[PartStates]) -> Result<&CycleTrace, RobotFault> {
         let robots: usize = parts.iter().map(|part| part[0].len()).sum();
         assert_eq!(robots, self.flock.len(), "a state for each robot");
@@ -164,7 +159,6 @@ impl LiveSwarm {
     }
 
     /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
-    /// Panics when the snapshot is of another number of robots.
     pub fn restore(&mut self, snapshot: &SwarmSnapshot) {
         assert_eq!(snapshot.robots.len(), self.flock.len(), "a snapshot is of the same swarm");
         for (i, robot) in snapshot.robots.iter().enumerate() {
@@ -176,7 +170,6 @@ impl LiveSwarm {
     }
 
     /// The swarm as plain data, from which it goes on with the same bits.
-    /// Panics when a part of its trace was forgotten.
     pub fn keep(&self) -> KeptSwarm {
         assert_eq!(self.forgotten, 0, "the outputs of all cycles are kept");
         let needed = self.window * SwarmTrace::SAMPLES_PER_CYCLE + 1;

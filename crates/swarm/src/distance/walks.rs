@@ -16,7 +16,6 @@ const HALF: usize = 50_000;
 pub(crate) struct Walks {
     /// The displacement under each constant pattern that was simulated, in voxels, or the fault.
     pub fixed: BTreeMap<Pattern, Result<f64, Fault>>,
-    /// The long simulation, if it was simulated.
     pub long: Option<LongWalk>,
 }
 
