@@ -122,8 +122,8 @@ impl Lattice {
         part_at(&self.parts, row)
     }
 
-    /// The start position of point `point`, in meters, for a body whose left side is `start` voxels from the start of
-    /// the ground, rounded as in docs/physics.md 2.
+    /// The start of a point in meters, for a body whose lower left corner is at `origin`, in voxels, rounded as in
+    /// docs/physics.md 2.
     pub fn start(&self, point: usize, origin: [f64; 2], constants: &Constants) -> [f64; 2] {
         let LatticePoint { column, row, .. } = self.points[point];
         corner(origin, self.height, column, row, constants)
@@ -134,8 +134,8 @@ fn part_at(parts: &[LatticePart], row: usize) -> usize {
     parts.partition_point(|part| part.top <= row) - 1
 }
 
-/// The start of a lattice point of an object, in meters: of its column and row in the object, whose lower left corner
-/// is `origin` voxels from that of the world (docs/physics.md 2).
+/// The start of a lattice point in meters, from its column and row in an object whose lower left corner is at `origin`,
+/// in voxels of the world (docs/physics.md 2).
 pub fn corner([left, bottom]: [f64; 2], height: usize, column: usize, row: usize, constants: &Constants) -> [f64; 2] {
     let cell = constants.cell;
     [left * cell + column as f64 * cell, (bottom * cell + height as f64 * cell) - row as f64 * cell]
@@ -196,9 +196,8 @@ impl Builder<'_> {
         self.grid.cell(voxel.row as isize, voxel.column as isize).expect("a voxel is not empty")
     }
 
-    /// Voxels share the points that Evolution Gym's do: a corner is that of the voxel across a side, if they are joined
-    /// and that has been visited, or that of the diagonal voxel which one of them is joined to. Of several the last
-    /// counts.
+    /// Voxels share points as in Evolution Gym: a corner is that of the voxel across a side, if both are joined and
+    /// that one was visited, or that of a diagonal voxel to which one of them is joined. The last of several counts.
     fn points_and_voxels(&self) -> (Vec<LatticePoint>, Vec<Voxel>) {
         let (mut points, mut voxels): (Vec<LatticePoint>, Vec<Voxel>) = (Vec::new(), Vec::new());
         // The corners of the voxels in the row above and in this row.

@@ -40,8 +40,8 @@ struct Still {
     voxels: Vec<[usize; CORNERS]>,
 }
 
-/// Evolution Gym's π, the cosine that it takes for those above 1, and the product of two distances from the center of
-/// mass, in square meters, below which it takes that, too.
+/// Evolution Gym's constants: π, the cosine that it uses instead of values above 1, and the product of two distances
+/// from the center of mass, in square meters, below which it uses that cosine, too.
 #[allow(clippy::approx_constant, reason = "Evolution Gym's number")]
 const PI: f64 = 3.1415926;
 const ALMOST: f64 = 0.99999;

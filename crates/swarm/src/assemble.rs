@@ -117,7 +117,7 @@ impl Assembly {
     }
 }
 
-/// [`Assembly::start_cycles`] of robots with these clocks.
+/// [`Assembly::start_cycles`] for these clocks.
 pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
     clocks.into_iter().map(|clock| clock as usize).max().unwrap_or(0).max(LEAST_START)
 }

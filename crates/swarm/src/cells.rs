@@ -32,9 +32,9 @@ fn radius(character: &Character) -> f64 {
     character.radius.as_ref().map_or(0.0, |found| found.radius)
 }
 
-/// The robots of a library that react within so many cycles, and show nothing else before if that is one. All cost a
-/// wave machine one beat, and an error would stay in it, so the sturdiest are first, or the widest where the objective
-/// is the margin.
+/// The robots of a library that react within so many cycles, and never glitch if that is one. All cost a wave machine
+/// one beat, and an error would stay in it, so the sturdiest come first, or the widest where the objective is the
+/// margin.
 pub fn within_beat(library: &Library, beat: u32, objective: MappingObjective) -> Library {
     let is_quick = |robot: &&Robot| {
         let character = &robot.character;

@@ -180,8 +180,8 @@ impl LiveSwarm {
         KeptSwarm::new(self.trace.cycles.iter().map(|cycle| &cycle.bits[..]), (0..self.flock.len()).map(robot))
     }
 
-    /// Sets a swarm at its start to a kept one of the same assembly that had these inputs in its cycles; whether it can
-    /// be one. The paths of the robots before that are not known, and stand still at 0.
+    /// Continues a swarm at its start from a kept one of the same assembly with these inputs; returns whether it fits.
+    /// Earlier paths of the robots are unknown, and stay at 0.
     pub fn go_on(&mut self, kept: &KeptSwarm, assembly: &Assembly, inputs: &[Vec<bool>]) -> bool {
         let outputs = kept.outputs(assembly.members.len()).filter(|cycles| cycles.len() <= inputs.len());
         let Some(outputs) = outputs else { return false };
@@ -210,7 +210,7 @@ impl LiveSwarm {
         true
     }
 
-    /// Takes the robots from stop to stop of a cycle by `reach`, with the number of each stop and its env step.
+    /// Moves the robots from stop to stop of a cycle by `reach`, which gets the number and the env step of each stop.
     fn go_through(&mut self, mut reach: impl FnMut(&mut dyn Flock, usize, u32)) {
         for (at, &stop) in self.stops.iter().enumerate() {
             reach(&mut *self.flock, at, stop);

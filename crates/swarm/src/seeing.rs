@@ -25,7 +25,7 @@ pub struct ImageDistance {
 }
 
 impl ImageDistance {
-    /// That of a body with these displacements, each before an image of the set of that number.
+    /// The distance of a body with these displacements, each before an image of the set with that number.
     pub fn of(sets: &ImageSets, walked: &[(Pattern, f64)]) -> Self {
         let all = sets.behaviors().map(|behavior| (behavior, least(behavior, walked.iter().copied())));
         let best = all.fold(None, |best: Option<(Behavior, f64)>, one| match best {

@@ -37,8 +37,8 @@ impl Walks {
     }
 }
 
-/// The simulations of the bodies that were evaluated last, so that a body that a search draws again is not simulated
-/// again. Results do not depend on it.
+/// The simulations of recently evaluated bodies, so that a body that is drawn again is not simulated again. Results do
+/// not depend on it.
 #[derive(Debug, Default)]
 pub struct WalkMemory(Mutex<Remembered>);
 

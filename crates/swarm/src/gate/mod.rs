@@ -167,7 +167,7 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// The bounds for the behavior that it comes nearest to of those with which it can enter a niche, or else of all.
+    /// The bounds for the nearest of the behaviors with which it can enter a niche, or of all if there are none.
     fn bound(&self) -> Bound {
         let asked = match (self.passed, self.asked) {
             (0, []) => &[self.own],
@@ -187,8 +187,8 @@ impl<'a> Attempt<'a> {
         bounds.reduce(nearer).expect("there is at least one")
     }
 
-    /// The fitnesses with those that it has over all cycles so far: if it is wrong in a world, that counts for this one
-    /// and the worlds before count as one each; as long as it is right, all others count as one.
+    /// The fitnesses over all worlds. A wrong world counts with its own fitness, and the worlds before it as one each;
+    /// as long as the body is right, all other worlds count as one.
     fn over_worlds(&self, raw: [f64; 2]) -> [f64; 2] {
         let counted = if is_right(raw) { self.others } else { self.passed };
         raw.map(|own| (counted as f64 + own) / (self.others + 1) as f64)

@@ -196,8 +196,7 @@ impl Search {
         Rivals::new(self.archive.niche(), Behavior::all(self.evolution.palette.inputs()).map(niches).collect())
     }
 
-    /// The displacements that a candidate of the current archive probably has: those of the elite of its parent's niche
-    /// that was there first.
+    /// The displacements that a candidate probably has: those of the oldest elite of its parent's niche.
     pub fn expected(&self, candidate: &Candidate) -> Option<Displacements> {
         let CandidateOrigin::Offspring(key) = &candidate.origin else { return None };
         Some(self.archive.elites_of(key).first()?.displacement)
