@@ -77,10 +77,6 @@ failures! {
     EvolveError,
     #[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
     MissingFeature,
-    #[cfg(feature = "play")]
-    nbc_play::ExportError,
-    #[cfg(feature = "play")]
-    nbc_play_server::PlayError,
     RunChoiceError,
     nbc_lsp::ServerError,
     UsageError,

@@ -102,7 +102,7 @@ impl PlayArguments {
         let lessons = lessons.into_iter().map(source).collect();
         let (pages, public_page) = (Some(pages), public_page.or_else(|| PUBLIC_PAGE.map(str::to_owned)));
         let options = PlayOptions { file, making, host, port, page, token, lessons, class, public_page, pages };
-        let server = PlayServer::bind(&options)?;
+        let server = PlayServer::bind(&options).map_err(Failure::plain)?;
         let faults = server.faults_of_lessons();
         context.tell(&faults.list, &faults.sources);
         tell(&server, context)?;
@@ -135,7 +135,7 @@ fn write_page(
     } else {
         let compiled = session.compile(&checked, &checked.circuit(&choice)?, &options)?;
         context.tell(&compiled.warnings, &checked.sources);
-        nbc_play::export(&session, &checked, &compiled)?
+        nbc_play::export(&session, &checked, &compiled).map_err(Failure::plain)?
     };
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
     let (bytes, name) = (page.html.len(), output.display());

@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::Path;
 
-use axum::http::{HeaderMap, HeaderValue, header};
+use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
 use axum::response::{IntoResponse, Response};
 use flate2::Compression;
 use flate2::write::GzEncoder;
@@ -15,17 +15,17 @@ use flate2::write::GzEncoder;
 const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
 
 pub(super) struct Page {
-    own: Parts,
-    teacher: Parts,
+    pub(super) own: Parts,
+    pub(super) teacher: Parts,
 }
 
-struct Parts {
-    html: Part,
+pub(super) struct Parts {
+    pub(super) html: Part,
     script: Part,
     style: Part,
 }
 
-struct Part {
+pub(super) struct Part {
     /// The last part of its address.
     name: String,
     kind: &'static str,
@@ -57,22 +57,6 @@ impl Page {
         let teacher = ("class", &*read("class.html")?);
         Ok(Self { own, teacher: Parts::new(teacher, read("class.js")?.into(), read("class.css")?.into()) })
     }
-
-    pub(super) fn document(&self, request: &HeaderMap) -> Response {
-        self.own.html.answer(request)
-    }
-
-    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
-        self.own.part(name, request)
-    }
-
-    pub(super) fn teacher(&self, request: &HeaderMap) -> Response {
-        self.teacher.html.answer(request)
-    }
-
-    pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<Response> {
-        self.teacher.part(name, request)
-    }
 }
 
 impl Parts {
@@ -85,11 +69,13 @@ impl Parts {
         Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
     }
 
-    fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
-        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name)?;
+    /// The script or the style of that name.
+    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Response {
+        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name);
+        let Some(part) = part else { return StatusCode::NOT_FOUND.into_response() };
         let mut response = part.answer(request);
         response.headers_mut().insert(header::CACHE_CONTROL, IMMUTABLE);
-        Some(response)
+        response
     }
 }
 
@@ -100,7 +86,7 @@ impl Part {
         Self { name, kind, packed: packing.finish().expect("memory takes any bytes"), text }
     }
 
-    fn answer(&self, request: &HeaderMap) -> Response {
+    pub(super) fn answer(&self, request: &HeaderMap) -> Response {
         let packs = accepts_gzip(request);
         let bytes = if packs { self.packed.clone() } else { self.text.as_bytes().to_vec() };
         let mut response = bytes.into_response();
@@ -138,7 +124,7 @@ mod tests {
         let (one, two) = (page("a"), page("b"));
         assert_ne!(one.script.name, two.script.name);
         assert_eq!(one.html.text, format!("<script src=\"{}\">", one.script.name));
-        assert!(one.part("app.js", &HeaderMap::new()).is_none());
+        assert_eq!(one.part("app.js", &HeaderMap::new()).status(), StatusCode::NOT_FOUND);
     }
 
     #[test]

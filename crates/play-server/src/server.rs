@@ -30,8 +30,8 @@ pub(super) fn router(served: Arc<Served>) -> Router {
     Router::new()
         .route("/{token}/", get(document))
         .route("/{token}/{name}", get(part))
-        .route("/{token}/live", any(live_socket))
-        .route("/{token}/language", any(language_socket))
+        .route("/{token}/live", any(|State(served), upgrade| accept(served, upgrade, live::serve)))
+        .route("/{token}/language", any(|State(served), upgrade| accept(served, upgrade, language::serve)))
         .route("/{token}/take/{number}/{name}", get(take))
         .layer(middleware::from_fn_with_state(served.clone(), guard))
         .with_state(served)
@@ -41,7 +41,7 @@ async fn document(State(served): State<Arc<Served>>, headers: HeaderMap) -> Resp
     if served.is_full() {
         return (StatusCode::SERVICE_UNAVAILABLE, Html(FULL)).into_response();
     }
-    served.page.document(&headers)
+    served.page.own.html.answer(&headers)
 }
 
 async fn part(
@@ -49,7 +49,7 @@ async fn part(
     Path((_, name)): Path<(String, String)>,
     headers: HeaderMap,
 ) -> Response {
-    served.page.part(&name, &headers).unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
+    served.page.own.part(&name, &headers)
 }
 
 /// Refuses requests without the token, or from another host or origin, and adds security headers to answers.
@@ -82,15 +82,7 @@ async fn guard(State(served): State<Arc<Served>>, request: Request, next: Next) 
     response
 }
 
-async fn live_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUpgrade) -> Response {
-    accept(served, upgrade, live::serve)
-}
-
-async fn language_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUpgrade) -> Response {
-    accept(served, upgrade, language::serve)
-}
-
-fn accept<F: Future<Output = ()> + Send + 'static>(
+async fn accept<F: Future<Output = ()> + Send + 'static>(
     served: Arc<Served>,
     upgrade: WebSocketUpgrade,
     serve: impl FnOnce(Arc<Served>, WebSocket) -> F + Send + 'static,

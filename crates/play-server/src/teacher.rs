@@ -14,13 +14,10 @@ pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> Respo
         return StatusCode::METHOD_NOT_ALLOWED.into_response();
     }
     match request.uri().path().split('/').nth(2) {
-        Some("") => served.page.teacher(request.headers()),
+        Some("") => served.page.teacher.html.answer(request.headers()),
         Some("members") => json(&class.roll(served.now())),
         Some("lessons") => json(&course(served.site.shell.lessons())),
-        Some(name) => {
-            let part = served.page.part_of_teacher(name, request.headers());
-            part.unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
-        }
+        Some(name) => served.page.teacher.part(name, request.headers()),
         None => StatusCode::NOT_FOUND.into_response(),
     }
 }
