@@ -53,8 +53,4 @@ failures! {
     nbc_lsp::ServerError,
     #[cfg(feature = "cluster")]
     nbc_cluster::ClusterError,
-    #[cfg(feature = "play")]
-    nbc_play::ExportError,
-    #[cfg(feature = "play")]
-    nbc_play_server::PlayError,
 }
