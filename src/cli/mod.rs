@@ -193,4 +193,18 @@ mod tests {
         }
         assert_eq!(makers, all);
     }
+
+    #[test]
+    fn the_manual_names_every_command_and_option() {
+        fn check(command: &clap::Command, path: &str, manual: &str) {
+            assert!(manual.contains(path), "docs/commands.md does not name `{path}`");
+            for option in command.get_arguments().filter_map(clap::Arg::get_long) {
+                assert!(manual.contains(&format!("--{option}")), "docs/commands.md does not name `{path} --{option}`");
+            }
+            command.get_subcommands().for_each(|inner| check(inner, &format!("{path} {}", inner.get_name()), manual));
+        }
+        let pages = ["commands", "gpu", "cluster"]
+            .map(|page| std::fs::read_to_string(format!("{}/docs/{page}.md", env!("CARGO_MANIFEST_DIR"))).unwrap());
+        check(&Cli::command(), "nbc", &pages.concat());
+    }
 }
