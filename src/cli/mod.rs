@@ -140,7 +140,7 @@ struct Cli {
 }
 
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Status {
-    let arguments = options::circuit::with_named_files(arguments);
+    let arguments = options::files::with_named_files(arguments);
     let parsed = usage::with_negative_numbers(Cli::command())
         .try_get_matches_from(&arguments)
         .and_then(|found| Cli::from_arg_matches(&found));
