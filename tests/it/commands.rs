@@ -1,4 +1,4 @@
-//! The table of prerequisites in the manual.
+//! What the manual says of tools that must be installed.
 
 use std::fs;
 

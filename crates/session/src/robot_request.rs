@@ -49,7 +49,7 @@ impl RobotRequest {
                     candidates.entry(behavior).or_default();
                 }
             }
-            let has_classes = run.declared.axes.contains(&Axis::Class);
+            let has_classes = run.declared.descriptors.contains(&Axis::Class);
             for elite in run.state.niches.iter().flat_map(|(_, elites)| elites) {
                 let shown = if has_classes { images(elite) } else { vec![elite.clone()] };
                 for elite in shown {

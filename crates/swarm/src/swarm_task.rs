@@ -8,13 +8,10 @@ use nbc_sim::Simulator;
 /// The simulation of a swarm, without names: all that the resulting bits depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwarmTask {
-    /// The robots and their wiring.
     pub assembly: Assembly,
-    /// The inputs of each cycle, and over how many cycles displacements are measured.
     pub conditions: SwarmConditions,
 }
 
-/// The output of each robot at the end of each cycle.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SwarmBits {
     /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
@@ -26,13 +23,9 @@ pub struct SwarmBits {
 /// The part of a robot that the bits of its swarm depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
-    /// Its voxels.
     pub body: Body,
-    /// The clock of its character, in cycles.
     pub clock: u32,
-    /// The source of each of its stimuli.
     pub senses: Vec<StimulusSource>,
-    /// Its output before the first cycle.
     pub start: bool,
     /// What it senses in the first cycles instead of each source.
     pub held: Vec<Vec<bool>>,
@@ -70,12 +63,10 @@ impl SwarmTask {
         Self { assembly, conditions: SwarmConditions { inputs, window, poses: None } }
     }
 
-    /// The number of robots.
     pub fn robots(&self) -> usize {
         self.assembly.members.len()
     }
 
-    /// The number of cycles.
     pub fn cycles(&self) -> usize {
         self.conditions.inputs.len()
     }
@@ -84,37 +75,28 @@ impl SwarmTask {
 impl PlainMember {
     /// The robot with nothing but what its simulation needs.
     pub(super) fn nameless(self) -> Member {
-        let none = String::new;
-        let character = Character {
-            clock: self.clock,
-            switches: 0,
-            error_rate: 0.0,
-            glitch_rate: 0.0,
-            margin: 0.0,
-            topples: false,
-            settle: Vec::new(),
-            radius: None,
-        };
-        let provenance =
-            Provenance { program: none(), version: none(), evolution: none(), seed: 0, generation: 0, evaluations: 0 };
         let displacement = Displacements::zero(self.senses.len());
-        let (name, behavior) = (none(), displacement.behavior());
-        let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
-        Member { net: none(), block: Vec::new(), robot, senses: self.senses, start: self.start, held: self.held }
+        let robot = Robot {
+            name: String::new(),
+            behavior: displacement.behavior(),
+            body: self.body,
+            displacement,
+            character: Character { clock: self.clock, ..Character::default() },
+            provenance: Provenance::default(),
+            genotype: None,
+        };
+        let (net, block) = (String::new(), Vec::new());
+        Member { net, block, robot, senses: self.senses, start: self.start, held: self.held }
     }
 }
 
 impl SwarmBits {
-    /// Simulates a swarm.
     pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
         let trace = simulate(simulator, &task.assembly, &task.conditions, &mut |_| ());
         Self { fault: trace.first_fault(), cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
     /// The trace of the swarm through these inputs, without the paths of its robots.
-    ///
-    /// # Panics
-    /// When the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
         let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
         if let Some((robot, fault)) = self.fault {

@@ -8,10 +8,9 @@ use crate::cli::draw::wording;
 use crate::cli::evolution_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
 use crate::cli::evolve::wording::gaps_in_curves;
 use crate::cli::{Context, Failure};
-use nbc_base::model::Behavior;
+use nbc_base::model::{Behavior, Evolution};
 use nbc_base::source::Sources;
 use nbc_session::report::{EvolutionResults, History, SeedRun};
-use nbc_session::store::Declared;
 
 pub(in crate::cli) fn is_run(folder: &Path) -> bool {
     !checkpoints(folder).is_empty()
@@ -28,11 +27,11 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
         let damage = history.damage().map(|damage| gaps_in_curves(&progress, &damage));
         context.tell(&Vec::from_iter(damage), &Sources::default());
         let run = SeedRun { niches: checkpoint.state.niches, progress: history.lines().collect() };
-        if checkpoint.declared.axes.is_empty() {
+        if checkpoint.declared.descriptors.is_empty() {
             return Err(wording::no_axes(&path).into());
         }
         let images = checkpoint.declared.images();
-        let Declared { name, axes, objective, palette, .. } = checkpoint.declared;
+        let Evolution { name, descriptors: axes, objective, palette, .. } = checkpoint.declared;
         let stimuli = palette.inputs();
         let empty = EvolutionResults { name, axes: axes.clone(), stimuli, images, objective, runs: BTreeMap::new() };
         let results = results.get_or_insert(empty);

@@ -48,7 +48,7 @@ fn film(
 ) -> Drawing {
     let largest = bodies.iter().map(|body| body.width().max(body.height())).max().unwrap_or(1);
     let stimuli = bodies.iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
-    let (title, ground) = (title.to_owned(), stage.ground());
+    let (title, ground) = (title.to_owned(), stage.ground);
     let film = Film { title, lanes, scheme: request.scheme(), largest, stimuli, ground };
     Drawing::Film { format, film: Box::new(film), stage: Box::new(stage) }
 }

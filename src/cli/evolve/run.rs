@@ -66,7 +66,7 @@ impl<'a> RunFolder<'a> {
             None => EvolutionRun::new(evolution, seed),
             Some(_) if !arguments.resume => return Err(wording::has_run(&path).into()),
             Some(checkpoint) => {
-                let (done, before) = (checkpoint.state.generation, checkpoint.declared.generations());
+                let (done, before) = (checkpoint.state.generation, checkpoint.declared.generations);
                 context::log(&wording::resumed_until(&folder, done, before, evolution.generations));
                 EvolutionRun::resume(checkpoint, &path.display().to_string(), evolution, seed)?
             }

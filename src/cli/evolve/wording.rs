@@ -72,15 +72,15 @@ pub(super) fn quick_run(declared: &Evolution, used: &Evolution, left_out: &[Evol
 }
 
 /// A run that is resumed until generation `now`, and `before` was to end elsewhere; empty if nothing changes.
-pub(super) fn resumed_until(folder: &Path, done: u32, before: Option<u32>, now: u32) -> String {
+pub(super) fn resumed_until(folder: &Path, done: u32, before: u32, now: u32) -> String {
     let (folder, made) = (folder.display(), counted(done as usize, "generation"));
-    match before.filter(|before| *before != now) {
-        _ if done > now => format!("`{folder}` has {made} already, more than the {now} that are asked for\n"),
-        None => String::new(),
-        Some(before) => {
-            format!("`{folder}`, which was to have {before}, continues after {made} until it has {now}\n")
-        }
+    if done > now {
+        return format!("`{folder}` has {made} already, more than the {now} that are asked for\n");
     }
+    if before == now {
+        return String::new();
+    }
+    format!("`{folder}`, which was to have {before}, continues after {made} until it has {now}\n")
 }
 
 #[cfg(test)]
@@ -91,9 +91,9 @@ mod tests {
     fn a_resumed_run_says_what_is_replaced() {
         let text = |done, before, now| resumed_until(Path::new("out/a/seed-1"), done, before, now);
         let longer = "`out/a/seed-1`, which was to have 10, continues after 10 generations until it has 50\n";
-        assert_eq!(text(10, Some(10), 50), longer);
+        assert_eq!(text(10, 10, 50), longer);
         let fewer = "`out/a/seed-1` has 10 generations already, more than the 5 that are asked for\n";
-        assert_eq!(text(10, Some(10), 5), fewer);
-        assert_eq!((text(4, Some(10), 10), text(4, None, 10)), (String::new(), String::new()));
+        assert_eq!(text(10, 10, 5), fewer);
+        assert_eq!(text(4, 10, 10), "");
     }
 }
