@@ -32,7 +32,7 @@ impl Server {
         Ok(Some(found))
     }
 
-    /// Starts a command. The answer is sent when it ends.
+    /// The answer is sent when the command ends.
     pub(super) fn execute(&mut self, id: RequestId, asked: lsp::ExecuteCommandParams) -> Option<Response> {
         let (order, checked) = match self.ordered(&asked) {
             Ok(ordered) => ordered,
@@ -69,7 +69,6 @@ impl Server {
         self.send(Message::Notification(Notification::new("$/progress".to_owned(), told)));
     }
 
-    /// Passes the progress or the result of a run to the client.
     pub(super) fn told(&mut self, event: RunEvent) {
         match event {
             RunEvent::Progress { token, percentage, message } => {
@@ -88,7 +87,7 @@ impl Server {
         }
     }
 
-    /// Shows a result to the user as a message, because some editors do not show the answer to a command.
+    /// Some editors do not show the answer to a command.
     fn show(&self, outcome: &RunOutcome) {
         let message = match &outcome.path {
             Some(path) => format!("{}: {path}", outcome.text),

@@ -15,7 +15,7 @@ use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
 
 impl Server {
-    /// Answers a request; `None` if the answer comes later.
+    /// `None` if the answer comes later.
     pub(super) fn request(&mut self, request: Request) -> Option<Response> {
         let method = request.method.clone();
         Some(match LspRequestMethod::from(method.as_str()) {
@@ -62,7 +62,7 @@ impl Server {
         })
     }
 
-    /// Answers a request now. If the handler panics, the answer is an error, and the server continues.
+    /// If the handler panics, the answer is an error, and the server continues.
     fn answer<R: lsp::Request>(
         &mut self,
         request: Request,
@@ -77,7 +77,7 @@ impl Server {
         self.answer_later::<R>(request, respond).expect("it was answered")
     }
 
-    /// Answers a request now or, if the handler returns `None`, later.
+    /// The handler returns `None` if the answer comes later.
     fn answer_later<R: lsp::Request>(
         &mut self,
         request: Request,

@@ -1,10 +1,9 @@
 //! How serving a client ended.
 
-/// How serving a client ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ServerEnd {
     /// The client asked the server to shut down, or vanished.
     Orderly,
-    /// The client ended the server without a request to shut down. By the protocol, this is a failure.
+    /// The client ended the server without a request to shut down, which is a failure by the protocol.
     Abandoned,
 }

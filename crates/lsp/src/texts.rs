@@ -22,7 +22,6 @@ impl Server {
         Ok(self.parsed(&asked.text_document.uri, outline::folds))
     }
 
-    /// Reads the tree of an open text.
     pub(super) fn parsed<T>(&mut self, uri: &Uri, read: impl FnOnce(&Tree, &Lines<'_>) -> T) -> Option<T> {
         let checked = self.checked(uri)?;
         let file = checked.file?;

@@ -2,41 +2,28 @@
 
 use nbc_base::source::{FileId, Span};
 
-/// The kind of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NameKind {
-    /// A stimulus of robots.
     Stimulus,
-    /// A material of voxels.
     Material,
-    /// A schedule of stimuli.
     Schedule,
-    /// A run of evolution.
     Evolution,
-    /// A set of images.
     Images,
-    /// A library of robots.
     Library,
-    /// A swarm: a circuit made of the robots of a library.
     Swarm,
-    /// A world to simulate in.
     World,
-    /// A circuit, with or without parameters.
     Circuit,
-    /// An enumeration of values.
     Enumeration,
-    /// A member of an enumeration.
     Member,
     /// A file that memories begin with.
     File,
-    /// A port or another net of a circuit.
+    /// A port or another net.
     Net,
     /// A parameter of a circuit, the variable of a loop, or an integer with a name.
     Number,
 }
 
 impl NameKind {
-    /// The word for it in messages.
     pub fn word(self) -> &'static str {
         match self {
             Self::Stimulus => "stimulus",
@@ -57,18 +44,15 @@ impl NameKind {
     }
 }
 
-/// A name at one place of a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NameUse {
-    /// The place of the name. That of a declaration refers to itself.
+    /// A declaration's name refers to itself.
     pub place: Span,
-    /// The place of the name in its declaration.
+    /// The name in its declaration.
     pub declared: Span,
-    /// What the name stands for.
     pub kind: NameKind,
 }
 
-/// All names of a program that have a meaning.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameUses {
     /// In order of place.
@@ -76,7 +60,6 @@ pub struct NameUses {
 }
 
 impl NameUses {
-    /// The uses in any order, of which some may be repeated.
     pub(crate) fn new(mut list: Vec<NameUse>) -> Self {
         list.sort_unstable();
         list.dedup();
@@ -90,12 +73,11 @@ impl NameUses {
         self.list[..end].last().filter(covers).copied()
     }
 
-    /// The places that refer to a declaration, the declaration's own included, in order.
+    /// The uses of a declaration in order, its own name included.
     pub fn of(&self, declared: Span) -> impl Iterator<Item = NameUse> + '_ {
         self.list.iter().copied().filter(move |found| found.declared == declared)
     }
 
-    /// All of a file, in order.
     pub fn of_file(&self, file: FileId) -> impl Iterator<Item = NameUse> + '_ {
         self.list.iter().copied().filter(move |found| found.place.file == file)
     }

@@ -32,7 +32,6 @@ impl Converter<'_> {
         Simulate { swarm, world, with }
     }
 
-    /// The world in which something runs, if the next part names one.
     fn world<'p>(&self, parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>) -> Option<NameSyntax> {
         let named = parts.next_if(|part| part.as_rule() == Rule::in_world)?;
         super::convert::parts(named).next().map(|name| self.name(&name))
@@ -53,7 +52,6 @@ impl Converter<'_> {
         SpellSyntax { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
     }
 
-    /// The name after `with`, if it is next.
     pub(super) fn beside<'p>(&self, parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>) -> Option<NameSyntax> {
         let named = parts.next_if(|part| part.as_rule() == Rule::beside)?;
         super::convert::parts(named).next().map(|name| self.name(&name))
@@ -128,7 +126,6 @@ impl Converter<'_> {
         UntilSyntax { output, value, most: self.number(&parts.next().expect("a number")) }
     }
 
-    /// The text before the first bar, the bars, and the text after it.
     fn columns_of(&self, pair: Pair<Rule>) -> (Vec<NameSyntax>, Vec<nbc_base::source::Span>, Vec<NameSyntax>) {
         let (mut before, mut bars, mut after) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts(pair) {

@@ -2,7 +2,6 @@
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind};
 
-/// A completion with a short description.
 pub(super) fn item(label: &str, kind: CompletionItemKind, detail: &str) -> CompletionItem {
     CompletionItem {
         label: label.to_owned(),

@@ -7,28 +7,26 @@ use crate::runs::command::{PROVE, RUN, SCHEMATIC, TEST, TIMING};
 use nbc_session::{Checked, Choice};
 use nbc_swarm::Level;
 
-/// A command on a source.
 #[derive(Clone, Debug)]
 pub(crate) struct RunOrder {
-    /// The source.
     pub(crate) uri: Uri,
     pub(super) task: RunTask,
 }
 
-/// The kinds of work.
 #[derive(Clone, Debug)]
 pub(super) enum RunTask {
-    /// Tests and simulations of these numbers; all tests, and in physics all simulations, if there are none.
-    Run { level: Level, test: Option<usize>, simulation: Option<usize> },
-    /// The claim of this number; all if there is none.
+    /// By number; all tests, and in physics all simulations, if there are none.
+    Run {
+        level: Level,
+        test: Option<usize>,
+        simulation: Option<usize>,
+    },
+    /// By number; all if there is none.
     Prove(Option<usize>),
-    /// The picture of a circuit made of robots.
     Schematic(Choice),
-    /// The times of a circuit's robots.
     Timing(Choice),
 }
 
-/// Why a command cannot be run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum OrderError {
     Command(String),
@@ -39,7 +37,6 @@ pub(crate) enum OrderError {
 }
 
 impl RunOrder {
-    /// Reads a command and its arguments.
     pub(crate) fn read(asked: &ExecuteCommandParams) -> Result<Self, OrderError> {
         let argument = asked.arguments.as_deref().and_then(<[Value]>::first).ok_or(OrderError::Arguments)?;
         let text = |name: &str| argument.get(name).and_then(Value::as_str).map(str::to_owned);
@@ -58,7 +55,6 @@ impl RunOrder {
         Ok(Self { uri, task })
     }
 
-    /// A title for the progress.
     pub(crate) fn title(&self, checked: &Checked) -> String {
         let file = checked.path.rsplit('/').next().unwrap_or_default();
         match &self.task {

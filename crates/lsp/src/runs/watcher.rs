@@ -12,19 +12,17 @@ use crate::shell::LanguageShell;
 use nbc_circuit::CancelFlag;
 use nbc_session::Observer;
 
-/// A message of a run to the server.
 pub(crate) enum RunEvent {
     Progress { token: ProgressToken, percentage: u32, message: String },
     Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, RequestError> },
 }
 
-/// Reports the progress of a run, and stops it when the client cancels it.
 pub(super) struct Watcher {
     pub(super) token: Option<ProgressToken>,
     pub(super) shell: Arc<dyn LanguageShell>,
     pub(super) events: Sender<RunEvent>,
     pub(super) stop: CancelFlag,
-    /// The part of the run that is being done, from 0, and the number of parts.
+    /// The current part, from 0, and the number of parts.
     pub(super) part: (u64, u64),
     /// The percentage that was reported last.
     pub(super) told: u32,

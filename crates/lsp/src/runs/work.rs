@@ -15,7 +15,6 @@ use nbc_session::{
 };
 use nbc_swarm::{Level, Room};
 
-/// Does the work of a command.
 pub(super) fn perform(
     world: SharedWorld,
     checked: &Checked,
@@ -55,7 +54,6 @@ fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watc
     going(watcher).map(|()| compiled)
 }
 
-/// Runs the chosen tests and simulations.
 fn run(
     session: &Session,
     checked: &Checked,
@@ -80,7 +78,6 @@ fn run(
     going(watcher).map(|()| report)
 }
 
-/// Decides the chosen claim, or all. The report has the tests that refute properties.
 fn prove(
     session: &Session,
     checked: &Checked,
@@ -108,7 +105,7 @@ fn prove(
     }
 }
 
-/// The default options; compiling ends early when the run is stopped.
+/// Compiling ends early when the run is stopped.
 fn options(watcher: &Watcher) -> CompileOptions {
     CompileOptions { cancel: watcher.stop.clone(), ..CompileOptions::default() }
 }
@@ -117,7 +114,6 @@ fn going(watcher: &Watcher) -> Result<(), RequestError> {
     if watcher.stop.is_raised() { Err(RequestError::Cancelled) } else { Ok(()) }
 }
 
-/// Writes the page of a report.
 fn finish(
     checked: &Checked,
     level: Level,
@@ -144,14 +140,12 @@ fn finish(
     Ok(RunOutcome::new(has_verdict.then(|| report.passed()), text, Some(path), world))
 }
 
-/// Writes a result among those of the server, in the folder of its source.
 fn written(checked: &Checked, shell: &dyn LanguageShell, name: &str, text: &str) -> Result<String, RequestError> {
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let folder: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
     shell.write_result(&folder, name, text).map_err(|reason| RequestError::Unwritable { reason })
 }
 
-/// The first of the diagnostics as the reason.
 fn said(faults: &Diagnostics) -> RequestError {
     RequestError::Compile { fault: faults.list.first().map_or_else(String::new, |fault| fault.message.clone()) }
 }

@@ -22,7 +22,7 @@ use nbc_base::source::SourceWorld;
 use nbc_session::store::{DiskWorld, FolderWorld};
 use pending::Pending;
 
-/// Serves an editor on standard input and output until it ends the session or closes its connection.
+/// Until the editor ends the session or closes its connection.
 pub fn serve_standard() -> Result<ServerEnd, ServerError> {
     let (connection, wire) = wire::open();
     // After an error the threads still wait for the client.
@@ -31,11 +31,9 @@ pub fn serve_standard() -> Result<ServerEnd, ServerError> {
     Ok(end)
 }
 
-/// The most messages that wait to be handled.
 const WAITING: usize = 32;
 
-/// The connection with a queue of messages in front of the server. The server looks ahead in the queue: if another
-/// change of a text is waiting, it does not check the older text.
+/// Adds a queue in which the server looks ahead: if another change of a text is waiting, the older text is not checked.
 fn queued(connection: Connection) -> (Connection, Pending) {
     let Connection { sender, receiver: arriving } = connection;
     let (queue, receiver) = bounded(WAITING);
@@ -52,7 +50,6 @@ fn queued(connection: Connection) -> (Connection, Pending) {
     (Connection { sender, receiver }, pending)
 }
 
-/// Serves a client until it ends the session or closes its connection.
 pub fn serve(
     connection: Connection,
     world: impl SourceWorld + Clone + Send + Sync + 'static,
@@ -90,15 +87,15 @@ pub fn serve(
     end
 }
 
-/// Sends what waits. If the connection is closed, the loop ends at its next message.
+/// If the connection is closed, the loop ends at its next message.
 fn send(connection: &Connection, service: &mut LanguageService) {
     while let Some(message) = service.next_message() {
         let _ = connection.sender.send(message);
     }
 }
 
-/// Serves a client that sends these texts, each of which should be a message, and then closes its connection. The
-/// fuzzer calls this, because it needs no pipe.
+/// Serves a client that sends these texts and then closes its connection. The fuzzer calls this, because it needs no
+/// pipe.
 pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let (server, client) = Connection::memory();
@@ -110,7 +107,6 @@ pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let _ = serve(server, world);
 }
 
-/// The URI of a file or folder.
 pub fn file_uri(path: &str) -> String {
     uri::uri(&DiskWorld, path).0
 }
