@@ -10,9 +10,9 @@ use gen_lsp_types::{
 
 use crate::navigation;
 use crate::rename::Rename;
-use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
 use crate::used_files::UsedFiles;
+use crate::wording::RequestError;
 use nbc_lang::check::NameUse;
 use nbc_session::Checked;
 

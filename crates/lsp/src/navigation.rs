@@ -6,7 +6,7 @@ use gen_lsp_types::{
 };
 
 use crate::files::Files;
-use crate::request_error::RequestError;
+use crate::wording::{self, RequestError};
 use nbc_base::source::Span;
 use nbc_circuit::formats::is_word;
 use nbc_lang::check::{NameKind, NameUse};
@@ -15,9 +15,10 @@ pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighl
     let same = files.checked.uses.of(found.declared).filter(|other| other.place.file == found.place.file);
     let highlight = |other: NameUse| DocumentHighlight {
         range: files.range(other.place),
-        kind: Some(match other.place == other.declared {
-            true => DocumentHighlightKind::Write,
-            false => DocumentHighlightKind::Read,
+        kind: Some(if other.place == other.declared {
+            DocumentHighlightKind::Write
+        } else {
+            DocumentHighlightKind::Read
         }),
     };
     same.map(highlight).collect()
@@ -66,9 +67,9 @@ pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbo
 
 pub(super) fn refusal(files: &Files<'_>, found: NameUse, new: &str) -> Option<RequestError> {
     if files.prelude(found.declared.file).is_some() {
-        return Some(RequestError::OfPrelude);
+        return Some(wording::name_of_prelude());
     }
-    (!is_word(new)).then(|| RequestError::NotAName { new: new.to_owned() })
+    (!is_word(new)).then(|| wording::not_a_name(new))
 }
 
 pub(super) fn workspace_edit(edits: impl Iterator<Item = (Uri, TextEdit)>) -> WorkspaceEdit {

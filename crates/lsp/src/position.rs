@@ -94,18 +94,12 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_as_in_the_language() {
+    fn a_position_past_the_end_of_a_line_or_text_is_its_end() {
         let starts = LineStarts::of(TEXT);
         let lines = Lines { text: TEXT, starts: &starts, encoding: Encoding::Utf16 };
-        assert_eq!(lines.position(10), Position { line: 2, character: 0 });
-        assert_eq!(lines.offset(Position { line: 9, character: 0 }), TEXT.len());
-    }
-
-    #[test]
-    fn a_position_past_the_end_of_a_line_is_its_end() {
-        let starts = LineStarts::of(TEXT);
-        let lines = Lines { text: TEXT, starts: &starts, encoding: Encoding::Utf16 };
-        assert_eq!(lines.offset(Position { line: 0, character: 99 }), 7);
-        assert_eq!(lines.offset(Position { line: 0, character: 2 }), 1, "inside a pair, its start");
+        assert_eq!(lines.position(10), Position { line: 2, character: 0 }, "lines end as in the language");
+        for (line, character, offset) in [(9, 0, TEXT.len()), (0, 99, 7), (0, 2, 1)] {
+            assert_eq!(lines.offset(Position { line, character }), offset, "inside a pair it is its start");
+        }
     }
 }

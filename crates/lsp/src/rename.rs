@@ -9,9 +9,9 @@ use crate::buffers::Buffers;
 use crate::files::Files;
 use crate::navigation::workspace_edit;
 use crate::position::Encoding;
-use crate::request_error::RequestError;
 use crate::shell::LanguageShell;
 use crate::uri;
+use crate::wording::{self, RequestError};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::SharedWorld;
 use nbc_base::source::Span;
@@ -88,12 +88,12 @@ impl<'a> Rename<'a> {
         for (before, count) in &self.sources {
             let after = session.checked(&before.path);
             if let Some(fault) = new_error(before, &after) {
-                return Err(RequestError::BadName { new: self.new.to_owned(), fault: fault.message.clone() });
+                return Err(wording::bad_name(self.new, &fault.message));
             }
             let files = Files { checked: &after, encoding: self.encoding, world: &self.world, shell: &*self.shell };
             let declared = self.declared_in(&files, self.moved());
             if declared.map(|declared| after.uses.of(declared).count()) != Some(*count) {
-                return Err(RequestError::OtherMeaning { new: self.new.to_owned() });
+                return Err(wording::other_meaning(self.new));
             }
         }
         let edits = self

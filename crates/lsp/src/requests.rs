@@ -11,8 +11,8 @@ use gen_lsp_types::{
 };
 use lsp_server::{Request, RequestId, Response};
 
-use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
+use crate::wording;
 
 impl Server {
     /// `None` if the answer comes later.
@@ -58,7 +58,7 @@ impl Server {
             LspRequestMethod::WorkspaceExecuteCommand => {
                 return self.answer_later::<ExecuteCommandRequest>(request, Self::execute);
             }
-            _ => RequestError::UnknownMethod { method }.answer(request.id),
+            _ => wording::unknown_method(&method).answer(request.id),
         })
     }
 
@@ -86,9 +86,9 @@ impl Server {
         let id = request.id;
         let parameters = match serde_json::from_value(request.params) {
             Ok(parameters) => parameters,
-            Err(error) => return Some(RequestError::Parameters { reason: error.to_string() }.answer(id)),
+            Err(error) => return Some(wording::invalid_parameters(error.to_string()).answer(id)),
         };
         catch_unwind(AssertUnwindSafe(|| handle(self, id.clone(), parameters)))
-            .unwrap_or_else(|_| Some(RequestError::Internal.answer(id)))
+            .unwrap_or_else(|_| Some(wording::internal().answer(id)))
     }
 }

@@ -19,11 +19,10 @@ use crate::compiler::{Compilation, Compiler};
 use crate::files::Files;
 use crate::later::WaitingHover;
 use crate::position::Encoding;
-use crate::request_error::RequestError;
 use crate::runs::Runs;
-use crate::server_end::ServerEnd;
 use crate::settings::Settings;
-use crate::shell::LanguageShell;
+use crate::shell::{LanguageShell, ServerEnd};
+use crate::wording::{self, RequestError};
 use crate::workspace::Workspace;
 use crate::{problems, uri};
 use nbc_base::source::SharedWorld;
@@ -86,9 +85,9 @@ impl LanguageService {
                 return None;
             }
             Message::Request(Request { id, method, .. }) if method == "initialize" => {
-                RequestError::InitializeParameters.answer(id)
+                wording::initialize_parameters().answer(id)
             }
-            Message::Request(Request { id, method, .. }) => RequestError::NotInitialized { method }.answer(id),
+            Message::Request(Request { id, method, .. }) => wording::not_initialized(&method).answer(id),
             Message::Notification(told) if told.method == "exit" => return Some(ServerEnd::Abandoned),
             Message::Notification(_) | Message::Response(_) => return None,
         };
@@ -170,10 +169,10 @@ impl Server {
                 return Some(if self.is_shut { ServerEnd::Orderly } else { ServerEnd::Abandoned });
             }
             Message::Request(Request { id, method, .. }) if self.is_shut => {
-                self.send(RequestError::ShutDown { method }.answer(id).into());
+                self.send(wording::shut_down(&method).answer(id).into());
             }
             Message::Request(Request { id, method, .. }) if method == "initialize" => {
-                self.send(RequestError::Initialized { method }.answer(id).into());
+                self.send(wording::initialized(&method).answer(id).into());
             }
             Message::Request(Request { id, method, .. }) if method == "shutdown" => {
                 self.is_shut = true;

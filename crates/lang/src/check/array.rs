@@ -209,7 +209,8 @@ impl CircuitChecker<'_> {
         let array = self.circuit.nets[written.net.0 as usize].name.clone();
         let span = written.span;
         let root = self.expression(value, 1);
-        let register = self.declared.circuits.find(REGISTER, Home::Prelude).expect("the prelude declares registers");
+        let register =
+            self.declared.names.circuits.find(REGISTER, Home::Prelude).expect("the prelude declares registers");
         let register = CircuitId(register as u32);
         let kind = self.circuit.expressions[root.0 as usize].kind.clone();
         let is_call = matches!(self.body.expressions[value.0 as usize].kind, ExpressionSyntaxKind::Call { .. });
@@ -250,12 +251,8 @@ impl CircuitChecker<'_> {
         });
         self.circuit.nets[nets[0].0.0 as usize].selects = Some(written.net);
         let last = self.circuit.nets.len() as u32;
-        let drive = |(net, value): (NetSlot, ExpressionId)| {
-            let target = Target { net: Some(net), word: None, bits: None, start: None, span };
-            Statement::Drive { targets: vec![target], joined: false, value }
-        };
-        let mut statements: Vec<Statement> = std::mem::take(&mut self.reads).into_iter().map(drive).collect();
-        statements.extend(nets.map(drive));
+        let reads = std::mem::take(&mut self.reads).into_iter();
+        let mut statements: Vec<Statement> = reads.chain(nets).map(|(net, value)| drive(net, value, span)).collect();
         let [(address, _), (data, _), (enable, _), (clk, _)] = nets;
         match memory {
             Some(memory) => {
@@ -305,13 +302,14 @@ impl CircuitChecker<'_> {
     // ---- memories of environments ----
 
     pub(crate) fn memory(&mut self, net: NetSlot, port: &tree::Port) {
-        let contents = port.contents.as_ref().and_then(|name| match self.declared.files.resolve(name, self.home) {
-            Ok(file) => Some(file),
-            Err(fault) => {
-                self.diagnostics.push(fault);
-                None
-            }
-        });
+        let contents =
+            port.contents.as_ref().and_then(|name| match self.declared.names.files.resolve(name, self.home) {
+                Ok(file) => Some(file),
+                Err(fault) => {
+                    self.diagnostics.push(fault);
+                    None
+                }
+            });
         let declared = &mut self.circuit.nets[net.0 as usize];
         let (Some(words), Some(width)) = (declared.words.take(), declared.width.take()) else { return };
         self.driven[net.0 as usize] = true;
@@ -360,13 +358,14 @@ impl CircuitChecker<'_> {
         let statement = statement?;
         let Some(&(_, value)) = reads.first() else { return Some(statement) };
         let span = self.circuit.expressions[value.0 as usize].span;
-        let drive = |(net, value): (NetSlot, ExpressionId)| {
-            let target = Target { net: Some(net), word: None, bits: None, start: None, span };
-            Statement::Drive { targets: vec![target], joined: false, value }
-        };
-        let mut statements: Vec<Statement> = reads.into_iter().map(drive).collect();
+        let mut statements: Vec<Statement> = reads.into_iter().map(|(net, value)| drive(net, value, span)).collect();
         statements.push(statement);
         let last = self.circuit.nets.len() as u32;
         Some(Statement::Scope(Block { nets: first..last, statements }))
     }
+}
+
+fn drive(net: NetSlot, value: ExpressionId, span: Span) -> Statement {
+    let target = Target { net: Some(net), word: None, bits: None, start: None, span };
+    Statement::Drive { targets: vec![target], joined: false, value }
 }

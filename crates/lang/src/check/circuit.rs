@@ -220,7 +220,7 @@ impl<'a> CircuitChecker<'a> {
     }
 
     fn members(&mut self, name: &tree::NameSyntax) -> Option<(usize, u32)> {
-        match self.declared.enumerations.resolve(name, self.home) {
+        match self.declared.names.enumerations.resolve(name, self.home) {
             Ok(place) => Some((place, self.declared.all.get(place)?.width)),
             Err(fault) => {
                 self.diagnostics.push(fault);
@@ -469,11 +469,11 @@ impl<'a> CircuitChecker<'a> {
             Some(Binding::Net(_)) => None,
             None => {
                 if let Some((place, member)) = declared.member(&name.text, self.home) {
-                    declared.members.refer_to(&name.text, name.span, self.home);
+                    declared.names.members.refer_to(&name.text, name.span, self.home);
                     return Some(ExpressionKind::Bits(declared.all[place].bits(member.value)));
                 }
-                let value = declared.integers.find(&name.text, self.home)?;
-                declared.integers.refer_to(&name.text, name.span, self.home);
+                let value = declared.names.integers.find(&name.text, self.home)?;
+                declared.names.integers.refer_to(&name.text, name.span, self.home);
                 let size = self.push_size(SizeKind::Literal(value), name.span);
                 Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
             }
@@ -481,7 +481,7 @@ impl<'a> CircuitChecker<'a> {
     }
 
     fn unknown_net(&self, name: &tree::NameSyntax) -> Diagnostic {
-        if let Some(circuit) = self.declared.circuits.find(&name.text, self.home) {
+        if let Some(circuit) = self.declared.names.circuits.find(&name.text, self.home) {
             return wording::circuit_for_net(name, &self.headers.circuits[circuit].signature());
         }
         if let Some(bit) = constant::truth(&name.text) {
@@ -490,7 +490,7 @@ impl<'a> CircuitChecker<'a> {
         let meant = if self.diagnostics.len() >= suggest::MOST {
             Suggestion::None
         } else {
-            Suggestion::of(&name.text, self.nets_in_scope().chain(self.declared.members.all()))
+            Suggestion::of(&name.text, self.nets_in_scope().chain(self.declared.names.members.all()))
         };
         if !matches!(meant, Suggestion::Near(_)) && constant::is_unknown(&name.text) {
             return wording::unknown_bit(name);

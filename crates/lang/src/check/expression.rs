@@ -163,7 +163,8 @@ impl<'a> CircuitChecker<'a> {
             return self.shift_by(infix, place, *value, number);
         }
         let name = circuit_of(infix);
-        let circuit = self.declared.circuits.find(name, Home::Prelude).expect("the prelude declares the operators");
+        let circuit =
+            self.declared.names.circuits.find(name, Home::Prelude).expect("the prelude declares the operators");
         let circuit = CircuitId(circuit as u32);
         self.calls.push((circuit, place));
         let arguments = vec![None; self.headers.circuits[circuit.0 as usize].parameters.len()];
@@ -205,7 +206,7 @@ impl<'a> CircuitChecker<'a> {
 
     fn shift_by(&mut self, infix: Infix, place: Span, value: ExpressionId, number: FreeNumber) -> ExpressionKind {
         let name = if infix == Infix::ShiftLeft { "shift_left_by" } else { "shift_right_by" };
-        let circuit = self.declared.circuits.find(name, Home::Prelude).expect("the prelude declares the shifts");
+        let circuit = self.declared.names.circuits.find(name, Home::Prelude).expect("the prelude declares the shifts");
         let circuit = CircuitId(circuit as u32);
         self.calls.push((circuit, place));
         let by = self.size_of_number((number, place)).unwrap_or_else(|| self.one(place));
@@ -238,7 +239,7 @@ impl<'a> CircuitChecker<'a> {
         if let Some(clock) = self.steps.filter(|_| name.text == BEFORE) {
             return self.before(name, operands, values, clock);
         }
-        let circuit = match self.declared.circuits.resolve_beside(name, self.home, &OPERATORS) {
+        let circuit = match self.declared.names.circuits.resolve_beside(name, self.home, &OPERATORS) {
             Ok(circuit) => circuit,
             Err(fault) => {
                 self.diagnostics.push(match Operator::parse(&name.text.to_lowercase()) {
@@ -275,7 +276,8 @@ impl<'a> CircuitChecker<'a> {
         if let Some(port) = operands.iter().find_map(|operand| operand.name.as_ref()) {
             self.diagnostics.push(wording::operands_of_before(None, port.span));
         }
-        let register = self.declared.circuits.find("register", Home::Prelude).expect("the prelude declares registers");
+        let register =
+            self.declared.names.circuits.find("register", Home::Prelude).expect("the prelude declares registers");
         self.calls.push((CircuitId(register as u32), name.span));
         let header = &self.headers.circuits[register];
         let arguments = vec![None; header.parameters.len()];

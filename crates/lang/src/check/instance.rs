@@ -18,8 +18,11 @@ pub(crate) fn instance(
     declared: Vocabulary<'_>,
     headers: &Headers,
 ) -> Result<Instance, Diagnostic> {
-    let header = &headers.circuits[declared.circuits.resolve(&source.name, home)?];
-    declared.circuits.note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
+    let header = &headers.circuits[declared.names.circuits.resolve(&source.name, home)?];
+    declared
+        .names
+        .circuits
+        .note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
     with_numbers(source, &header.name, &header.parameters, |name, place| declared.integer(name, place, home))
 }
 

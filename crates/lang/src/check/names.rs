@@ -116,6 +116,21 @@ impl<T: Copy> NameTable<T> {
     }
 }
 
+impl NameTable<Option<usize>> {
+    /// Declares a name and adds what it stands for to a list, unless that has errors. Returns the error of the name.
+    pub(crate) fn add<T>(
+        &mut self,
+        name: &NameSyntax,
+        checked: Option<T>,
+        home: Home,
+        list: &mut Vec<T>,
+    ) -> Option<Diagnostic> {
+        let error = self.declare(name, checked.as_ref().map(|_| list.len()), home).err();
+        list.extend(checked);
+        error
+    }
+}
+
 #[derive(Clone, Copy)]
 pub(crate) struct MemberPlace {
     pub(crate) enumeration: usize,

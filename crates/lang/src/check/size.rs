@@ -90,8 +90,8 @@ impl CircuitChecker<'_> {
             .rev()
             .flatten()
             .filter_map(|(name, binding)| matches!(binding, Binding::Variable(..)).then_some(*name))
-            .chain(self.declared.integers.all())
-            .chain(self.declared.members.all())
+            .chain(self.declared.names.integers.all())
+            .chain(self.declared.names.members.all())
     }
 }
 

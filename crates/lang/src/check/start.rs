@@ -13,7 +13,7 @@ impl CircuitChecker<'_> {
     pub(crate) fn start_fault(&self, targets: &[tree::TargetSyntax], value: ExpressionSyntaxId) -> Option<Diagnostic> {
         let target = targets.iter().find(|target| target.start.is_some())?;
         let (name, arguments) = self.called(value)?;
-        let header = &self.headers.circuits[self.declared.circuits.find(&name.text, self.home)?];
+        let header = &self.headers.circuits[self.declared.names.circuits.find(&name.text, self.home)?];
         let place = header.parameters.iter().position(|parameter| parameter == START)?;
         let start = self.size_text(target.start?);
         let is_whole = targets.len() == 1 && target.index.is_none();

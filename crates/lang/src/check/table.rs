@@ -58,7 +58,7 @@ impl CircuitChecker<'_> {
     fn pattern(&mut self, word: &tree::NameSyntax) -> Option<TablePattern> {
         let declared = self.declared;
         if let Some((place, member)) = declared.member(&word.text, self.home) {
-            declared.members.refer_to(&word.text, word.span, self.home);
+            declared.names.members.refer_to(&word.text, word.span, self.home);
             let bits = declared.all[place].bits(member.value);
             return Some(TablePattern::Bits(bits.into_iter().map(Some).collect()));
         }
@@ -68,7 +68,7 @@ impl CircuitChecker<'_> {
         if let Some(value) = constant::unsized_number(&word.text) {
             return Some(TablePattern::Number(value));
         }
-        let meant = Suggestion::of(&word.text, declared.members.all());
+        let meant = Suggestion::of(&word.text, declared.names.members.all());
         self.diagnostics.push(TableError::NotAPattern { word: word.text.clone(), meant }.at(word.span));
         None
     }

@@ -175,54 +175,10 @@ pub(crate) fn parts(pair: Pair<Rule>) -> impl Iterator<Item = Pair<Rule>> {
 }
 
 fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
-    pairs.filter(|pair| {
-        !matches!(
-            pair.as_rule(),
-            Rule::EOI
-                | Rule::COMMENT
-                | Rule::circuit_word
-                | Rule::test_word
-                | Rule::simulate_word
-                | Rule::schedule_word
-                | Rule::stimulus_word
-                | Rule::use_word
-                | Rule::material_word
-                | Rule::evolution_word
-                | Rule::library_word
-                | Rule::swarm_word
-                | Rule::world_word
-                | Rule::images_word
-                | Rule::with_word
-                | Rule::times_word
-                | Rule::in_word
-                | Rule::bins_word
-                | Rule::for_word
-                | Rule::all_word
-                | Rule::inputs_word
-                | Rule::against_word
-                | Rule::ever_word
-                | Rule::init_word
-                | Rule::net_word
-                | Rule::if_word
-                | Rule::then_word
-                | Rule::table_word
-                | Rule::log2_word
-                | Rule::environment_word
-                | Rule::enum_word
-                | Rule::file_word
-                | Rule::let_word
-                | Rule::repeat_word
-                | Rule::until_word
-                | Rule::at_word
-                | Rule::most_word
-                | Rule::rows_word
-                | Rule::from_word
-                | Rule::least_word
-                | Rule::prove_word
-                | Rule::within_word
-                | Rule::steps_word
-                | Rule::match_word
-                | Rule::or_word
-        )
+    // The grammar has these words one after another.
+    let words = Rule::circuit_word..=Rule::log2_word;
+    pairs.filter(move |pair| {
+        let rule = pair.as_rule();
+        !matches!(rule, Rule::EOI | Rule::COMMENT) && !words.contains(&rule)
     })
 }

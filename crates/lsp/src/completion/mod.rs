@@ -1,6 +1,5 @@
 //! Completions at a place: words of the language, declared names, fields, units, and calls of circuits.
 
-mod item;
 mod paths;
 mod place;
 
@@ -17,7 +16,6 @@ use nbc_circuit::formats::is_word;
 use nbc_lang::check::{Holds, NameKind, record_fields};
 use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
-use item::item;
 use paths::PathKind;
 use place::{Before, Place};
 
@@ -165,4 +163,13 @@ fn names(files: &Files<'_>, wanted: NameKind) -> Vec<CompletionItem> {
     let named: BTreeMap<&str, NameKind> =
         declared.map(|found| (files.checked.sources.text(found.place), found.kind)).collect();
     named.into_iter().map(|(name, kind)| item(name, CompletionItemKind::Reference, kind.word())).collect()
+}
+
+fn item(label: &str, kind: CompletionItemKind, detail: &str) -> CompletionItem {
+    CompletionItem {
+        label: label.to_owned(),
+        kind: Some(kind),
+        detail: Some(detail.to_owned()),
+        ..CompletionItem::default()
+    }
 }

@@ -4,63 +4,29 @@ use nbc_lang::syntax::tree::RecordKeyword;
 
 const MANUAL: &str = include_str!("../../language.md");
 
-const KEYWORDS: [(&str, &str); 52] = [
-    ("against", "Tests"),
-    ("all", "Tests"),
-    ("always", "Properties"),
-    ("and", "Expressions"),
-    ("assume", "Properties"),
-    ("bins", "Evolutions"),
-    ("circuit", "Circuits"),
-    ("cycles", "Units"),
-    ("deg", "Units"),
-    ("else", "Expressions"),
-    ("enum", "Enumerations"),
-    ("environment", "Environments"),
-    ("ever", "Tests"),
-    ("evolution", "Evolutions"),
-    ("file", "Environments"),
-    ("for", "Parameters and `for`"),
-    ("from", "Tests"),
-    ("if", "Expressions"),
-    ("images", "Images"),
-    ("in", "Parameters and `for`"),
-    ("init", "Memory"),
-    ("inputs", "Tests"),
-    ("let", "Parameters and `for`"),
-    ("library", "Libraries, swarms and simulations"),
-    ("log2", "Parameters and `for`"),
-    ("match", "Truth tables"),
-    ("material", "Stimuli and materials"),
-    ("ms", "Units"),
-    ("nand", "Expressions"),
-    ("net", "Constants and buses"),
-    ("never", "Properties"),
-    ("nor", "Expressions"),
-    ("not", "Expressions"),
-    ("or", "Expressions"),
-    ("prove", "Properties"),
-    ("repeat", "Tests"),
-    ("s", "Units"),
-    ("schedule", "Schedules"),
-    ("simulate", "Libraries, swarms and simulations"),
-    ("steps", "Units"),
-    ("stimulus", "Stimuli and materials"),
-    ("swarm", "Libraries, swarms and simulations"),
-    ("table", "Truth tables"),
-    ("test", "Tests"),
-    ("then", "Expressions"),
-    ("until", "Tests"),
-    ("use", "Files"),
-    ("with", "Libraries, swarms and simulations"),
-    ("within", "Properties"),
-    ("world", "Worlds"),
-    ("xnor", "Expressions"),
-    ("xor", "Expressions"),
+const KEYWORDS: [(&str, &[&str]); 18] = [
+    ("Circuits", &["circuit"]),
+    ("Constants and buses", &["net"]),
+    ("Enumerations", &["enum"]),
+    ("Environments", &["environment", "file"]),
+    ("Evolutions", &["bins", "evolution"]),
+    ("Expressions", &["and", "else", "if", "nand", "nor", "not", "or", "then", "xnor", "xor"]),
+    ("Files", &["use"]),
+    ("Images", &["images"]),
+    ("Libraries, swarms and simulations", &["library", "simulate", "swarm", "with"]),
+    ("Memory", &["init"]),
+    ("Parameters and `for`", &["for", "in", "let", "log2"]),
+    ("Properties", &["always", "assume", "never", "prove", "within"]),
+    ("Schedules", &["schedule"]),
+    ("Stimuli and materials", &["material", "stimulus"]),
+    ("Tests", &["against", "all", "ever", "from", "inputs", "repeat", "test", "until"]),
+    ("Truth tables", &["match", "table"]),
+    ("Units", &["cycles", "deg", "ms", "s", "steps"]),
+    ("Worlds", &["world"]),
 ];
 
 pub(super) fn keyword(word: &str) -> Option<String> {
-    let (_, heading) = KEYWORDS.iter().find(|(keyword, _)| *keyword == word)?;
+    let (heading, _) = KEYWORDS.iter().find(|(_, keywords)| keywords.contains(&word))?;
     meaning(heading, word, None)
 }
 
@@ -155,9 +121,9 @@ mod tests {
 
     #[test]
     fn every_keyword_has_its_meaning_and_an_example() {
-        for (word, _) in KEYWORDS {
+        for word in KEYWORDS.iter().flat_map(|(_, keywords)| *keywords) {
             let text = keyword(word).unwrap_or_else(|| panic!("{word}"));
-            let is_unit = ["bins", "cycles", "deg", "ms", "s", "steps"].contains(&word);
+            let is_unit = ["bins", "cycles", "deg", "ms", "s", "steps"].contains(word);
             assert!(is_unit || text.contains("```nb"), "{word}: {text}");
         }
         assert!(syntax::KEYWORDS.iter().all(|word| keyword(word).is_some()));

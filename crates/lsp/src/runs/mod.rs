@@ -1,8 +1,6 @@
 //! Commands that run a source: each is work beside all other, with progress, and can be cancelled.
 
-mod command;
 mod order;
-mod outcome;
 mod watcher;
 mod work;
 
@@ -18,11 +16,10 @@ use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::Checked;
 
-pub(super) use command::{COMMANDS, PROVE, RUN, SCHEMATIC, TEST, TIMING};
-pub(super) use order::{OrderError, RunOrder};
-pub(super) use outcome::RunOutcome;
+pub(super) use order::{COMMANDS, PROVE, RUN, RunOrder, SCHEMATIC, TEST, TIMING};
 pub(super) use watcher::RunEvent;
 use watcher::Watcher;
+pub(super) use work::RunOutcome;
 
 pub(super) struct Runs {
     shell: Arc<dyn LanguageShell>,

@@ -3,9 +3,17 @@
 use gen_lsp_types::{ExecuteCommandParams, Uri};
 use serde_json::Value;
 
-use crate::runs::command::{PROVE, RUN, SCHEMATIC, TEST, TIMING};
+use crate::wording::{self, RequestError};
 use nbc_session::{Checked, Choice};
 use nbc_swarm::Level;
+
+pub(crate) const RUN: &str = "nbc.run";
+pub(crate) const TEST: &str = "nbc.test";
+pub(crate) const PROVE: &str = "nbc.prove";
+pub(crate) const SCHEMATIC: &str = "nbc.schematic";
+pub(crate) const TIMING: &str = "nbc.timing";
+
+pub(crate) const COMMANDS: [&str; 5] = [RUN, TEST, PROVE, SCHEMATIC, TIMING];
 
 #[derive(Clone, Debug)]
 pub(crate) struct RunOrder {
@@ -27,21 +35,12 @@ pub(super) enum RunTask {
     Timing(Choice),
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum OrderError {
-    Command(String),
-    Arguments,
-    Closed(String),
-    /// The client does not see the folder of the results.
-    NoPlace,
-}
-
 impl RunOrder {
-    pub(crate) fn read(asked: &ExecuteCommandParams) -> Result<Self, OrderError> {
-        let argument = asked.arguments.as_deref().and_then(<[Value]>::first).ok_or(OrderError::Arguments)?;
+    pub(crate) fn read(asked: &ExecuteCommandParams) -> Result<Self, RequestError> {
+        let argument = asked.arguments.as_deref().and_then(<[Value]>::first).ok_or_else(wording::command_arguments)?;
         let text = |name: &str| argument.get(name).and_then(Value::as_str).map(str::to_owned);
         let number = |name: &str| argument.get(name).and_then(Value::as_u64).map(|number| number as usize);
-        let uri = Uri(text("uri").ok_or(OrderError::Arguments)?);
+        let uri = Uri(text("uri").ok_or_else(wording::command_arguments)?);
         let choice = Choice { circuit: text("circuit"), swarm: text("swarm") };
         let run = |level| RunTask::Run { level, test: number("test"), simulation: number("simulation") };
         let task = match asked.command.as_str() {
@@ -50,7 +49,7 @@ impl RunOrder {
             PROVE => RunTask::Prove(number("claim")),
             SCHEMATIC => RunTask::Schematic(choice),
             TIMING => RunTask::Timing(choice),
-            other => return Err(OrderError::Command(other.to_owned())),
+            other => return Err(wording::unknown_command(other)),
         };
         Ok(Self { uri, task })
     }

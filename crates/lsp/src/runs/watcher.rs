@@ -6,9 +6,9 @@ use std::sync::mpsc::Sender;
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
 
-use crate::request_error::RequestError;
-use crate::runs::outcome::RunOutcome;
+use crate::runs::work::RunOutcome;
 use crate::shell::LanguageShell;
+use crate::wording::RequestError;
 use nbc_circuit::CancelFlag;
 use nbc_session::Observer;
 

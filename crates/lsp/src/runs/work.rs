@@ -1,10 +1,12 @@
 //! The work of a command, and its result.
 
-use crate::request_error::RequestError;
+use serde::Serialize;
+
 use crate::runs::order::{RunOrder, RunTask};
-use crate::runs::outcome::RunOutcome;
 use crate::runs::watcher::Watcher;
 use crate::shell::LanguageShell;
+use crate::uri;
+use crate::wording::{self, RequestError};
 use nbc_base::diag::Diagnostics;
 use nbc_base::model::Claim;
 use nbc_base::source::SharedWorld;
@@ -15,6 +17,23 @@ use nbc_session::{
 };
 use nbc_swarm::{Level, Room};
 
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct RunOutcome {
+    /// Whether every test passed and no robot failed; `None` if there was no test and no robot failed.
+    pub(super) passed: Option<bool>,
+    pub(crate) text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) page: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) path: Option<String>,
+}
+
+impl RunOutcome {
+    pub(super) fn new(passed: Option<bool>, text: String, path: Option<String>, world: &SharedWorld) -> Self {
+        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&**world, path).0), path }
+    }
+}
+
 pub(super) fn perform(
     world: SharedWorld,
     checked: &Checked,
@@ -23,7 +42,7 @@ pub(super) fn perform(
     watcher: &mut Watcher,
 ) -> Result<RunOutcome, RequestError> {
     if checked.has_errors() {
-        return Err(RequestError::SourceErrors);
+        return Err(wording::source_errors());
     }
     let session = Session::new(world.clone()).with_poses(Room::SWARM);
     match &order.task {
@@ -71,7 +90,7 @@ fn run(
     let simulations = simulations.filter(|_| level == Level::Physics).map(|(_, simulation)| simulation);
     let list = RunList { tests: tests.collect(), simulations: simulations.collect() };
     if list.is_empty() {
-        return Err(RequestError::NothingToRun);
+        return Err(wording::nothing_to_run());
     }
     let options = TestOptions { level: Some(level), compile: options(watcher) };
     let report = session.run_list(checked, &list, &options, watcher).map_err(|faults| said(&faults))?;
@@ -99,7 +118,7 @@ fn prove(
         text += &report.text();
     }
     if claims.is_empty() {
-        Err(RequestError::NothingToRun)
+        Err(wording::nothing_to_run())
     } else {
         Ok(RunOutcome::new(Some(proved), text, None, world))
     }
@@ -111,7 +130,7 @@ fn options(watcher: &Watcher) -> CompileOptions {
 }
 
 fn going(watcher: &Watcher) -> Result<(), RequestError> {
-    if watcher.stop.is_raised() { Err(RequestError::Cancelled) } else { Ok(()) }
+    if watcher.stop.is_raised() { Err(wording::cancelled()) } else { Ok(()) }
 }
 
 fn finish(
@@ -143,9 +162,9 @@ fn finish(
 fn written(checked: &Checked, shell: &dyn LanguageShell, name: &str, text: &str) -> Result<String, RequestError> {
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let folder: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    shell.write_result(&folder, name, text).map_err(|reason| RequestError::Unwritable { reason })
+    shell.write_result(&folder, name, text).map_err(wording::failed)
 }
 
 fn said(faults: &Diagnostics) -> RequestError {
-    RequestError::Compile { fault: faults.list.first().map_or_else(String::new, |fault| fault.message.clone()) }
+    wording::failed(faults.list.first().map_or("", |fault| &fault.message))
 }

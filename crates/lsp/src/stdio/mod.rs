@@ -16,18 +16,19 @@ use lsp_server::Connection;
 use crate::message::message;
 use crate::service::LanguageService;
 use crate::uri;
-use crate::{ServerEnd, ServerError};
+use crate::{ServerEnd, wording};
 use disk_shell::DiskShell;
+use nbc_base::diag::Diagnostic;
 use nbc_base::source::SourceWorld;
 use nbc_session::store::{DiskWorld, FolderWorld};
 use pending::Pending;
 
 /// Until the editor ends the session or closes its connection.
-pub fn serve_standard() -> Result<ServerEnd, ServerError> {
+pub fn serve_standard() -> Result<ServerEnd, Diagnostic> {
     let (connection, wire) = wire::open();
     // After an error the threads still wait for the client.
     let end = serve(connection, DiskWorld)?;
-    wire.join().map_err(ServerError::Protocol)?;
+    wire.join().map_err(|reason| wording::protocol(&reason))?;
     Ok(end)
 }
 
@@ -53,7 +54,7 @@ fn queued(connection: Connection) -> (Connection, Pending) {
 pub fn serve(
     connection: Connection,
     world: impl SourceWorld + Clone + Send + Sync + 'static,
-) -> Result<ServerEnd, ServerError> {
+) -> Result<ServerEnd, Diagnostic> {
     let (connection, pending) = queued(connection);
     let (wake, woken) = bounded(1);
     let shell = Arc::new(DiskShell::new(world, pending.clone(), wake));
@@ -72,7 +73,7 @@ pub fn serve(
                     }
                 }
                 Err(_) if service.is_greeted() => break Ok(ServerEnd::Orderly),
-                Err(_) => break Err(ServerError::Protocol("the input ended before `initialize`".to_owned())),
+                Err(_) => break Err(wording::protocol("the input ended before `initialize`")),
             },
             recv(woken) -> _ => {}
             recv(due) -> _ => {}

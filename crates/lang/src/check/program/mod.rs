@@ -159,10 +159,7 @@ impl<'a> Assembly<'a> {
         for (home, source) in self.declarations.records(RecordKeyword::Material) {
             let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
             let checked = material(source, home, stimuli, &mut self.faults);
-            let position = checked.as_ref().map(|_| self.program.materials.len());
-            let declared = self.names.materials.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.materials.extend(checked);
+            self.faults.extend(self.names.materials.add(&source.name, checked, home, &mut self.program.materials));
         }
     }
 
@@ -170,10 +167,7 @@ impl<'a> Assembly<'a> {
         for (home, source) in self.declarations.records(RecordKeyword::Images) {
             let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
             let checked = images(source, home, stimuli, files, &mut self.faults);
-            let position = checked.as_ref().map(|_| self.program.images.len());
-            let declared = self.names.images.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.images.extend(checked);
+            self.faults.extend(self.names.images.add(&source.name, checked, home, &mut self.program.images));
         }
     }
 
@@ -184,18 +178,14 @@ impl<'a> Assembly<'a> {
             let sets = DeclaredImages { names: &self.names.images, declared: &self.program.images };
             let checked = schedule(source, home, stimuli, sets, &mut self.faults);
             let checked = checked.filter(|_| !self.declarations.is_broken(source.name.span));
-            let position = checked.as_ref().map(|_| self.program.schedules.len());
-            let declared = self.names.schedules.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.schedules.extend(checked);
+            self.faults.extend(self.names.schedules.add(&source.name, checked, home, &mut self.program.schedules));
         }
     }
 
     fn worlds(&mut self, files: ProgramFiles) {
         let sources = self.declarations.records(RecordKeyword::World);
         for (place, (home, source)) in sources.iter().enumerate() {
-            let declared = self.names.worlds.declare(&source.name, place, *home);
-            self.note(declared);
+            self.faults.extend(self.names.worlds.declare(&source.name, place, *home).err());
         }
         self.worlds = vec![CheckState::Open; sources.len()];
         for place in order(&sources, &self.names.worlds, Some(NamedWorld::DEFAULT)) {
@@ -220,8 +210,7 @@ impl<'a> Assembly<'a> {
     fn evolutions(&mut self) {
         let sources = self.declarations.records(RecordKeyword::Evolution);
         for (place, (home, source)) in sources.iter().enumerate() {
-            let declared = self.names.evolutions.declare(&source.name, place, *home);
-            self.note(declared);
+            self.faults.extend(self.names.evolutions.declare(&source.name, place, *home).err());
         }
         let mut checked = vec![CheckState::Open; sources.len()];
         for place in order(&sources, &self.names.evolutions, None) {
@@ -244,8 +233,7 @@ impl<'a> Assembly<'a> {
 
     fn library_names(&mut self) {
         for (home, source) in self.declarations.records(RecordKeyword::Library) {
-            let declared = self.names.libraries.declare(&source.name, (), home);
-            self.note(declared);
+            self.faults.extend(self.names.libraries.declare(&source.name, (), home).err());
         }
     }
 
@@ -273,13 +261,11 @@ impl<'a> Assembly<'a> {
                 DeclarationKind::Let(source) => {
                     let declared = Vocabulary::of(&self.names, &self.program);
                     let value = enumeration::integer(source, home, declared, &mut self.faults);
-                    let declared = self.names.integers.declare(&source.name, value.unwrap_or(1), home);
-                    self.note(declared);
+                    self.faults.extend(self.names.integers.declare(&source.name, value.unwrap_or(1), home).err());
                 }
                 DeclarationKind::File(source) => {
                     let path = beside(&self.declarations.sources.file(source.path.span.file).name, &source.path.text);
-                    let declared = self.names.files.declare(&source.name, self.program.files.len(), home);
-                    self.note(declared);
+                    self.faults.extend(self.names.files.declare(&source.name, self.program.files.len(), home).err());
                     let name = source.name.text.clone();
                     self.program.files.push(NamedFile { name, path, span: source.path.span });
                 }
@@ -291,11 +277,10 @@ impl<'a> Assembly<'a> {
     fn enumeration(&mut self, source: &tree::EnumerationSyntax, home: Home) {
         let Some(checked) = enumeration::enumeration(source, &mut self.faults) else { return };
         let enumeration = self.program.enumerations.len();
-        let declared = self.names.enumerations.declare(&source.name, enumeration, home);
-        self.note(declared);
+        self.faults.extend(self.names.enumerations.declare(&source.name, enumeration, home).err());
         for (member, source) in source.members.iter().enumerate() {
-            let declared = self.names.members.declare(&source.name, MemberPlace { enumeration, member }, home);
-            self.note(declared);
+            self.faults
+                .extend(self.names.members.declare(&source.name, MemberPlace { enumeration, member }, home).err());
         }
         self.program.enumerations.push(checked);
     }
@@ -305,8 +290,7 @@ impl<'a> Assembly<'a> {
         let mut sources = Vec::new();
         for (home, declaration) in self.declarations.all() {
             if let DeclarationKind::Circuit(source) = &declaration.kind {
-                let declared = self.names.circuits.declare(&source.name, sources.len(), home);
-                self.note(declared);
+                self.faults.extend(self.names.circuits.declare(&source.name, sources.len(), home).err());
                 self.circuits.headers.circuits.push(Header::of(source));
                 sources.push((home, source));
             }
@@ -382,10 +366,7 @@ impl<'a> Assembly<'a> {
             let declared = Vocabulary::of(&self.names, &self.program);
             let headers = &self.circuits.headers;
             let checked = swarm(source, home, &self.names, declared, headers, worlds, &mut self.faults);
-            let position = checked.as_ref().map(|_| self.program.swarms.len());
-            let declared = self.names.swarms.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.swarms.extend(checked);
+            self.faults.extend(self.names.swarms.add(&source.name, checked, home, &mut self.program.swarms));
         }
     }
 
