@@ -1,5 +1,5 @@
-//! The fields of records: what they hold, and which others they need to have an effect. A field that has none is refused,
-//! because nothing that is declared may be ignored. The checker and editors read this table.
+//! The fields of records: what they hold, and which others they need to have an effect. A field without effect is
+//! refused, because nothing that is declared may be ignored. The checker and editors read this table.
 
 use crate::check::uses::NameKind;
 

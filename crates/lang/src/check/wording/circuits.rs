@@ -92,8 +92,8 @@ pub(crate) fn same_title(circuit: &str, title: &str, first: Span, at: Span) -> D
         .with_help("give each its own title, so that results and reports can be told apart")
 }
 
-/// `edit` moves the start value into the call: the `init` with its value, and the place and text of the parameter unless
-/// the call gives it already.
+/// `edit` moves the start value into the call: the `init` with its value, and the place and text of the parameter
+/// unless the call gives it already.
 pub(crate) fn start_of_call(
     net: &str,
     circuit: &str,
