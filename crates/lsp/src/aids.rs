@@ -20,8 +20,7 @@ impl Server {
     pub(super) fn hover(&mut self, id: RequestId, asked: lsp::HoverParams) -> Option<Response> {
         let place = asked.text_document_position_params;
         let Some(checked) = self.checked(&place.text_document.uri) else { return Some(Response::new_ok(id, ())) };
-        let (world, shell) = (self.world.clone(), self.shell.clone());
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
+        let files = self.files(&checked);
         let spot = Spot::of(files, place.position);
         let shown = spot.and_then(|spot| hover::show(&spot, &self.session, self.settings.pictures));
         let Some(shown) = shown else { return Some(Response::new_ok(id, ())) };

@@ -2,7 +2,6 @@
 
 use lsp_server::{ErrorCode, RequestId, Response};
 
-use crate::runs::COMMANDS;
 use nbc_base::diag::{Code, Diagnostic};
 
 /// The client breaks the protocol.
@@ -91,8 +90,8 @@ pub(super) fn cancelled() -> RequestError {
     failed("cancelled")
 }
 
-pub(super) fn unknown_command(name: &str) -> RequestError {
-    let known = COMMANDS.join(", ");
+pub(super) fn unknown_command(name: &str, known: &[&str]) -> RequestError {
+    let known = known.join(", ");
     invalid_parameters(format!("`{name}` is not a command of this server; expected one of {known}"))
 }
 

@@ -104,22 +104,14 @@ pub(crate) struct CheckedCircuit {
     pub(crate) uses: Vec<NameUse>,
 }
 
-pub(crate) fn circuit(
-    source: &tree::CircuitSyntax,
-    home: Home,
-    declared: Vocabulary<'_>,
-    headers: &Headers,
-) -> CheckedCircuit {
-    checked(source, home, declared, headers, None)
-}
-
 /// Checks properties of steps, in which `before` is a register clocked by the last input.
 pub(crate) fn monitor(source: &tree::CircuitSyntax, declared: Vocabulary<'_>, headers: &Headers) -> CheckedCircuit {
     let clock = NetSlot(source.inputs.len() as u32 - 1);
-    checked(source, Home::Own, declared, headers, Some(clock))
+    circuit(source, Home::Own, declared, headers, Some(clock))
 }
 
-fn checked(
+/// `steps` is the clock of `before`.
+pub(crate) fn circuit(
     source: &tree::CircuitSyntax,
     home: Home,
     declared: Vocabulary<'_>,

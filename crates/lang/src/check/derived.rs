@@ -35,7 +35,7 @@ pub(crate) fn order(
             let (home, source) = sources[place];
             let from = source.record.field("from");
             let name = match from {
-                Some(field) => fields::name(&field.value, names.kind().word()).ok().map(|name| name.text.as_str()),
+                Some(field) => fields::name(&field.value, names.kind.word()).ok().map(|name| name.text.as_str()),
                 None => usual,
             };
             at = name.and_then(|name| names.find(name, home));
@@ -51,7 +51,7 @@ pub(crate) fn base<'a, T>(
     names: &NameTable,
     checked: &'a [CheckState<T>],
 ) -> Result<&'a CheckState<T>, Diagnostic> {
-    let kind = names.kind().word();
+    let kind = names.kind.word();
     let name = fields::name(value, kind)?;
     let found = &checked[names.resolve(name, home)?];
     if matches!(found, CheckState::Open) {

@@ -232,15 +232,11 @@ impl Loader<'_> {
         let text = match format {
             CircuitSource::Aiger => foreign.aiger(),
             CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
-            CircuitSource::Blif => {
+            CircuitSource::Blif | CircuitSource::Pla => {
                 let file = self.text(sources, name, path)?;
-                let (text, warnings) = foreign.blif(sources.file(file))?;
-                self.loaded.faults.extend(warnings);
-                Ok(text)
-            }
-            CircuitSource::Pla => {
-                let file = self.text(sources, name, path)?;
-                let (text, warnings) = foreign.pla(sources.file(file))?;
+                let file = sources.file(file);
+                let is_pla = format == CircuitSource::Pla;
+                let (text, warnings) = if is_pla { foreign.pla(file)? } else { foreign.blif(file)? };
                 self.loaded.faults.extend(warnings);
                 Ok(text)
             }

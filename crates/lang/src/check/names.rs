@@ -21,7 +21,7 @@ pub(crate) enum Home {
 
 /// Names of one kind with their meaning, mostly a position in the program.
 pub(crate) struct NameTable<T = usize> {
-    kind: NameKind,
+    pub(crate) kind: NameKind,
     prelude: BTreeMap<String, Entry<T>>,
     files: BTreeMap<String, Entry<T>>,
     /// The unknown names looked up so far.
@@ -38,10 +38,6 @@ struct Entry<T> {
 impl<T: Copy> NameTable<T> {
     pub(crate) fn new(kind: NameKind) -> Self {
         Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0), uses: RefCell::default() }
-    }
-
-    pub(crate) fn kind(&self) -> NameKind {
-        self.kind
     }
 
     pub(crate) fn declare(&mut self, name: &NameSyntax, meaning: T, home: Home) -> Result<(), Diagnostic> {

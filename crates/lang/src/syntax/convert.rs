@@ -32,9 +32,7 @@ impl<'a> Converter<'a> {
     pub(crate) fn new(file: FileId, source: &'a str, comments: &'a [Range<usize>], offset: usize) -> Self {
         Self { file, source, comments, offset, errors: Vec::new(), lost: Vec::new() }
     }
-}
 
-impl Converter<'_> {
     /// `None` for a common mistake without a tree.
     pub(crate) fn declaration(&mut self, pairs: Pairs<Rule>) -> Option<Declaration> {
         let pair = solid(pairs).next().expect("a parsed declaration has a pair");

@@ -144,8 +144,7 @@ impl Converter<'_> {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::choice => self.choice(pair, arena),
-            Rule::table => self.table(pair, arena),
-            Rule::match_ => self.match_table(pair, arena),
+            Rule::table | Rule::match_ => self.table(pair, arena),
             Rule::operation => self.operation(pair, arena),
             Rule::constant => self.constant(pair, arena),
             Rule::reference => self.reference(pair, arena),
@@ -277,17 +276,12 @@ impl Converter<'_> {
     }
 
     fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let is_match = pair.as_rule() == Rule::match_;
         let mut parts = parts(pair);
-        let inputs = self.expressions(parts.next().expect("operands"), arena);
+        let first = parts.next().expect("an expression or operands");
+        let inputs = if is_match { vec![self.expression(first, arena)] } else { self.expressions(first, arena) };
         let rows = parts.map(|row| self.table_row(row, arena)).collect();
-        ExpressionSyntaxKind::Table { is_match: false, inputs, rows }
-    }
-
-    fn match_table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
-        let mut parts = parts(pair);
-        let inputs = vec![self.expression(parts.next().expect("an expression"), arena)];
-        let rows = parts.map(|row| self.table_row(row, arena)).collect();
-        ExpressionSyntaxKind::Table { is_match: true, inputs, rows }
+        ExpressionSyntaxKind::Table { is_match, inputs, rows }
     }
 
     pub(crate) fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {

@@ -13,7 +13,7 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
         let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
-        let environment = self.beside(&mut parts);
+        let environment = self.named(Rule::beside, &mut parts);
         let mut arena = Arena::default();
         let properties = parts.map(|property| self.property(property, &mut arena)).collect();
         Prove { circuit, title, environment, properties, body: arena.body(Vec::new()) }

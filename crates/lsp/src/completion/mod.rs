@@ -1,5 +1,6 @@
 //! Completions at a place: words of the language, declared names, fields, units, and calls of circuits.
 
+mod item;
 mod paths;
 mod place;
 
@@ -16,6 +17,7 @@ use nbc_circuit::formats::is_word;
 use nbc_lang::check::{Holds, NameKind, record_fields};
 use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
+use item::item;
 use paths::PathKind;
 use place::{Before, Place};
 
@@ -52,12 +54,9 @@ pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem>
         Place::Operand => [nets(&before, files, NameKind::Net), circuits(files), words(&PREFIXES)].concat(),
         Place::Infix => words(&INFIXES),
         Place::Size => [nets(&before, files, NameKind::Number), words(&["log2"])].concat(),
-        Place::Circuit => names(files, NameKind::Circuit),
+        Place::Name(kind) => names(files, kind),
         Place::Columns(name) => columns(files, name),
-        Place::Swarm => names(files, NameKind::Swarm),
-        Place::World => names(files, NameKind::World),
         Place::Schedule => [names(files, NameKind::Schedule), words(&["schedule"])].concat(),
-        Place::Stimulus => names(files, NameKind::Stimulus),
     }
 }
 
@@ -163,13 +162,4 @@ fn names(files: &Files<'_>, wanted: NameKind) -> Vec<CompletionItem> {
     let named: BTreeMap<&str, NameKind> =
         declared.map(|found| (files.checked.sources.text(found.place), found.kind)).collect();
     named.into_iter().map(|(name, kind)| item(name, CompletionItemKind::Reference, kind.word())).collect()
-}
-
-fn item(label: &str, kind: CompletionItemKind, detail: &str) -> CompletionItem {
-    CompletionItem {
-        label: label.to_owned(),
-        kind: Some(kind),
-        detail: Some(detail.to_owned()),
-        ..CompletionItem::default()
-    }
 }

@@ -2,7 +2,7 @@
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind, TextEdit};
 
-use crate::completion::item;
+use crate::completion::item::item;
 use crate::spot::Spot;
 use nbc_base::source::{EntryKind, Span};
 use nbc_lang::check::{beside, is_usable};

@@ -3,11 +3,13 @@
 
 use std::ops::Range;
 
-use nbc_lang::check::{Holds, record_fields};
+use nbc_lang::check::{Holds, NameKind, record_fields};
 use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Place<'t> {
+    /// Where a declaration of this kind is named.
+    Name(NameKind),
     Outside,
     NewName,
     /// After a number, or after `for` and a number.
@@ -21,15 +23,11 @@ pub(super) enum Place<'t> {
     Infix,
     /// In a width, an index or the parameters of a call.
     Size,
-    Circuit,
     /// The ports of the tested circuit of that name, or of the simulated swarm.
     Columns(&'t str),
     /// In a row of a test or of a schedule.
     Row,
-    World,
-    Swarm,
     Schedule,
-    Stimulus,
     UsedFile,
 }
 
@@ -82,14 +80,14 @@ impl<'t> Before<'t> {
             "circuit" => self.in_circuit(offset),
             "test" => self.in_test(offset),
             "prove" => match self.open.first() {
-                None if self.tokens.len() == 1 => Place::Circuit,
+                None if self.tokens.len() == 1 => Place::Name(NameKind::Circuit),
                 None => Place::NewName,
                 Some(_) => Place::Columns(self.word(1)),
             },
             "simulate" | "schedule" if is_number && self.last_word_before() == "for" => Place::Unit,
             "simulate" => self.in_simulation(),
             "schedule" => match self.bracket() {
-                "(" => Place::Stimulus,
+                "(" => Place::Name(NameKind::Stimulus),
                 "{" => Place::Row,
                 _ => Place::NewName,
             },
@@ -156,8 +154,8 @@ impl<'t> Before<'t> {
     fn in_test(&self, offset: usize) -> Place<'t> {
         let has = |word: &str| (1..self.tokens.len()).any(|at| self.word(at) == word);
         match self.open.first().map(|&at| self.word(at)) {
-            _ if self.tokens.len() == 1 || self.last() == "against" => Place::Circuit,
-            None if self.last() == "in" => Place::World,
+            _ if self.tokens.len() == 1 || self.last() == "against" => Place::Name(NameKind::Circuit),
+            None if self.last() == "in" => Place::Name(NameKind::World),
             Some("{") if has("all") && has("inputs") => self.in_body(offset),
             Some("{") if has("|") && self.is_row(offset) => match self.tokens.last().map(|token| token.kind) {
                 Some(TokenKind::Number) if self.last_word_before() == "for" => Place::Unit,
@@ -177,8 +175,8 @@ impl<'t> Before<'t> {
 
     fn in_simulation(&self) -> Place<'t> {
         match (self.tokens.len(), self.last(), self.bracket()) {
-            (1, ..) => Place::Swarm,
-            (_, "in", _) => Place::World,
+            (1, ..) => Place::Name(NameKind::Swarm),
+            (_, "in", _) => Place::Name(NameKind::World),
             (_, "with", _) => Place::Schedule,
             (.., "(") => Place::Columns(self.word(1)),
             (.., "{") => Place::Row,
@@ -254,7 +252,7 @@ mod tests {
         assert_eq!([place("use $"), place("use \"a\",\n    $")], ["UsedFile"; 2]);
         assert_eq!(
             [place("test $"), place("test f for all inputs against $"), place("test f \"as\" against $")],
-            ["Circuit"; 3]
+            ["Name(Circuit)"; 3]
         );
         assert_eq!(place("test f {\n    a $"), "Columns(\"f\")");
         assert_eq!(place("test f {\n    a | q\n    0 $"), "Row");
@@ -267,11 +265,11 @@ mod tests {
         assert_eq!(place("evolution e { mutation: { $"), "Field(\"mutation\")");
         assert_eq!(place("evolution e { vary: { all: 5%, $"), "Field(\"variation\")");
         assert_eq!(place("material m { period: 3 $"), "Unit");
-        assert_eq!([place("simulate $"), place("simulate s with $")], ["Swarm", "Schedule"]);
+        assert_eq!([place("simulate $"), place("simulate s with $")], ["Name(Swarm)", "Schedule"]);
         assert_eq!(place("simulate s with schedule ($"), "Columns(\"s\")");
-        assert_eq!([place("simulate s in $"), place("test f \"t\" in $")], ["World"; 2]);
+        assert_eq!([place("simulate s in $"), place("test f \"t\" in $")], ["Name(World)"; 2]);
         assert_eq!(place("world w { from: $"), "Value(\"world\", \"from\")");
-        assert_eq!([place("schedule s($"), place("schedule s(a) {\n    $")], ["Stimulus", "Row"]);
+        assert_eq!([place("schedule s($"), place("schedule s(a) {\n    $")], ["Name(Stimulus)", "Row"]);
         assert_eq!(place("schedule s(a) {\n    0 for 3 $"), "Unit");
     }
 }

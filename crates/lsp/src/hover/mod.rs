@@ -5,11 +5,9 @@ mod constant;
 mod declaration;
 mod manual;
 mod net;
+mod picture;
 mod robots;
 mod waves;
-
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
 
 use crate::figures::Subject;
 use crate::spot::Spot;
@@ -20,7 +18,6 @@ use nbc_lang::check::{NameKind, NameUse};
 use nbc_lang::syntax::TokenKind;
 use nbc_lang::syntax::tree::DeclarationKind;
 use nbc_session::Session;
-use nbc_session::report::Svg;
 
 pub(super) struct Shown {
     pub(super) place: Span,
@@ -81,9 +78,4 @@ fn of_word(spot: &Spot<'_>, word: &str, session: &Session, pictures: bool) -> Op
         text.push_str(&format!("\n{robot}"));
     }
     Some(text)
-}
-
-/// An image of Markdown that needs no file.
-fn image(title: &str, svg: &Svg) -> String {
-    format!("![{title}](data:image/svg+xml;base64,{})\n", STANDARD.encode(svg.finish()))
 }

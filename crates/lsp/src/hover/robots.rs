@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::files::Files;
-use crate::hover::image;
+use crate::hover::picture::image;
 use crate::spot::Spot;
 use nbc_base::diag::counted;
 use nbc_base::model::{Behavior, Function, Library, Robot};

@@ -1,7 +1,7 @@
 //! Materials and schedules over time.
 
 use crate::files::Files;
-use crate::hover::image;
+use crate::hover::picture::image;
 use nbc_session::report;
 
 pub(super) fn material(files: &Files<'_>, name: &str, pictures: bool) -> Option<String> {

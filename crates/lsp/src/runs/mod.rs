@@ -17,9 +17,8 @@ use nbc_circuit::CancelFlag;
 use nbc_session::Checked;
 
 pub(super) use order::{COMMANDS, PROVE, RUN, RunOrder, SCHEMATIC, TEST, TIMING};
-pub(super) use watcher::RunEvent;
 use watcher::Watcher;
-pub(super) use work::RunOutcome;
+pub(super) use watcher::{RunEvent, RunOutcome};
 
 pub(super) struct Runs {
     shell: Arc<dyn LanguageShell>,

@@ -49,7 +49,7 @@ impl RunOrder {
             PROVE => RunTask::Prove(number("claim")),
             SCHEMATIC => RunTask::Schematic(choice),
             TIMING => RunTask::Timing(choice),
-            other => return Err(wording::unknown_command(other)),
+            other => return Err(wording::unknown_command(other, &COMMANDS)),
         };
         Ok(Self { uri, task })
     }

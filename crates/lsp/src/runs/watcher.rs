@@ -5,16 +5,35 @@ use std::sync::mpsc::Sender;
 
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
+use serde::Serialize;
 
-use crate::runs::work::RunOutcome;
 use crate::shell::LanguageShell;
+use crate::uri;
 use crate::wording::RequestError;
+use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::Observer;
 
 pub(crate) enum RunEvent {
     Progress { token: ProgressToken, percentage: u32, message: String },
     Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, RequestError> },
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct RunOutcome {
+    /// Whether every test passed and no robot failed; `None` if there was no test and no robot failed.
+    pub(super) passed: Option<bool>,
+    pub(crate) text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) page: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) path: Option<String>,
+}
+
+impl RunOutcome {
+    pub(super) fn new(passed: Option<bool>, text: String, path: Option<String>, world: &SharedWorld) -> Self {
+        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&**world, path).0), path }
+    }
 }
 
 pub(super) struct Watcher {

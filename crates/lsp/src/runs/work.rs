@@ -1,11 +1,8 @@
 //! The work of a command, and its result.
 
-use serde::Serialize;
-
 use crate::runs::order::{RunOrder, RunTask};
-use crate::runs::watcher::Watcher;
+use crate::runs::watcher::{RunOutcome, Watcher};
 use crate::shell::LanguageShell;
-use crate::uri;
 use crate::wording::{self, RequestError};
 use nbc_base::diag::Diagnostics;
 use nbc_base::model::Claim;
@@ -16,23 +13,6 @@ use nbc_session::{
     Checked, Choice, ClaimReport, CompileOptions, Compiled, Observer, RunList, RunReport, Session, TestOptions,
 };
 use nbc_swarm::{Level, Room};
-
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct RunOutcome {
-    /// Whether every test passed and no robot failed; `None` if there was no test and no robot failed.
-    pub(super) passed: Option<bool>,
-    pub(crate) text: String,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) page: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub(crate) path: Option<String>,
-}
-
-impl RunOutcome {
-    pub(super) fn new(passed: Option<bool>, text: String, path: Option<String>, world: &SharedWorld) -> Self {
-        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&**world, path).0), path }
-    }
-}
 
 pub(super) fn perform(
     world: SharedWorld,

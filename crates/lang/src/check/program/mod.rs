@@ -299,7 +299,8 @@ impl<'a> Assembly<'a> {
         self.program.selector = selector.map(|at| CircuitId(at as u32));
         let mut calls = Vec::new();
         for &(home, source) in &sources {
-            let checked = circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers);
+            let checked =
+                circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers, None);
             let is_whole = !self.declarations.is_broken(source.name.span);
             self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
             self.circuits.homes.push(home);

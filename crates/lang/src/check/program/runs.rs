@@ -301,7 +301,7 @@ impl<'a> Assembly<'a> {
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { is_environment: false, name, parameters: Vec::new(), inputs, outputs, body };
-        let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers);
+        let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers, None);
         self.beside_ports(checked, tested, &instance.circuit)
     }
 

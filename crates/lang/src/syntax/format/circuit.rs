@@ -84,9 +84,7 @@ impl Printer<'_> {
             }
         });
     }
-}
 
-impl Printer<'_> {
     fn conditional(&mut self, body: &BodySyntax, statement: &StatementSyntax, head: &str) {
         let StatementKind::If { then, otherwise, blocks, .. } = &statement.kind else { return };
         self.write(head);
