@@ -50,7 +50,6 @@ macro_rules! failures {
 
 failures! {
     Diagnostic,
-    nbc_lsp::ServerError,
     #[cfg(feature = "cluster")]
     nbc_cluster::ClusterError,
 }

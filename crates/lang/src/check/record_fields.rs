@@ -1,12 +1,37 @@
-//! Which fields of a record have an effect, and with which others. A field that has none is refused, because nothing
-//! that is declared may be ignored.
+//! The fields of records: what they hold, and which others they need to have an effect. A field without effect is
+//! refused, because nothing that is declared may be ignored. The checker and editors read this table.
+
+use crate::check::uses::NameKind;
 
 /// What a record is, or has: a field and its word, as `("objective", "gate")`; or a field that changes something, as
 /// `("vary", "")`.
 pub(crate) type Fact = (&'static str, &'static str);
 
-/// Fields, and the facts of which one must hold for them to have an effect.
-type Group = (&'static [&'static str], &'static [Fact]);
+/// A field of a kind of record.
+#[derive(Clone, Copy, Debug)]
+pub struct RecordField {
+    pub name: &'static str,
+    pub holds: Holds,
+    /// The facts of which one must hold; none if the field always has an effect.
+    needs: &'static [Fact],
+}
+
+/// What a field holds, as far as editors complete it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holds {
+    /// A number, a text or another value that is not completed.
+    Value,
+    Word(&'static [&'static str]),
+    Name(NameKind),
+    /// A name of this kind, or one of the words.
+    NameOr(NameKind, &'static [&'static str]),
+    /// A function or a behavior.
+    Function,
+    /// Fields of a record of this kind.
+    Record(&'static str),
+}
+
+use Holds::{Function, Name, NameOr, Record, Value, Word};
 
 const ALWAYS: &[Fact] = &[];
 const ACTUATOR: &[Fact] = &[("kind", "actuator")];
@@ -24,65 +49,146 @@ const STIMULI: &[Fact] = &[("objective", "distance"), ("objective", "gate"), ("o
 const GATES: &[Fact] = &[("objective", "gate"), ("objective", "wave")];
 const VARIED: &[Fact] = &[("vary", "")];
 
-/// The fields of each kind of record.
-const RULES: [(&str, &[Group]); 8] = [
+/// The kinds of records with their fields, in the order in which messages list them.
+const RECORDS: [(&str, &[RecordField]); 8] = [
     (
         "material",
         &[
-            (&["kind"], ALWAYS),
-            (&["drive", "period", "phase", "range"], ACTUATOR),
-            (&["stimulus", "absent", "present"], SENSOR),
+            field("kind", Word(&["actuator", "rigid", "sensor", "soft"]), ALWAYS),
+            field("drive", Word(&["sine"]), ACTUATOR),
+            field("period", Value, ACTUATOR),
+            field("phase", Value, ACTUATOR),
+            field("range", Value, ACTUATOR),
+            field("stimulus", Name(NameKind::Stimulus), SENSOR),
+            field("absent", Value, SENSOR),
+            field("present", Value, SENSOR),
         ],
     ),
     (
         "world",
         &[
-            (&["from", "friction", "gravity", "stiffness", "drag", "damping", "swelling"], ALWAYS),
-            (&["start", "missed", "weak", "dead", "ground"], ALWAYS),
-            (&["seed"], DRAWN),
+            field("from", Name(NameKind::World), ALWAYS),
+            field("friction", Value, ALWAYS),
+            field("gravity", Value, ALWAYS),
+            field("stiffness", Value, ALWAYS),
+            field("drag", Value, ALWAYS),
+            field("damping", Value, ALWAYS),
+            field("swelling", Value, ALWAYS),
+            field("start", Value, ALWAYS),
+            field("missed", Value, ALWAYS),
+            field("weak", Value, ALWAYS),
+            field("dead", Value, ALWAYS),
+            field("seed", Value, DRAWN),
+            field("ground", Value, ALWAYS),
         ],
     ),
-    ("images", &[(&["stimulus", "from", "white", "label", "take"], ALWAYS)]),
-    ("library", &[(&["from", "behaviors", "without"], ALWAYS)]),
+    (
+        "images",
+        &[
+            field("stimulus", Name(NameKind::Stimulus), ALWAYS),
+            field("from", Value, ALWAYS),
+            field("white", Value, ALWAYS),
+            field("label", Value, ALWAYS),
+            field("take", Value, ALWAYS),
+        ],
+    ),
+    (
+        "library",
+        &[
+            field("from", NameOr(NameKind::Evolution, &["shipped", "three"]), ALWAYS),
+            field("behaviors", Function, ALWAYS),
+            field("without", Value, ALWAYS),
+        ],
+    ),
     (
         "swarm",
         &[
-            (&["circuit", "library", "registers", "world"], ALWAYS),
-            (&["hold", "window"], HOLDS),
-            (&["beat", "step"], WAVES),
+            field("circuit", Name(NameKind::Circuit), ALWAYS),
+            field("library", Name(NameKind::Library), ALWAYS),
+            field("hold", Word(&["auto"]), HOLDS),
+            field("window", Value, HOLDS),
+            field("registers", Word(&["master_slave", "mux", "pulsed", "waves"]), ALWAYS),
+            field("beat", Value, WAVES),
+            field("step", Value, WAVES),
+            field("world", Name(NameKind::World), ALWAYS),
         ],
     ),
     (
         "evolution",
         &[
-            (&["from", "box", "materials", "genome", "variable", "descriptors", "batch", "newcomers"], ALWAYS),
-            (&["generations", "seed", "as", "objective", "niche", "world"], ALWAYS),
-            (&["symmetry"], STIMULI),
-            (&["shown"], IMAGES),
-            (&["mutation"], NETWORKS),
-            (&["crossover", "start"], VOXELS),
-            (&["fixed"], DISTANCE),
-            (&["behaviors", "vary"], GATES),
-            (&["worlds"], VARIED),
+            field("from", Name(NameKind::Evolution), ALWAYS),
+            field("box", Value, ALWAYS),
+            field("materials", Name(NameKind::Material), ALWAYS),
+            field("genome", Word(&["cppn", "voxels"]), ALWAYS),
+            field("crossover", Value, VOXELS),
+            field("start", Name(NameKind::Library), VOXELS),
+            field("variable", Name(NameKind::Schedule), ALWAYS),
+            field("objective", Word(&["distance", "gate", "images", "wave"]), ALWAYS),
+            field("shown", Word(&["apart", "in_turn"]), IMAGES),
+            field("world", Name(NameKind::World), ALWAYS),
+            field("mutation", Record("mutation"), NETWORKS),
+            field("fixed", Value, DISTANCE),
+            field("descriptors", Word(&["active in", "behavior", "class", "sensory in", "voxels in"]), ALWAYS),
+            field("batch", Value, ALWAYS),
+            field("newcomers", Value, ALWAYS),
+            field("generations", Value, ALWAYS),
+            field("seed", Value, ALWAYS),
+            field("as", Word(&["code", "paper"]), ALWAYS),
+            field("behaviors", Function, GATES),
+            field("symmetry", Word(&["none", "npn"]), STIMULI),
+            field("niche", Word(&["dominance", "pareto"]), ALWAYS),
+            field("vary", Record("variation"), GATES),
+            field("worlds", Value, VARIED),
         ],
     ),
     (
         "mutation",
-        &[(&["add_node", "remove_node", "add_link", "remove_link", "change_activation", "change_weight"], ALWAYS)],
+        &[
+            field("add_node", Value, ALWAYS),
+            field("remove_node", Value, ALWAYS),
+            field("add_link", Value, ALWAYS),
+            field("remove_link", Value, ALWAYS),
+            field("change_activation", Value, ALWAYS),
+            field("change_weight", Value, ALWAYS),
+        ],
     ),
     (
         "variation",
         &[
-            (&["all", "friction", "gravity", "stiffness", "drag", "damping", "swelling"], ALWAYS),
-            (&["start", "missed", "weak", "dead"], ALWAYS),
+            field("all", Value, ALWAYS),
+            field("friction", Value, ALWAYS),
+            field("gravity", Value, ALWAYS),
+            field("stiffness", Value, ALWAYS),
+            field("drag", Value, ALWAYS),
+            field("damping", Value, ALWAYS),
+            field("swelling", Value, ALWAYS),
+            field("start", Value, ALWAYS),
+            field("missed", Value, ALWAYS),
+            field("weak", Value, ALWAYS),
+            field("dead", Value, ALWAYS),
         ],
     ),
 ];
 
-/// The facts of which one must hold for a field to have an effect, none if it always has; `None` for an unknown field.
-pub(crate) fn needs(record: &str, field: &str) -> Option<&'static [Fact]> {
-    let (_, groups) = RULES.iter().find(|(known, _)| *known == record)?;
-    groups.iter().find(|(fields, _)| fields.contains(&field)).map(|(_, facts)| *facts)
+const fn field(name: &'static str, holds: Holds, needs: &'static [Fact]) -> RecordField {
+    RecordField { name, holds, needs }
+}
+
+/// The fields of a kind of record.
+pub fn record_fields(kind: &str) -> &'static [RecordField] {
+    RECORDS.iter().find(|(known, _)| *known == kind).map_or(&[], |(_, fields)| fields)
+}
+
+impl RecordField {
+    /// The facts that would give the field an effect, if none of them holds.
+    pub(crate) fn lacks(&self, facts: &[Fact]) -> Option<&'static [Fact]> {
+        (!self.needs.is_empty() && !self.needs.iter().any(|fact| facts.contains(fact))).then_some(self.needs)
+    }
+
+    /// Whether messages list it: fields of another kind of material are not fields of this one.
+    pub(crate) fn is_listed(&self, facts: &[Fact]) -> bool {
+        self.needs.iter().all(|(field, _)| *field != "kind") || self.lacks(facts).is_none()
+    }
 }
 
 #[cfg(test)]
@@ -114,7 +220,6 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
     /// A file of images that the programs name.
     const SPOTS: &str = "1,0,0\n0,1,1\n0,0.5,1\n";
 
-    /// Two values of a field.
     fn values(record: &str, field: &str) -> [&'static str; 2] {
         match (record, field) {
             ("material", "kind") => ["rigid", "soft"],
@@ -191,19 +296,15 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
         (found.program, found.diagnostics)
     }
 
-    /// All words of the choices that decide which fields have an effect.
     fn words(field: &str) -> BTreeSet<Fact> {
-        let groups = RULES.iter().flat_map(|(_, groups)| *groups);
-        groups.flat_map(|(_, facts)| *facts).copied().filter(|(named, _)| *named == field).collect()
+        let fields = RECORDS.iter().flat_map(|(_, fields)| *fields);
+        fields.flat_map(|known| known.needs).copied().filter(|(named, _)| *named == field).collect()
     }
 
     #[test]
     fn each_field_has_an_effect_or_is_refused() {
-        let fields = RULES.iter().flat_map(|(record, groups)| {
-            let fields = groups.iter().flat_map(|(fields, needs)| fields.iter().map(|field| (*field, *needs)));
-            fields.map(move |(field, needs)| (*record, field, needs))
-        });
-        for (record, field, needs) in fields {
+        let fields = RECORDS.iter().flat_map(|(record, fields)| fields.iter().map(|field| (*record, *field)));
+        for (record, RecordField { name: field, needs, .. }) in fields {
             let [first, second] = values(record, field);
             let refused = |fact| {
                 let (_, faults) = program(record, (field, first), fact);
@@ -229,16 +330,16 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
     }
 
     #[test]
-    fn the_table_has_the_fields_that_records_know() {
-        for (record, groups) in RULES {
-            let (_, faults) = program(record, ("zzzz", "1"), Some(("kind", "sensor")).filter(|_| record == "material"));
-            let help =
-                faults.iter().find(|fault| fault.code == Code::UnknownField).and_then(|fault| fault.help.as_ref());
-            let help = help.unwrap_or_else(|| panic!("{record}: {faults:?}"));
-            let known: BTreeSet<&str> = help.split('`').skip(1).step_by(2).collect();
-            let ruled =
-                groups.iter().filter(|(_, needs)| *needs != ACTUATOR).flat_map(|(fields, _)| fields.iter().copied());
-            assert_eq!(known, ruled.collect(), "{record}");
+    fn the_words_of_a_field_are_known() {
+        for (record, fields) in RECORDS {
+            for field in fields {
+                let (Word(words) | NameOr(_, words)) = field.holds else { continue };
+                for word in words.iter().filter(|word| !word.ends_with(" in") && **word != "pareto") {
+                    let (_, faults) = program(record, (field.name, word), None);
+                    let quoted = format!("`{word}`");
+                    assert!(!faults.iter().any(|fault| fault.message.contains(&quoted)), "{record}: {faults:?}");
+                }
+            }
         }
     }
 }
