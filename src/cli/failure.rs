@@ -69,8 +69,6 @@ macro_rules! failures {
 }
 
 failures! {
-    #[cfg(feature = "cluster")]
-    nbc_cluster::ClusterError,
     #[cfg(feature = "gpu")]
     DeviceFailure,
     DrawError,

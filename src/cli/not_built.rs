@@ -44,6 +44,7 @@ pub(super) mod play {
 pub(super) mod cluster {
     use std::convert::Infallible;
 
+    use nbc_base::diag::Diagnostic;
     use nbc_swarm::{Executor, Task, TaskResult};
 
     use super::*;
@@ -67,7 +68,7 @@ pub(super) mod cluster {
 
     impl NoQueue {
         /// Cannot be called.
-        pub fn end(self) -> Result<(), MissingFeature> {
+        pub fn end(self) -> Result<(), Diagnostic> {
             match self.0 {}
         }
     }

@@ -100,7 +100,7 @@ impl TaskExecutor {
     /// Waits until the workers have stopped, and reports a failure of the device.
     pub fn end(self, context: &Context) -> Result<(), Failure> {
         if let Some(queue) = self.queue {
-            queue.end()?;
+            queue.end().map_err(Failure::plain)?;
         }
         self.device.end(context)
     }

@@ -2,14 +2,16 @@
 
 use std::sync::Mutex;
 
+use serde::{Deserialize, Serialize};
+
 use crate::lock::lock;
 use nbc_session::BodyTrials;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Scores;
-use nbc_swarm::{CyclePart, PartStates};
+use nbc_swarm::{CyclePart, PartStates, part_states};
 
 /// A part of a simulation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CrewPart {
     /// A cycle of some robots of a swarm.
     Cycle(Box<CyclePart>),
@@ -18,10 +20,10 @@ pub enum CrewPart {
 }
 
 /// What became of a part of the same kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CrewResult {
     /// The states of the robots.
-    Cycle(PartStates),
+    Cycle(#[serde(with = "part_states")] PartStates),
     /// The scores of the bodies.
     Bodies(Vec<Option<Scores>>),
 }

@@ -1,6 +1,8 @@
 //! A search for gates around a body that somebody has painted.
 
-use nbc_base::model::{Body, Evolution};
+use serde::{Deserialize, Serialize};
+
+use nbc_base::model::{Body, Evolution, bodies};
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::{CandidateOutcome, NeighborSearch, NicheKey, Scores};
@@ -18,11 +20,11 @@ pub struct BodySearch {
 }
 
 /// Bodies of a search, to be tried anywhere: what a body is found to do depends on it and on the search alone.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyTrials {
     /// The search, as declared.
     pub evolution: Evolution,
-    /// The bodies.
+    #[serde(with = "bodies")]
     pub bodies: Vec<Body>,
 }
 

@@ -1,5 +1,7 @@
 //! The input and the result of an evaluation as plain data, so that it can be done on any machine.
 
+use serde::{Deserialize, Serialize};
+
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, WorldSample};
@@ -8,7 +10,7 @@ use nbc_base::model::{
 };
 
 /// The simulations of an evaluation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationProtocol {
     /// The stimuli of its bodies: two or three.
     pub stimuli: usize,
@@ -40,7 +42,7 @@ pub(super) fn setting(world: &PhysicsWorld) -> Setting {
 }
 
 /// A body to be evaluated.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationTask {
     /// Its voxels.
     pub body: Body,
@@ -52,7 +54,7 @@ pub struct EvaluationTask {
 }
 
 /// The result of an evaluation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evaluated {
     /// The result for the archive.
     pub outcome: CandidateOutcome,

@@ -1,5 +1,7 @@
 //! All measurements of a body for its robot file.
 
+use serde::{Deserialize, Serialize};
+
 use crate::characterize::characterize;
 use crate::distance::fixed_displacements;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Setting};
@@ -9,7 +11,7 @@ use nbc_sim::Simulator;
 pub const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
 
 /// The measurements of a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// Displacement in voxels over the paper's fixed simulations, one for each pattern.
     pub displacement: Displacements,

@@ -40,7 +40,7 @@ pub fn open_queue(
     let Some(address) = &arguments.nats else { return Ok(None) };
     let (server, trust_workers) = (server(address, &arguments.access), arguments.trust_workers);
     let options = QueueOptions { server, trust_workers, cancel: interrupt.cancel(), log };
-    Ok(Some(QueueExecutor::open(options, note)?))
+    QueueExecutor::open(options, note).map(Some).map_err(Failure::plain)
 }
 
 fn server(address: &str, access: &NatsAccess) -> NatsServer {

@@ -258,7 +258,7 @@ fn run_cases(
     };
     in_order(threads(workers.as_ref()), cases, run, |judged| bar.suspend(|| tell(judged)))?;
     if let Some(workers) = workers {
-        workers.end()?;
+        workers.end().map_err(Failure::plain)?;
     }
     Ok(verdicts)
 }

@@ -17,7 +17,7 @@ pub struct Scores {
 }
 
 /// The result of a candidate.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CandidateOutcome {
     /// It was tried in full.
     Measured(Scores),
