@@ -7,10 +7,11 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::Path;
 
-use axum::http::{HeaderMap, HeaderValue, header};
-use axum::response::{IntoResponse, Response};
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use tungstenite::http::{HeaderMap, HeaderValue, header};
+
+use crate::http::{HttpAnswer, content};
 
 /// The cache header of files that never change.
 const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
@@ -65,22 +66,22 @@ impl Page {
     }
 
     /// The document, which a browser asks for each time.
-    pub(super) fn document(&self, request: &HeaderMap) -> Response {
+    pub(super) fn document(&self, request: &HeaderMap) -> HttpAnswer {
         self.own.html.answer(request)
     }
 
     /// A script or a style by its name.
-    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
+    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
         self.own.part(name, request)
     }
 
     /// The document of the teacher's page.
-    pub(super) fn teacher(&self, request: &HeaderMap) -> Response {
+    pub(super) fn teacher(&self, request: &HeaderMap) -> HttpAnswer {
         self.teacher.html.answer(request)
     }
 
     /// A script or a style of the teacher's page by its name.
-    pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<Response> {
+    pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
         self.teacher.part(name, request)
     }
 }
@@ -95,7 +96,7 @@ impl Parts {
         Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
     }
 
-    fn part(&self, name: &str, request: &HeaderMap) -> Option<Response> {
+    fn part(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
         let part = [&self.script, &self.style].into_iter().find(|part| part.name == name)?;
         let mut response = part.answer(request);
         response.headers_mut().insert(header::CACHE_CONTROL, IMMUTABLE);
@@ -110,12 +111,10 @@ impl Part {
         Self { name, kind, packed: packing.finish().expect("memory takes any bytes"), text }
     }
 
-    fn answer(&self, request: &HeaderMap) -> Response {
+    fn answer(&self, request: &HeaderMap) -> HttpAnswer {
         let packs = accepts_gzip(request);
-        let bytes = if packs { self.packed.clone() } else { self.text.as_bytes().to_vec() };
-        let mut response = bytes.into_response();
+        let mut response = content(self.kind, if packs { &*self.packed } else { self.text.as_bytes() });
         let headers = response.headers_mut();
-        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(self.kind));
         headers.insert(header::VARY, HeaderValue::from_static("accept-encoding"));
         if packs {
             headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));

@@ -2,7 +2,6 @@
 
 use crate::wording::PlayError;
 
-/// Bytes of a random token.
 const TOKEN: usize = 16;
 
 /// Whether a text can be the secret part of an address.
@@ -10,7 +9,6 @@ pub fn is_token(text: &str) -> bool {
     text.len() >= 16 && text.bytes().all(|byte| byte.is_ascii_alphanumeric())
 }
 
-/// A token that nobody can guess.
 pub(super) fn random_token() -> Result<String, PlayError> {
     let mut bytes = [0; TOKEN];
     getrandom::fill(&mut bytes).map_err(|error| PlayError::System { reason: error.to_string() })?;

@@ -2,30 +2,11 @@
 
 use nbc_base::diag::{Code, Diagnostic};
 
-/// The reason for which pages cannot be served.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PlayError {
-    /// An address at which nothing can listen.
-    Address {
-        /// The host, as the user gave it.
-        host: String,
-        /// The port; 0 is any.
-        port: u16,
-        /// What the system says.
-        reason: String,
-    },
-    /// A file or folder that cannot be found.
-    File {
-        /// The path, as the user gave it.
-        path: String,
-        /// What the system says.
-        reason: String,
-    },
-    /// A resource that the system does not provide, such as threads.
-    System {
-        /// What the system says.
-        reason: String,
-    },
+    Address { host: String, port: u16, reason: String },
+    File { path: String, reason: String },
+    System { reason: String },
 }
 
 impl From<PlayError> for Diagnostic {

@@ -20,32 +20,25 @@ use nbc_session::report::{self, Stage};
 use nbc_session::{Checked, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Level, Recorded};
 
-/// The page without its data.
 const PAGE: &str = include_str!("../page/player.html");
-/// Where the data belongs, and the title.
 const DATA: &str = "<script type=\"application/octet-stream\" id=\"data\">";
 const TITLE: &str = "<title>nbc";
 
 /// The most different bodies of a page: each adds some kilobytes.
 const MOST_BODIES: usize = 256;
-/// Tests with more rows are left out.
 const MOST_ROWS: usize = 256;
 /// Cycles of a recording, and those of them in which the robot takes its shape.
 const CYCLES: usize = 16;
 const SETTLING: usize = 5;
 
-/// A page for a file of its own.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ExportedPage {
-    /// The document.
     pub html: String,
-    /// The circuit in it.
     pub circuit: String,
-    /// The number of its robots.
     pub robots: usize,
 }
 
-/// Makes the page of a compiled circuit of a program. The session must record poses for a live swarm.
+/// The session must record poses for a live swarm.
 pub fn export(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedPage, ExportError> {
     let data = exported(session, checked, compiled)?;
     let text = serde_json::to_vec(&data).expect("a swarm can be written as JSON");
@@ -103,7 +96,6 @@ fn exported(session: &Session, checked: &Checked, compiled: &Compiled) -> Result
     })
 }
 
-/// How each body walks on flat ground under each pattern of its stimuli.
 fn walks(bodies: &[(&Body, Behavior)], compiled: &Compiled) -> Vec<ExportedWalk> {
     let factors = compiled.assembly.world.factors;
     let setting = Setting { factors, ground: GroundProfile::default(), ..Setting::default() };
@@ -163,8 +155,8 @@ fn mean<'a>(numbers: impl Iterator<Item = &'a i16>) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// The rows of the tests of the circuit. The steps of a wave machine are read at other times, and scripts depend on
-/// what the circuit does, so these are left out.
+/// Left out are the steps of a wave machine, which are read at other times, and scripts, which depend on what the
+/// circuit does.
 fn tests(session: &Session, checked: &Checked, compiled: &Compiled) -> Vec<ExportedTest> {
     if compiled.mapping.waves.is_some() {
         return Vec::new();

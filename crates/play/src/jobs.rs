@@ -17,22 +17,18 @@ use nbc_circuit::CancelFlag;
 use nbc_session::{CompileOptions, Observer};
 use nbc_sim::{Monitor, Simulator};
 
-/// The time after which a request is stopped.
 const TIME: Duration = Duration::from_secs(Limit::PageSeconds.most());
 
-/// The requests of a page that run.
 pub(super) struct Jobs {
     running: Arc<Mutex<BTreeMap<u64, Running>>>,
     making: CompileOptions,
     outbox: Outbox,
 }
 
-/// The handle to stop a request that runs.
 struct Running {
     kind: WorkKind,
     stop: CancelFlag,
     monitor: Arc<Monitor>,
-    /// When it has taken too long.
     end: Duration,
     is_late: Arc<AtomicBool>,
 }
@@ -49,7 +45,6 @@ impl Running {
     }
 }
 
-/// A request that runs, as its own work sees it.
 pub(super) struct Job {
     pub(super) id: u64,
     pub(super) outbox: Outbox,
@@ -57,27 +52,22 @@ pub(super) struct Job {
     making: CompileOptions,
     monitor: Arc<Monitor>,
     is_late: Arc<AtomicBool>,
-    /// The percentage that was reported last.
     told: u64,
 }
 
-/// The end of a portion of work.
 pub(super) enum PortionEnd {
-    /// There is more to do.
     More,
-    /// There will be when others have done their parts.
+    /// There will be more to do when workers have finished their parts.
     Waits,
-    /// It is done. There is no answer if somebody else will give it.
+    /// There is no answer if somebody else will give it.
     Done(Option<RequestResult>),
 }
 
-/// The answer of a request whose work is one portion.
 pub(super) type JobEnd = Result<Option<RequestResult>, Refused>;
 
-/// The work of a long request: does a portion of it.
+/// Does a portion of a long request.
 pub(super) type JobWork = Box<dyn FnMut(&mut Job) -> Result<PortionEnd, Refused> + Send>;
 
-/// Work of one portion.
 pub(super) fn once(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> JobWork {
     let mut work = Some(work);
     Box::new(move |job| {
@@ -87,12 +77,11 @@ pub(super) fn once(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Jo
 }
 
 impl Jobs {
-    /// No requests. Those that come make swarms with these options.
     pub(super) fn new(outbox: Outbox, making: CompileOptions) -> Self {
         Self { running: Arc::default(), making, outbox }
     }
 
-    /// Starts a request; the flag that stops it, if it could be started.
+    /// Returns the flag that stops the request, if it could be started.
     pub(super) fn start(
         &self,
         shell: &dyn Shell,
@@ -142,36 +131,30 @@ impl Jobs {
         Some(stop)
     }
 
-    /// Stops a request.
     pub(super) fn cancel(&self, id: u64) {
         lock(&self.running).get(&id).into_iter().for_each(Running::stop);
     }
 
-    /// Whether none runs.
     pub(super) fn are_done(&self) -> bool {
         lock(&self.running).is_empty()
     }
 
-    /// Stops the requests that take too long.
     pub(super) fn end_late(&self, now: Duration) {
         lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop_late);
     }
 }
 
 impl Drop for Jobs {
-    /// Stops the requests, because the page has left.
     fn drop(&mut self) {
         lock(&self.running).values().for_each(Running::stop);
     }
 }
 
 impl Job {
-    /// A simulator whose simulations end when it is stopped.
     pub(super) fn simulator(&self) -> Simulator {
         Simulator::monitored(self.monitor.clone())
     }
 
-    /// How circuits are compiled; that ends early when the request is stopped.
     pub(super) fn options(&self) -> CompileOptions {
         CompileOptions { cancel: self.stop.clone(), ..self.making.clone() }
     }
@@ -181,7 +164,7 @@ impl Job {
         if self.stop.is_raised() { Err(self.reason(Refused::Cancelled)) } else { Ok(()) }
     }
 
-    /// The reason for a refusal; that of work which was stopped because it took too long is [`Refused::TimedOut`].
+    /// The reason for a refusal, or [`Refused::TimedOut`] for work that was stopped because it took too long.
     fn reason(&self, refused: Refused) -> Refused {
         match refused {
             Refused::Cancelled if self.is_late.load(Ordering::Relaxed) => Refused::TimedOut { seconds: TIME.as_secs() },

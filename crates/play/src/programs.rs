@@ -27,8 +27,6 @@ use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, ClaimReport, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace};
 
-/// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
-/// of, and its tests.
 pub(super) fn program(checked: &Checked) -> ProgramReport {
     let own = checked.program.circuits.iter().filter_map(|circuit| {
         let swarms = checked.program.swarms.iter().filter(|swarm| swarm.circuit.circuit == circuit.name);
@@ -88,7 +86,6 @@ fn row(test: &CircuitTest, row: &TestRow) -> TestRowEntry {
     }
 }
 
-/// The circuit of that name, and the options to compile it with.
 pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(Instance, CompileOptions), Refused> {
     let circuit = checked.circuit(choice)?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
@@ -97,7 +94,7 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     Ok((circuit, options))
 }
 
-/// A compiled circuit as a swarm that is run through the cycles before it is shown.
+/// A compiled circuit as a swarm that runs through some cycles before it is shown.
 pub(super) fn loading(
     (session, checked): (&Session, &Checked),
     compiled: Compiled,
@@ -117,7 +114,6 @@ pub(super) fn loading(
     Ok(LoadingSwarm::new(running, script.before, (job.id, answer)))
 }
 
-/// What a page is told about a swarm.
 pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
     let (assembly, trace, netlist) = (&compiled.assembly, swarm.trace(), &compiled.mapping.netlist);
     // A swarm has its robots in the order of the cells.
@@ -209,7 +205,6 @@ fn robot(
     }
 }
 
-/// The work of running a test of the program that `open` opens.
 pub(super) fn testing(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
@@ -235,7 +230,6 @@ pub(super) fn testing(
     })
 }
 
-/// The work of deciding a claim of the program that `open` opens.
 pub(super) fn proving(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,

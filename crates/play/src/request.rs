@@ -8,7 +8,6 @@ use crate::message::ClassPlace;
 use crate::runner::Change;
 use nbc_swarm::Level;
 
-/// A request with its number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct Request {
@@ -17,7 +16,6 @@ pub(super) struct Request {
     pub(super) verb: Verb,
 }
 
-/// What is requested.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "do", rename_all = "lowercase")]
@@ -102,7 +100,7 @@ pub(super) enum Verb {
         path: String,
         circuit: String,
         swarm: Option<String>,
-        /// Whether the page has the whole program in it, or else a recording.
+        /// Whether the page gets the whole program, or else a recording.
         live: bool,
     },
     Join {
@@ -130,7 +128,6 @@ pub(super) enum ChosenTest {
     Shown(String),
 }
 
-/// A level of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
@@ -139,7 +136,6 @@ pub(super) enum TestLevel {
     Physics,
 }
 
-/// A body to keep as a robot.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct KeepRequest {
@@ -147,12 +143,10 @@ pub(super) struct KeepRequest {
     pub(super) path: Option<String>,
     pub(super) name: String,
     pub(super) body: Vec<String>,
-    /// Whether a robot of that name is replaced.
     #[cfg_attr(test, ts(optional))]
     pub(super) replace: Option<bool>,
 }
 
-/// A search for bodies.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct EvolveRequest {
@@ -165,7 +159,6 @@ pub(super) struct EvolveRequest {
     pub(super) seed: u64,
 }
 
-/// Files that a page can take away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
@@ -197,7 +190,6 @@ impl From<TestLevel> for Level {
 }
 
 impl Verb {
-    /// The change of the swarm that is requested, if it is one; or the request itself.
     pub(super) fn change(self) -> Result<Change, Self> {
         Ok(match self {
             Self::Inputs { bits } => Change::Inputs(bits.bytes().map(|digit| digit == b'1').collect()),

@@ -2,23 +2,10 @@
 
 use nbc_base::diag::{Code, Diagnostic};
 
-/// The reason for which a circuit cannot be exported as a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ExportError {
-    /// A circuit with more robots than an exported page may have.
-    TooManyRobots {
-        /// Its robots.
-        robots: usize,
-        /// The most.
-        most: usize,
-    },
-    /// A swarm with more different bodies than an exported page may have, as in a world with worn robots.
-    TooManyBodies {
-        /// Its different bodies.
-        bodies: usize,
-        /// The most.
-        most: usize,
-    },
+    TooManyRobots { robots: usize, most: usize },
+    TooManyBodies { bodies: usize, most: usize },
 }
 
 impl From<ExportError> for Diagnostic {

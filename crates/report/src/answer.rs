@@ -8,37 +8,27 @@ use crate::Listing;
 use nbc_base::model::{Behavior, Robot};
 use nbc_swarm::Selected;
 
-/// The result for one behavior.
 #[derive(Clone, Debug, Serialize)]
 pub struct Answer {
     /// Its four letters.
     pub behavior: String,
-    /// Its gate.
     pub function: &'static str,
-    /// Whether a robot was added, one was left out, or there was none.
     pub outcome: Outcome,
-    /// Why none was added, in words.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
-    /// The robot that was added, or left out for its errors.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub robot: Option<Listing>,
 }
 
-/// The kinds of results.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
-    /// It has a robot.
     Added,
-    /// Its best elite is not good enough.
     LeftOut,
-    /// The archives have no elite of it.
     Missing,
 }
 
 impl Answer {
-    /// The result for a behavior, with the highest accepted error rate.
     pub fn of(behavior: Behavior, selected: &Selected, max_error: f64) -> Self {
         let listing = |robot: &Robot| Some(Listing::of(robot));
         let (outcome, reason, robot) = match selected {
@@ -57,13 +47,11 @@ impl Answer {
         Self { behavior: behavior.to_string(), function: behavior.function().name(), outcome, reason, robot }
     }
 
-    /// Whether the behavior has a robot.
     pub fn is_added(&self) -> bool {
         self.outcome == Outcome::Added
     }
 }
 
-/// The error rate of a robot and its upper limit.
 fn errors(robot: &Robot, max_error: f64) -> String {
     let character = &robot.character;
     let wrong = (character.error_rate * f64::from(character.switches)).round();
@@ -72,7 +60,6 @@ fn errors(robot: &Robot, max_error: f64) -> String {
 }
 
 impl fmt::Display for Answer {
-    /// A line for people.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}  {:<10}  ", self.behavior, self.function)?;
         match (self.outcome, &self.robot) {

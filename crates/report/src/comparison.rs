@@ -8,20 +8,16 @@ use crate::groups::{BehaviorGroup, GroupComparison, describe_method, mark};
 use crate::svg::Svg;
 use nbc_base::diag::counted;
 
-/// Groups with an adjusted p below this differ significantly.
 const SIGNIFICANT: f64 = 0.05;
 const TOP: f64 = 52.0;
 const HEIGHT: f64 = 260.0;
-/// Room for the names of the groups and their numbers of runs.
 const NAMES: f64 = 56.0;
-/// From group to group.
 const PITCH: f64 = 74.0;
-/// The table of pairs: where its cells begin, their size, and the room for its two lines of legend.
 const CELLS: f64 = 64.0;
 const CELL: (f64, f64) = (84.0, 30.0);
 const LEGEND: f64 = 52.0;
 
-/// Draws the groups side by side with all pairwise comparisons; `unit` is the measured quantity.
+/// `unit` is the measured quantity.
 pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> Svg {
     let slots: Vec<f64> = (0..groups.len())
         .scan(-0.4, |slot, place| {
@@ -31,12 +27,11 @@ pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], compar
         .collect();
     let last = slots.last().copied().unwrap_or(0.0) + 0.6;
     let table = TOP + HEIGHT + NAMES;
-    let mut svg = Svg::new(
+    let mut svg = Svg::titled(
         (last * PITCH + 84.0).max(CELLS + groups.len() as f64 * CELL.0).max(520.0),
         table + LEGEND + groups.len() as f64 * CELL.1,
         title,
     );
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
     let high = range_of(groups.iter().flat_map(|group| group.values.iter().copied()), 0.08).1;
     let panel = Panel::new((64.0, TOP), last * PITCH, HEIGHT, (0.0, last), (0.0, high));
     panel.y_axis(&mut svg, 5, unit);
@@ -68,8 +63,8 @@ fn draw_group(svg: &mut Svg, panel: &Panel, group: &BehaviorGroup, slot: f64) {
     draw_values(svg, panel, slot, (group.name, "run"), &group.values, color);
 }
 
-/// Draws values above a slot: a dot for each, next to each other, a cross at their mean, and below the panel the name
-/// and how many there are of what.
+/// Draws values above a slot: a dot for each, a cross at their mean, and below the panel the name and the number of
+/// values.
 pub(super) fn draw_values(
     svg: &mut Svg,
     panel: &Panel,
@@ -88,10 +83,8 @@ pub(super) fn draw_values(
     let small = Type::new(9.5).colored(Color::GRAY).anchored(Anchor::Middle);
     svg.text((x, panel.bottom + 30.0), &counted(count, what), small);
     if count > 0 {
-        let (x, y) = panel.at((slot, values.iter().sum::<f64>() / count as f64));
-        let paint = Paint::stroke(Color::BLACK, 2.0);
-        svg.line((x - 5.0, y - 5.0), (x + 5.0, y + 5.0), paint);
-        svg.line((x - 5.0, y + 5.0), (x + 5.0, y - 5.0), paint);
+        let mean = values.iter().sum::<f64>() / count as f64;
+        svg.cross(panel.at((slot, mean)), Paint::stroke(Color::BLACK, 2.0));
     }
 }
 

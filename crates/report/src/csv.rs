@@ -1,12 +1,11 @@
 //! Tables for spreadsheets and programs: CSV as in RFC 4180, with a header.
 
-/// A line of a table.
 pub(super) fn line(cells: impl IntoIterator<Item = String>) -> String {
     cells.into_iter().collect::<Vec<_>>().join(",") + "\n"
 }
 
-/// A text as a cell, quoted if necessary. A spreadsheet computes what begins like a formula, so such a text gets an
-/// apostrophe in front, which spreadsheets read as "this is text". Numbers are not texts.
+/// A text as a cell, quoted if necessary. A spreadsheet computes a text that begins like a formula, so such a text gets
+/// an apostrophe in front, which spreadsheets read as "this is text".
 pub(super) fn cell(text: &str) -> String {
     let is_formula =
         text.trim_start().starts_with(['=', '+', '-', '@', '\u{ff1d}', '\u{ff0b}', '\u{ff0d}', '\u{ff20}']);

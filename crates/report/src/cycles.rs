@@ -6,9 +6,9 @@ use crate::csv::{cell, line};
 use nbc_base::model::{Column, Value};
 use nbc_swarm::SwarmTrace;
 
-/// A trace as a table: the cycle from 1, the input ports during it, the output ports and every other net at its end,
-/// and the distance each robot walked in it, in voxels. A port of one bit is `0` or `1`. A wider one is a number, or
-/// quoted digits if it has more than 64 bits.
+/// A row has the cycle from 1, the input ports during it, the output ports and every other net at its end, and the
+/// distance each robot walked in it, in voxels. A port of one bit is `0` or `1`. A wider one is a number, or quoted
+/// digits if it has more than 64 bits.
 pub fn cycle_table(trace: &SwarmTrace) -> String {
     let ports: BTreeSet<String> = trace.inputs.iter().chain(&trace.outputs).flat_map(Column::bits).collect();
     let nets: Vec<usize> = (0..trace.robots.len()).filter(|&k| !ports.contains(&trace.robots[k].net)).collect();

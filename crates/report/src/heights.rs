@@ -3,7 +3,6 @@
 use crate::layers::{Layers, Slot};
 use nbc_circuit::Netlist;
 
-/// Passes over the layers.
 const SWEEPS: usize = 12;
 
 /// The top of each slot, layer by layer, the uppermost at 0. Slots keep their order and are at least `gap` apart.

@@ -4,19 +4,15 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nbc_circuit::{Loops, NetId, Netlist, Node};
 
-/// Passes over the layers that bring neighbors closer to each other.
 const SWEEPS: usize = 8;
 
-/// The content of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Slot {
-    /// A node.
     Node(NetId),
     /// A net that passes through to later layers.
     Pass(NetId),
 }
 
-/// Nodes and passing nets in layers from left to right, each layer from top to bottom.
 #[derive(Clone, Debug, Default)]
 pub struct Layers {
     pub layers: Vec<Vec<Slot>>,
@@ -24,7 +20,7 @@ pub struct Layers {
 }
 
 impl Layers {
-    /// Lays out a netlist. Wires are placed like cells.
+    /// Wires are placed like cells.
     pub fn of(netlist: &Netlist) -> Self {
         let layer_of = assign(netlist);
         let count = layer_of.values().max().map_or(0, |last| last + 1);
@@ -44,17 +40,14 @@ impl Layers {
         layers
     }
 
-    /// The layer of a node.
     pub fn layer_of(&self, id: NetId) -> usize {
         self.layer_of[&id]
     }
 
-    /// Whether a driver reaches a listener by running back.
     pub fn is_feedback(&self, driver: NetId, listener: NetId) -> bool {
         self.layer_of(listener) <= self.layer_of(driver)
     }
 
-    /// The slot that carries a net in a layer at or after its driver's.
     pub fn carrier(&self, net: NetId, layer: usize) -> Slot {
         if self.layer_of(net) == layer { Slot::Node(net) } else { Slot::Pass(net) }
     }
@@ -76,7 +69,6 @@ impl Layers {
         }
     }
 
-    /// The slots of the layer before that are wired to a slot.
     fn before(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(usize, Slot)> {
         self.entries(netlist, slot, layer).into_iter().map(|(before, _)| (layer - 1, before)).collect()
     }
@@ -94,7 +86,6 @@ impl Layers {
         forwards.map(|(pin, &net)| (self.carrier(net, layer - 1), share(pin))).collect()
     }
 
-    /// The slots of the layer after that are wired to a slot.
     pub fn after(&self, netlist: &Netlist, slot: Slot, layer: usize) -> Vec<(usize, Slot)> {
         let (Slot::Node(net) | Slot::Pass(net)) = slot;
         let listeners: Vec<NetId> = netlist.fanout(net).into_iter().map(|(listener, _)| listener).collect();

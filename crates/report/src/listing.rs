@@ -9,43 +9,33 @@ use crate::{Align, TextTable};
 use nbc_base::diag::counted;
 use nbc_base::model::{Displacements, Library, Palette, Pattern, Robot, SafeRadius, Transition};
 
-/// The data of a robot in a list, for programs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Listing {
-    /// The robot's name in its library.
     pub name: String,
-    /// Its four letters.
     pub behavior: String,
-    /// The function that it computes as a gate.
     pub function: &'static str,
-    /// Its bounding box, columns by rows, such as `5x5`.
     #[serde(rename = "box")]
     pub bounds: String,
-    /// Its clock in cycles.
     pub clock: u32,
-    /// The longest of its settle times in cycles; none if they were not measured.
+    /// The longest settle time in cycles; none if it was not measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settle: Option<u32>,
-    /// Its smallest displacement in voxels per cycle.
+    /// The smallest displacement in voxels per cycle.
     pub margin: f64,
-    /// How far worlds may differ, if that was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<SafeRadius>,
     /// The share of random switches with a wrong output.
     pub error_rate: f64,
-    /// Random switches over which they were counted.
     pub switches: u32,
     /// The share of wrong cycles in which the output should not change.
     pub glitch_rate: f64,
-    /// Its rows of codes, top row first.
     pub body: Vec<String>,
-    /// The materials of the codes, in their order, if they are not the paper's.
+    /// The materials of the codes, if they are not the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub materials: Option<Arc<Palette>>,
 }
 
 impl Listing {
-    /// The entry for one robot.
     pub fn of(robot: &Robot) -> Self {
         let character = &robot.character;
         Self {
@@ -65,12 +55,10 @@ impl Listing {
         }
     }
 
-    /// All robots of a library, in its order.
     pub fn all(library: &Library) -> Vec<Self> {
         library.robots.iter().map(Self::of).collect()
     }
 
-    /// A list as a table for people.
     pub fn table(list: &[Self]) -> TextTable {
         use Align::{Left, Right};
         let mut table = TextTable::new(&[
@@ -107,14 +95,12 @@ fn percent(share: f64) -> String {
     if share == 0.0 { "0".to_owned() } else { format!("{:.2} %", share * 100.0) }
 }
 
-/// Displacements under each pattern.
 pub(super) fn walked(displacement: &Displacements) -> String {
     let behavior = displacement.behavior();
     let one = |(pattern, voxels): (Pattern, &f64)| format!("{} {voxels:+.2}", pattern.digits(behavior.stimuli()));
     behavior.patterns().zip(displacement.iter()).map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A robot on one page: its body, its materials, its character and its provenance.
 pub fn describe_robot(robot: &Robot) -> String {
     let (character, provenance) = (&robot.character, &robot.provenance);
     let drawing = robot.body.rows().join("\n    ").replace('0', ".");
@@ -141,7 +127,7 @@ pub fn describe_robot(robot: &Robot) -> String {
         width = robot.body.width(),
         height = robot.body.height(),
         topples = if character.topples { ", topples" } else { "" },
-        legend = legend(robot),
+        legend = material_words(&robot.body).join("  "),
         displacement = walked(&robot.displacement),
         settles = settles(robot),
         worlds = worlds(robot),
@@ -154,12 +140,6 @@ pub fn describe_robot(robot: &Robot) -> String {
     )
 }
 
-/// The materials that the body has, by code.
-fn legend(robot: &Robot) -> String {
-    material_words(&robot.body).join("  ")
-}
-
-/// How far worlds may differ, and the errors at radius 1.
 fn worlds(robot: &Robot) -> String {
     let Some(SafeRadius { vary, worlds, radius, error_rate, .. }) = &robot.character.radius else {
         return "not measured".to_owned();

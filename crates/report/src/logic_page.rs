@@ -5,7 +5,6 @@ use crate::verdict::describe_test;
 use nbc_base::diag::counted;
 use nbc_swarm::TestVerdict;
 
-/// The page of tests of the source file with that name.
 pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {
     let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
     let all = verdicts.len();

@@ -7,134 +7,92 @@ use nbc_base::diag::counted;
 use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, PathEnds, Pulse, PulsedRegisters, WhyKept};
 use nbc_circuit::{CellKind, FlipFlop, Latch, NetId, Netlist, Timing, Unphased};
 
-/// The registers and clocks of a circuit.
 #[derive(Clone, Debug, Serialize)]
 pub struct PhaseTiming {
-    /// The latches.
     pub latches: Vec<LatchReport>,
-    /// The flip-flops, each of two of these latches.
     pub flip_flops: Vec<FlipFlopReport>,
-    /// The times of each clock.
     pub clocks: Vec<ClockReport>,
-    /// The memory and loops that a change is assumed to pass twice.
     pub unphased: Vec<UnphasedReport>,
-    /// The generators of pulses for pulsed latches.
     pub pulses: Vec<PulseReport>,
-    /// The registers that stay as they are, although latches of another form were asked for.
     pub kept: Vec<KeptReport>,
 }
 
-/// A generator of pulses, with times in cycles.
 #[derive(Clone, Debug, Serialize)]
 pub struct PulseReport {
-    /// The net of the pulse.
     pub net: String,
-    /// Its clock.
     pub clock: String,
     /// Whether a pulse follows each rise of the clock; otherwise it follows each fall.
     pub rises: bool,
-    /// The least length of a pulse.
     pub width: u32,
-    /// The length that its latches need.
     pub needed: u32,
     /// The time after the edge at which it has ended for certain.
     pub ends: u32,
-    /// The number of latches that it opens.
     pub latches: usize,
-    /// The number of robots that delay data.
     pub padding: usize,
 }
 
-/// A register that stays as it is.
 #[derive(Clone, Debug, Serialize)]
 pub struct KeptReport {
-    /// Its net.
     pub net: String,
-    /// The reason.
     pub why: &'static str,
 }
 
-/// A latch.
 #[derive(Clone, Debug, Serialize)]
 pub struct LatchReport {
-    /// The nets that keep the bit.
     pub nets: Vec<String>,
-    /// The net that opens and closes it.
     pub enable: String,
-    /// The value of that net for which the latch is open.
+    /// The value of `enable` for which the latch is open.
     pub open: bool,
 }
 
-/// A flip-flop.
 #[derive(Clone, Debug, Serialize)]
 pub struct FlipFlopReport {
     /// The nets that keep the bit of its second latch.
     pub nets: Vec<String>,
-    /// Its clock.
     pub clock: String,
-    /// Whether it takes its data when the clock rises.
     pub rising: bool,
 }
 
-/// The times of a clock, in cycles.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClockReport {
-    /// The clock.
     pub clock: String,
-    /// The least time high.
     pub high: u32,
-    /// The least time low.
     pub low: u32,
-    /// The least time from one rise to the next.
     pub period: u32,
     /// The least time high and low, if both are the same.
     #[serde(skip)]
     pub half: u32,
-    /// The longest time for which data arrive at a latch after it has opened.
+    /// The longest time after opening at which data still arrive at a latch.
     pub borrowed: u32,
-    /// The times of the other inputs.
     pub inputs: Vec<InputReport>,
-    /// The slowest path of each kind.
     pub paths: Vec<PathReport>,
     /// The latches whose data may change before they are closed.
     pub races: Vec<Vec<String>>,
 }
 
-/// The time for which an input must be stable around an edge of a clock, in cycles.
 #[derive(Clone, Debug, Serialize)]
 pub struct InputReport {
-    /// The input.
     pub input: String,
-    /// Whether it is the edge at which the clock rises.
     pub rises: bool,
-    /// Cycles before the edge.
     pub setup: u32,
-    /// Cycles after the edge.
     pub hold: u32,
 }
 
-/// A slowest path.
 #[derive(Clone, Debug, Serialize)]
 pub struct PathReport {
-    /// Its ends, such as `register to register`.
     pub ends: &'static str,
-    /// Its cycles.
     pub cycles: u32,
-    /// Its nets, from an input on.
     pub nets: Vec<String>,
 }
 
 /// A loop that a change is assumed to pass twice.
 #[derive(Clone, Debug, Serialize)]
 pub struct UnphasedReport {
-    /// Its nets.
     pub nets: Vec<String>,
-    /// The reason.
     pub why: String,
 }
 
 impl PhaseTiming {
-    /// The registers and clocks of a timed netlist whose cells are of these kinds, and of its pulsed latches.
     pub fn of<'k>(
         netlist: &Netlist,
         timing: &Timing,
@@ -154,7 +112,6 @@ impl PhaseTiming {
         }
     }
 
-    /// The times as lines for people.
     pub fn describe(&self) -> String {
         let clocks = self.clocks.iter().map(ClockReport::describe);
         let unphased = self.unphased.iter().map(|UnphasedReport { nets, why }| {
@@ -208,7 +165,6 @@ impl ClockReport {
     }
 }
 
-/// A netlist whose nets are named.
 struct Named<'a>(&'a Netlist);
 
 impl Named<'_> {

@@ -8,26 +8,19 @@ use crate::sprite::{LETTER, draw_body};
 use crate::svg::Svg;
 use nbc_base::model::Body;
 
-/// Pixels of the largest body's longer side, and of its slot.
 const SIDE: f64 = 84.0;
 const PITCH: (f64, f64) = (124.0, 138.0);
 const COLUMNS: usize = 8;
 const TOP: f64 = 44.0;
-/// The smallest and the largest width of a legend entry.
 const ENTRY: (f64, f64) = (106.0, 124.0);
 
-/// A robot among others.
 #[derive(Clone, Debug)]
 pub struct Portrait {
-    /// Above it, bold.
     pub title: String,
-    /// Below it.
     pub subtitle: String,
-    /// Its voxels.
     pub body: Body,
 }
 
-/// Draws robots side by side, with voxels of equal size.
 pub fn draw_portraits(title: &str, portraits: &[Portrait], scheme: Scheme) -> Svg {
     let columns = COLUMNS.min(portraits.len().max(1));
     let bodies = || portraits.iter().map(|portrait| &portrait.body);
@@ -40,8 +33,7 @@ pub fn draw_portraits(title: &str, portraits: &[Portrait], scheme: Scheme) -> Sv
     let legend_height = legend.len().div_ceil(per_line) as f64 * 20.0;
     let width = (columns as f64 * PITCH.0).max(per_line as f64 * entry).max(title.chars().count() as f64 * 10.0) + 28.0;
     let rows = portraits.len().div_ceil(columns) as f64;
-    let mut svg = Svg::new(width, TOP + rows * PITCH.1 + legend_height + 22.0, title);
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let mut svg = Svg::titled(width, TOP + rows * PITCH.1 + legend_height + 22.0, title);
     let sides = portraits.iter().map(|portrait| portrait.body.width().max(portrait.body.height()));
     let voxel = SIDE / sides.max().unwrap_or(1) as f64;
     for (i, portrait) in portraits.iter().enumerate() {

@@ -17,22 +17,17 @@ use nbc_base::diag::counted;
 use nbc_base::model::Robot;
 use nbc_circuit::{NetId, Netlist};
 
-/// The schematic of a circuit. Each of its parts is a sheet, the first of them the whole.
 pub struct Schematic<'a> {
     circuit: &'a Netlist,
     hierarchy: Hierarchy,
-    /// The robots of the cells in order, or none.
     robots: Vec<&'a Robot>,
-    /// The place of each cell among the cells.
     numbers: BTreeMap<NetId, usize>,
     critical: Vec<NetId>,
     looks: Looks,
 }
 
-/// A schematic for a page, which shows a sheet at a time.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SchematicPages {
-    /// The sheets, each after the one around it.
     pub sheets: Vec<SheetPage>,
     /// The bodies of the robots, as SVG. A group `body-K` of a sheet is the place of body `K`.
     pub bodies: Vec<String>,
@@ -40,14 +35,11 @@ pub struct SchematicPages {
     pub homes: Vec<usize>,
 }
 
-/// A sheet for a page.
 #[derive(Clone, Debug, Serialize)]
 pub struct SheetPage {
-    /// Its name in the sheet around it.
     pub name: String,
-    /// What else it is, such as `adder, 37 robots`.
+    /// More about it, such as `adder, 37 robots`.
     pub about: String,
-    /// The sheet around it.
     pub outer: Option<usize>,
     /// The drawing: a group `cell-N` is robot `N`, `part-N` the box of sheet `N`, `net-NAME` the wires of a net, and
     /// `nets-N` those of several.
@@ -70,12 +62,10 @@ impl<'a> Schematic<'a> {
         }
     }
 
-    /// The drawing of the whole, in which large parts are boxes.
     pub fn top(&self) -> Svg {
         self.draw(0, &self.bodies()).0
     }
 
-    /// All sheets.
     pub fn pages(&self) -> SchematicPages {
         let bodies = self.bodies();
         let page = |(number, part): (usize, &CircuitPart)| {
@@ -96,13 +86,11 @@ impl<'a> Schematic<'a> {
         }
     }
 
-    /// The different robots.
     fn bodies(&self) -> Vec<&'a Robot> {
         let mut seen = BTreeSet::new();
         self.robots.iter().copied().filter(|robot| seen.insert(robot.name.as_str())).collect()
     }
 
-    /// A part's drawing, and the nets of each group of several.
     fn draw(&self, part: usize, bodies: &[&Robot]) -> (Svg, Vec<Vec<String>>) {
         let sheet = Sheet::of(self.circuit, &self.hierarchy, part);
         let plan = SheetPlan::of(&sheet.netlist);
@@ -179,7 +167,6 @@ impl<'a> Schematic<'a> {
         format!("{} = {function}({}){robot}", self.circuit.net_name(cell), pins.join(", "))
     }
 
-    /// The wires of the slowest path on a sheet.
     fn critical_wires(&self, sheet: &Sheet) -> BTreeSet<(NetId, NetId)> {
         let nodes: Vec<Option<NetId>> = self.critical.iter().map(|&net| sheet.node_of(net)).collect();
         let pair = |pair: &[Option<NetId>]| Some((pair[0]?, pair[1]?)).filter(|(from, to)| from != to);
@@ -187,7 +174,6 @@ impl<'a> Schematic<'a> {
     }
 }
 
-/// The scale at which a robot fits its place.
 fn scale(robot: &Robot) -> f64 {
     SIDE / robot.body.width().max(robot.body.height()) as f64
 }

@@ -10,7 +10,6 @@ use nbc_swarm::Assembly;
 
 const SCRIPT: &str = include_str!("../page/sheets.js");
 
-/// The page of a swarm's schematic.
 pub fn draw_schematic_page(assembly: &Assembly, schematic: &SchematicPages) -> String {
     let (robots, sheets) = (counted(assembly.members.len(), "robot"), counted(schematic.sheets.len(), "sheet"));
     Html {

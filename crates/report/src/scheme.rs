@@ -2,7 +2,7 @@
 
 use crate::Color;
 
-/// Which colors materials have.
+/// The colors of materials.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Scheme {
     /// The paper's (paper, Methods): black, gray, orange, teal, red, blue, green, magenta.
@@ -35,7 +35,6 @@ const SAFE: [Color; 8] = [
 ];
 
 impl Scheme {
-    /// The color of a code of the paper's palette.
     pub fn color(self, code: u8) -> Color {
         let colors = match self {
             Self::Paper => &PAPER,

@@ -9,7 +9,6 @@ use crate::scheme::Scheme;
 use crate::svg::Svg;
 use nbc_base::model::{Body, Palette, Robot};
 
-/// The mean width of a letter of a legend.
 pub const LETTER: f64 = 6.2;
 
 /// A body at one moment: the corners of its voxels in voxels, y upwards, and their material codes.
@@ -17,7 +16,6 @@ pub const LETTER: f64 = 6.2;
 pub struct Pose {
     /// Each voxel's corners, in order around it from the top left, and its code.
     pub voxels: Vec<([Point; 4], u8)>,
-    /// The meaning of the codes.
     pub palette: Arc<Palette>,
 }
 
@@ -34,7 +32,7 @@ impl Pose {
         Self { voxels, palette: Arc::clone(body.palette()) }
     }
 
-    /// Draws the voxels; `to_pixel` maps a point of the world to the picture.
+    /// `to_pixel` maps a point of the world to the picture.
     pub fn draw(&self, svg: &mut Svg, looks: &Looks, opacity: f64, to_pixel: impl Fn(Point) -> Point) {
         let faded = |paint: Paint| if opacity < 1.0 { paint.with_opacity(opacity) } else { paint };
         for (corners, code) in &self.voxels {
@@ -57,7 +55,6 @@ pub fn draw_body(body: &Body, looks: &Looks, voxel: f64) -> Svg {
     svg
 }
 
-/// A robot's portrait: its body, its name and gate, and the names of its materials.
 pub fn draw_sprite(robot: &Robot, scheme: Scheme) -> Svg {
     let title = format!("{}: {}, {}", robot.name, robot.function(), robot.behavior);
     draw_portrait(&title, &robot.body, scheme)
@@ -79,14 +76,12 @@ pub fn draw_portrait(title: &str, body: &Body, scheme: Scheme) -> Svg {
     svg
 }
 
-/// The room that a legend takes.
 pub fn legend_size(looks: &Looks, body: &Body) -> Point {
     let entries = looks.legend([body]);
     let longest = entries.iter().map(|(_, text)| text.chars().count()).max().unwrap_or(0);
     ((longest as f64 * LETTER + 28.0).max(130.0), entries.len() as f64 * 20.0)
 }
 
-/// The names of a body's materials beside their looks, one below the other.
 pub fn draw_legend(svg: &mut Svg, (left, top): Point, body: &Body, looks: &Looks) {
     for (i, (look, text)) in looks.legend([body]).iter().enumerate() {
         let top = top + i as f64 * 20.0;

@@ -15,7 +15,6 @@ pub struct CyclePart {
     pub bodies: Vec<Body>,
     #[serde(with = "starts")]
     pub starts: Vec<Snapshot>,
-    /// What they sense during the cycle.
     pub patterns: Vec<Pattern>,
     /// The env steps of the cycle at whose end their states are read, in order. The last one ends the cycle.
     pub stops: Vec<u32>,
@@ -25,7 +24,6 @@ pub struct CyclePart {
 pub type PartStates = Vec<Vec<Snapshot>>;
 
 impl CyclePart {
-    /// Simulates the cycle.
     pub fn simulate(&self, simulator: &Simulator) -> PartStates {
         let mut flock = simulator.flock(&self.setting, &self.bodies);
         self.starts.iter().enumerate().for_each(|(i, start)| flock.restore(i, start));

@@ -13,7 +13,6 @@ use nbc_sim::Simulator;
 #[serde(try_from = "Written", into = "Written")]
 pub struct SwarmTask {
     pub assembly: Assembly,
-    /// The inputs of each cycle, and over how many cycles displacements are measured.
     pub conditions: SwarmConditions,
 }
 
@@ -176,9 +175,7 @@ impl SwarmBits {
     }
 
     /// The trace of the swarm through these inputs, without the paths of its robots.
-    ///
-    /// # Panics
-    /// When the bits belong to another swarm.
+    /// Panics when the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
         let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
         if let Some((robot, fault)) = self.fault {

@@ -30,18 +30,17 @@ pub struct WorkerArguments {
 }
 
 impl WorkerArguments {
-    /// Works until a signal arrives.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let cancel = Interrupt::watch()?.cancel();
         let options = WorkerOptions { server: self.server.server(), name: self.name, cancel, log };
-        let worker = Worker::open(options).map_err(Failure::plain)?;
+        let worker = Worker::open(options)?;
         let threads = self.threads.map_or_else(|| thread::available_parallelism().map_or(1, usize::from), usize::from);
         let (name, version, physics) = (worker.name(), nbc_base::VERSION, worker.physics());
         let shown = counted(threads, "thread");
         context.log(&format!("worker `{name}`: {shown}, version {version}, physics {physics:016x}\n"));
         let worked = worker.work(threads);
         context.log(&format!("worker `{name}`: {}\n", counted(worker.done() as usize, "evaluation")));
-        worked.map_err(Failure::plain)?;
+        worked?;
         Ok(Status::Done)
     }
 }

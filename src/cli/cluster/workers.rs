@@ -23,10 +23,9 @@ pub struct WorkersArguments {
 }
 
 impl WorkersArguments {
-    /// Listens for a few seconds and lists who reported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
-        let mut watch = ClusterWatch::open(&self.server.server(), log).map_err(Failure::plain)?;
+        let mut watch = ClusterWatch::open(&self.server.server(), log)?;
         loop {
             let found = watch.listen(&interrupt.cancel());
             if self.watch && interrupt.is_raised() {

@@ -59,7 +59,6 @@ enum Action {
 }
 
 impl LibraryArguments {
-    /// Runs the subcommand.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let library = |path: Option<&Path>| path.map_or_else(|| Ok(store::shipped_library()), robots_of);
         match self.action {

@@ -7,7 +7,6 @@ use ts_rs::TS;
 use nbc_base::model::Claim;
 use nbc_session::{ClaimReport, PropertyReport};
 
-/// A `prove` declaration.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ClaimEntry {
@@ -18,7 +17,6 @@ pub(crate) struct ClaimEntry {
     properties: Vec<PropertyEntry>,
 }
 
-/// A property that is to be proved.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct PropertyEntry {
@@ -26,14 +24,12 @@ pub(crate) struct PropertyEntry {
     line: usize,
 }
 
-/// The answer to `prove`: what is known of each property, in order.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ClaimAnswer {
     properties: Vec<PropertyAnswer>,
 }
 
-/// What is known of a property.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct PropertyAnswer {
@@ -46,7 +42,6 @@ pub(crate) struct PropertyAnswer {
 }
 
 impl ClaimEntry {
-    /// The claim of a program with this number.
     pub(crate) fn of(index: usize, claim: &Claim) -> Self {
         let property = |one: &nbc_base::model::Property| PropertyEntry { property: one.text.clone(), line: one.line };
         Self {

@@ -8,7 +8,6 @@ use ts_rs::TS;
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ArchiveChange {
-    /// The request.
     pub(crate) id: u64,
     pub(crate) generation: u32,
     pub(crate) axes: Vec<AxisEntry>,
@@ -21,7 +20,6 @@ pub(crate) struct ArchiveChange {
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct AxisEntry(pub(crate) &'static str, pub(crate) usize);
 
-/// The best body of a niche.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct NicheEntry {
@@ -33,7 +31,6 @@ pub(crate) struct NicheEntry {
     pub(crate) function: &'static str,
 }
 
-/// The answer to `evolve`.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct EvolutionEnd {

@@ -10,21 +10,17 @@ use super::swarm::ShownSwarm;
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ExportedSwarm {
-    /// The version of the program that made it.
     pub(crate) version: &'static str,
-    /// The name of the source file.
     pub(crate) file: String,
     pub(crate) swarm: Box<ShownSwarm>,
     /// Cycles for which robots sense the same; more than one only in wave machines.
     pub(crate) beat: u32,
-    /// Each robot of the swarm.
     pub(crate) robots: Vec<ExportedRobot>,
     /// How each of the different robots walks.
     pub(crate) walks: Vec<ExportedWalk>,
     pub(crate) tests: Vec<ExportedTest>,
 }
 
-/// A robot at the level of logic.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ExportedRobot {
@@ -38,7 +34,6 @@ pub(crate) struct ExportedRobot {
     pub(crate) held: Vec<String>,
 }
 
-/// How a robot walks under each pattern of its stimuli.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ExportedWalk {
@@ -57,7 +52,6 @@ pub(crate) struct ExportedStride {
     pub(crate) poses: String,
 }
 
-/// The rows of a test.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ExportedTest {

@@ -7,23 +7,20 @@ use ts_rs::TS;
 use nbc_base::diag::{Diagnostic, Label, Severity};
 use nbc_base::source::Sources;
 
-/// A diagnostic.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct Finding {
-    /// `nbc explain CODE` tells more.
     code: String,
     #[cfg_attr(test, ts(type = "\"error\" | \"warning\""))]
     severity: Severity,
     message: String,
     help: Option<String>,
-    /// The places, the main one first.
+    /// The main one first.
     labels: Vec<FindingLabel>,
     /// Notes at other places.
     related: Vec<FindingLabel>,
 }
 
-/// A place of a text, and what is there.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct FindingLabel {
@@ -42,7 +39,6 @@ pub(crate) struct TextPlace {
     column: usize,
 }
 
-/// All diagnostics in their order.
 pub(crate) fn findings(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<Finding> {
     let labels = |labels: &[Label]| labels.iter().map(|one| label(one, sources)).collect();
     let finding = |one: &Diagnostic| Finding {

@@ -41,33 +41,35 @@ pub(super) use written::{CALLS, WrittenProgram};
 
 use crate::refusal::Refusal;
 
-/// A message of the server.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(untagged)]
 pub(super) enum ServerMessage {
-    /// The result of a request.
     Result {
         id: u64,
         #[serde(flatten)]
         result: RequestResult,
     },
-    /// A request without a result is done.
-    Done { id: u64, ok: Nothing },
-    /// A request is refused.
-    Refused { id: u64, error: Refusal },
+    Done {
+        id: u64,
+        ok: Nothing,
+    },
+    Refused {
+        id: u64,
+        error: Refusal,
+    },
     /// How much of a request is done, and how much there is to do.
-    Progress { id: u64, progress: [u64; 2] },
-    /// What a page did not ask for.
+    Progress {
+        id: u64,
+        progress: [u64; 2],
+    },
     Event(PlayEvent),
 }
 
-/// An object without fields.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct Nothing {}
 
-/// The result of a request, with its verb.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "to", content = "ok", rename_all = "lowercase")]
@@ -91,7 +93,7 @@ pub(super) enum RequestResult {
     Join(ClassName),
 }
 
-/// What a page is told without a request.
+/// Events sent without a request.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "event", rename_all = "lowercase")]

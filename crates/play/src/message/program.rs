@@ -9,11 +9,9 @@ use super::finding::Finding;
 use super::written::WrittenProgram;
 use nbc_base::model::Column;
 
-/// A checked program.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ProgramReport {
-    /// The number of errors among the diagnostics.
     pub(crate) errors: usize,
     pub(crate) diagnostics: Vec<Finding>,
     pub(crate) circuits: Vec<CircuitEntry>,
@@ -22,7 +20,6 @@ pub(crate) struct ProgramReport {
     pub(crate) written: WrittenProgram,
 }
 
-/// A circuit whose parameters are known.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct CircuitEntry {
@@ -33,7 +30,6 @@ pub(crate) struct CircuitEntry {
     pub(crate) line: usize,
 }
 
-/// A test.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct TestEntry {
@@ -51,7 +47,6 @@ pub(crate) struct TestEntry {
     pub(crate) rows: Vec<TestRowEntry>,
 }
 
-/// A row of a test.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct TestRowEntry {
@@ -61,7 +56,6 @@ pub(crate) struct TestRowEntry {
     pub(crate) outputs: Vec<String>,
 }
 
-/// A port.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct PortEntry {
@@ -74,7 +68,6 @@ pub(crate) struct PortEntry {
 }
 
 impl PortEntry {
-    /// The ports of columns.
     pub(crate) fn of(columns: &[Column]) -> Vec<Self> {
         let one = |Column { name, width, members, .. }: &Column| {
             let digits = |value: u128| format!("{value:0width$b}", width = *width);

@@ -10,14 +10,13 @@ use nbc_base::budget::Limit;
 use nbc_base::model::{Column, Value};
 use nbc_swarm::{RowVerdict, TestVerdict};
 
-/// The answer to `test`: a result for each swarm of its circuit in each world of the test.
+/// A result for each swarm of its circuit in each world of the test.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct TestAnswer {
     pub(crate) results: Vec<TestResult>,
 }
 
-/// The verdict of a test.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct TestResult {
@@ -26,7 +25,6 @@ pub(crate) struct TestResult {
     swarm: Option<String>,
     /// The world of the swarm; none at the level of logic.
     world: Option<String>,
-    /// The robot that failed, if one did, and when.
     fault: Option<String>,
     level: TestLevel,
     passed: bool,
@@ -34,13 +32,11 @@ pub(crate) struct TestResult {
     inputs: Vec<PortEntry>,
     outputs: Vec<PortEntry>,
     rows: Vec<RowResult>,
-    /// What the environment wrote as text.
     printed: Option<String>,
     /// How a test for ever was decided, in words.
     proof: Option<String>,
 }
 
-/// The verdict of a row.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct RowResult {
@@ -57,7 +53,6 @@ pub(crate) struct RowResult {
     cycles: Option<usize>,
 }
 
-/// The value of a port.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct RowValue {

@@ -10,7 +10,6 @@ use nbc_base::model::{Body, Setting};
 use nbc_session::SwarmRun;
 use nbc_session::report::{Film, Stage};
 
-/// A film, as GIF or APNG.
 pub(super) struct FilmPicture(pub(super) FilmFormat);
 
 impl PictureKind for FilmPicture {
@@ -57,7 +56,7 @@ impl FilmPicture {
     fn film(&self, title: &str, lanes: Vec<String>, bodies: &[Body], request: &DrawRequest, stage: Stage) -> Drawing {
         let largest = bodies.iter().map(|body| body.width().max(body.height())).max().unwrap_or(1);
         let stimuli = bodies.iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
-        let (title, ground) = (title.to_owned(), stage.ground());
+        let (title, ground) = (title.to_owned(), stage.ground);
         let film = Film { title, lanes, scheme: request.scheme(), largest, stimuli, ground };
         Drawing::Film { format: self.0, film: Box::new(film), stage: Box::new(stage) }
     }
