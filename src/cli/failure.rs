@@ -36,20 +36,8 @@ impl From<io::Error> for Failure {
     }
 }
 
-/// Errors without a place in a text, which are worded as diagnostics.
-macro_rules! failures {
-    ($($(#[$when:meta])* $error:ty,)*) => {$(
-        $(#[$when])*
-        impl From<$error> for Failure {
-            fn from(error: $error) -> Self {
-                Self::Input(Diagnostic::from(error).into())
-            }
-        }
-    )*};
-}
-
-failures! {
-    Diagnostic,
-    #[cfg(feature = "cluster")]
-    nbc_cluster::ClusterError,
+impl From<Diagnostic> for Failure {
+    fn from(fault: Diagnostic) -> Self {
+        Self::Input(fault.into())
+    }
 }

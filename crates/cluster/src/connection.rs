@@ -16,8 +16,8 @@ use tokio::time;
 
 use crate::Log;
 use crate::message::{MOST_BYTES, TaskKey, VERSION};
-use crate::wording::ClusterError;
-use nbc_base::diag::without_passwords;
+use crate::wording;
+use nbc_base::diag::{Diagnostic, without_passwords};
 
 const STREAM: &str = "nbc-tasks";
 /// A task is given to another worker when its worker has not reported for this time.
@@ -60,13 +60,13 @@ pub struct Connection {
 
 impl Connection {
     /// Connects. If the connection breaks later, the client connects again by itself.
-    pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, ClusterError> {
+    pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, Diagnostic> {
         let shown = without_passwords(&server.address);
         let runtime = Builder::new_multi_thread()
             .worker_threads(1)
             .enable_all()
             .build()
-            .map_err(|error| ClusterError::Start { reason: error.to_string() })?;
+            .map_err(|error| wording::no_client(&error.to_string()))?;
         let runtime: &'static Runtime = Box::leak(Box::new(runtime));
         let _entered = runtime.enter();
         let mut options = ConnectOptions::new().name(name).connection_timeout(PATIENCE).ping_interval(PING);
@@ -83,17 +83,15 @@ impl Connection {
             options = options.add_root_certificates(path.clone()).require_tls(true);
         }
         if let Some(path) = &server.credentials {
-            let fault = |error: std::io::Error| ClusterError::Credentials {
-                path: path.display().to_string(),
-                reason: error.to_string(),
-            };
+            let fault =
+                |error: std::io::Error| wording::no_credentials(&path.display().to_string(), &error.to_string());
             options = runtime.block_on(options.credentials_file(path)).map_err(fault)?;
         }
         let connecting = async { options.connect(server.address.as_str()).await };
         let client = runtime.block_on(connecting).map_err(|error| {
             // Some reasons repeat the address.
             let reason = error.to_string().replace(&server.address, &shown);
-            ClusterError::Connect { server: shown.clone(), reason }
+            wording::no_server(&shown, &reason)
         })?;
         let jetstream = jetstream::ContextBuilder::new().timeout(PATIENCE).ack_timeout(PATIENCE).build(client.clone());
         Ok(Self { runtime, client, jetstream, server: shown })
@@ -149,14 +147,14 @@ impl Connection {
     }
 
     /// As [`Connection::queue`], for a program that begins.
-    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, ClusterError> {
+    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, Diagnostic> {
         let jetstream = jetstream::ContextBuilder::new().timeout(OPENING).build(self.client.clone());
         let queue = self.runtime.block_on(Self::queue(&jetstream, token));
         queue.map_err(|reason| self.no_queue(reason))
     }
 
-    pub fn no_queue(&self, reason: String) -> ClusterError {
-        ClusterError::JetStream { server: self.server.clone(), reason }
+    pub fn no_queue(&self, reason: String) -> Diagnostic {
+        wording::no_queue(&self.server, &reason)
     }
 }
 
@@ -244,7 +242,7 @@ mod tests {
     #[test]
     fn the_subject_of_a_task_names_its_search() {
         let subject = task_subject("0_2_0-00ff", "abcd", TaskKey { run: 1, generation: 2, index: 3 });
-        assert_eq!(subject, "nbc.v7.task.0_2_0-00ff.abcd.1.2.3");
+        assert_eq!(subject, "nbc.v8.task.0_2_0-00ff.abcd.1.2.3");
         assert_eq!(search_of(&subject), Some("abcd"));
     }
 

@@ -11,7 +11,7 @@ use tokio::task::JoinSet;
 use tokio::time;
 
 use crate::connection::{Connection, answer_subject};
-use crate::message::AnswerReply;
+use crate::message::{AnswerReply, decode};
 
 /// The time for a reply to one attempt, and between attempts.
 const ATTEMPT: Duration = Duration::from_secs(2);
@@ -78,7 +78,7 @@ async fn deliver(
     for _ in 0..ATTEMPTS {
         let request = client.request(subject.clone(), bytes.clone().into());
         if let Ok(Ok(message)) = time::timeout(ATTEMPT, request).await
-            && let Ok(reply) = AnswerReply::decode(&message.payload)
+            && let Some(reply) = decode(&message.payload)
         {
             if reply == AnswerReply::Received {
                 // A task that is not acknowledged is made once more, which does no harm.

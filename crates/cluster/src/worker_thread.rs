@@ -15,8 +15,8 @@ use crate::answer_message::AnswerMessage;
 use crate::connection::{Connection, PATIENCE, SILENCE, search_of, words};
 use crate::delivery::Delivery;
 use crate::task_message::{TOGETHER, TaskMessage};
-use crate::wording::ClusterError;
 use crate::worker_state::WorkerState;
+use nbc_base::diag::Diagnostic;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, perform};
 
@@ -48,7 +48,7 @@ impl<'a> WorkerThread<'a> {
         Self { worker, queue, delivery: worker.delivery(), together: 1, trouble: None }
     }
 
-    pub fn work(&mut self) -> Result<(), ClusterError> {
+    pub fn work(&mut self) -> Result<(), Diagnostic> {
         let handle = self.worker.connection.runtime.handle().clone();
         while !self.worker.is_ending() {
             match handle.block_on(self.fetch()) {
@@ -120,7 +120,7 @@ impl<'a> WorkerThread<'a> {
         let (message, acker) = message.split();
         let search = search_of(&message.subject).filter(|search| !self.worker.shuns(search));
         match (TaskMessage::decode(&message.payload), search) {
-            (Ok(task), Some(search)) => {
+            (Some(task), Some(search)) => {
                 self.together = task.together.clamp(1, TOGETHER).into();
                 taken.push(OpenTask { message: task, search: search.to_owned(), acker: Arc::new(acker) });
             }

@@ -2,21 +2,23 @@
 
 use std::sync::Mutex;
 
+use serde::{Deserialize, Serialize};
+
 use crate::lock::lock;
 use nbc_session::BodyTrials;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Scores;
-use nbc_swarm::{CyclePart, PartStates};
+use nbc_swarm::{CyclePart, PartStates, part_states};
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CrewPart {
     Cycle(Box<CyclePart>),
     Bodies(Box<BodyTrials>),
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CrewResult {
-    Cycle(PartStates),
+    Cycle(#[serde(with = "part_states")] PartStates),
     Bodies(Vec<Option<Scores>>),
 }
 

@@ -1,6 +1,8 @@
 //! A search for gates around a body that somebody has painted.
 
-use nbc_base::model::{Body, Evolution};
+use serde::{Deserialize, Serialize};
+
+use nbc_base::model::{Body, Evolution, bodies};
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::{Candidate, CandidateOrigin, CandidateOutcome, Elite, NicheKey, Scores, Search};
@@ -16,9 +18,10 @@ pub struct BodySearch {
 }
 
 /// Bodies to be measured anywhere: the result depends on these values alone.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyTrials {
     pub evolution: Evolution,
+    #[serde(with = "bodies")]
     pub bodies: Vec<Body>,
 }
 

@@ -140,6 +140,13 @@ pub(crate) mod tests {
             .map_err(|fault| (fault.code, fault.message, sources.text(fault.labels[0].span).to_owned()))
     }
 
+    /// The fault of a text with a change, and what stands at its place.
+    fn damage(whole: &str, from: &str, to: &str) -> (Code, String, String) {
+        let damaged = whole.replacen(from, to, 1);
+        assert_ne!(damaged, whole, "{from:?} is in the file");
+        read(&damaged).expect_err(to)
+    }
+
     #[test]
     fn a_robot_reads_back_bit_for_bit() {
         assert_eq!(read(&print_robot(&robot())), Ok(robot()));
@@ -174,9 +181,7 @@ pub(crate) mod tests {
     fn invalid_materials_are_reported_at_their_place() {
         let whole = print_robot(&own_robot());
         let check = |from: &str, to: &str, expected: &str, place: &str| {
-            let damaged = whole.replacen(from, to, 1);
-            assert_ne!(damaged, whole, "{from:?} is in the file");
-            let (_, message, found) = read(&damaged).unwrap_err();
+            let (_, message, found) = damage(&whole, from, to);
             assert!(message.contains(expected), "{message:?} does not say {expected:?}");
             assert_eq!(found, place, "{message}");
         };
@@ -193,9 +198,7 @@ pub(crate) mod tests {
     fn impossible_measurements_are_rejected() {
         let whole = print_robot(&robot());
         let check = |from: &str, to: &str, place: &str| {
-            let damaged = whole.replacen(from, to, 1);
-            assert_ne!(damaged, whole, "{from:?} is in the file");
-            let (code, message, found) = read(&damaged).expect_err(to);
+            let (code, message, found) = damage(&whole, from, to);
             assert_eq!((code, found.as_str()), (Code::RobotFile, place), "{message}");
         };
         check("clock: 4", "clock: 0", "clock");
@@ -213,19 +216,16 @@ pub(crate) mod tests {
 
     #[test]
     fn another_version_is_rejected_with_its_number() {
-        let (code, message, place) = read(&print_robot(&robot()).replace("format: 2", "format: 7")).unwrap_err();
-        assert_eq!(code, Code::ForeignFormat);
-        assert_eq!(message, "`a.yaml` is a robot file of format 7, expected format 2");
-        assert_eq!(place, "format");
+        let message = "`a.yaml` is a robot file of format 7, expected format 2".to_owned();
+        let found = damage(&print_robot(&robot()), "format: 2", "format: 7");
+        assert_eq!(found, (Code::ForeignFormat, message, "format".to_owned()));
     }
 
     #[test]
     fn damage_is_reported() {
         let whole = print_robot(&robot());
         let check = |from: &str, to: &str, expected: &str| {
-            let damaged = whole.replace(from, to);
-            assert_ne!(damaged, whole, "{from:?} is in the file");
-            let (_, message, _) = read(&damaged).unwrap_err();
+            let (_, message, _) = damage(&whole, from, to);
             assert!(message.contains(expected), "{message:?} does not say {expected:?}");
         };
         check("behavior: RRRL\n", "", "missing field `behavior`");

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::cells::choose;
 use crate::noise::RobotNoise;
@@ -12,7 +12,7 @@ use nbc_circuit::{Logic, NetId, Netlist, Node};
 use nbc_sim::{Flock, Simulator};
 
 /// The source of a stimulus or of an output port's bit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum StimulusSource {
     /// A bit of the input ports, by its place among their bits.

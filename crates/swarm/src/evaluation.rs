@@ -1,5 +1,7 @@
 //! The input and the result of an evaluation as plain data, so that it can be done on any machine.
 
+use serde::{Deserialize, Serialize};
+
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, WorldSample};
@@ -7,7 +9,7 @@ use nbc_base::model::{
     Behavior, Body, Displacements, Evolution, ImageOrder, PhysicsWorld, Schedule, SearchObjective, Setting,
 };
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationProtocol {
     pub stimuli: usize,
     pub objective: SearchObjective,
@@ -34,7 +36,7 @@ pub(super) fn setting(world: &PhysicsWorld) -> Setting {
     Setting { shift, factors: world.factors, ground: world.ground.on(plain.world_width), ..plain }
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationTask {
     pub body: Body,
     /// The elites that it must beat. An evaluation ends early when the body cannot beat them.
@@ -44,7 +46,7 @@ pub struct EvaluationTask {
     pub expected: Option<Displacements>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evaluated {
     pub outcome: CandidateOutcome,
     pub work: Work,

@@ -2,6 +2,7 @@
 
 mod activity;
 mod assemble;
+mod bit_rows;
 mod cells;
 mod characterize;
 mod cycle_part;
@@ -40,7 +41,7 @@ pub use activity::{RowActivity, SimulationResult, activity};
 pub use assemble::{Assembly, Member, StimulusSource, assemble, assemble_waves};
 pub use cells::{cells, prefer, within_beat};
 pub use characterize::{screen, sketch};
-pub use cycle_part::{CyclePart, PartStates};
+pub use cycle_part::{CyclePart, PartStates, part_states};
 pub use distance::fixed_displacements;
 pub use evaluate::{evaluate, evaluate_bodies, evaluate_tasks, evolve_generation, full_steps};
 pub use evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};

@@ -1,5 +1,7 @@
 //! All measurements of a body for its robot file.
 
+use serde::{Deserialize, Serialize};
+
 use crate::characterize::characterize;
 use crate::distance::fixed_displacements;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Setting};
@@ -8,7 +10,7 @@ use nbc_sim::Simulator;
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
 pub const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// Displacement in voxels over the paper's fixed simulations, one for each pattern.
     pub displacement: Displacements,

@@ -1,20 +1,26 @@
 //! The simulation of a swarm as plain data: bodies, wires and inputs go in, the robots' bits come out.
 
+use serde::{Deserialize, Serialize};
+
+use crate::bit_rows;
 use crate::sensing::Sensing;
 use crate::{Assembly, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
-use nbc_base::model::{Body, Character, Column, Displacements, Fault, PhysicsWorld, Provenance, Robot};
+use nbc_base::model::{Body, Character, Column, Displacements, Fault, PhysicsWorld, Provenance, Robot, bodies};
 use nbc_sim::Simulator;
 
 /// The simulation of a swarm, without names: all that the resulting bits depend on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct SwarmTask {
     pub assembly: Assembly,
     pub conditions: SwarmConditions,
 }
 
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+/// The output of each robot at the end of each cycle.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SwarmBits {
     /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
+    #[serde(with = "bit_rows")]
     pub cycles: Vec<Vec<bool>>,
     /// The robot whose simulation failed after these cycles, and its fault.
     pub fault: Option<(usize, Fault)>,
@@ -29,6 +35,71 @@ pub struct PlainMember {
     pub start: bool,
     /// What it senses in the first cycles instead of each source.
     pub held: Vec<Vec<bool>>,
+}
+
+/// A [`SwarmTask`] as data, without names.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    /// One for each member.
+    #[serde(with = "bodies")]
+    bodies: Vec<Body>,
+    members: Vec<WrittenMember>,
+    world: PhysicsWorld,
+    window: usize,
+    beat: u32,
+    #[serde(with = "bit_rows")]
+    inputs: Vec<Vec<bool>>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenMember {
+    clock: u32,
+    senses: Vec<StimulusSource>,
+    start: bool,
+    #[serde(with = "bit_rows")]
+    held: Vec<Vec<bool>>,
+}
+
+impl From<SwarmTask> for Written {
+    fn from(SwarmTask { assembly, conditions }: SwarmTask) -> Self {
+        let (mut bodies, mut members) = (Vec::new(), Vec::new());
+        for Member { robot, senses, start, held, .. } in assembly.members {
+            bodies.push(robot.body);
+            members.push(WrittenMember { clock: robot.character.clock, senses, start, held });
+        }
+        let SwarmConditions { inputs, window, .. } = conditions;
+        Self { bodies, members, world: assembly.world, window, beat: assembly.beat, inputs }
+    }
+}
+
+impl TryFrom<Written> for SwarmTask {
+    type Error = &'static str;
+
+    fn try_from(written: Written) -> Result<Self, Self::Error> {
+        let Written { bodies, members, world, window, beat, inputs } = written;
+        let (width, robots) = (inputs.first().map_or(0, Vec::len), members.len());
+        let is_there = |source: &StimulusSource| match *source {
+            StimulusSource::Input(place) => place < width,
+            StimulusSource::Robot(place) => place < robots,
+            StimulusSource::Constant(_) => true,
+        };
+        let is_wired = |member: &WrittenMember| {
+            matches!(member.senses.len(), 2 | 3)
+                && member.held.len() == member.senses.len()
+                && member.senses.iter().all(is_there)
+        };
+        let is_even = bodies.len() == robots && inputs.iter().all(|cycle| cycle.len() == width);
+        if !is_even || window == 0 || beat == 0 || !members.iter().all(is_wired) {
+            return Err("a swarm that cannot be simulated");
+        }
+        let member = |(body, member): (Body, WrittenMember)| {
+            let WrittenMember { clock, senses, start, held } = member;
+            PlainMember { body, clock, senses, start, held }
+        };
+        let mut task = Self::new(bodies.into_iter().zip(members).map(member).collect(), world, inputs, window);
+        task.assembly.beat = beat;
+        Ok(task)
+    }
 }
 
 impl SwarmTask {

@@ -1,9 +1,9 @@
 //! The amount of simulation in an evaluation.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// The env steps of an evaluation, and those saved compared with a full evaluation of everything.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Work {
     pub env_steps: u64,
     /// Env steps left out because their result could not have mattered.

@@ -6,6 +6,7 @@ mod wording;
 
 pub use limit::{CYCLE_BITS, Limit};
 
+use crate::diag::grouped;
 use crate::source::CancelFlag;
 
 /// What one piece of work has made so far, such as a check of a program or the building of a circuit.
@@ -66,10 +67,7 @@ impl Limit {
 
     /// Its row in the table of docs/limits.md.
     pub fn row(self) -> String {
-        let digits = self.most().to_string();
-        let groups: Vec<&str> =
-            digits.as_bytes().rchunks(3).rev().map(|group| str::from_utf8(group).expect("digits")).collect();
-        format!("| {} {} | {} |", self.things(), self.scope(), groups.join(","))
+        format!("| {} {} | {} |", self.things(), self.scope(), grouped(self.most()))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::{BodyError, Material, Palette};
 
 /// Actuators that an evolved body must have (docs/physics.md 11).
@@ -9,13 +11,32 @@ pub const LEAST_ACTUATORS: usize = 3;
 
 /// A body: `height` rows of `width` material codes, row 0 on top, and the palette that defines the codes; code 0 is
 /// empty (docs/physics.md 1).
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct Body {
     width: usize,
     height: usize,
     codes: Vec<u8>,
     // Compared last, because bodies in one batch usually share it.
     palette: Arc<Palette>,
+}
+
+/// A body as data: its rows, and the meaning of their codes.
+#[derive(Serialize, Deserialize)]
+struct Written(Vec<String>, Arc<Palette>);
+
+impl From<Body> for Written {
+    fn from(body: Body) -> Self {
+        Self(body.rows(), body.palette)
+    }
+}
+
+impl TryFrom<Written> for Body {
+    type Error = BodyError;
+
+    fn try_from(Written(rows, palette): Written) -> Result<Self, BodyError> {
+        Self::parse(&rows, &palette)
+    }
 }
 
 impl Body {

@@ -2,6 +2,7 @@
 //! in that stage.
 
 mod behavior;
+pub mod bodies;
 mod body;
 mod circuit;
 mod claim;

@@ -119,7 +119,7 @@ impl TryFrom<Vec<Material>> for Palette {
 
     fn try_from(materials: Vec<Material>) -> Result<Self, String> {
         if materials.is_empty() || materials.len() > Self::MAX_MATERIALS {
-            return Err(palette_size(materials.len()));
+            return Err(palette_size(materials.len(), Self::MAX_MATERIALS));
         }
         for (i, Material { name, .. }) in materials.iter().enumerate() {
             if !is_name(name) {

@@ -61,7 +61,7 @@ impl TryFrom<String> for Pattern {
     fn try_from(digits: String) -> Result<Self, String> {
         let sized = (1..=Self::MAX_STIMULI).contains(&digits.len());
         if !sized || digits.contains(|digit| !matches!(digit, '0' | '1')) {
-            return Err(not_pattern(&digits));
+            return Err(not_pattern(&digits, Self::MAX_STIMULI));
         }
         Ok(Self::new(&digits.chars().map(|digit| digit == '1').collect::<Vec<_>>()))
     }

@@ -68,16 +68,21 @@ impl Variation {
 
     /// The text that [`Variation::from_str`] reads.
     pub fn changes(&self) -> String {
+        self.words("=", "%").join(",")
+    }
+
+    /// Each change with a sign between its name and its amount.
+    fn words(&self, sign: &str, percent: &str) -> Vec<String> {
         let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
         let word = |(name, amount): (&&str, f64)| match *name {
-            "start" => format!("{name}={}", rounded(amount)),
-            _ => format!("{name}={}%", rounded(amount * 100.0)),
+            "start" => format!("{name}{sign}{}", rounded(amount)),
+            _ => format!("{name}{sign}{}{percent}", rounded(amount * 100.0)),
         };
-        changes.map(word).collect::<Vec<_>>().join(",")
+        changes.map(word).collect()
     }
 
     fn place(name: &str) -> Result<usize, String> {
-        Self::NAMES.iter().position(|known| *known == name).ok_or_else(|| does_not_vary(name))
+        Self::NAMES.iter().position(|known| *known == name).ok_or_else(|| does_not_vary(name, &Self::NAMES))
     }
 
     /// All changes times a number, but none above its largest.
@@ -135,7 +140,7 @@ impl TryFrom<BTreeMap<String, f64>> for Variation {
         for (name, amount) in changes {
             let place = Self::place(&name)?;
             if !(0.0..=Self::most(&name)).contains(&amount) {
-                return Err(variation_amount(&name, &amount.to_string()));
+                return Err(variation_amount(&name, &amount.to_string(), Self::most(&name)));
             }
             variation.amounts[place] = amount;
         }
@@ -170,21 +175,14 @@ fn read_amount(name: &str, text: &str) -> Result<f64, String> {
         None => text.parse(),
     };
     let is_possible = |amount: &f64| (0.0..=Variation::most(name)).contains(amount);
-    number.ok().filter(is_possible).ok_or_else(|| variation_amount(name, text))
+    number.ok().filter(is_possible).ok_or_else(|| variation_amount(name, text, Variation::most(name)))
 }
 
 impl fmt::Display for Variation {
     /// The quantities that vary: `friction 10 %, start 0.2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
-        let words: Vec<String> = changes
-            .map(|(name, amount)| match *name {
-                "start" => format!("{name} {}", rounded(amount)),
-                _ => format!("{name} {} %", rounded(amount * 100.0)),
-            })
-            .collect();
-        f.write_str(if words.is_empty() { "nothing" } else { "" })?;
-        f.write_str(&words.join(", "))
+        let words = self.words(" ", " %");
+        if words.is_empty() { f.write_str("nothing") } else { f.write_str(&words.join(", ")) }
     }
 }
 

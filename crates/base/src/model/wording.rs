@@ -5,7 +5,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::{ImageSize, Palette, Pattern, Variation};
+use super::ImageSize;
 
 /// The reason why rows of text are not a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -137,8 +137,8 @@ impl fmt::Display for ImageFileError {
 
 impl Error for ImageFileError {}
 
-pub(super) fn palette_size(found: usize) -> String {
-    format!("{found} materials, expected 1 to {}", Palette::MAX_MATERIALS)
+pub(super) fn palette_size(found: usize, most: usize) -> String {
+    format!("{found} materials, expected 1 to {most}")
 }
 
 pub(super) fn same_material(name: &str) -> String {
@@ -170,8 +170,7 @@ pub(super) fn displacement_count(found: usize) -> String {
     format!("{found} displacements, expected 4 of a body with two stimuli or 8 of one with three")
 }
 
-pub(super) fn not_pattern(found: &str) -> String {
-    let most = Pattern::MAX_STIMULI;
+pub(super) fn not_pattern(found: &str, most: usize) -> String {
     format!("`{found}` is not a pattern; expected a digit 0 or 1 for each of at most {most} stimuli, such as `01`")
 }
 
@@ -211,12 +210,11 @@ pub(super) fn no_amount(part: &str) -> String {
     format!("`{part}` has no amount; expected a change such as `friction=10%`")
 }
 
-pub(super) fn does_not_vary(name: &str) -> String {
-    format!("`{name}` does not vary; expected `all`, `{}`", Variation::NAMES.join("`, `"))
+pub(super) fn does_not_vary(name: &str, known: &[&str]) -> String {
+    format!("`{name}` does not vary; expected `all`, `{}`", known.join("`, `"))
 }
 
-pub(super) fn variation_amount(name: &str, found: &str) -> String {
-    let most = Variation::most(name);
+pub(super) fn variation_amount(name: &str, found: &str, most: f64) -> String {
     format!("`{found}` is not an amount of `{name}`; expected a number from 0 to {most}, or percent")
 }
 

@@ -33,6 +33,7 @@ fn is_possible(Measurement { displacement, behavior, character }: &Measurement) 
         && displacement.behavior() == *behavior
         && rates.iter().all(|rate| (0.0..=1.0).contains(rate))
         && !character.margin.is_nan()
+        && character.radius.is_none()
         && character.settle.len() == transitions(behavior.stimuli())
 }
 

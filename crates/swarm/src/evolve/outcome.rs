@@ -14,7 +14,7 @@ pub struct Scores {
     pub displacement: Displacements,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub enum CandidateOutcome {
     Measured(Scores),
     /// Dropped early: cheaper tests showed that it cannot enter any niche.

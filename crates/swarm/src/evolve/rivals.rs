@@ -1,14 +1,56 @@
 //! The elites that a body must beat to enter an archive, as plain data.
 
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
 use nbc_base::model::{Behavior, Direction, Niche};
 
 /// The fitnesses of the elites in the niches that a body could enter, one entry for each behavior that it may show.
 /// This is all that an evaluation needs to know of an archive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct Rivals {
     niche: Niche,
     /// For each behavior, in order of the functions' bits, the niches that it leads to; none if one of them is empty.
     behaviors: Vec<Vec<Vec<[f64; 2]>>>,
+}
+
+/// Rivals as data: each set of fitnesses once, because many behaviors lead to the same niches, and for each behavior
+/// the places of those that it leads to.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    niche: Niche,
+    fronts: Vec<Vec<[f64; 2]>>,
+    behaviors: Vec<Vec<usize>>,
+}
+
+impl From<Rivals> for Written {
+    fn from(Rivals { niche, behaviors }: Rivals) -> Self {
+        let mut fronts: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut places: BTreeMap<Vec<[u64; 2]>, usize> = BTreeMap::new();
+        let mut place = |front: Vec<[f64; 2]>| {
+            *places.entry(front.iter().map(|two| two.map(f64::to_bits)).collect()).or_insert_with(|| {
+                fronts.push(front);
+                fronts.len() - 1
+            })
+        };
+        let behaviors = behaviors.into_iter().map(|niches| niches.into_iter().map(&mut place).collect()).collect();
+        Self { niche, fronts, behaviors }
+    }
+}
+
+impl TryFrom<Written> for Rivals {
+    type Error = &'static str;
+
+    fn try_from(Written { niche, fronts, behaviors }: Written) -> Result<Self, Self::Error> {
+        if !matches!(behaviors.len(), 16 | 256) {
+            return Err("each behavior has an entry");
+        }
+        let niches = |places: Vec<usize>| places.into_iter().map(|place| fronts.get(place).cloned()).collect();
+        let behaviors: Option<_> = behaviors.into_iter().map(niches).collect();
+        Ok(Self::new(niche, behaviors.ok_or("a niche that is not there")?))
+    }
 }
 
 impl Rivals {
@@ -23,10 +65,6 @@ impl Rivals {
     /// No rivals of bodies with that many inputs: everything enters an empty archive.
     pub fn none(inputs: usize) -> Self {
         Self::new(Niche::default(), Behavior::all(inputs).map(|_| Vec::new()).collect())
-    }
-
-    pub fn niche(&self) -> Niche {
-        self.niche
     }
 
     pub fn behaviors(&self) -> &[Vec<Vec<[f64; 2]>>] {
