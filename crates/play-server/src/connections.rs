@@ -41,7 +41,7 @@ async fn answer(stream: TcpStream, router: Router, patience: Duration) {
     let mut server = http1::Builder::new();
     server.timer(TokioTimer::new()).header_read_timeout(patience);
     let connection = server.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router));
-    // Whoever breaks the protocol sees that the connection is closed.
+    // A protocol error closes the connection.
     let _ = connection.with_upgrades().await;
 }
 

@@ -25,7 +25,7 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
     let (sender, receiver) = bounded(READ);
     let (answer, answers) = bounded(ANSWERS);
     let world = served.world.clone();
-    // A page that breaks the protocol is left alone: it sees that nothing is answered.
+    // After a protocol error the page gets no more answers.
     thread::spawn(move || _ = nbc_lsp::serve(Connection { sender: answer, receiver }, world));
     let told = post.clone();
     thread::spawn(move || answers.into_iter().for_each(|message| told.text(nbc_lsp::written(&message))));

@@ -77,8 +77,8 @@ impl Served {
 
     /// The address for other computers, if the server listens at all addresses of this one and it has one in a network.
     pub(super) fn address_elsewhere(&self) -> Option<String> {
-        // Nothing is sent: the system only chooses the address that it would send from. The target is one of those that
-        // are kept for documents.
+        // Nothing is sent: the system only chooses the address that it would send from. The target is an address
+        // reserved for documentation.
         let (any, target) = match self.everywhere()? {
             IpAddr::V4(_) => ("0.0.0.0:0", "192.0.2.1:9"),
             IpAddr::V6(_) => ("[::]:0", "[2001:db8::1]:9"),

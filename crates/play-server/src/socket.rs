@@ -72,7 +72,7 @@ pub(super) async fn pump(
     let mut backlog = Backlog::new(all);
     loop {
         backlog.settle(requests.len());
-        // Meanwhile answers still go out, for which their maker may wait.
+        // Answers still go out, because their maker may wait for room.
         let has_room = !requests.is_full() && backlog.has_room();
         tokio::select! {
             text = receive(&mut socket, &mut allowance), if has_room => {

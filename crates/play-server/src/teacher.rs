@@ -1,4 +1,4 @@
-//! The teacher's page: its own address, from which nothing but the members of the class and the lessons can be had.
+//! The teacher's page. Its address gives access to the members of the class and to the lessons only.
 
 use axum::extract::Request;
 use axum::http::{Method, StatusCode, header};
