@@ -524,7 +524,7 @@ fn an_evolution_that_finds_no_robot_says_so_and_fails() {
 fn folders_without_robots_are_errors() {
     let bench = Bench::new();
     std::fs::create_dir(bench.path().join("empty")).unwrap();
-    for command in ["list", "verify", "rewrite"] {
+    for command in ["list", "verify"] {
         bench.run(&["library", command, "empty"]).expect_fault(&["`empty` contains no robot files"]);
     }
     bench.run(&["library", "show", "nand", "empty"]).expect_fault(&["`empty` contains no robot files"]);

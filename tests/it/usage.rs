@@ -175,11 +175,6 @@ mod not_text {
         let found = validate("evolve", &ran.out);
         assert_eq!(found["runs"][0]["folder"], "caf\u{fffd}/small/seed-1");
         assert!(bench.path().join(name("")).join("small/seed-1/checkpoint.nbc").exists());
-        let robots = bench.path().join("robots");
-        fs::create_dir(&robots).unwrap();
-        fs::copy(root().join("library/robots/nand_5x5.yaml"), robots.join(name(".yaml"))).unwrap();
-        let ran = bench.run(&["library", "rewrite", "robots", "--format", "json"]);
-        assert_eq!(validate("rewritten", &ran.out)["files"][0]["path"], "robots/caf\u{fffd}.yaml", "{}", ran.err);
     }
 }
 

@@ -18,7 +18,6 @@ const MOST_STEPS: usize = 4_096;
 const FEWEST_STEPS: usize = 64;
 const MOST_GATES: usize = 20_000_000;
 
-/// The most tries to make a run shorter.
 const MOST_TRIES: usize = 400;
 
 /// The most clauses that the solver learns to compare two signals.
@@ -26,25 +25,25 @@ const PORTION: u64 = 2_000;
 
 const SEED: u64 = 0x6e62_6369_7665_7269;
 
-/// What is known of two designs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Likeness {
-    /// They are equal in every step, whatever their inputs are.
     Proved,
     /// They are equal in so many random steps.
     Open(usize),
     /// They are, but differ in a state of the first that may never be reached: the values of its inputs, of its
     /// registers, and of the outputs of both.
-    Doubtful { steps: usize, inputs: Vec<bool>, state: Vec<bool>, outputs: [Vec<bool>; 2] },
-    /// The last step of these runs differs.
+    Doubtful {
+        steps: usize,
+        inputs: Vec<bool>,
+        state: Vec<bool>,
+        outputs: [Vec<bool>; 2],
+    },
     Different([DesignRun; 2]),
-    /// One of them has not this port.
     Port(String),
     /// One of them has feedback, or does not settle, so that it has no steps.
     NoSteps,
 }
 
-/// Compares two designs.
 pub fn likeness(one: &Design, two: &Design, cancel: &CancelFlag) -> Likeness {
     let order = match PortOrder::of(one, two) {
         Ok(order) => order,
@@ -84,7 +83,6 @@ struct PortOrder {
 }
 
 impl PortOrder {
-    /// Fails with a port that only one of them has.
     fn of(one: &Design, two: &Design) -> Result<Self, String> {
         let names = |design: &Design| {
             let name = |&id| design.logic.net_name(id);
@@ -148,7 +146,6 @@ struct Product {
 }
 
 impl Product {
-    /// None if one of them has feedback.
     fn of(one: &Design, two: &Design, order: &PortOrder) -> Option<Self> {
         let [first, second] = [View::of(&one.logic, &[]).ok()?.network, View::of(&two.logic, &[]).ok()?.network];
         let [ports, shown] = [one.inputs(), one.outputs()];
@@ -223,7 +220,6 @@ impl Product {
     }
 }
 
-/// Adds another network over these inputs; the signals of its outputs.
 fn included(network: &mut Network, other: &Network, inputs: &[Signal]) -> Vec<Signal> {
     let mut signals: Vec<Signal> = [0, 1].into_iter().chain(inputs.iter().copied()).collect();
     for gate in &other.gates {

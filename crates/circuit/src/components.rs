@@ -10,7 +10,6 @@ use petgraph::visit::NodeIndexable;
 use crate::NetId;
 use crate::netlist::NetGraph;
 
-/// A node that has not been visited.
 const NEW: u32 = 0;
 
 /// The state of the search; it visits each node once.
@@ -18,17 +17,14 @@ pub struct Components<'g> {
     graph: &'g NetGraph,
     /// When each node was visited, or [`NEW`].
     numbers: Vec<u32>,
-    /// Whether the component of each node is known.
     done: Vec<bool>,
     /// For each visited node, the earliest node that it leads back to.
     low: Vec<u32>,
     clock: u32,
-    /// The visited nodes without a known component.
     open: Vec<NetId>,
 }
 
 impl<'g> Components<'g> {
-    /// A new search of a netlist's graph.
     pub fn new(graph: &'g NetGraph) -> Self {
         let nodes = graph.node_bound();
         Self {
@@ -52,7 +48,6 @@ impl<'g> Components<'g> {
         components
     }
 
-    /// Follows every way from a node that is new.
     fn follow(&mut self, root: NetId, inside: &impl Fn(NetId) -> bool, components: &mut Vec<Vec<NetId>>) {
         let graph = self.graph;
         let listeners = |node: NetId| graph.neighbors_directed(node, Outgoing).detach();

@@ -17,28 +17,22 @@ use crate::passes::{self, Pass, Sweep};
 use crate::proof::{self, Compared, Counterpart, Proof, SatSweep};
 use crate::{CancelFlag, NetId, Netlist, Node, ProofError};
 
-/// Cycles of the simulation, of 64 runs at a time.
 const CYCLES: usize = 64;
 
-/// Counterexamples that split classes together.
 const LANES: usize = 64;
 
 /// Words of random states in which the registers of each class agree, before a proof is tried.
 const WORDS: usize = 8;
 
-/// The registers that a design does not need, by name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Removed {
     /// Registers that keep their start value, and that value.
     pub constant: Vec<(String, bool)>,
-    /// Registers that always equal another, and that other.
     pub equal: Vec<(String, String)>,
-    /// Registers that no output depends on.
     pub unused: Vec<String>,
 }
 
 impl Removed {
-    /// Whether the design needs all its registers.
     pub fn is_empty(&self) -> bool {
         self.constant.is_empty() && self.equal.is_empty() && self.unused.is_empty()
     }
@@ -47,9 +41,6 @@ impl Removed {
 /// The design without the registers that it does not need. A register without a start value starts at 0.
 ///
 /// Registers that clock others stay, and so does every register of a design whose logic has feedback.
-///
-/// # Panics
-/// When the result is not proved equal to the design, which would be a bug.
 pub fn reduce(design: &Design) -> (Design, Removed) {
     let is_wire = |id| matches!(design.logic.node(id), Node::Wire { .. });
     if design.registers.is_empty() || design.logic.ids().any(is_wire) {
@@ -95,38 +86,31 @@ pub fn prove(read: &Design, made: &Design, removed: &Removed) -> Result<Proof, P
     proof::prove_design(read, made, read.registers.iter().map(counterpart).collect())
 }
 
-/// Registers that agree.
 pub(crate) struct RegisterClasses<'d> {
     registers: &'d [Register],
     /// The logic: its inputs are ports and then registers, its outputs ports, next values and what forces registers.
     network: &'d Network,
-    /// The numbers of its ports.
     ports: [usize; 2],
     /// The signal that represents each register: a constant, or the first register of its class.
     leaders: Vec<Signal>,
-    /// The outputs that force each register.
     forcing: Vec<Range<usize>>,
     limits: ClassLimits,
 }
 
-/// How far registers are compared.
 #[derive(Clone, Default)]
 pub(crate) struct ClassLimits {
     /// The most clauses that the solver learns to compare two registers; without a limit if there is none.
     pub(crate) portion: Option<u64>,
     pub(crate) cancel: CancelFlag,
-    /// Whether a register may follow one that clocks others.
     pub(crate) follows_clocks: bool,
 }
 
 /// What distinguishes registers: a constant or the leader before, what changes them, and values.
 type Key<'d> = (Option<Signal>, Change<'d>, Vec<u64>);
 
-/// What changes a register: its clock, and how it is forced.
 type Change<'d> = ((u8, &'d str), Forcing);
 
 impl<'d> RegisterClasses<'d> {
-    /// The classes for which the proof holds.
     pub(crate) fn of(registers: &'d [Register], network: &'d Network, ports: [usize; 2], limits: ClassLimits) -> Self {
         let mut next = ports[1] + registers.len();
         let range = |register: &Register| {
@@ -172,7 +156,6 @@ impl<'d> RegisterClasses<'d> {
         self.leaders != before
     }
 
-    /// The signal of a register.
     fn state(&self, at: usize) -> Signal {
         self.network.input(self.ports[0] + at)
     }
@@ -182,7 +165,6 @@ impl<'d> RegisterClasses<'d> {
         (leader as usize).checked_sub(2 + self.ports[0])
     }
 
-    /// The output that is the next value of a register.
     fn next(&self, at: usize) -> usize {
         self.ports[1] + at
     }
@@ -192,7 +174,6 @@ impl<'d> RegisterClasses<'d> {
         std::iter::once(self.next(at)).chain(self.forcing[at].clone())
     }
 
-    /// The value of a register where the signals of some values force it.
     fn forced(&self, at: usize, value: u64, values: &[u64]) -> u64 {
         let register = &self.registers[at];
         match (register.forcing, &self.network.outputs[self.forcing[at].clone()]) {
@@ -252,7 +233,6 @@ impl<'d> RegisterClasses<'d> {
         self.leaders = leaders;
     }
 
-    /// The logic if each register equals its leader.
     fn assumed(&self) -> Network {
         let first = 2 + self.ports[0];
         let leader = |signal: Signal| match (signal as usize).checked_sub(first) {
@@ -309,7 +289,6 @@ impl<'d> RegisterClasses<'d> {
         SatSweep::limited(network.inputs, self.limits.portion.unwrap_or(u64::MAX), self.limits.cancel.clone())
     }
 
-    /// Whether a register is in the class of another, or both are the same constant.
     pub(crate) fn are_equal(&self, one: usize, two: usize) -> bool {
         self.leaders[one] == self.leaders[two]
     }
@@ -355,7 +334,6 @@ impl<'d> RegisterClasses<'d> {
         removed
     }
 
-    /// The design in which leaders stand for their classes.
     fn merged(&self, design: &Design) -> Design {
         let mut design = design.clone();
         let states = design.logic.inputs()[design.inputs()..].to_vec();
@@ -402,7 +380,6 @@ fn remove_unused(design: &mut Design) -> Vec<String> {
     unused
 }
 
-/// Removes the other registers, whose values only their own next values depend on.
 fn keep(design: &mut Design, kept: &[bool]) {
     let states = design.logic.inputs()[design.inputs()..].to_vec();
     let nexts = design.logic.outputs()[design.outputs()..].to_vec();

@@ -6,7 +6,6 @@ use std::collections::VecDeque;
 use crate::{Logic, NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// A netlist without wires on its way through time.
 #[derive(Clone, Debug)]
 pub struct Delayed {
     inputs: Vec<usize>,
@@ -16,7 +15,6 @@ pub struct Delayed {
     past: VecDeque<Vec<bool>>,
 }
 
-/// A cell with the slots of its function's inputs.
 #[derive(Clone, Debug)]
 struct DelayedCell {
     function: Function,
@@ -28,9 +26,6 @@ struct DelayedCell {
 impl Delayed {
     /// A netlist before its first cycle, in the same state as [`Logic::new`]; `delay` gives the cycles after which each
     /// cell reacts.
-    ///
-    /// # Panics
-    /// When a delay is 0, or the netlist has wires.
     pub fn new(netlist: &Netlist, mut delay: impl FnMut(NetId) -> usize) -> Self {
         let before = Logic::new(netlist);
         let slots = netlist.ids().map(|id| id.index() + 1).max().unwrap_or(0);
@@ -59,9 +54,6 @@ impl Delayed {
     }
 
     /// Holds the inputs, in order of the ports, for some cycles, and returns the outputs after them.
-    ///
-    /// # Panics
-    /// When there are not as many values as inputs.
     pub fn run(&mut self, inputs: &[bool], cycles: usize) -> Vec<bool> {
         assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
         for _ in 0..cycles {

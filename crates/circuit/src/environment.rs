@@ -4,36 +4,28 @@ use crate::elaborate::MemoryPorts;
 use crate::waves::{ClockRun, ClockStep, WaveError};
 use crate::{NetId, Netlist};
 
-/// An environment with its state.
 #[derive(Clone, Debug)]
 pub struct Environment {
     run: ClockRun,
     ports: Vec<MemoryPorts>,
     /// The words of each memory, each in its lowest bits.
     memories: Vec<Vec<u128>>,
-    /// The inputs, those of the memories included.
     inputs: Vec<u64>,
     /// The number of inputs that are declared.
     declared: [usize; 2],
 }
 
-/// What a memory of an environment is asked for before an edge of the clock.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct MemoryAccess {
-    /// The address of each of its reads.
     pub reads: Vec<usize>,
     /// The words that it takes at the edge, each with its address, in order.
     pub writes: Vec<(usize, u128)>,
 }
 
-/// Why an environment cannot be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum EnvironmentFault {
-    /// It is no circuit with one clock.
     Clock(WaveError),
-    /// A memory is written with another clock.
     OtherClock,
-    /// Words read and addresses depend on each other in a circle.
     Circle,
 }
 
@@ -84,9 +76,6 @@ impl Environment {
     }
 
     /// Applies the declared inputs; the outputs follow, with the words that are read.
-    ///
-    /// # Panics
-    /// When there are not as many values as declared inputs.
     pub fn apply(&mut self, inputs: &[bool]) -> Result<(), EnvironmentFault> {
         assert_eq!(inputs.len(), self.declared[0], "a value for each declared input");
         for (own, &value) in self.inputs.iter_mut().zip(inputs) {
@@ -102,7 +91,6 @@ impl Environment {
         Err(EnvironmentFault::Circle)
     }
 
-    /// Lets the memories show the words at their addresses; whether any of them changed.
     fn read(&mut self) -> bool {
         let mut changed = false;
         for (memory, words) in self.ports.iter().zip(&self.memories) {
@@ -136,7 +124,6 @@ impl Environment {
         self.ports.iter().map(access).collect()
     }
 
-    /// The words of each memory, in order of their declarations.
     pub fn words(&self) -> &[Vec<u128>] {
         &self.memories
     }
@@ -147,7 +134,6 @@ impl Environment {
     }
 }
 
-/// The words that a memory takes at the edge of the clock, each with its address.
 fn written(run: &ClockRun, memory: &MemoryPorts) -> impl Iterator<Item = (usize, u128)> {
     memory.writes.iter().filter_map(|[address, data, enable, _]| {
         let place = number(run, address) as usize;

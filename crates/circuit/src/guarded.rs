@@ -7,10 +7,8 @@ use crate::known::{TernaryBit, answer};
 use crate::loops::Loops;
 use crate::{NetId, Netlist, Node};
 
-/// Why a cell stays as written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Role {
-    /// It stores a bit, together with others on its loop.
     Memory,
     /// It drives a memory element: a glitch on it can flip the state, even if some of its pins are constant.
     Guard,
@@ -19,7 +17,6 @@ pub enum Role {
     Control,
 }
 
-/// The cells of a netlist without wires that stay as written.
 #[derive(Clone, Debug)]
 pub struct Guarded {
     loops: Loops,
@@ -27,7 +24,6 @@ pub struct Guarded {
 }
 
 impl Guarded {
-    /// The cells of a netlist that stay as written. The netlist has no wires.
     pub fn of(netlist: &Netlist) -> Self {
         let loops = Loops::memory(netlist);
         let is_cell = |id: &NetId| netlist.cell(*id).is_some();
@@ -45,29 +41,24 @@ impl Guarded {
         guarded
     }
 
-    /// The reason why a cell stays as written; `None` if it may be changed.
     pub fn role(&self, id: NetId) -> Option<Role> {
         self.roles.get(&id).copied()
     }
 
-    /// Moves the role of a cell to its replacement.
     pub fn replace(&mut self, old: NetId, new: NetId) {
         if let Some(role) = self.roles.remove(&old) {
             self.roles.insert(new, role);
         }
     }
 
-    /// The loops of the netlist that are memory.
     pub fn memory(&self) -> &Loops {
         &self.loops
     }
 
-    /// The cells that stay as written; drivers first, except on loops.
     pub fn cells(&self) -> impl Iterator<Item = NetId> + '_ {
         self.loops.order().iter().copied().filter(|id| self.roles.contains_key(id))
     }
 
-    /// Marks all cells that compute control nets, back to inputs and memory.
     fn add_control_cone(&mut self, netlist: &Netlist, mut pending: Vec<NetId>) {
         while let Some(id) = pending.pop() {
             if netlist.cell(id).is_some() && !self.roles.contains_key(&id) {
@@ -132,7 +123,6 @@ mod tests {
     use crate::registers;
     use nbc_base::model::Function;
 
-    /// The names of the cells with each role, in order of numbers.
     fn check(netlist: &Netlist, memory: usize, guards: usize, controls: usize) {
         let guarded = Guarded::of(netlist);
         let count = |role| netlist.ids().filter(|&id| guarded.role(id) == Some(role)).count();

@@ -7,15 +7,10 @@ use std::num::NonZeroU32;
 pub(crate) struct ListIndex(NonZeroU32);
 
 impl ListIndex {
-    /// This index.
-    ///
-    /// # Panics
-    /// For `u32::MAX`.
     pub fn new(index: u32) -> Self {
         Self(NonZeroU32::MIN.checked_add(index).expect("lists are shorter than 2^32 - 1"))
     }
 
-    /// The index as a number.
     pub fn get(self) -> u32 {
         self.0.get() - 1
     }

@@ -21,7 +21,6 @@ pub(crate) fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
     levels
 }
 
-/// The highest level of an output.
 pub fn depth(netlist: &Netlist) -> u32 {
     let levels = levelize(netlist);
     netlist.outputs().iter().map(|id| levels[id]).max().unwrap_or(0)

@@ -6,7 +6,6 @@ use crate::clause::ValuedBit;
 use crate::netlist::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// The values of the nets of a netlist, which change with its inputs.
 #[derive(Clone, Debug)]
 pub struct Logic {
     inputs: Vec<u32>,
@@ -20,7 +19,6 @@ pub struct Logic {
 /// The first step whose values are kept, to find the period of an oscillation. Most circuits settle before.
 const FIRST_KEPT: usize = 32;
 
-/// A cell with the slots of its function's inputs.
 #[derive(Clone, Debug)]
 struct Gate {
     function: Function,
@@ -31,9 +29,6 @@ struct Gate {
 impl Logic {
     /// A netlist before its first cycle. Cells with a start value have it. The others have the values that follow from
     /// inputs of 0, if these settle.
-    ///
-    /// # Panics
-    /// When the netlist is not well formed: a pin without a driver, or a wire that drives itself.
     pub fn new(netlist: &Netlist) -> Self {
         let slots = netlist.graph().node_indices().map(|id| id.index() as u32 + 1).max().unwrap_or(0);
         let mut logic = Self {
@@ -59,7 +54,6 @@ impl Logic {
         logic
     }
 
-    /// Lets the cells without a start value settle while the others are held.
     fn begin(&mut self, held: &[ValuedBit]) {
         for _ in 0..self.cells.len() + 2 {
             for &(slot, start) in held {
@@ -76,7 +70,6 @@ impl Logic {
         }
     }
 
-    /// The value of an input, a constant or a cell.
     pub fn value(&self, net: NetId) -> bool {
         self.values[net.index()]
     }
@@ -95,9 +88,6 @@ impl Logic {
     }
 
     /// Holds the inputs, in order of the ports, until nothing changes, and returns the outputs.
-    ///
-    /// # Panics
-    /// When there are not as many values as inputs.
     pub fn settle(&mut self, inputs: &[bool]) -> Result<Vec<bool>, Oscillation> {
         assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
         for (&slot, &value) in self.inputs.iter().zip(inputs) {
@@ -134,7 +124,6 @@ impl Logic {
         16 * self.cells.len() + 16
     }
 
-    /// The outputs as they are.
     pub fn outputs(&self) -> Vec<bool> {
         self.outputs.iter().map(|&slot| self.values[slot as usize]).collect()
     }

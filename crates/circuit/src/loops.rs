@@ -15,7 +15,6 @@ pub struct Loops {
 }
 
 impl Loops {
-    /// The loops of a netlist.
     pub fn of(netlist: &Netlist) -> Self {
         let mut components = Components::new(netlist.graph()).from(netlist.ids(), |_| true);
         components.reverse();
@@ -56,12 +55,10 @@ impl Loops {
         &self.cores
     }
 
-    /// The core of a node.
     pub(crate) fn core_of(&self, id: NetId) -> Option<usize> {
         self.core_of.get(&id).copied()
     }
 
-    /// Whether a node lies on a loop.
     pub fn contains(&self, id: NetId) -> bool {
         self.core_of.contains_key(&id)
     }

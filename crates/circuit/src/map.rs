@@ -16,7 +16,6 @@ use crate::{BlockId, MapError, NetId, Netlist, Node};
 use nbc_base::budget::Limit;
 use nbc_base::model::Function;
 
-/// Maps a netlist onto a library for few robots, at normal effort.
 pub fn map(netlist: &Netlist, library: &CellLibrary) -> Result<Netlist, MapError> {
     map_with(netlist, library, &MapOptions::default())
 }
@@ -58,14 +57,12 @@ fn map_best(
     mapped.unwrap_or_else(|| map_with(source, library, options))
 }
 
-/// The mapping of one netlist.
 struct Mapper<'a> {
     source: &'a Netlist,
     library: &'a CellLibrary,
     guarded: Guarded,
     recipes: Recipes,
     mapped: Netlist,
-    /// The cells that stay as written, in order.
     kept: Vec<NetId>,
     /// The nets of the mapped netlist that correspond to the inputs of the logic.
     net: BTreeMap<NetId, NetId>,
@@ -162,7 +159,6 @@ impl<'a> Mapper<'a> {
         network.outputs.iter().map(|&output| net(mapped, &nets, output)).collect()
     }
 
-    /// Splits a kept cell into cells of the library.
     fn split(&mut self, id: NetId, pins: &[NetId]) -> Result<NetId, MapError> {
         let cell = self.source.cell(id).expect("kept cells are cells");
         let missing = || self.missing(cell.function);
@@ -256,7 +252,6 @@ mod tests {
         assert_eq!(map(&latch(), &library("")).unwrap_err().to_string(), "`not` cannot be made without cells");
     }
 
-    /// A chain of exclusive ors with twenty inputs in turn.
     fn chain(cells: usize) -> Netlist {
         let mut netlist = Netlist::new("chain");
         let inputs: Vec<_> = (0..20).map(|i| netlist.add_input(format!("i{i}"))).collect();

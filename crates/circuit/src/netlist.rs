@@ -15,49 +15,37 @@ use nbc_base::source::Span;
 /// A net, named by its driver.
 pub type NetId = NodeIndex;
 
-/// An instance of a gate.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cell {
     /// Its function of its pins, pin 0 first; a function of one input reads pin 0 only, and has no pin 1.
     pub function: Function,
-    /// The name of the net it drives, if the source has one.
     pub name: Option<String>,
     /// The output before the first cycle; only cells on a feedback loop need one.
     pub start: Option<bool>,
-    /// Its place in the source.
     pub span: Option<Span>,
 }
 
-/// A node of the graph.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Node {
-    /// An input port, by its name.
     Input(String),
     /// An output port; its one pin is the net it shows.
     Output(String),
-    /// A net that never changes.
     Constant(bool),
     /// A name for a net that is driven elsewhere, perhaps later: this makes feedback possible. Its one pin is the
     /// driver.
     Wire {
-        /// As in the source; [`NetId`]s refer to the node, not to the name.
         name: String,
-        /// The start value declared with `init`.
         start: Option<bool>,
-        /// The place of the declaration.
         span: Option<Span>,
     },
-    /// An instance of a gate, which drives the net.
     Cell(Cell),
 }
 
-/// The graph of a netlist: the weight of an edge is the listener's pin.
 pub(crate) type NetGraph = StableDiGraph<Node, u8, u32>;
 
 /// A circuit as a graph: an edge runs from a driver to the pin (0, 1 or 2) that listens.
 #[derive(Clone, Debug, Default)]
 pub struct Netlist {
-    /// The name of the circuit.
     pub name: String,
     graph: NetGraph,
     inputs: Vec<NetId>,
@@ -66,12 +54,10 @@ pub struct Netlist {
 }
 
 impl Netlist {
-    /// A netlist without nodes.
     pub fn new(name: impl Into<String>) -> Self {
         Self { name: name.into(), ..Self::default() }
     }
 
-    /// A netlist without nodes that has the blocks of another.
     pub(crate) fn with_blocks_of(other: &Self) -> Self {
         Self { blocks: other.blocks.without_nodes(), ..Self::new(&other.name) }
     }
@@ -83,61 +69,49 @@ impl Netlist {
         id
     }
 
-    /// The calls that the cells come from.
     pub fn blocks(&self) -> &Blocks {
         &self.blocks
     }
 
-    /// The calls, to add some.
     pub fn blocks_mut(&mut self) -> &mut Blocks {
         &mut self.blocks
     }
 
-    /// The call that a cell comes from.
     pub fn block(&self, id: NetId) -> BlockId {
         self.blocks.of(id.index())
     }
 
-    /// Puts a cell into a block.
     pub fn put_into(&mut self, id: NetId, block: BlockId) {
         self.blocks.put(id.index(), block);
     }
 
-    /// Adds an input port after the others.
     pub fn add_input(&mut self, name: impl Into<String>) -> NetId {
         let id = self.add(Node::Input(name.into()));
         self.inputs.push(id);
         id
     }
 
-    /// Adds an output port after the others, showing `net`.
     pub fn add_output(&mut self, name: impl Into<String>, net: NetId) -> NetId {
         let id = self.add_loose_output(name);
         self.connect(id, 0, net);
         id
     }
 
-    /// Adds an output port after the others that shows nothing yet; [`Netlist::connect`] sets what it shows.
     pub fn add_loose_output(&mut self, name: impl Into<String>) -> NetId {
         let id = self.add(Node::Output(name.into()));
         self.outputs.push(id);
         id
     }
 
-    /// Adds a net that is always 0 or always 1.
     pub fn add_constant(&mut self, value: bool) -> NetId {
         self.add(Node::Constant(value))
     }
 
-    /// Adds a wire without a driver; [`Netlist::drive`] sets the driver.
     pub fn add_wire(&mut self, name: impl Into<String>, start: Option<bool>, span: Option<Span>) -> NetId {
         self.add(Node::Wire { name: name.into(), start, span })
     }
 
     /// Adds a cell whose pins 0, 1, … listen to `pins`.
-    ///
-    /// # Panics
-    /// When the number of pins is not one, two or three.
     pub fn add_cell(&mut self, cell: Cell, pins: &[NetId]) -> NetId {
         assert!(matches!(pins.len(), 1..=3), "a cell has one pin, two or three");
         let id = self.add(Node::Cell(cell));
@@ -147,17 +121,14 @@ impl Netlist {
         id
     }
 
-    /// Adds a gate instance without drivers of its pins; [`Netlist::connect`] sets them.
     pub fn add_loose_cell(&mut self, cell: Cell) -> NetId {
         self.add(Node::Cell(cell))
     }
 
-    /// Connects an unconnected pin to `net`.
     pub fn connect(&mut self, listener: NetId, pin: u8, net: NetId) {
         self.graph.add_edge(net, listener, pin);
     }
 
-    /// Adds a gate without a name, with one net for each pin, and returns its output.
     pub fn add_gate(&mut self, function: Function, pins: &[NetId]) -> NetId {
         self.add_cell(Cell { function, name: None, start: None, span: None }, pins)
     }
@@ -172,19 +143,16 @@ impl Netlist {
         self.graph.add_edge(net, listener, pin);
     }
 
-    /// Takes a node out, with its edges.
     pub fn remove(&mut self, id: NetId) {
         self.graph.remove_node(id);
         self.inputs.retain(|&input| input != id);
         self.outputs.retain(|&output| output != id);
     }
 
-    /// What drives a net.
     pub fn node(&self, id: NetId) -> &Node {
         &self.graph[id]
     }
 
-    /// Renames a port, a wire or a cell.
     pub fn rename(&mut self, id: NetId, new: &str) {
         match self.node_mut(id) {
             Node::Input(name) | Node::Output(name) | Node::Wire { name, .. } => *name = new.to_owned(),
@@ -193,12 +161,10 @@ impl Netlist {
         }
     }
 
-    /// The node, to be changed.
     pub(crate) fn node_mut(&mut self, id: NetId) -> &mut Node {
         &mut self.graph[id]
     }
 
-    /// The cell at a node, if it is one.
     pub fn cell(&self, id: NetId) -> Option<&Cell> {
         match self.node(id) {
             Node::Cell(cell) => Some(cell),
@@ -206,7 +172,6 @@ impl Netlist {
         }
     }
 
-    /// The cell at a node, if it is one, to be changed.
     pub(crate) fn cell_mut(&mut self, id: NetId) -> Option<&mut Cell> {
         match self.node_mut(id) {
             Node::Cell(cell) => Some(cell),
@@ -223,9 +188,6 @@ impl Netlist {
     }
 
     /// The net of each input of a cell's function. A cell of one pin has it at both.
-    ///
-    /// # Panics
-    /// When the node is no cell, or a pin has no driver.
     pub fn operands(&self, id: NetId) -> Vec<NetId> {
         let inputs = self.cell(id).expect("only cells have operands").function.inputs();
         let pins = self.pins(id);
@@ -239,17 +201,14 @@ impl Netlist {
         listeners
     }
 
-    /// The input ports in order.
     pub fn inputs(&self) -> &[NetId] {
         &self.inputs
     }
 
-    /// The output ports in order.
     pub fn outputs(&self) -> &[NetId] {
         &self.outputs
     }
 
-    /// Every node, in order of numbers.
     pub fn ids(&self) -> impl Iterator<Item = NetId> + '_ {
         self.graph.node_indices()
     }
@@ -259,7 +218,6 @@ impl Netlist {
         self.ids().filter_map(|id| Some((id, self.cell(id)?)))
     }
 
-    /// The number of cells of each function, by name.
     pub fn by_function(&self) -> BTreeMap<&'static str, usize> {
         let mut counts = BTreeMap::new();
         for (_, cell) in self.cells() {
@@ -268,7 +226,6 @@ impl Netlist {
         counts
     }
 
-    /// The graph itself, for petgraph's algorithms: an edge's weight is the listener's pin.
     pub fn graph(&self) -> &NetGraph {
         &self.graph
     }
@@ -283,7 +240,6 @@ impl Netlist {
         }
     }
 
-    /// Whether a net has a name of its own; [`Netlist::net_name`] numbers the others.
     pub fn is_named(&self, id: NetId) -> bool {
         !matches!(self.node(id), Node::Cell(Cell { name: None, .. }))
     }
@@ -293,7 +249,6 @@ impl Netlist {
         self.label_within(id, 2)
     }
 
-    /// The label of a net with so many functions inside each other; those further inside are left out.
     fn label_within(&self, id: NetId, depth: usize) -> String {
         match self.cell(id) {
             Some(cell) if !self.is_named(id) => {

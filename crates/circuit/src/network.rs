@@ -11,9 +11,7 @@ pub type Signal = u32;
 /// A two-input gate; a function of one input has the same signal on both pins or ignores pin 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Gate {
-    /// What the gate computes from its pins.
     pub function: Function,
-    /// The signals of its pins.
     pub pins: [Signal; 2],
 }
 
@@ -22,31 +20,20 @@ pub struct Gate {
 pub struct Network {
     /// The number of inputs; their signals are 2, 3, and so on.
     pub inputs: usize,
-    /// The gates; each listens to earlier signals only.
     pub gates: Vec<Gate>,
-    /// The signals that are outputs, in order; a signal may be several.
     pub outputs: Vec<Signal>,
 }
 
 impl Network {
-    /// A network of inputs alone.
     pub fn new(inputs: usize) -> Self {
         Self { inputs, gates: Vec::new(), outputs: Vec::new() }
     }
 
-    /// The signal of input `i`, counted from 0.
-    ///
-    /// # Panics
-    /// When there is no such input.
     pub fn input(&self, i: usize) -> Signal {
         assert!(i < self.inputs, "the input exists");
         i as Signal + 2
     }
 
-    /// Adds a gate and returns its signal.
-    ///
-    /// # Panics
-    /// When a pin is not an earlier signal.
     pub fn add(&mut self, function: Function, pins: [Signal; 2]) -> Signal {
         let signal = self.signals() as Signal;
         assert!(pins.iter().all(|&pin| pin < signal), "a gate listens to earlier signals");
@@ -55,9 +42,6 @@ impl Network {
     }
 
     /// Adds gates for a function of these signals, which may be three, and returns the signal of its output.
-    ///
-    /// # Panics
-    /// When there is not a signal for each input of the function, or one is not an earlier signal.
     pub fn add_function(&mut self, function: Function, pins: &[Signal]) -> Signal {
         let &[a, b, c] = pins else { return self.add(function, [pins[0], pins[1]]) };
         // If `a` is 0, the function is one of `b` and `c`; if it is 1, another.
@@ -87,7 +71,6 @@ impl Network {
         }
     }
 
-    /// The signal of a function of two signals, with a gate if it needs one.
     fn half(&mut self, function: Function, [b, c]: [Signal; 2]) -> Signal {
         match function {
             Function::ZERO => 0,
@@ -98,12 +81,10 @@ impl Network {
         }
     }
 
-    /// The number of signals, including constants and inputs.
     pub fn signals(&self) -> usize {
         2 + self.inputs + self.gates.len()
     }
 
-    /// The gate that drives a signal; `None` for a constant and an input.
     pub(crate) fn gate(&self, signal: Signal) -> Option<&Gate> {
         (signal as usize).checked_sub(2 + self.inputs).map(|i| &self.gates[i])
     }
@@ -116,7 +97,6 @@ impl Network {
         values
     }
 
-    /// As [`Network::simulate`], in memory that is there.
     pub fn simulate_into(&self, inputs: &[u64], values: &mut Vec<u64>) {
         values.clear();
         values.extend([0, !0]);
@@ -147,7 +127,6 @@ impl Network {
         plain
     }
 
-    /// The gates that the outputs depend on, the others left out.
     pub fn swept(&self) -> Self {
         self.swept_signals().0
     }

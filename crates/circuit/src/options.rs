@@ -5,7 +5,6 @@ use crate::CancelFlag;
 /// What technology mapping minimizes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MappingObjective {
-    /// The number of robots.
     #[default]
     Area,
     /// Cycles along the slowest path, then robots.
@@ -29,12 +28,9 @@ pub enum Effort {
     High,
 }
 
-/// How technology mapping searches.
 #[derive(Clone, Debug, Default)]
 pub struct MapOptions {
-    /// What the search minimizes.
     pub objective: MappingObjective,
-    /// How long it searches.
     pub effort: Effort,
     /// Ends the search early, with the best result so far.
     pub cancel: CancelFlag,

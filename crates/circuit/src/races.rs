@@ -11,21 +11,15 @@ use crate::network::counting_word;
 use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// The highest number of inputs and memory elements together for which all stable states are tried.
 const MOST_BITS: usize = 16;
 
-/// A memory element that is not proved free of races.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Race {
-    /// The net of the memory element.
     pub net: NetId,
-    /// The input whose switch may leave the element in either state.
     pub input: NetId,
-    /// Whether that input rises.
     pub rises: bool,
 }
 
-/// The possible values of a net in 64 states at once, one bit for each state.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Ternary {
     zero: u64,
@@ -92,7 +86,6 @@ fn at_rest(netlist: &Netlist, loops: &Loops, memory: &[NetId], bits: usize, word
     (values, stable)
 }
 
-/// The known value of each net after an input has switched.
 fn switch(netlist: &Netlist, loops: &Loops, mut values: Values, input: NetId) -> Values {
     let Ternary { zero, one } = values[&input];
     values.insert(input, Ternary { zero: one, one: zero });
@@ -115,7 +108,6 @@ fn settle(netlist: &Netlist, loops: &Loops, values: &mut Values, merge: impl Fn(
     }
 }
 
-/// The response of a node to its pins.
 fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
     let pins: Vec<_> = netlist.pins(id).iter().map(|pin| values[pin]).collect();
     match netlist.node(id) {
@@ -129,7 +121,6 @@ fn answer(netlist: &Netlist, values: &Values, id: NetId) -> Ternary {
     }
 }
 
-/// The possible outputs of a cell for the possible values of its pins.
 fn of_cell(function: Function, inputs: &[Ternary]) -> Ternary {
     let mut made = Ternary::default();
     for row in 0..1 << function.inputs() {

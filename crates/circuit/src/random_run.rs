@@ -11,18 +11,13 @@ use rand_chacha::ChaCha8Rng;
 use crate::formats::{Design, Forcing, RegisterKind};
 use crate::network::{Network, Signal, View};
 
-/// Steps in which inputs keep their habits.
 const HABIT: usize = 64;
 
-/// Tries to find inputs at which no register is forced.
 const TRIES: usize = 64;
 
-/// A run of a design from its start.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct DesignRun {
-    /// The values of the input ports at the start, and in each step.
     pub inputs: Vec<Vec<bool>>,
-    /// The values of the output ports then, when all is settled.
     pub outputs: Vec<Vec<bool>>,
 }
 
@@ -71,14 +66,11 @@ impl DesignRun {
     }
 }
 
-/// How inputs change.
 struct Habits {
-    /// The inputs that clock registers, and those that force them.
     clocks: Vec<usize>,
     forcing: Vec<usize>,
     /// The inputs at the start, at which no register is forced if that is possible.
     first: Vec<bool>,
-    /// The habit of each port at present.
     words: Vec<u8>,
 }
 
@@ -120,7 +112,6 @@ impl Habits {
     }
 }
 
-/// A design made for steps.
 struct Machine<'d> {
     design: &'d Design,
     network: Network,
@@ -133,7 +124,6 @@ struct Machine<'d> {
     forced: Vec<usize>,
 }
 
-/// The values of a design.
 struct Values {
     inputs: Vec<bool>,
     states: Vec<bool>,
@@ -204,14 +194,12 @@ impl<'d> Machine<'d> {
         self.after(&before, inputs)
     }
 
-    /// The values of the outputs of the network.
     fn simulate(&self, inputs: &[bool], states: &[bool]) -> Vec<bool> {
         let words: Vec<u64> = inputs.iter().chain(states).map(|&value| u64::from(value)).collect();
         let values = self.network.simulate(&words);
         self.network.outputs.iter().map(|&output| values[output as usize] & 1 == 1).collect()
     }
 
-    /// The values of the nets that force a register.
     fn force<'v>(&self, at: usize, outputs: &'v [bool]) -> &'v [bool] {
         &outputs[self.forced[at]..][..self.design.registers[at].forcing.nets().len()]
     }
@@ -249,7 +237,6 @@ impl<'d> Machine<'d> {
         None
     }
 
-    /// The value of a register's clock.
     fn clock(&self, at: usize, inputs: &[bool], states: &[bool]) -> bool {
         let at = self.clocks[at];
         at.checked_sub(inputs.len()).map_or_else(|| inputs[at], |state| states[state])

@@ -92,20 +92,17 @@ fn is_edge(register: &Register) -> bool {
     matches!(register.kind, RegisterKind::Rising | RegisterKind::Falling)
 }
 
-/// A latch of one bit.
 struct Bit {
     latch: Latch,
     follower: Follower,
 }
 
-/// The latches of one bit in a netlist.
 struct Bits<'n> {
     netlist: &'n Netlist,
     start: Logic,
     bits: Vec<Bit>,
 }
 
-/// A latch or a flip-flop that is taken out of a netlist.
 struct Element<'b> {
     bit: &'b Bit,
     /// The cell that shows what it stores, and whether that is the opposite of what the follower says.
@@ -214,7 +211,6 @@ impl<'n> Bits<'n> {
     }
 }
 
-/// What a register does with the opposite of its clock.
 fn opposite(kind: RegisterKind) -> RegisterKind {
     match kind {
         RegisterKind::Rising => RegisterKind::Falling,
@@ -235,7 +231,6 @@ mod tests {
     use crate::registers::expand;
     use crate::timing::{Held, Pulsed, PulsedRegisters};
 
-    /// A mapped circuit, what its registers become in each form, and the pulses of that form.
     fn forms(source: &Netlist) -> (Netlist, [(Netlist, Vec<Pulse>); 2]) {
         let mapped = map(source, &multiplexer_library()).unwrap();
         let Pulsed { netlist, registers: PulsedRegisters { pulses, .. } } = Pulsed::of(&mapped, &multiplexer_library());
@@ -243,7 +238,6 @@ mod tests {
         (mapped, [(netlist, pulses), (held, Vec::new())])
     }
 
-    /// The netlist with the opposite start of a cell.
     fn started_otherwise(netlist: &Netlist, cell: NetId) -> Netlist {
         let mut other = netlist.clone();
         let start = &mut other.cell_mut(cell).unwrap().start;

@@ -53,7 +53,6 @@ pub fn expand(design: &Design) -> Netlist {
     netlist
 }
 
-/// Copies the cells, wires and constants of a netlist, feedback included.
 fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>) {
     let loops = crate::Loops::of(logic);
     let mut made = Vec::new();
@@ -74,7 +73,6 @@ fn copy(logic: &Netlist, netlist: &mut Netlist, net: &mut BTreeMap<NetId, NetId>
     }
 }
 
-/// Clock nets by name, inverted for registers that need it.
 struct Clocks {
     by_name: BTreeMap<String, NetId>,
 }
@@ -124,7 +122,6 @@ struct Forced<'n> {
     netlist: &'n mut Netlist,
     /// The net that sets the latch, and one that is 0 where it sets a latch that is not reset.
     set: Option<[NetId; 2]>,
-    /// The net that resets it, and the inverse of it.
     reset: [NetId; 2],
     /// Whether the loop holds the opposite of the value that it shows: a reset makes the loop 0.
     is_inverted: bool,
@@ -139,7 +136,6 @@ impl<'n> Forced<'n> {
         Self { netlist, set, reset: [reset, go], is_inverted: forcing == Forcing::ToStart && start, start }
     }
 
-    /// A latch or a flip-flop; returns the net that shows its value.
     fn register(mut self, name: &str, data: NetId, clock: NetId, is_latch: bool) -> NetId {
         let data = self.data(data);
         let shown = usize::from(self.is_inverted);
@@ -151,7 +147,6 @@ impl<'n> Forced<'n> {
         self.latch(name, held, clock)[shown]
     }
 
-    /// The data as the loop holds them, with the value to which they are forced.
     fn data(&mut self, data: NetId) -> NetId {
         let [reset, go] = self.reset;
         if self.is_inverted {
@@ -183,7 +178,6 @@ impl<'n> Forced<'n> {
         [q, nq]
     }
 
-    /// A cell of a loop that passes its first pin while the second is 1.
     fn passed(&mut self, name: String, start: bool, pins: [NetId; 2]) -> NetId {
         self.netlist.add_cell(Cell { function: Function::AND, name: Some(name), start: Some(start), span: None }, &pins)
     }

@@ -3,7 +3,6 @@
 use crate::{NetId, Netlist};
 use nbc_base::model::Function;
 
-/// The cells of every ring, in order of their numbers.
 pub fn rings(netlist: &Netlist) -> Vec<NetId> {
     let mut cells: Vec<NetId> = Vec::new();
     let mut seen = std::collections::BTreeSet::new();
@@ -26,7 +25,6 @@ pub fn rings(netlist: &Netlist) -> Vec<NetId> {
     cells
 }
 
-/// The only net that a node depends on.
 fn driver(netlist: &Netlist, id: NetId) -> Option<NetId> {
     match (netlist.cell(id), &netlist.pins(id)[..]) {
         (Some(cell), _) => {
@@ -48,7 +46,6 @@ mod tests {
     use super::*;
     use crate::example::latch;
 
-    /// A loop of `cells` inverters, and an inverter that reads it.
     fn ring(cells: usize) -> (Netlist, Vec<NetId>) {
         let mut netlist = Netlist::new("ring");
         let wire = netlist.add_wire("q", Some(false), None);

@@ -5,7 +5,6 @@ use crate::network::{Network, View};
 use crate::passes::DissolveWires;
 use crate::{Logic, Netlist};
 
-/// A netlist to which rows of inputs are applied.
 #[derive(Clone, Debug)]
 pub struct Settled(Way);
 
@@ -19,14 +18,11 @@ enum Way {
     Steps(Box<Logic>),
 }
 
-/// The outputs of a netlist at the end of a row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SettledRow {
-    /// Their values.
     pub outputs: Vec<bool>,
     /// For each, whether it comes to rest.
     pub rests: Vec<bool>,
-    /// Whether everything in the netlist comes to rest.
     pub is_settled: bool,
 }
 
@@ -34,10 +30,6 @@ impl Settled {
     /// The most rows that are computed at a time.
     pub const ROWS: usize = u64::BITS as usize;
 
-    /// A netlist before its first row.
-    ///
-    /// # Panics
-    /// As [`Logic::new`].
     pub fn new(netlist: &Netlist) -> Self {
         let mut plain = netlist.clone();
         let view = DissolveWires.run_on(&mut plain).ok().and_then(|()| View::of(&plain, &[]).ok());
@@ -48,9 +40,6 @@ impl Settled {
     }
 
     /// Holds the inputs of each row until nothing changes, as far as it comes to rest.
-    ///
-    /// # Panics
-    /// When there are more rows than [`Settled::ROWS`], or one has not as many values as there are inputs.
     pub fn apply(&mut self, rows: &[&[bool]]) -> Vec<SettledRow> {
         match &mut self.0 {
             Way::Words { network, values } => {

@@ -8,12 +8,9 @@ use crate::storage::WhyUnphased;
 use nbc_base::diag::suggest::alternatives;
 use nbc_base::model::Function;
 
-/// A netlist that is not well formed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NetlistError {
-    /// A pin without a driver.
     Undriven(String),
-    /// Wires that only drive each other.
     WireLoop(String),
 }
 
@@ -28,23 +25,15 @@ impl fmt::Display for NetlistError {
 
 impl Error for NetlistError {}
 
-/// A netlist that cannot be mapped.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MapError {
-    /// The netlist is not well formed.
     Netlist(NetlistError),
-    /// More cells than are mapped.
     TooLarge {
-        /// Their number.
         cells: usize,
-        /// The most cells.
         most: u64,
     },
-    /// The library cannot make a function of the circuit.
     Incomplete {
-        /// The function that is missing.
         missing: Function,
-        /// The functions of the library.
         known: Vec<Function>,
         /// The functions each of which alone would complete the library; empty if there is none.
         completions: Vec<Function>,
@@ -75,7 +64,6 @@ impl fmt::Display for MapError {
 impl Error for MapError {}
 
 impl MapError {
-    /// A suggestion, if there is one.
     pub fn help(&self) -> Option<String> {
         let Self::Incomplete { completions, .. } = self else {
             return None;
@@ -91,18 +79,12 @@ fn names(functions: &[Function]) -> Vec<&'static str> {
     functions.iter().map(|function| function.name()).collect()
 }
 
-/// The reason why a netlist is not proved equal to its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProofError {
-    /// The source is not well formed.
     Netlist(NetlistError),
-    /// The two do not have the same ports.
     Port(String),
-    /// The mapped netlist has a loop that the source does not have.
     NewLoop(String),
-    /// A register or a cell of a loop that starts or changes otherwise.
     Start(String),
-    /// An output or a next state differs in a pattern of the inputs.
     Different {
         /// The output port, or the net on a loop whose next state differs.
         output: String,
@@ -134,7 +116,6 @@ impl fmt::Display for ProofError {
 
 impl Error for ProofError {}
 
-/// Inputs for which the outputs keep changing.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Oscillation;
 
@@ -147,7 +128,6 @@ impl fmt::Display for Oscillation {
 impl Error for Oscillation {}
 
 impl WhyUnphased {
-    /// The reason in words, with the names of a netlist's nets.
     pub fn explain(self, netlist: &Netlist) -> String {
         match self {
             Self::NoEnable => "no net closes it".to_owned(),

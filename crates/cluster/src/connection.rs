@@ -19,7 +19,6 @@ use crate::message::{MOST_BYTES, TaskKey, VERSION};
 use crate::wording::ClusterError;
 use nbc_base::diag::without_passwords;
 
-/// The stream of tasks.
 const STREAM: &str = "nbc-tasks";
 /// A task is given to another worker when its worker has not reported for this time.
 pub const SILENCE: Duration = Duration::from_secs(6);
@@ -156,7 +155,6 @@ impl Connection {
         queue.map_err(|reason| self.no_queue(reason))
     }
 
-    /// The error of a server that cannot keep the queue.
     pub fn no_queue(&self, reason: String) -> ClusterError {
         ClusterError::JetStream { server: self.server.clone(), reason }
     }
@@ -188,7 +186,6 @@ impl Silence {
     }
 }
 
-/// The words of an error.
 pub fn words(error: impl ToString) -> String {
     error.to_string()
 }
@@ -199,33 +196,27 @@ fn has_overlap(error: &CreateStreamError) -> bool {
     error.error_code() == ErrorCode::STREAM_SUBJECT_OVERLAP
 }
 
-/// The subject of a task of a search, for workers of some physics.
 pub fn task_subject(token: &str, search: &str, key: TaskKey) -> String {
     let TaskKey { run, generation, index } = key;
     format!("nbc.v{VERSION}.task.{token}.{search}.{run}.{generation}.{index}")
 }
 
-/// The subjects of all tasks of a search.
 pub fn task_subjects(token: &str, search: &str) -> String {
     format!("nbc.v{VERSION}.task.{token}.{search}.>")
 }
 
-/// The search that a task belongs to.
 pub fn search_of(subject: &str) -> Option<&str> {
     subject.split('.').nth(4)
 }
 
-/// The subject of answers of a worker to a search.
 pub fn answer_subject(search: &str, worker: &str) -> String {
     format!("nbc.v{VERSION}.answer.{search}.{worker}")
 }
 
-/// The subject of the reports of workers.
 pub fn worker_note_subject() -> String {
     format!("nbc.v{VERSION}.worker")
 }
 
-/// The subject of the reports of searches.
 pub fn search_note_subject() -> String {
     format!("nbc.v{VERSION}.search")
 }
@@ -235,7 +226,6 @@ pub fn reply_subject(worker: &str) -> String {
     format!("nbc.v{VERSION}.reply.{worker}")
 }
 
-/// Random letters and digits.
 pub fn random_name() -> String {
     format!("{:08x}", getrandom::u32().unwrap_or_else(|_| std::process::id()))
 }

@@ -28,7 +28,6 @@ pub struct ClusterListing {
     workers: Vec<ListedWorker>,
 }
 
-/// A search.
 #[derive(Serialize)]
 struct ListedSearch {
     name: String,
@@ -44,7 +43,6 @@ struct ListedSearch {
     refused: u32,
 }
 
-/// A worker.
 #[derive(Serialize)]
 struct ListedWorker {
     name: String,
@@ -67,7 +65,6 @@ pub struct ClusterWatch {
 }
 
 impl ClusterWatch {
-    /// Connects.
     pub fn open(server: &NatsServer, log: Log) -> Result<Self, ClusterError> {
         let connection = Connection::open(server, "nbc workers", log)?;
         let entered = connection.enter();
@@ -144,7 +141,6 @@ impl ListedWorker {
 }
 
 impl ClusterListing {
-    /// The listing for people.
     pub fn describe(&self) -> String {
         let searches = if self.searches.is_empty() { "no searches\n".to_owned() } else { self.searches_table() };
         let workers = if self.workers.is_empty() { "no workers\n".to_owned() } else { self.workers_table() };

@@ -6,19 +6,13 @@ use serde::{Deserialize, Serialize};
 
 /// The version of the messages, which is also in their subjects.
 pub const VERSION: u8 = 7;
-/// The most bytes of a message.
 pub const MOST_BYTES: usize = 256 * 1024;
-/// The most characters of a name.
 const MOST_NAME: usize = 100;
 
-/// An error in a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MessageFault {
-    /// It is longer than [`MOST_BYTES`].
     TooLong,
-    /// It has another version.
     Version,
-    /// It is not the expected message.
     Shape,
     /// It has values that no program of this version sends.
     Values,
@@ -32,7 +26,6 @@ pub struct TaskKey {
     pub index: u32,
 }
 
-/// The report that a worker sends regularly.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct WorkerNote {
     pub name: String,
@@ -48,19 +41,14 @@ pub struct WorkerNote {
     pub per_kilosecond: u64,
 }
 
-/// The report that a search sends regularly.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SearchNote {
     pub name: String,
     /// The version of the program.
     pub program: String,
-    /// The hash of its physics.
     pub physics: u64,
-    /// Runs in progress.
     pub runs: u32,
-    /// Workers that work for it.
     pub workers: u32,
-    /// Evaluations that it has received.
     pub evaluations: u64,
     /// Evaluations of the last seconds, for each thousand seconds.
     pub per_kilosecond: u64,
@@ -68,7 +56,6 @@ pub struct SearchNote {
     pub waiting: u64,
     /// Evaluations that were given to a second worker.
     pub redelivered: u64,
-    /// Workers that it has refused.
     pub refused: u32,
 }
 

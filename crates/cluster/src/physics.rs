@@ -6,14 +6,11 @@ use nbc_sim::Simulator;
 use nbc_swarm::evolve::Rivals;
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
 
-/// The version of this program.
 pub const PROGRAM: &str = nbc_base::VERSION;
 /// Env steps of each pattern.
 const STEPS: u32 = 8;
-/// The bodies.
 const BODIES: usize = 2;
 
-/// An identifier of a program's physics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PhysicsId(pub u64);
 

@@ -42,7 +42,6 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// Connects and prepares the queue.
     pub fn open(server: &NatsServer, is_trusting: bool, log: Log) -> Result<Self, ClusterError> {
         let search = random_name();
         let connection = Connection::open(server, &format!("nbc evolve {search}"), log)?;
@@ -94,12 +93,10 @@ impl Queue {
         }
     }
 
-    /// Whether there are tasks, or more can be requested.
     fn is_wanted(&self, requests: &UnboundedReceiver<BatchRequest>) -> bool {
         !self.batches.is_empty() || !requests.is_closed() || !requests.is_empty()
     }
 
-    /// The progress, for people.
     fn describe(&mut self) -> String {
         let (waiting, refused) = (self.batches.missing(), self.checker.refused());
         format!("{}, {waiting} waiting, {refused} refused", self.reports.workers.summary().describe())

@@ -19,16 +19,12 @@ use nbc_swarm::{Executor, Task, TaskResult, perform};
 /// Bytes of a message besides its task or result, at most.
 const RESERVE: usize = 1024;
 
-/// How workers do the tasks of a program.
 #[derive(Clone, Debug)]
 pub struct QueueOptions {
-    /// The server with the queue.
     pub server: NatsServer,
     /// Whether no work of workers is done again here as a check.
     pub trust_workers: bool,
-    /// Stops all work.
     pub cancel: CancelFlag,
-    /// Shows faults to the user.
     pub log: Log,
 }
 
@@ -60,7 +56,6 @@ impl QueueExecutor {
         }
     }
 
-    /// Ends the work.
     pub fn end(self) -> Result<(), ClusterError> {
         let Self { requests, thread } = self;
         drop(requests);

@@ -9,34 +9,34 @@ use crate::message::{AnswerReply, SearchNote, WorkerNote, encode};
 use crate::physics::{PROGRAM, PhysicsId};
 use crate::worker_statistics::WorkerStatistics;
 
-/// The time between reports.
 const REPORT: Duration = Duration::from_secs(2);
 
-/// The reports of workers, and those of a search.
 pub struct Reports {
     client: Client,
     /// The random name of the search.
     search: String,
     physics: PhysicsId,
-    /// The reports of workers.
     pub notes: Subscriber,
     /// The workers with the physics of the search.
     pub workers: WorkerStatistics,
     reported: Option<Instant>,
 }
 
-/// Who sent a report.
 pub enum Reporter {
-    /// A worker that the search can use.
-    Fit { name: String },
-    /// One that it cannot use.
-    Unfit { name: String, reason: String },
+    Fit {
+        name: String,
+    },
+    Unfit {
+        name: String,
+        reason: String,
+    },
     /// Somebody with other physics in the name of a worker that reports, too.
-    Two { name: String },
+    Two {
+        name: String,
+    },
 }
 
 impl Reports {
-    /// The state before the first report.
     pub fn new(client: Client, search: String, physics: PhysicsId, notes: Subscriber) -> Self {
         Self { client, search, physics, notes, workers: WorkerStatistics::default(), reported: None }
     }

@@ -18,16 +18,13 @@ use crate::worker_thread::WorkerThread;
 use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 
-/// The options of a worker.
 #[derive(Clone, Debug)]
 pub struct WorkerOptions {
-    /// The server with the tasks.
     pub server: NatsServer,
     /// The name of the worker; without it, that of the machine and a random number.
     pub name: Option<String>,
     /// Lets the worker finish what it has begun, and end.
     pub cancel: CancelFlag,
-    /// Shows faults to the user.
     pub log: Log,
 }
 
@@ -40,7 +37,6 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Connects to the server.
     pub fn open(options: WorkerOptions) -> Result<Self, ClusterError> {
         let WorkerOptions { server, name, cancel, log } = options;
         let name = name.unwrap_or_else(default_name);
@@ -54,7 +50,6 @@ impl Worker {
         Ok(Self { queue, state: WorkerState::new(name, connection, physics, cancel, log), _entered: entered })
     }
 
-    /// Its name.
     pub fn name(&self) -> &str {
         &self.state.name
     }
@@ -64,12 +59,10 @@ impl Worker {
         self.state.physics.0
     }
 
-    /// The number of tasks that it has done.
     pub fn done(&self) -> u64 {
         self.state.tally.evaluations.load(Ordering::Relaxed)
     }
 
-    /// Does tasks on this number of threads until the worker is cancelled.
     pub fn work(&self, threads: usize) -> Result<(), ClusterError> {
         self.state.report(threads as u32);
         self.state.listen();

@@ -16,14 +16,12 @@ use crate::physics::{PROGRAM, PhysicsId};
 use crate::wording::ClusterError;
 use nbc_circuit::CancelFlag;
 
-/// The time between reports.
 pub const REPORT: Duration = Duration::from_secs(2);
 /// The worker ends when so many of its answers were rejected.
 const MOST_REJECTIONS: usize = 3;
 /// Tasks of a search that did not receive an answer are dropped for this time.
 const SHUNNED: Duration = Duration::from_secs(10);
 
-/// The state that the threads of a worker share.
 pub struct WorkerState {
     pub name: String,
     pub connection: Connection,
@@ -37,7 +35,6 @@ pub struct WorkerState {
     silent: Mutex<BTreeMap<String, Instant>>,
 }
 
-/// The number of tasks that a worker has done.
 #[derive(Default)]
 pub struct Tally {
     pub evaluations: AtomicU64,
@@ -45,13 +42,11 @@ pub struct Tally {
 }
 
 impl WorkerState {
-    /// A worker that has done nothing yet.
     pub fn new(name: String, connection: Connection, physics: PhysicsId, cancel: CancelFlag, log: Log) -> Self {
         let (tally, rejections, silent) = (Arc::default(), AtomicUsize::new(0), Mutex::default());
         Self { name, connection, physics, tally, log, cancel, rejections, silent }
     }
 
-    /// Whether no more tasks should be taken.
     pub fn is_ending(&self) -> bool {
         self.cancel.is_raised() || self.rejections.load(Ordering::Relaxed) >= MOST_REJECTIONS
     }
@@ -62,7 +57,6 @@ impl WorkerState {
         silent.get(search).is_some_and(|since| since.elapsed() < SHUNNED)
     }
 
-    /// Counts deliveries that have ended.
     pub fn count(&self, ended: Vec<DeliveryEnd>) -> Result<(), ClusterError> {
         for one in ended {
             match one {
@@ -90,12 +84,10 @@ impl WorkerState {
         Ok(())
     }
 
-    /// Deliveries of a thread.
     pub fn delivery(&self) -> Delivery {
         Delivery::new(&self.connection, &self.name)
     }
 
-    /// Starts to send reports at regular times.
     pub fn report(&self, threads: u32) {
         let (client, tally, name) = (self.connection.client.clone(), Arc::clone(&self.tally), self.name.clone());
         let physics = self.physics.0;

@@ -2,6 +2,7 @@
 
 mod connections;
 mod disk_folder;
+mod http;
 mod language;
 mod lesson_source;
 mod live;
@@ -16,8 +17,10 @@ mod threads;
 mod token;
 mod wording;
 
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -25,9 +28,6 @@ use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_play::{Class, LocalLine, PlaySite, Visit};
 use nbc_session::CompileOptions;
 use nbc_session::store::{FolderWorld, PrivateFile};
-use tokio::net::TcpListener;
-use tokio::runtime::{Builder, Runtime};
-use tokio::sync::Semaphore;
 
 pub use lesson_source::LessonSource;
 pub use token::is_token;
@@ -73,22 +73,18 @@ impl PlayOptions {
 
 /// A server that has its address, and serves nothing until [`PlayServer::serve`].
 pub struct PlayServer {
-    runtime: Runtime,
     listener: TcpListener,
     served: Arc<Served>,
 }
 
 impl PlayServer {
     pub fn bind(options: &PlayOptions) -> Result<Self, Diagnostic> {
-        let runtime =
-            Builder::new_current_thread().enable_all().build().map_err(|error| wording::system(&io_words(&error)))?;
         let (folder, file) = place(options.file.as_deref())?;
         let token = options.token.clone().map_or_else(random_token, Ok)?;
-        let folder_of_page = options.page.as_deref();
-        let page =
-            Page::of(folder_of_page).map_err(|error| missing(folder_of_page.unwrap_or(Path::new("")), &error))?;
+        let own = options.page.as_deref();
+        let page = Page::of(own).map_err(|error| missing(own.unwrap_or(Path::new("")), &error))?;
         let (host, port) = (options.host.clone(), options.port);
-        let bound = runtime.block_on(TcpListener::bind((host.as_str(), port)));
+        let bound = TcpListener::bind((host.as_str(), port));
         let listener = bound.map_err(|error| wording::cannot_listen(&host, port, &error))?;
         let port = listener.local_addr().map_err(|error| wording::system(&io_words(&error)))?.port();
         let threads = Arc::new(Threads::new(&options.lessons));
@@ -108,9 +104,9 @@ impl PlayServer {
             taught = Some(Taught { class, token: random_token()? });
         }
         let pages = options.pages.unwrap_or(served::PAGES).clamp(1, PlayOptions::MOST_PAGES);
-        let sockets = Arc::new(Semaphore::new(pages * served::SOCKETS_OF_PAGE));
-        let served = Served { page, host, port, taught, sockets, ..Served::new(folder, site, threads, token) };
-        Ok(Self { runtime, listener, served: Arc::new(served) })
+        let most_sockets = pages * served::SOCKETS_OF_PAGE;
+        let served = Served { page, host, port, taught, most_sockets, ..Served::new(folder, site, threads, token) };
+        Ok(Self { listener, served: Arc::new(served) })
     }
 
     pub fn address(&self) -> String {
@@ -138,19 +134,28 @@ impl PlayServer {
     }
 
     pub fn serve(self, is_stopped: impl Fn() -> bool) {
-        let Self { runtime, listener, served } = self;
-        let stopped = async {
+        let Self { listener, served } = self;
+        let stop = AtomicBool::new(false);
+        thread::scope(|scope| {
+            scope.spawn(|| connections::serve(&listener, &stop, move |wire| server::answer(&served, wire)));
             while !is_stopped() {
-                tokio::time::sleep(LOOK).await;
+                thread::sleep(LOOK);
             }
-        };
-        runtime.block_on(async {
-            tokio::select! {
-                never = connections::serve(listener, server::router(served), connections::PATIENCE) => match never {},
-                () = stopped => {}
-            }
+            stop.store(true, Ordering::Relaxed);
+            // A last connection ends the wait for one.
+            let _ = listener.local_addr().and_then(|address| TcpStream::connect(reachable(address)));
         });
     }
+}
+
+/// The address at which this computer reaches one of its own.
+fn reachable(address: SocketAddr) -> SocketAddr {
+    let ip = match address.ip() {
+        IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
+        IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
+        ip => ip,
+    };
+    SocketAddr::new(ip, address.port())
 }
 
 /// Serves a page that sends these texts, each of which should be a request, and waits for each answer. The fuzzer calls

@@ -7,25 +7,26 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::io::{self, Write};
 use std::path::Path;
 
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
-use axum::response::{IntoResponse, Response};
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use tungstenite::http::{HeaderMap, HeaderValue, header};
+
+use crate::http::{HttpAnswer, content};
 
 const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
 
 pub(super) struct Page {
-    pub(super) own: Parts,
-    pub(super) teacher: Parts,
+    own: Parts,
+    teacher: Parts,
 }
 
-pub(super) struct Parts {
-    pub(super) html: Part,
+struct Parts {
+    html: Part,
     script: Part,
     style: Part,
 }
 
-pub(super) struct Part {
+struct Part {
     /// The last part of its address.
     name: String,
     kind: &'static str,
@@ -57,6 +58,22 @@ impl Page {
         let teacher = ("class", &*read("class.html")?);
         Ok(Self { own, teacher: Parts::new(teacher, read("class.js")?.into(), read("class.css")?.into()) })
     }
+
+    pub(super) fn document(&self, request: &HeaderMap) -> HttpAnswer {
+        self.own.html.answer(request)
+    }
+
+    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
+        self.own.part(name, request)
+    }
+
+    pub(super) fn teacher(&self, request: &HeaderMap) -> HttpAnswer {
+        self.teacher.html.answer(request)
+    }
+
+    pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
+        self.teacher.part(name, request)
+    }
 }
 
 impl Parts {
@@ -69,13 +86,11 @@ impl Parts {
         Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
     }
 
-    /// The script or the style of that name.
-    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Response {
-        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name);
-        let Some(part) = part else { return StatusCode::NOT_FOUND.into_response() };
+    fn part(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
+        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name)?;
         let mut response = part.answer(request);
         response.headers_mut().insert(header::CACHE_CONTROL, IMMUTABLE);
-        response
+        Some(response)
     }
 }
 
@@ -86,12 +101,10 @@ impl Part {
         Self { name, kind, packed: packing.finish().expect("memory takes any bytes"), text }
     }
 
-    pub(super) fn answer(&self, request: &HeaderMap) -> Response {
+    fn answer(&self, request: &HeaderMap) -> HttpAnswer {
         let packs = accepts_gzip(request);
-        let bytes = if packs { self.packed.clone() } else { self.text.as_bytes().to_vec() };
-        let mut response = bytes.into_response();
+        let mut response = content(self.kind, if packs { &*self.packed } else { self.text.as_bytes() });
         let headers = response.headers_mut();
-        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(self.kind));
         headers.insert(header::VARY, HeaderValue::from_static("accept-encoding"));
         if packs {
             headers.insert(header::CONTENT_ENCODING, HeaderValue::from_static("gzip"));
@@ -124,7 +137,7 @@ mod tests {
         let (one, two) = (page("a"), page("b"));
         assert_ne!(one.script.name, two.script.name);
         assert_eq!(one.html.text, format!("<script src=\"{}\">", one.script.name));
-        assert_eq!(one.part("app.js", &HeaderMap::new()).status(), StatusCode::NOT_FOUND);
+        assert!(one.part("app.js", &HeaderMap::new()).is_none());
     }
 
     #[test]

@@ -2,11 +2,10 @@
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, UdpSocket};
 use std::sync::Arc;
-use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use axum::http::{HeaderMap, header};
-use tokio::sync::Semaphore;
+use tungstenite::http::{HeaderMap, header};
 
 use crate::page::Page;
 use crate::threads::Threads;
@@ -27,7 +26,8 @@ pub(super) struct Served {
     pub(super) port: u16,
     pub(super) page: Page,
     pub(super) taught: Option<Taught>,
-    pub(super) sockets: Arc<Semaphore>,
+    pub(super) most_sockets: usize,
+    pub(super) sockets: AtomicUsize,
     /// The bytes of all messages that wait to be handled.
     pub(super) waiting: AtomicUsize,
     pub(super) begun: Instant,
@@ -49,7 +49,8 @@ impl Served {
             port: 0,
             page: Page::default(),
             taught: None,
-            sockets: Arc::new(Semaphore::new(PAGES * SOCKETS_OF_PAGE)),
+            most_sockets: PAGES * SOCKETS_OF_PAGE,
+            sockets: AtomicUsize::new(0),
             waiting: AtomicUsize::new(0),
             begun: Instant::now(),
         }
@@ -100,7 +101,17 @@ impl Served {
     }
 
     pub(super) fn is_full(&self) -> bool {
-        self.sockets.available_permits() < SOCKETS_OF_PAGE
+        self.sockets.load(Ordering::Relaxed) + SOCKETS_OF_PAGE > self.most_sockets
+    }
+
+    /// Serves a socket, unless there are too many.
+    pub(super) fn with_place(&self, serve: impl FnOnce()) -> bool {
+        let has_place = self.sockets.fetch_add(1, Ordering::Relaxed) < self.most_sockets;
+        if has_place {
+            serve();
+        }
+        self.sockets.fetch_sub(1, Ordering::Relaxed);
+        has_place
     }
 
     pub(super) fn knows(&self, token: &str) -> bool {

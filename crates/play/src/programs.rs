@@ -7,7 +7,8 @@ use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::{
     CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
-    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WaveRegister, WrittenProgram, findings, listed, looks,
+    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WaveRegister, WrittenProgram, findings,
+    listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};

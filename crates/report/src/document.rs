@@ -46,7 +46,6 @@ schemas! {
     Player = "player", 1: "A circuit that was written as a page of its own.";
     Prove = "prove", 1: "Properties that were proved, refuted, or neither.";
     Radii = "radii", 1: "How far worlds may differ before robots make errors.";
-    Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";
     Robots = "robots", 1: "The robots of a library in full.";
     Robustness = "robustness", 1: "Tests in many worlds.";

@@ -9,26 +9,23 @@ use crate::checked::Checked;
 use crate::robots::{BuiltIn, RobotSources};
 use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 
-/// The sources of a session.
 pub(super) struct Documents {
     world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
     built_in: BuiltIn,
-    /// The paths of files that replace those that programs declare, by name.
+    /// Replacements of declared files, by name and path.
     files: Vec<(String, String)>,
-    /// The revisions of the texts that were given, by the identities of their files.
+    /// By the identities of files.
     revisions: BTreeMap<String, u64>,
-    /// The results that are still valid, by path.
     known: BTreeMap<String, Known>,
     readings: Readings,
 }
 
-/// The last readings of Verilog, by the paths of the files.
+/// Results of reading Verilog, by the paths of the files.
 type Readings = BTreeMap<Vec<String>, (VerilogFiles, VerilogModules)>;
 
-/// A checked source with its dependencies.
 struct Known {
     checked: Arc<Checked>,
-    /// The identities of the files and folders that were read.
+    /// Identities of the files and folders that were read.
     asked: BTreeSet<String>,
 }
 
@@ -44,17 +41,14 @@ impl Documents {
         }
     }
 
-    /// Lets these files replace those that programs declare, by name.
     pub(super) fn replace_files(&mut self, files: Vec<(String, String)>) {
         self.files = files;
     }
 
-    /// The robots that come with the program.
     pub(super) fn built_in(&self) -> &BuiltIn {
         &self.built_in
     }
 
-    /// The world that sources and robots are read from.
     pub(super) fn world(&self) -> &dyn SourceWorld {
         &self.world
     }
@@ -101,17 +95,16 @@ impl Documents {
         checked
     }
 
-    /// Whether a result for `path` is valid.
     pub(super) fn is_known(&self, path: &str) -> bool {
         self.known.contains_key(path)
     }
 
-    /// The identities of the files and folders that the result for `path` depends on, including missing ones.
+    /// Identities of the files and folders that the result depends on, including missing ones.
     pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
         self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
     }
 
-    /// Drops all results that depend on the file at `path` or on the list of its folder.
+    /// Drops the results that depend on a file or on the listing of its folder.
     fn forget(&mut self, path: &str) {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let changed = [path, folder].map(|path| self.world.identity(path));
@@ -124,7 +117,6 @@ struct RecordingWorld<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
     readings: RefCell<Readings>,
-    /// Whether a reading was cancelled.
     is_cancelled: Cell<bool>,
 }
 
@@ -222,7 +214,6 @@ mod tests {
         assert_eq!(documents.checked("a.nb").diagnostics, []);
     }
 
-    /// A world with a translator that counts its work.
     struct CountingTranslator(MemoryWorld, Arc<AtomicUsize>);
 
     impl SourceWorld for CountingTranslator {
@@ -264,7 +255,6 @@ mod tests {
         assert_eq!(check("a.nb", changed), 4);
     }
 
-    /// A world whose first reading is cancelled.
     struct CancelledTranslator(CountingTranslator);
 
     impl SourceWorld for CancelledTranslator {

@@ -4,43 +4,34 @@ use nbc_circuit::timing::{Delays, Held, Pulsed, PulsedRegisters};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{CellLibrary, Netlist, Proof, Timing, prove_forms};
 
-/// A circuit made of cells, and proved.
 #[derive(Clone, Debug)]
 pub struct Mapping {
-    /// The netlist as written.
     pub source: Netlist,
-    /// The netlist of cells.
     pub netlist: Netlist,
-    /// The available cells.
     pub cells: CellLibrary,
-    /// How the two netlists were proved equal, before registers became latches of another form, which has a proof of
-    /// its own; or the steps of a wave machine.
+    /// Proves that both netlists are equal, before registers change their form, which has a proof of its own. For a
+    /// wave machine, proves its steps.
     pub proof: Proof,
-    /// The registers, if they were to be pulsed latches or latches of one robot.
+    /// Set if they are pulsed latches or latches of one robot.
     pub registers: Option<PulsedRegisters>,
-    /// Whether no proof was found that registers of another form store the same, because latches are not recognized.
+    /// No proof was found that registers of another form store the same, because latches are not recognized.
     pub unproved_registers: bool,
-    /// The wave machine, if the circuit was to be one.
     pub waves: Option<WaveMachine>,
 }
 
 impl Mapping {
-    /// The same circuit with pulsed latches as registers.
     pub(super) fn pulsed(self) -> Self {
         let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
         self.with(netlist, registers)
     }
 
-    /// The same circuit with latches of one robot; none if the library has no robot for them.
+    /// `None` if the library has no robot for them.
     pub(super) fn held(self) -> Option<Self> {
         let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
         Some(self.with(netlist, PulsedRegisters { pulses: Vec::new(), kept }))
     }
 
-    /// The same circuit with registers of another form.
-    ///
-    /// # Panics
-    /// When they store something else, which is a fault of the compiler.
+    /// Panics if the registers store something else, which is a fault of the compiler.
     fn with(self, netlist: Netlist, registers: PulsedRegisters) -> Self {
         let proof = prove_forms(&self.netlist, &netlist, &registers.pulses);
         if let Some(Err(error)) = &proof {
@@ -49,7 +40,7 @@ impl Mapping {
         Self { netlist, registers: Some(registers), unproved_registers: proof.is_none(), ..self }
     }
 
-    /// When each net has settled; the hold of a wave machine is the length of a step.
+    /// The hold of a wave machine is the length of a step.
     pub fn timing(&self) -> Timing {
         match &self.waves {
             None => Timing::of(&self.netlist, &self.cells, Delays::Clock),

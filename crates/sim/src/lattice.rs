@@ -10,7 +10,6 @@ use nbc_base::model::Body;
 /// side 0 top, 1 right, 2 bottom, 3 left. So side `i` runs from corner `i` to corner `i + 1`.
 pub const CORNERS: usize = 4;
 
-/// The points, edges and voxels of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Lattice {
     width: usize,
@@ -26,18 +25,14 @@ pub struct Lattice {
 /// An object of its own in a lattice: some of its rows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LatticePart {
-    /// Its first row of voxels.
     pub top: usize,
     /// Whether any of its voxels is active: only such an object is a robot, and can be unstable (docs/physics.md 1).
     pub active: bool,
 }
 
-/// A point of the lattice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct LatticePoint {
-    /// Columns from the left edge of the body's box.
     pub column: usize,
-    /// Rows from the top edge of the body's box.
     pub row: usize,
     /// Voxels that touch only diagonally, or are left apart, have points of their own here, numbered in order of
     /// creation.
@@ -47,9 +42,7 @@ pub struct LatticePoint {
 /// An edge between two points, which is a spring.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Edge {
-    /// One end: a point, by its number.
     pub a: usize,
-    /// The other end: a point, by its number.
     pub b: usize,
     /// Built length in meters.
     pub rest: f64,
@@ -63,15 +56,10 @@ pub struct Edge {
 /// A voxel that is not empty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Voxel {
-    /// The row in the box of the body, 0 on top.
     pub row: usize,
-    /// The column in the box of the body, 0 on the left.
     pub column: usize,
-    /// The code of its material in the palette of the body.
     pub code: u8,
-    /// Whether its material is rigid.
     pub rigid: bool,
-    /// The object that it belongs to: the place of a part.
     pub part: usize,
     /// Its points by number: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
@@ -83,7 +71,6 @@ pub struct Voxel {
 }
 
 impl Voxel {
-    /// Whether any side is surface.
     pub fn is_surface(&self) -> bool {
         self.surface.contains(&true)
     }
@@ -92,18 +79,14 @@ impl Voxel {
 /// An edge that one or two active voxels drive (docs/physics.md 4).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DrivenEdge {
-    /// The edge, by its number.
     pub edge: usize,
     /// The channel of the first owner in reading order that drives it; the material code in a body.
     pub first: u16,
-    /// The channel of the second, if both do.
     pub second: Option<u16>,
-    /// The direction of the edge.
     pub axis: DriveAxis,
 }
 
 impl Lattice {
-    /// The lattice of a body.
     pub fn new(body: &Body, constants: &Constants) -> Self {
         Self::of(&[&Grid::from(body)], constants)
     }
@@ -136,7 +119,6 @@ impl Lattice {
         &self.voxels
     }
 
-    /// The edges that active voxels drive.
     pub fn driven(&self) -> &[DrivenEdge] {
         &self.driven
     }
@@ -151,7 +133,6 @@ impl Lattice {
         &self.parts
     }
 
-    /// The object that a row of points belongs to.
     pub fn part_of(&self, row: usize) -> usize {
         part_at(&self.parts, row)
     }
@@ -164,7 +145,6 @@ impl Lattice {
     }
 }
 
-/// The part that has a row.
 fn part_at(parts: &[LatticePart], row: usize) -> usize {
     parts.partition_point(|part| part.top <= row) - 1
 }
@@ -182,14 +162,12 @@ const OFFSETS: [(usize, usize); CORNERS] = [(0, 0), (1, 0), (1, 1), (0, 1)];
 /// Corners in order of creation: top left, top right, bottom left, bottom right.
 const CREATION: [usize; CORNERS] = [0, 1, 3, 2];
 
-/// A lattice under construction.
 struct Builder<'a> {
     grid: &'a Grid,
     parts: Vec<LatticePart>,
     constants: &'a Constants,
 }
 
-/// An edge while its owners are being visited.
 struct Draft {
     ends: (End, End),
     rest: f64,

@@ -10,11 +10,9 @@ use crate::state::State;
 pub struct ObjectCenter {
     /// The center of mass, in voxels.
     pub place: [f64; 2],
-    /// The mean of the places in meters.
     pub place_in_meters: [f64; 2],
     /// The mean velocity, in voxels per second.
     pub velocity: [f64; 2],
-    /// The mean of the velocities in meters per second.
     pub velocity_in_meters: [f64; 2],
 }
 
@@ -30,7 +28,6 @@ pub struct Sight {
 }
 
 impl Scene {
-    /// The means over an object's points in a state of the scene.
     pub fn center(&self, object: usize, state: &State, constants: &Constants) -> ObjectCenter {
         let (places, velocities) =
             (self.positions(object, state, constants), self.velocities(object, state, constants));
@@ -123,7 +120,6 @@ fn hull_area(points: &[[f64; 2]]) -> f64 {
     hull.iter().zip(following).fold(0.0, |sum, (a, b)| sum + (a[0] * b[1] - b[0] * a[1])) / 2.0
 }
 
-/// Whether the way over three points turns to the left.
 fn turns_left(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> bool {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
 }

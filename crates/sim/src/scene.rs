@@ -9,10 +9,8 @@ use crate::lattice::{CORNERS, Lattice, corner};
 use crate::state::State;
 use crate::terrain::Terrain;
 
-/// An object at its start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneObject {
-    /// Its voxels.
     pub grid: Grid,
     /// The column and the row of its lower left corner, in voxels from the lower left corner of the world.
     pub at: [usize; 2],
@@ -27,12 +25,13 @@ pub struct Scene {
     objects: Vec<Placed>,
 }
 
-/// Where the points and targets of an object are.
 #[derive(Clone, Debug)]
 enum Placed {
     /// In the lattice of what moves.
-    Moving { points: Range<usize>, channels: Range<usize> },
-    /// They stay where they are.
+    Moving {
+        points: Range<usize>,
+        channels: Range<usize>,
+    },
     Still(Still),
 }
 
@@ -76,9 +75,7 @@ fn arms(points: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
 impl Scene {
     /// The scene of these objects. In sums, objects without actuators come before robots, and objects of each kind in
     /// their order here.
-    ///
-    /// # Panics
-    /// When no object moves.
+    /// Panics when no object moves.
     pub fn new(objects: &[SceneObject], constants: &Constants) -> Self {
         let (still, mut moving): (Vec<usize>, Vec<usize>) =
             (0..objects.len()).partition(|&n| objects[n].grid.is_fixed());
@@ -121,7 +118,6 @@ impl Scene {
         Self { lattice: Arc::new(lattice), terrain: Arc::new(terrain), start, objects }
     }
 
-    /// The number of objects.
     pub fn objects(&self) -> usize {
         self.objects.len()
     }
@@ -134,7 +130,6 @@ impl Scene {
         }
     }
 
-    /// The number of targets.
     pub fn targets(&self) -> usize {
         (0..self.objects()).map(|object| self.channels(object).end).max().unwrap_or(0)
     }

@@ -17,7 +17,6 @@ pub struct Terrain {
     cells: Vec<u32>,
 }
 
-/// A fixed voxel with a side at the surface of its object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TerrainVoxel {
     /// Top left, top right, bottom right, bottom left, in meters.
@@ -60,7 +59,6 @@ impl Terrain {
         Self::new([(&Grid::structure(columns, rows, &codes), [0, 0])], constants)
     }
 
-    /// The fixed voxels at a surface.
     pub fn voxels(&self) -> &[TerrainVoxel] {
         &self.voxels
     }
@@ -87,7 +85,6 @@ impl Terrain {
     }
 }
 
-/// The corners of a voxel of an object, rounded as in docs/physics.md 2.
 fn corners(
     grid: &Grid,
     [left, bottom]: [usize; 2],

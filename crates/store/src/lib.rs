@@ -8,15 +8,11 @@ mod checkpoint;
 #[cfg(feature = "disk")]
 mod circuit_file;
 #[cfg(feature = "disk")]
-mod declared;
-#[cfg(feature = "disk")]
 mod disk;
 #[cfg(feature = "disk")]
 mod disk_world;
 #[cfg(feature = "disk")]
 mod draft;
-#[cfg(feature = "disk")]
-mod first_checkpoint;
 #[cfg(feature = "disk")]
 mod folder;
 #[cfg(feature = "disk")]
@@ -48,8 +44,6 @@ pub use atomic::{create_folder, write, write_file, write_with};
 pub use checkpoint::Checkpoint;
 #[cfg(feature = "disk")]
 pub use circuit_file::{CircuitFile, CircuitRead, encode_circuit, read_circuit, read_model, read_rows, with_comment};
-#[cfg(feature = "disk")]
-pub use declared::Declared;
 #[cfg(feature = "disk")]
 pub use disk::{read, read_text};
 #[cfg(feature = "disk")]

@@ -20,7 +20,6 @@ pub enum StimulusSource {
     Input(usize),
     /// A member's output in the cycle before, by its place among the members.
     Robot(usize),
-    /// A bit that never changes.
     Constant(bool),
 }
 
@@ -35,16 +34,13 @@ impl StimulusSource {
     }
 }
 
-/// One robot of a swarm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Member {
     /// The net it drives.
     pub net: String,
     /// The names of the calls that it comes from, the outermost first.
     pub block: Vec<String>,
-    /// The robot that drives it.
     pub robot: Robot,
-    /// The source of each of its stimuli.
     pub senses: Vec<StimulusSource>,
     /// Its output before the first cycle.
     pub start: bool,
@@ -52,16 +48,12 @@ pub struct Member {
     pub held: Vec<Vec<bool>>,
 }
 
-/// A swarm ready to be simulated.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Assembly {
-    /// The circuit's name.
     pub circuit: String,
-    /// The input ports.
     pub inputs: Vec<Column>,
     /// The robots, in order of the netlist's cells.
     pub members: Vec<Member>,
-    /// The output ports.
     pub outputs: Vec<Column>,
     /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
@@ -114,7 +106,6 @@ impl Assembly {
         }
     }
 
-    /// Its robots at their starts, with ground for this many cycles.
     pub fn flock(&self, simulator: &Simulator, cycles: usize) -> Box<dyn Flock> {
         let bodies: Vec<Body> = self.members.iter().map(|member| member.robot.body.clone()).collect();
         let setting = self.setting(cycles);
@@ -143,9 +134,7 @@ pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
 /// one input is connected to the stimulus that its robot depends on; the other stimulus stays absent. Robots without a
 /// start value start as if the circuit had settled with all inputs 0. Otherwise both robots of a memory element would
 /// be driven, and could keep switching each other forever.
-///
-/// # Panics
-/// When the netlist still has wires, which `dissolve-wires` takes out.
+/// Panics when the netlist still has wires, which `dissolve-wires` takes out.
 pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, AssembleError> {
     let signals = number_signals(netlist);
     let before = Logic::new(netlist);
@@ -183,7 +172,6 @@ pub fn assemble_waves(machine: &WaveMachine, library: &Library) -> Result<Assemb
     Ok(assembly)
 }
 
-/// The ports that have these bits.
 fn ports(netlist: &Netlist, bits: &[NetId]) -> Vec<Column> {
     let names: Vec<String> = bits.iter().map(|&id| netlist.net_name(id)).collect();
     Column::group(&names)

@@ -55,7 +55,6 @@ pub fn cells(library: &Library) -> CellLibrary {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fit<'a> {
     pub robot: &'a Robot,
-    /// What each of its stimuli is.
     pub uses: Vec<StimulusUse>,
 }
 
@@ -64,12 +63,10 @@ pub(super) struct Fit<'a> {
 pub(super) enum StimulusUse {
     /// A pin of the cell; absent if the cell does not have that pin.
     Pin(usize),
-    /// Always or never present.
     Constant(bool),
 }
 
 impl Fit<'_> {
-    /// What the robot senses in a cell with these pins.
     pub(super) fn stimuli<T: Clone>(&self, pins: &[T], constant: impl Fn(bool) -> T) -> Vec<T> {
         let stimulus = |one: &StimulusUse| match *one {
             StimulusUse::Pin(pin) => pins.get(pin).cloned().unwrap_or_else(|| constant(false)),

@@ -7,13 +7,9 @@ use nbc_sim::{Simulator, Snapshot};
 /// Some robots of a swarm at the start of a cycle. What becomes of them depends on this alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CyclePart {
-    /// Where they are.
     pub setting: Setting,
-    /// Their bodies.
     pub bodies: Vec<Body>,
-    /// Their states.
     pub starts: Vec<Snapshot>,
-    /// What they sense during the cycle.
     pub patterns: Vec<Pattern>,
     /// The env steps of the cycle at whose end their states are read, in order. The last one ends the cycle.
     pub stops: Vec<u32>,
@@ -23,7 +19,6 @@ pub struct CyclePart {
 pub type PartStates = Vec<Vec<Snapshot>>;
 
 impl CyclePart {
-    /// Simulates the cycle.
     pub fn simulate(&self, simulator: &Simulator) -> PartStates {
         let mut flock = simulator.flock(&self.setting, &self.bodies);
         self.starts.iter().enumerate().for_each(|(i, start)| flock.restore(i, start));

@@ -9,7 +9,6 @@ use crate::{Work, distance, gate, seeing};
 use nbc_base::model::{Body, Evolution, SearchObjective};
 use nbc_sim::Simulator;
 
-/// Advances a search by one generation: asks, evaluates in parallel, tells.
 pub fn evolve_generation(search: &mut Search) -> Work {
     let candidates = search.ask();
     let (outcomes, work) = evaluate(&Simulator::default(), search, &candidates);
@@ -17,7 +16,6 @@ pub fn evolve_generation(search: &mut Search) -> Work {
     work
 }
 
-/// The result of each candidate for the current archive.
 pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
     let tasks: Vec<EvaluationTask> = candidates.iter().map(|candidate| EvaluationTask::of(search, candidate)).collect();
     let done = evaluate_tasks(simulator, &EvaluationProtocol::of(search.evolution()), &tasks);

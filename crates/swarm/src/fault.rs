@@ -7,14 +7,11 @@ use nbc_base::model::FaultKind;
 /// The robot of a swarm whose simulation failed first. The swarm has no outputs from its cycle on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RobotFault {
-    /// The net that the robot drives.
     pub net: String,
-    /// Its name in the library.
     pub robot: String,
     /// The cycle, from 0 at the start.
     pub cycle: usize,
     /// The env step that was abandoned, from 1 at the start.
     pub env_step: u32,
-    /// What went wrong.
     pub kind: FaultKind,
 }

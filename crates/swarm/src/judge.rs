@@ -10,7 +10,6 @@ use nbc_circuit::{Netlist, Settled, SettledRow};
 /// Cycles over which an output must have had its value when its row ends.
 pub const STEADY_CYCLES: usize = 2;
 
-/// The hold of a test's row, and what is known of its outputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RowHold {
     /// Cycles for which the row is held.
@@ -80,9 +79,7 @@ pub fn resting_outputs(rows: &[TestRow], netlist: &Netlist) -> Vec<Vec<bool>> {
 }
 
 /// Whether a row passes that ends with the last cycle of a trace.
-///
-/// # Panics
-/// When the trace is shorter than the row.
+/// Panics when the trace is shorter than the row.
 pub fn passes(test: &CircuitTest, row: &TestRow, row_hold: &RowHold, trace: &SwarmTrace) -> bool {
     let end = trace.cycles.len();
     let steady = steady_outputs(trace, &(end - row_hold.hold..end), row_hold);
@@ -92,9 +89,7 @@ pub fn passes(test: &CircuitTest, row: &TestRow, row_hold: &RowHold, trace: &Swa
 /// Judges a trace whose cycles are the rows of a test one after another, with the given holds; `clocks[k]` is the clock
 /// of robot `k` in cycles. If the trace ends early, only complete rows are judged; if a robot failed, the others have
 /// failed with it.
-///
-/// # Panics
-/// When a row has no cycle.
+/// Panics when a row has no cycle.
 pub fn judge_swarm(
     test: &CircuitTest,
     rows: &[TestRow],

@@ -8,14 +8,11 @@ use nbc_sim::Simulator;
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
 pub const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
 
-/// The measurements of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Measurement {
     /// Displacement in voxels over the paper's fixed simulations, one for each pattern.
     pub displacement: Displacements,
-    /// Its behavior in them.
     pub behavior: Behavior,
-    /// Its character as a gate with this behavior.
     pub character: Character,
 }
 
@@ -25,7 +22,6 @@ pub fn walk(simulator: &Simulator, bodies: &[Body]) -> Vec<Result<Displacements,
     fixed_displacements(simulator, &Setting::default(), bodies, FIXED_STEPS)
 }
 
-/// Measures a body by the paper's fixed simulations and as a gate.
 pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault> {
     let displacement = walk(simulator, std::slice::from_ref(body)).remove(0)?;
     let behavior = displacement.behavior();

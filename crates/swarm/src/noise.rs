@@ -13,7 +13,6 @@ use nbc_base::model::{
 /// The name of the material of voxels that never move.
 const DEAD: &str = "dead";
 
-/// The noise of a world for one robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RobotNoise<'a> {
     noise: &'a WorldNoise,
@@ -29,7 +28,6 @@ enum NoiseKind {
 }
 
 impl<'a> RobotNoise<'a> {
-    /// The noise for robot `robot`.
     pub(crate) fn new(noise: &'a WorldNoise, robot: usize) -> Self {
         Self { noise, robot: robot as u64 }
     }
@@ -100,7 +98,6 @@ impl<'a> RobotNoise<'a> {
     }
 }
 
-/// A number from 0 to 1.
 fn unit(rng: &mut impl Rng) -> f64 {
     rng.random()
 }
@@ -109,7 +106,6 @@ fn is_active(body: &Body, code: u8) -> bool {
     matches!(body.palette().kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
 }
 
-/// A material whose width changes less.
 fn weakened(material: &Material, weak: f64) -> Material {
     let less = |width: f64| 1.0 + (width - 1.0) * (1.0 - weak);
     let kind = match material.kind {

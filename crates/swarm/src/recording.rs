@@ -36,12 +36,10 @@ impl Room {
     }
 }
 
-/// Some robots of a flock over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
     /// Poses in each cycle, evenly spaced.
     pub frames_per_cycle: u32,
-    /// The recorded robots.
     pub robots: Vec<Recorded>,
 }
 
@@ -52,7 +50,6 @@ pub struct Recorded {
     pub robot: usize,
     /// Each voxel's points, by their numbers, and its material code.
     pub voxels: Vec<([usize; 4], u8)>,
-    /// The number of points.
     pub points: usize,
     /// Hundredths of a voxel: x from the robot's start and height above the ground, point by point, frame by frame.
     pub frames: Vec<i16>,
@@ -84,7 +81,6 @@ impl Recording {
         }
     }
 
-    /// Adds a frame with the current positions of the robots.
     pub fn record(&mut self, flock: &dyn Flock) {
         for recorded in &mut self.robots {
             let (points, start) = (flock.points(recorded.robot), recorded.start);

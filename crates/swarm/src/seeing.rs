@@ -27,9 +27,7 @@ pub struct ImageDistance {
 
 impl ImageDistance {
     /// That of a body with these displacements, each before an image of the set of that number.
-    ///
-    /// # Panics
-    /// When there are no images.
+    /// Panics when there are no images.
     pub fn of(sets: &ImageSets, walked: &[(Pattern, f64)]) -> Self {
         let all = sets.behaviors().map(|behavior| (behavior, least(behavior, walked.iter().copied())));
         let best = all.fold(None, |best: Option<(Behavior, f64)>, one| match best {
@@ -59,7 +57,6 @@ impl ImageSets {
     /// The most sets that a behavior can tell apart.
     pub const MOST: usize = 1 << STIMULI;
 
-    /// Those of a schedule.
     pub fn of(schedule: &Schedule) -> Self {
         let mut sets: Vec<Pattern> = schedule.spells.iter().map(|spell| spell.pattern).collect();
         sets.sort_unstable();
@@ -67,7 +64,6 @@ impl ImageSets {
         Self(sets)
     }
 
-    /// The number of sets.
     pub fn count(&self) -> usize {
         self.0.len()
     }
@@ -119,7 +115,6 @@ pub fn image_displacements(
     trajectories.chunks(parts.len().max(1)).map(of_body).collect()
 }
 
-/// A body during its evaluation.
 struct Viewer<'a> {
     task: &'a EvaluationTask,
     walked: Vec<(Pattern, f64)>,
@@ -134,7 +129,6 @@ impl Viewer<'_> {
         sets.behaviors().any(|behavior| self.task.rivals.admit(behavior, &bound(behavior)))
     }
 
-    /// The result of a body that has seen all images.
     fn measured(&self, sets: &ImageSets) -> CandidateOutcome {
         let ImageDistance { behavior, least, displacement } = ImageDistance::of(sets, &self.walked);
         let fitness = [least; 2];
@@ -211,7 +205,6 @@ mod tests {
         Schedule::of_set(set)
     }
 
-    /// Images of two sets, a few steps each.
     fn schedule(images: &[(usize, [u8; 9])]) -> Schedule {
         let spell = |&(set, pixels): &(usize, [u8; 9])| {
             let image = Image::new(ImageSize::new(3, 3), pixels.map(|pixel| f64::from(pixel) / 4.0).to_vec()).unwrap();

@@ -57,12 +57,10 @@ impl<'a> Settling<'a> {
         None
     }
 
-    /// Holds inputs for some cycles.
     pub fn hold(&mut self, inputs: &[bool], cycles: usize) {
         (0..cycles).for_each(|_| self.advance(inputs));
     }
 
-    /// The known output of each robot at the end of the last cycle.
     pub fn bits(&self) -> &[Option<bool>] {
         &self.bits
     }
@@ -88,7 +86,6 @@ impl<'a> Settling<'a> {
         self.cycles += 1;
     }
 
-    /// The known output of a robot at the end of a cycle.
     fn output(&self, robot: usize, pattern: &[TernaryBit], held: usize) -> TernaryBit {
         let member = &self.members[robot];
         let answer = answer(member.robot.function(), pattern);

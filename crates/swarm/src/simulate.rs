@@ -3,7 +3,6 @@
 use crate::{Assembly, LiveSwarm, Room, SwarmTrace};
 use nbc_sim::Simulator;
 
-/// The conditions of a simulation: the inputs, and how motion is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SwarmConditions {
     /// The input ports' bits in each cycle.
@@ -16,9 +15,7 @@ pub struct SwarmConditions {
 
 /// Simulates a swarm in its world under these conditions until a robot fails, calling `observe` with the number of
 /// finished cycles after each cycle.
-///
-/// # Panics
-/// When a cycle's inputs are not as many as the assembly's, or the window is empty.
+/// Panics when a cycle's inputs are not as many as the assembly's, or the window is empty.
 pub fn simulate(
     simulator: &Simulator,
     assembly: &Assembly,

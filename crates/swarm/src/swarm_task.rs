@@ -8,9 +8,7 @@ use nbc_sim::Simulator;
 /// The simulation of a swarm, without names: all that the resulting bits depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SwarmTask {
-    /// The robots and their wiring.
     pub assembly: Assembly,
-    /// The inputs of each cycle, and over how many cycles displacements are measured.
     pub conditions: SwarmConditions,
 }
 
@@ -26,11 +24,9 @@ pub struct SwarmBits {
 /// The part of a robot that the bits of its swarm depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
-    /// Its voxels.
     pub body: Body,
     /// The clock of its character, in cycles.
     pub clock: u32,
-    /// The source of each of its stimuli.
     pub senses: Vec<StimulusSource>,
     /// Its output before the first cycle.
     pub start: bool,
@@ -70,12 +66,10 @@ impl SwarmTask {
         Self { assembly, conditions: SwarmConditions { inputs, window, poses: None } }
     }
 
-    /// The number of robots.
     pub fn robots(&self) -> usize {
         self.assembly.members.len()
     }
 
-    /// The number of cycles.
     pub fn cycles(&self) -> usize {
         self.conditions.inputs.len()
     }
@@ -105,16 +99,13 @@ impl PlainMember {
 }
 
 impl SwarmBits {
-    /// Simulates a swarm.
     pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
         let trace = simulate(simulator, &task.assembly, &task.conditions, &mut |_| ());
         Self { fault: trace.first_fault(), cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
     /// The trace of the swarm through these inputs, without the paths of its robots.
-    ///
-    /// # Panics
-    /// When the bits belong to another swarm.
+    /// Panics when the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
         let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
         if let Some((robot, fault)) = self.fault {

@@ -41,9 +41,7 @@ pub enum TaskResult {
 
 impl TaskResult {
     /// The result of an evaluation.
-    ///
-    /// # Panics
-    /// When it is of another task, as in all methods here.
+    /// Panics when it is of another task, as in all methods here.
     pub fn evaluated(self) -> Evaluated {
         match self {
             Self::Evaluation(evaluated) => evaluated,

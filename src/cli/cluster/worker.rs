@@ -30,7 +30,6 @@ pub struct WorkerArguments {
 }
 
 impl WorkerArguments {
-    /// Works until a signal arrives.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let cancel = Interrupt::watch()?.cancel();
         let worker = Worker::open(WorkerOptions { server: self.server.server(), name: self.name, cancel, log })?;

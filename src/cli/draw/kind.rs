@@ -5,11 +5,9 @@ use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crate::cli::draw::picture::PictureKind;
 use crate::cli::draw::pictures::PICTURES;
 
-/// A kind of picture that a user chose.
 #[derive(Clone, Copy)]
 pub(super) struct Kind(pub(super) &'static dyn PictureKind);
 
-/// The parser of `--as`, whose help lists all kinds.
 pub(super) fn kinds() -> impl TypedValueParser<Value = Kind> {
     let value = |kind: &&dyn PictureKind| PossibleValue::new(kind.description().word).help(kind.description().about);
     PossibleValuesParser::new(PICTURES.iter().map(value)).try_map(|word| {

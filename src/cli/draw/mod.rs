@@ -33,7 +33,6 @@ pub(super) use evolution_run::{is_run, read as read_run};
 pub(super) use pictures::run_page;
 
 impl DrawArguments {
-    /// Draws and writes.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Self { kind: Kind(kind), output, request } = self;
         let canvas = Canvas::new(&output, kind)?;

@@ -2,14 +2,15 @@
 
 use crate::cli::draw::picture::{PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
+use nbc_base::diag::Diagnostic;
 
 /// Rejects the first option that cannot change the picture.
 pub(super) fn check_options(
     request: &DrawRequest,
     kind: &dyn PictureKind,
     subject: SubjectKind,
-) -> Result<(), DrawError> {
+) -> Result<(), Diagnostic> {
     let is_program = subject == SubjectKind::Program;
     let has_robots = matches!(subject, SubjectKind::Library | SubjectKind::Run);
     let takes = |option| kind.description().options.contains(&option);
@@ -32,8 +33,10 @@ pub(super) fn check_options(
         ("--swarm", choice.swarm.is_some(), is_program, "a source file (.nb)"),
         ("--test", request.test.is_some(), is_program, "a source file (.nb)"),
     ];
-    let Some((option, .., wanted)) = options.into_iter().find(|(_, given, applies, _)| *given && !applies) else {
-        return Ok(());
-    };
-    Err(DrawError::Option { what: request.what.clone(), option, kind: kind.description().word, applies_to: wanted })
+    match options.into_iter().find(|(_, given, applies, _)| *given && !applies) {
+        None => Ok(()),
+        Some((option, .., applies_to)) => {
+            Err(wording::option_without_effect(&request.what, option, kind.description().word, applies_to))
+        }
+    }
 }

@@ -5,11 +5,10 @@ use crate::cli::draw::evolution_run::best_champions;
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::TitledRobots;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
 
-/// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SubjectKind {
     Library,
@@ -18,7 +17,6 @@ pub(super) enum SubjectKind {
     Run,
 }
 
-/// A finished picture, or a film to be made.
 pub(super) enum Drawing {
     Picture(Svg),
     Text(String),
@@ -34,7 +32,6 @@ pub(super) enum Drawing {
     },
 }
 
-/// A drawing, with a warning of each robot whose simulation failed.
 pub(super) struct Drawn {
     pub(super) drawing: Drawing,
     pub(super) faults: Vec<Diagnostic>,
@@ -46,25 +43,20 @@ impl From<Drawing> for Drawn {
     }
 }
 
-/// The formats of films.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FilmFormat {
     Apng,
     Gif,
 }
 
-/// The description of a kind of picture.
 pub(super) struct KindDescription {
-    /// The word for it on the command line.
     pub(super) word: &'static str,
-    /// A line about it in the help.
     pub(super) about: &'static str,
-    /// The extensions of its files.
+    /// Of its files.
     pub(super) extensions: &'static [&'static str],
-    /// The options that change the picture, of those that not every kind has.
+    /// Options that change the picture, of those that not every kind has.
     pub(super) options: &'static [&'static str],
-    /// The kind of subject that it is for: the one to name if another is given. A kind for libraries also shows the
-    /// best robots of a run.
+    /// The subject to name if another is given. A kind for libraries also shows the best robots of a run.
     pub(super) subject: SubjectKind,
 }
 
@@ -75,22 +67,17 @@ impl KindDescription {
     }
 }
 
-/// A kind of picture. What it cannot show is refused, with the kind of subject that it is for.
 pub(super) trait PictureKind: Sync {
-    /// Its name and what it applies to.
     fn description(&self) -> KindDescription;
 
-    /// Draws one robot.
     fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
         Err(self.refuse(SubjectKind::Robot, request))
     }
 
-    /// Draws the robots of a library.
     fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
         Err(self.refuse(SubjectKind::Library, request))
     }
 
-    /// Draws an evolution run; its best robots, if this is a picture of several robots.
     fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
         match self.description().subject {
             SubjectKind::Library => self.of_library(&best_champions(results), request),
@@ -98,16 +85,13 @@ pub(super) trait PictureKind: Sync {
         }
     }
 
-    /// Draws the circuit of a source file, or its swarm.
     fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
         Err(self.refuse(SubjectKind::Program, request))
     }
 
-    /// The error for a subject that has no such picture.
     fn refuse(&self, given: SubjectKind, request: &DrawRequest) -> Failure {
-        let KindDescription { word: kind, subject, .. } = self.description();
-        let what = request.what.clone();
-        DrawError::Kind { what, given: noun(given), expected: wanted(subject, given), kind }.into()
+        let KindDescription { word, subject, .. } = self.description();
+        wording::other_kind(&request.what, noun(given), wanted(subject, given), word).into()
     }
 }
 
@@ -120,7 +104,6 @@ fn noun(subject: SubjectKind) -> &'static str {
     }
 }
 
-/// The subject to name instead of the given one.
 fn wanted(subject: SubjectKind, given: SubjectKind) -> &'static str {
     match (subject, given) {
         (SubjectKind::Run, _) => "the folder of a run",

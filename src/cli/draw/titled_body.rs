@@ -2,7 +2,6 @@
 
 use nbc_base::model::{Body, Robot};
 
-/// A body with its title.
 pub(super) struct TitledBody {
     pub(super) title: String,
     pub(super) body: Body,

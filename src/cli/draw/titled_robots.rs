@@ -3,20 +3,17 @@
 use nbc_base::model::{Behavior, Body, Library};
 use nbc_swarm::Assembly;
 
-/// Robots with a title.
 pub(super) struct TitledRobots {
     pub(super) title: String,
     pub(super) robots: Vec<NamedBody>,
 }
 
-/// One of the robots.
 pub(super) struct NamedBody {
     pub(super) behavior: Behavior,
     pub(super) name: String,
     pub(super) body: Body,
 }
 
-/// The robots of a library, in its order.
 pub(super) fn of_library(name: &str, library: &Library) -> TitledRobots {
     let robots = library.robots.iter().map(|robot| NamedBody {
         behavior: robot.behavior,
@@ -27,7 +24,6 @@ pub(super) fn of_library(name: &str, library: &Library) -> TitledRobots {
     TitledRobots { title, robots: robots.collect() }
 }
 
-/// The robots of a swarm, each once.
 pub(super) fn of_swarm(assembly: &Assembly) -> TitledRobots {
     let mut robots: Vec<NamedBody> = Vec::new();
     for member in &assembly.members {

@@ -11,17 +11,14 @@ const HEAD: &str = "\
 makes it from there. [How do I …](how-do-i.md) has the commands by what you want to do.
 ";
 
-/// Commands that only some builds have, and the page that describes them. Their help depends on the build.
 const ELSEWHERE: [(&str, &str); 3] = [
     ("devices", "[Graphics cards](gpu.md#use)"),
     ("worker", "[Several machines](cluster.md)"),
     ("workers", "[Several machines](cluster.md#watch)"),
 ];
 
-/// Options of all builds that not every build shows, because in some they have no effect.
 const OF_FEATURES: [&str; 5] = ["device", "nats", "creds", "tls_ca", "trust_workers"];
 
-/// The page of a program, which must have been built.
 pub(super) fn page(program: &Command) -> String {
     let mut page = HEAD.to_owned();
     page += "\n## Every command\n\nThese options may follow any command.\n\n";
@@ -35,7 +32,6 @@ pub(super) fn page(program: &Command) -> String {
     page
 }
 
-/// Adds a line. Writing to a string cannot fail.
 fn write_line(page: &mut String, line: std::fmt::Arguments<'_>) {
     let _ = writeln!(page, "{line}");
 }
@@ -46,7 +42,6 @@ fn commands_of(command: &Command) -> impl Iterator<Item = &Command> {
     command.get_subcommands().filter(|inner| inner.get_name() != "help").filter(is_listed)
 }
 
-/// Adds the section of a command, and those of the commands below it.
 fn describe(command: &Command, outer: &str, level: &str, page: &mut String) {
     let name = format!("{outer} {}", command.get_name());
     let about = command.get_long_about().or(command.get_about()).map(ToString::to_string).unwrap_or_default();
@@ -63,7 +58,6 @@ fn describe(command: &Command, outer: &str, level: &str, page: &mut String) {
     commands_of(command).for_each(|inner| describe(inner, &name, "###", page));
 }
 
-/// The paragraphs of a text, the last with a full stop.
 fn paragraphs(text: &str) -> String {
     let text = text.trim();
     let stop = if text.is_empty() || text.ends_with(['.', ':']) { "" } else { "." };
@@ -72,7 +66,6 @@ fn paragraphs(text: &str) -> String {
     paragraphs.map(wrapped).collect::<Vec<_>>().join("\n\n")
 }
 
-/// A text in lines of the width of the manual.
 fn wrapped(text: &str) -> String {
     const WIDTH: usize = 120;
     let (mut lines, mut line) = (Vec::new(), String::new());
@@ -87,7 +80,6 @@ fn wrapped(text: &str) -> String {
     lines.join("\n")
 }
 
-/// A row for each argument that is shown.
 fn table<'a>(arguments: impl Iterator<Item = &'a Arg>) -> String {
     let mut text = "| option | meaning |\n|---|---|\n".to_owned();
     let is_usual = |argument: &&Arg| !matches!(argument.get_id().as_str(), "help" | "version");
@@ -98,7 +90,6 @@ fn table<'a>(arguments: impl Iterator<Item = &'a Arg>) -> String {
     text
 }
 
-/// How an argument is written, such as `-o, --output <FILE>`.
 fn spelling(argument: &Arg) -> String {
     let mut names: Vec<String> = argument.get_short().map(|short| format!("-{short}")).into_iter().collect();
     names.extend(argument.get_long().map(|long| format!("--{long}")));
@@ -109,7 +100,6 @@ fn spelling(argument: &Arg) -> String {
     format!("{} {value}", names.join(", ")).trim().to_owned()
 }
 
-/// What an argument means, its possible values and its default.
 fn meaning(argument: &Arg) -> String {
     let help = argument.get_long_help().or(argument.get_help()).map(ToString::to_string).unwrap_or_default();
     let mut text = help.split_whitespace().collect::<Vec<_>>().join(" ");
@@ -133,7 +123,6 @@ fn value_text(value: &clap::builder::PossibleValue) -> String {
     format!("`{}`{}", value.get_name(), help.map_or_else(String::new, |help| format!(" ({help})")))
 }
 
-/// The text with a small first letter, unless its first word has more capital letters.
 fn lower(text: &str) -> String {
     let first = text.split(' ').next().unwrap_or_default();
     if first.chars().skip(1).any(char::is_uppercase) {
@@ -143,7 +132,6 @@ fn lower(text: &str) -> String {
     letters.next().map_or_else(String::new, |letter| letter.to_lowercase().chain(letters).collect())
 }
 
-/// Adds examples as they are printed, and the rest as text.
 fn after_help(text: &str, page: &mut String) {
     let mut is_code = false;
     write_line(page, format_args!(""));

@@ -8,7 +8,7 @@ use clap::{Args, Command};
 use clap_mangen::Man;
 
 use crate::cli::options::new_path::new_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_session::store;
 
@@ -25,10 +25,9 @@ pub struct ManualArguments {
 }
 
 impl ManualArguments {
-    /// Writes a page for the program and one for each command, or one of all in Markdown.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
-            return Err(UsageError::NoJson { what: "a manual page" }.into());
+            return Err(wording::no_json("a manual page").into());
         }
         let mut program = (context.command)();
         program.build();
@@ -58,7 +57,6 @@ fn page_of(command: &Command) -> std::io::Result<Vec<u8>> {
     Ok(text)
 }
 
-/// Adds a command and those below it that this program has.
 fn collect(command: &Command, pages: &mut Vec<Command>) {
     pages.push(command.clone());
     let is_here = |inner: &&Command| inner.get_name() != "help" && !inner.is_hide_set();

@@ -6,11 +6,10 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_session::{Checked, Choice, CompileOptions, RUNS};
 
-/// The choice of a circuit in a file.
 #[derive(Args)]
 pub(in crate::cli) struct CircuitArguments {
     /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one in the file, or all
@@ -28,7 +27,6 @@ impl CircuitArguments {
     }
 }
 
-/// The place of evolution runs.
 #[derive(Args)]
 pub(in crate::cli) struct RunsArguments {
     /// The folder of evolution runs; `library { from: NAME }` reads robots from `NAME/robots` in it
@@ -42,7 +40,6 @@ impl RunsArguments {
     }
 }
 
-/// Files that replace those that a program declares.
 #[derive(Args)]
 pub(in crate::cli) struct FilesArguments {
     /// The file that a memory begins with, by the name that the program declares; `--NAME PATH` is short for it
@@ -51,21 +48,19 @@ pub(in crate::cli) struct FilesArguments {
 }
 
 impl FilesArguments {
-    /// Whether the user replaced one.
     pub(in crate::cli) fn is_given(&self) -> bool {
         !self.named_files.is_empty()
     }
 
-    /// The files, each by its name and with its path.
     pub(in crate::cli) fn files(&self) -> Vec<(String, String)> {
         self.named_files.clone()
     }
 
-    /// Checks that each file is one that a source declares.
+    /// Fails if no source declares one of the files.
     pub(in crate::cli) fn check(&self, sources: &[Arc<Checked>]) -> Result<(), Diagnostic> {
         for (at, (name, _)) in self.named_files.iter().enumerate() {
             if self.named_files[at + 1..].iter().any(|(other, _)| other == name) {
-                return Err(UsageError::TwoFiles { name: name.clone() }.into());
+                return Err(wording::two_files(name));
             }
             let declared: Vec<_> = sources.iter().map(|source| source.declares_file(name)).collect();
             if declared.iter().all(Result::is_err) {

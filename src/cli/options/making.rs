@@ -8,7 +8,6 @@ use crate::cli::options::robots::RobotsArguments;
 use crate::cli::{Failure, robots};
 use nbc_session::{Choice, CompileOptions};
 
-/// The circuit, its robots and the goal of mapping.
 #[derive(Args)]
 pub(in crate::cli) struct MakingArguments {
     #[command(flatten)]
@@ -22,24 +21,20 @@ pub(in crate::cli) struct MakingArguments {
 }
 
 impl MakingArguments {
-    /// The chosen circuit and swarm.
     pub(in crate::cli) fn choice(&self) -> Choice {
         self.circuit.choice()
     }
 
-    /// The options of compiling.
     pub(in crate::cli) fn options(&self) -> Result<CompileOptions, Failure> {
         let robots = self.library.library.as_deref().map(robots::robots_of).transpose()?;
         let options = CompileOptions { robots, swarm: self.choice().swarm, ..self.runs.options() };
         Ok(self.goal.with(options))
     }
 
-    /// The library that the user named.
     pub(in crate::cli) fn library(&self) -> &RobotsArguments {
         &self.library
     }
 
-    /// The options that the user gave beside the circuit and the library.
     pub(in crate::cli) fn goal(&self) -> &GoalArguments {
         &self.goal
     }

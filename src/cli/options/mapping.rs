@@ -8,7 +8,6 @@ use nbc_circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
 use nbc_session::CompileOptions;
 use nbc_session::store;
 
-/// The available cells and the goal of mapping, for circuits that no program declares.
 #[derive(Args)]
 pub(in crate::cli) struct MappingArguments {
     #[command(flatten)]
@@ -19,7 +18,6 @@ pub(in crate::cli) struct MappingArguments {
     goal: GoalArguments,
 }
 
-/// Cells that need not be robots.
 #[derive(Args)]
 pub(in crate::cli) struct CellsArguments {
     /// The functions of the cells, such as `nand,not` or `xor,maj`, or `all` of two inputs, or `all3` of two and three;
@@ -28,7 +26,6 @@ pub(in crate::cli) struct CellsArguments {
     cells: Vec<String>,
 }
 
-/// The goal of mapping.
 #[derive(Args)]
 pub(in crate::cli) struct GoalArguments {
     /// What to optimize; of several robots for a function, the one that suits it best is used [default: area]
@@ -40,7 +37,6 @@ pub(in crate::cli) struct GoalArguments {
 }
 
 impl GoalArguments {
-    /// How to map.
     pub(in crate::cli) fn options(&self) -> MapOptions {
         let (objective, effort) = (self.objective.unwrap_or_default(), self.effort.unwrap_or_default());
         MapOptions { objective: objective.into(), effort: effort.into(), ..MapOptions::default() }
@@ -52,7 +48,6 @@ impl GoalArguments {
         objective.or_else(|| self.effort.map(|_| "--effort"))
     }
 
-    /// These options with the goal.
     pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
         let MapOptions { objective, effort, .. } = self.options();
         CompileOptions { objective, effort, ..options }
@@ -62,8 +57,7 @@ impl GoalArguments {
 impl CellsArguments {
     /// The cells that the user chose.
     pub(in crate::cli) fn chosen(&self) -> Result<Option<CellLibrary>, Failure> {
-        let chosen = (!self.cells.is_empty()).then(|| nbc_session::cell_library(&self.cells));
-        chosen.transpose().map_err(Failure::plain)
+        if self.cells.is_empty() { Ok(None) } else { Ok(Some(nbc_session::cell_library(&self.cells)?)) }
     }
 }
 
@@ -78,7 +72,6 @@ impl MappingArguments {
         Ok(nbc_session::robot_cells(robots, self.options().objective))
     }
 
-    /// How to map.
     pub(in crate::cli) fn options(&self) -> MapOptions {
         self.goal.options()
     }

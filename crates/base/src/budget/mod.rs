@@ -18,17 +18,13 @@ pub struct WorkBudget {
     unseen: u64,
 }
 
-/// The reason why work ends without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverBudget {
-    /// It would make more than a limit permits.
     Limit(Limit),
-    /// Nobody waits for the result any more.
     Cancelled,
 }
 
 impl Default for WorkBudget {
-    /// A budget of work that somebody waits for until it ends.
     fn default() -> Self {
         Self::until(CancelFlag::default())
     }
@@ -38,7 +34,6 @@ impl Default for WorkBudget {
 const BETWEEN_LOOKS: u64 = 1 << 16;
 
 impl WorkBudget {
-    /// A budget of work that ends when the flag is raised.
     pub fn until(cancel: CancelFlag) -> Self {
         Self { used: [0; Limit::ALL.len()], cancel, unseen: 0 }
     }
@@ -59,14 +54,12 @@ impl WorkBudget {
         Ok(())
     }
 
-    /// What may still be made.
     pub fn left(&self, limit: Limit) -> u64 {
         limit.most() - self.used[limit as usize]
     }
 }
 
 impl Limit {
-    /// Whether so much is permitted.
     pub fn permit(self, amount: u64) -> Result<(), OverBudget> {
         if amount <= self.most() { Ok(()) } else { Err(OverBudget::Limit(self)) }
     }

@@ -6,7 +6,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{PhysicsWorld, VariationError, WorldFactors, WorldNoise};
+use super::wording::{does_not_vary, no_amount, variation_amount};
+use super::{PhysicsWorld, WorldFactors, WorldNoise};
 
 /// The largest changes of a sample of worlds. A factor varies to either side by a share of itself; noise is added.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -16,14 +17,12 @@ pub struct Variation {
     amounts: [f64; COUNT],
 }
 
-/// The number of quantities that vary.
 const COUNT: usize = 10;
 
 /// The number of these that are factors; the others are noise.
 const FACTORS: usize = 6;
 
 impl Variation {
-    /// The names of the quantities.
     pub const NAMES: [&str; COUNT] =
         ["friction", "gravity", "stiffness", "drag", "damping", "swelling", "start", "missed", "weak", "dead"];
 
@@ -33,7 +32,6 @@ impl Variation {
     /// The numbers that [`Variation::world`] needs for one world.
     pub const DRAWS: usize = COUNT;
 
-    /// The largest change of a quantity.
     pub fn most(name: &str) -> f64 {
         match name {
             "start" => WorldNoise::MOST_START,
@@ -42,12 +40,10 @@ impl Variation {
         }
     }
 
-    /// The changes of the quantities, by their names.
     pub fn of(amount: impl FnMut(&'static str) -> f64) -> Self {
         Self { amounts: Self::NAMES.map(amount) }
     }
 
-    /// Whether a quantity is a factor and not noise.
     pub fn is_factor(name: &str) -> bool {
         Self::NAMES[..FACTORS].contains(&name)
     }
@@ -60,7 +56,6 @@ impl Variation {
         (varied.all(|amount| *amount == first) && noise.iter().all(|amount| *amount == 0.0)).then_some(first)
     }
 
-    /// The names of the quantities that vary.
     pub fn quantities(&self) -> String {
         let varied: Vec<&str> = Self::NAMES
             .into_iter()
@@ -81,9 +76,8 @@ impl Variation {
         changes.map(word).collect::<Vec<_>>().join(",")
     }
 
-    fn place(name: &str) -> Result<usize, VariationError> {
-        let place = Self::NAMES.iter().position(|known| *known == name);
-        place.ok_or_else(|| VariationError::Unknown(name.to_owned(), &Self::NAMES))
+    fn place(name: &str) -> Result<usize, String> {
+        Self::NAMES.iter().position(|known| *known == name).ok_or_else(|| does_not_vary(name))
     }
 
     /// All changes times a number, but none above its largest.
@@ -134,14 +128,14 @@ impl From<Variation> for BTreeMap<String, f64> {
 }
 
 impl TryFrom<BTreeMap<String, f64>> for Variation {
-    type Error = VariationError;
+    type Error = String;
 
-    fn try_from(changes: BTreeMap<String, f64>) -> Result<Self, VariationError> {
+    fn try_from(changes: BTreeMap<String, f64>) -> Result<Self, String> {
         let mut variation = Self::default();
         for (name, amount) in changes {
             let place = Self::place(&name)?;
             if !(0.0..=Self::most(&name)).contains(&amount) {
-                return Err(out_of_range(&name, &amount.to_string()));
+                return Err(variation_amount(&name, &amount.to_string()));
             }
             variation.amounts[place] = amount;
         }
@@ -150,16 +144,16 @@ impl TryFrom<BTreeMap<String, f64>> for Variation {
 }
 
 impl FromStr for Variation {
-    type Err = VariationError;
+    type Err = String;
 
     /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself.
-    fn from_str(text: &str) -> Result<Self, VariationError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let mut amounts = [0.0; COUNT];
         if text.ends_with('%') && !text.contains('=') {
             return format!("{}={text}", Self::ALL).parse();
         }
         for part in text.split(',') {
-            let (name, amount) = part.split_once('=').ok_or_else(|| VariationError::NoAmount(part.to_owned()))?;
+            let (name, amount) = part.split_once('=').ok_or_else(|| no_amount(part))?;
             if name.trim() == Self::ALL {
                 amounts[..FACTORS].fill(read_amount(Self::ALL, amount.trim())?);
                 continue;
@@ -170,17 +164,13 @@ impl FromStr for Variation {
     }
 }
 
-fn read_amount(name: &str, text: &str) -> Result<f64, VariationError> {
+fn read_amount(name: &str, text: &str) -> Result<f64, String> {
     let number = match text.strip_suffix('%') {
         Some(percent) => percent.parse::<f64>().map(|percent| percent / 100.0),
         None => text.parse(),
     };
     let is_possible = |amount: &f64| (0.0..=Variation::most(name)).contains(amount);
-    number.ok().filter(is_possible).ok_or_else(|| out_of_range(name, text))
-}
-
-fn out_of_range(name: &str, text: &str) -> VariationError {
-    VariationError::Amount { name: name.to_owned(), found: text.to_owned(), most: Variation::most(name) }
+    number.ok().filter(is_possible).ok_or_else(|| variation_amount(name, text))
 }
 
 impl fmt::Display for Variation {

@@ -9,28 +9,21 @@ use super::verilog::{SecondReading, VerilogModules};
 pub struct ForeignCircuit {
     /// The file, or several of one design.
     pub file: String,
-    /// The name of the circuit.
     pub circuit: String,
-    /// What its proof begins with.
     pub origin: ProofOrigin,
 }
 
-/// What a proof begins with: a file, or what a translator made of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProofOrigin {
-    /// The file itself.
     File,
     /// The netlist that slang made of a Verilog file, in Yosys.
     Slang {
-        /// The version of Yosys.
         version: String,
-        /// What Yosys' own reader has made of the file.
         second: SecondReading,
     },
 }
 
 impl VerilogModules {
-    /// What a proof of one of the modules begins with.
     pub fn origin(&self, module: usize) -> ProofOrigin {
         ProofOrigin::Slang { version: self.version.clone(), second: self.modules[module].second }
     }

@@ -24,7 +24,6 @@ impl Pass for DissolveWires {
 }
 
 impl DissolveWires {
-    /// Changes the netlist.
     pub fn run_on(self, netlist: &mut Netlist) -> Result<(), NetlistError> {
         check_drivers(netlist)?;
         let wires: Vec<_> = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Wire { .. })).collect();
@@ -61,7 +60,6 @@ pub fn check_drivers(netlist: &Netlist) -> Result<(), NetlistError> {
     Ok(())
 }
 
-/// The final driver of a wire.
 fn driver(netlist: &Netlist, wire: NetId) -> Result<NetId, NetlistError> {
     let mut id = wire;
     for _ in 0..netlist.graph().node_count() {

@@ -10,7 +10,6 @@ use nbc_base::model::Function;
 #[derive(Clone, Copy, Debug)]
 pub struct FoldConstants;
 
-/// The result for a cell.
 enum Folded {
     Constant(bool),
     Net(NetId),
@@ -95,7 +94,6 @@ fn inverted(netlist: &Netlist, net: NetId, free: bool) -> Folded {
     }
 }
 
-/// Replaces a cell by another function of other pins; returns the replacement.
 fn rewrite(netlist: &mut Netlist, id: NetId, function: Function, pins: &[NetId]) -> NetId {
     let cell = netlist.cell(id).cloned().expect("only cells are folded");
     if cell.function == function && netlist.pins(id) == pins {

@@ -12,8 +12,6 @@ use nbc_base::model::Function;
 /// Registers are compared this often; in a netlist where that does not suffice, none is merged.
 const MOST_SWEEPS: usize = 1000;
 
-/// Merging of equal latches.
-///
 /// Two latches are equal if they start alike and their cells are wired alike to nets that are equal. The classes of
 /// equal nets are found by assuming that latches that start alike are equal, and splitting the classes until that holds
 /// (partition refinement). Other memory is never merged, because what it does may depend on the delays of its cells.
@@ -48,7 +46,6 @@ impl Pass for MergeRegisters {
     }
 }
 
-/// The numbers of the classes of equal nets.
 struct Classes {
     of_net: BTreeMap<NetId, usize>,
 }
@@ -56,11 +53,9 @@ struct Classes {
 /// What distinguishes the cells of latches at first: their functions, start values and places in their latches.
 type Beginning = (Function, Option<bool>, usize);
 
-/// A function with the classes of the nets that it reads.
 type Shape = (Function, Vec<usize>);
 
 impl Classes {
-    /// The classes that no longer split, if they are found.
     fn of(netlist: &Netlist, storage: &Storage) -> Option<Self> {
         let loops = Loops::memory(netlist);
         let mut beginnings: BTreeMap<Beginning, usize> = BTreeMap::new();
@@ -107,7 +102,6 @@ fn spread(netlist: &Netlist, loops: &Loops, of_memory: &BTreeMap<NetId, usize>) 
     of_net
 }
 
-/// The function of a constant or cell, and the classes of the nets that it reads.
 fn shape(netlist: &Netlist, id: NetId, of_net: &BTreeMap<NetId, usize>) -> Option<Shape> {
     let function = function(netlist, id)?;
     let pins = netlist.pins(id).iter().map(|pin| of_net.get(pin).copied()).collect::<Option<_>>()?;
@@ -138,7 +132,6 @@ mod tests {
         q
     }
 
-    /// The number of cells that are left of two shift registers whose bits start so.
     fn left(starts: [&[bool]; 2]) -> usize {
         let mut netlist = Netlist::new("two");
         let [a, clock] = ["a", "clk"].map(|name| netlist.add_input(name));

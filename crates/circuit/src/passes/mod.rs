@@ -15,15 +15,11 @@ pub use sweep::Sweep;
 
 use crate::{NetId, Netlist, NetlistError};
 
-/// A transformation that preserves the function of a netlist.
 pub trait Pass: Sync {
-    /// The name, in words with `-` between them.
     fn name(&self) -> &'static str;
 
-    /// What it does, in a few words.
     fn about(&self) -> &'static str;
 
-    /// Changes the netlist.
     fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError>;
 
     /// The cells of a netlist that it would merge with others, and those others.
@@ -32,7 +28,6 @@ pub trait Pass: Sync {
     }
 }
 
-/// The passes before technology mapping, in order.
 pub const ORDER: &[&dyn Pass] = &[
     // First, so that no other pass has to handle wires.
     &DissolveWires,
@@ -45,12 +40,10 @@ pub const ORDER: &[&dyn Pass] = &[
     &Sweep,
 ];
 
-/// Runs every pass in order.
 pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
     ORDER.iter().try_for_each(|pass| pass.run(netlist))
 }
 
-/// The netlist after each pass, in order.
 pub fn after_each(mut netlist: Netlist) -> Result<Vec<(&'static dyn Pass, Netlist)>, NetlistError> {
     let after = |pass: &&'static dyn Pass| pass.run(&mut netlist).map(|()| (*pass, netlist.clone()));
     ORDER.iter().map(after).collect()

@@ -7,7 +7,6 @@ use crate::passes::Pass;
 use crate::{NetId, Netlist, NetlistError, Node};
 use nbc_base::model::Function;
 
-/// Structural hashing outside memory elements.
 #[derive(Clone, Copy, Debug)]
 pub struct Share;
 
@@ -41,7 +40,6 @@ fn key(netlist: &Netlist, id: NetId) -> Option<(Function, Vec<NetId>)> {
     function(netlist, id).map(|function| ordered(function, netlist.pins(id)))
 }
 
-/// The function of a constant or a cell.
 pub(super) fn function(netlist: &Netlist, id: NetId) -> Option<Function> {
     match netlist.node(id) {
         Node::Constant(value) => Some(if *value { Function::ONE } else { Function::ZERO }),
@@ -50,7 +48,6 @@ pub(super) fn function(netlist: &Netlist, id: NetId) -> Option<Function> {
     }
 }
 
-/// A function with its pins in ascending order.
 pub(super) fn ordered<T: Ord>(function: Function, mut pins: Vec<T>) -> (Function, Vec<T>) {
     match pins[..] {
         [ref a, ref b] if b < a => {

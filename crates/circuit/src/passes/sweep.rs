@@ -5,7 +5,6 @@ use std::collections::BTreeSet;
 use crate::passes::Pass;
 use crate::{Netlist, NetlistError, Node};
 
-/// Removes cells, loops and constants that no output port depends on.
 #[derive(Clone, Copy, Debug)]
 pub struct Sweep;
 

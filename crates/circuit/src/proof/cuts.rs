@@ -10,7 +10,6 @@ use crate::loops::Loops;
 use crate::passes::{DissolveWires, Pass};
 use crate::{NetId, Netlist, NetlistError, Node};
 
-/// A cell at which a loop is cut.
 pub(super) struct LoopCut {
     pub(super) cell: NetId,
     /// The name of the cell that it is in the mapping; none if no output depends on it.

@@ -3,7 +3,6 @@
 use crate::network::{Network, counting_word};
 use crate::proof::method::Method;
 
-/// Simulates all patterns; fails with the first output and pattern that differ.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
     let patterns = 1u64 << one.inputs;
     for block in 0..(patterns as usize).div_ceil(64) {

@@ -28,16 +28,12 @@ use crate::passes::{self, Pass};
 use crate::proof::relation::{Side, StateRelation};
 use crate::{NetId, Netlist, ProofError};
 
-/// A netlist proved equal to its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Proof {
-    /// The method that proved it.
     pub method: Method,
-    /// The nets at which loops were cut open.
     pub cuts: Vec<String>,
 }
 
-/// Proves a mapped netlist equal to its source as it was written, before any pass.
 pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
     prove_through(source, mapped, passes::ORDER)
 }
@@ -61,7 +57,6 @@ pub(crate) fn prove_design(read: &Design, made: &Design, counterparts: Vec<Count
     prove_states([&read.logic, &made.logic], [&read.registers, &made.registers], counterparts, passes::ORDER)
 }
 
-/// Proves two circuits equal, with their registers and the cells of their loops as states.
 fn prove_states(
     [source, mapped]: [&Netlist; 2],
     registers: [&[Register]; 2],
@@ -151,7 +146,6 @@ mod tests {
         assert_eq!(error.to_string(), "`carry` differs at a=0 b=0 cin=0");
     }
 
-    /// A pass that makes its first cell another one.
     struct Wrong;
 
     impl Pass for Wrong {
@@ -189,7 +183,6 @@ mod tests {
         }
     }
 
-    /// The netlist with the opposite start of its cell of this name, whether the cell has a start value or not.
     fn started_otherwise(netlist: &Netlist, name: &str) -> Netlist {
         let mut other = netlist.clone();
         let (id, _) = netlist.cells().find(|(_, cell)| cell.name.as_deref() == Some(name)).unwrap();

@@ -19,9 +19,7 @@ pub enum Counterpart {
     Same(usize),
     /// What an earlier register or cut of the reference, with this number, is.
     Like(usize),
-    /// A value that never changes.
     Constant(bool),
-    /// Nothing: no output depends on it.
     Unused,
 }
 
@@ -37,13 +35,11 @@ impl Side<'_> {
         self.logic.inputs().len() - self.registers.len()
     }
 
-    /// The names of its registers, then those of its cuts.
     fn states(&self) -> impl Iterator<Item = String> {
         let registers = self.registers.iter().map(|register| register.name.clone());
         registers.chain(self.cuts.iter().map(|&cut| self.logic.net_name(cut)))
     }
 
-    /// The start value of a cell.
     fn start(&self, cell: NetId) -> Option<bool> {
         self.logic.cell(cell).and_then(|cell| cell.start)
     }
@@ -80,7 +76,6 @@ pub struct StateRelation<'a> {
     pub cuts: Vec<Counterpart>,
 }
 
-/// Signals of both circuits that must be equal, with a name for messages.
 type Pair = (String, Signal, Signal);
 
 impl StateRelation<'_> {
@@ -161,7 +156,6 @@ impl StateRelation<'_> {
         Ok(())
     }
 
-    /// What must be equal: the output ports, and what related registers and cuts become.
     fn pairs(&self, one: &mut Network, two: &Network) -> Vec<Pair> {
         let Self { reference, result, .. } = self;
         let ports = |side: &Side<'_>| side.logic.outputs().len() - Register::outputs(side.registers);
@@ -221,7 +215,6 @@ impl StateRelation<'_> {
     }
 }
 
-/// The value of a register after `value`, while these nets may force it.
 fn forced_value(network: &mut Network, register: &Register, value: Signal, nets: &[Signal]) -> Signal {
     let unless = Function::AND.with_input_inverted(1);
     match (register.forcing, nets) {

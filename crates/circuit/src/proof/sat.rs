@@ -15,7 +15,6 @@ use crate::properties::{Solved, SolverLimits};
 use nbc_base::model::Function;
 use nbc_base::source::CancelFlag;
 
-/// Words of 64 random patterns to start with.
 const WORDS: usize = 32;
 
 /// Patterns found by the solver that are simulated together, and those of them in a word. Each of these has the rest of
@@ -32,7 +31,6 @@ const GATE_PORTION: u64 = 1_000;
 const MOST_CALLS: usize = 100;
 const MANY_VARIABLES: usize = 1_000;
 
-/// Proves two networks equal; fails with an output and inputs at which it differs.
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
     let mut comparison = Comparison::within(one, &[]);
     comparison.compare(two)?;
@@ -65,21 +63,17 @@ impl Comparison {
         Ok(())
     }
 
-    /// The work of the solver so far: its calls, and its propagations.
     pub fn work(&self) -> [u64; 2] {
         [self.sweep.calls as u64, self.sweep.propagations + self.sweep.cones.propagations()]
     }
 
-    /// The number of signals that were compared so far.
     pub fn signals(&self) -> usize {
         self.sweep.values.len()
     }
 }
 
-/// Signals of several networks over the same inputs, merged if they are proved equal or opposite.
 pub struct SatSweep {
     cones: Cones,
-    /// The propagations of solvers that were replaced.
     propagations: u64,
     /// Of each clause, one of these inputs has the given value.
     assumed: Vec<Vec<(Signal, bool)>>,
@@ -89,7 +83,6 @@ pub struct SatSweep {
     gates: Vec<Gate>,
     /// The values of each signal, `values[signal][word]`.
     values: Vec<Vec<u64>>,
-    /// The signature of each signal's values, inverted if they are 1 in the first pattern.
     hashes: Vec<u64>,
     /// Patterns found by the solver that are in no word yet.
     found: Vec<Vec<bool>>,
@@ -97,24 +90,19 @@ pub struct SatSweep {
     classes: BTreeMap<u64, Vec<Signal>>,
     /// The signal of each gate, by its function and pins as one number.
     known: BTreeMap<u128, (Signal, bool)>,
-    /// The number of calls of the solver.
     pub calls: usize,
-    /// The most clauses that the solver learns in a call.
     portion: u64,
     cancel: CancelFlag,
 }
 
-/// What the solver says of two signals.
 pub enum Compared {
     Equal,
-    /// They differ at these inputs.
     Different(Vec<bool>),
     /// The solver reached its limit.
     Open,
 }
 
 impl SatSweep {
-    /// A solver with the inputs alone, without gates.
     pub fn new(inputs: usize) -> Self {
         Self::limited(inputs, u64::MAX, CancelFlag::default())
     }
@@ -145,7 +133,6 @@ impl SatSweep {
         sweep
     }
 
-    /// The values of a constant or an input, from a word on.
     fn source_values(&self, signal: usize, from: usize) -> Vec<u64> {
         let words = &self.patterns[from..];
         match signal {
@@ -162,7 +149,6 @@ impl SatSweep {
         self.assumed.push(clause);
     }
 
-    /// Adds a network's gates and returns the merged signal for each of its signals.
     pub fn add(&mut self, network: &Network) -> Vec<(Signal, bool)> {
         let mut made: Vec<(Signal, bool)> = (0..2 + network.inputs as Signal).map(|signal| (signal, false)).collect();
         for gate in &network.gates {
@@ -183,7 +169,6 @@ impl SatSweep {
         made
     }
 
-    /// Adds a gate, or finds the signal that equals it or its opposite.
     fn gate(&mut self, function: Function, pins: [Signal; 2]) -> (Signal, bool) {
         let signal = self.values.len() as Signal;
         let [a, b] = pins.map(|pin| &self.values[pin as usize]);
@@ -208,15 +193,10 @@ impl SatSweep {
         (signal, false)
     }
 
-    /// Whether a signal is 1 in the first pattern.
     fn is_turned(&self, signal: Signal) -> bool {
         self.values[signal as usize][0] & 1 == 1
     }
 
-    /// Inputs at which two signals, each maybe inverted, differ.
-    ///
-    /// # Panics
-    /// When the solver has a limit and reaches it.
     pub fn difference(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Option<Vec<bool>> {
         match self.compared(one, two) {
             Compared::Equal => None,
@@ -225,7 +205,6 @@ impl SatSweep {
         }
     }
 
-    /// Whether two signals, each maybe inverted, are equal.
     pub fn compared(&mut self, one: (Signal, bool), two: (Signal, bool)) -> Compared {
         self.compared_within(one, two, self.portion)
     }
@@ -303,7 +282,6 @@ impl SatSweep {
         self.classify(members);
     }
 
-    /// Sorts signals that represent their classes by their values.
     fn classify(&mut self, members: Vec<Signal>) {
         for signal in members {
             self.classes.entry(self.hashes[signal as usize]).or_default().push(signal);
@@ -311,12 +289,10 @@ impl SatSweep {
     }
 }
 
-/// A solver with the gates on which some signals depend.
 struct Cones {
     solver: Solver<SolverLimits>,
     /// The variable of each signal that the solver has, as the literal that is true where the signal is 1.
     variable: BTreeMap<Signal, Lit>,
-    /// The signals whose gates the solver has.
     defined: BTreeSet<Signal>,
     calls: usize,
 }
@@ -373,7 +349,6 @@ impl Cones {
         self.solver.add_clause_reuse(&mut literals);
     }
 
-    /// The clauses of a gate: one for each pattern of its pins.
     fn define(&mut self, signal: Signal, function: Function, [a, b]: [Signal; 2]) {
         for (x, y) in [(false, false), (false, true), (true, false), (true, true)] {
             if a != b || x == y {
@@ -398,7 +373,6 @@ fn extended(hash: u64, word: u64) -> u64 {
 mod tests {
     use super::*;
 
-    /// A chain of exclusive ors over the inputs, from one end or the other.
     fn parity(inputs: usize, backwards: bool) -> Network {
         let mut network = Network::new(inputs);
         let order: Vec<_> = if backwards { (0..inputs).rev().collect() } else { (0..inputs).collect() };

@@ -13,7 +13,6 @@ pub fn equal(one: &Network, two: &Network) -> bool {
     first == second
 }
 
-/// A signal, and whether it is inverted.
 type Literal = (u32, bool);
 
 /// The functions that the two signals of a pair are of the pair, in the order of a function's bits.
@@ -33,7 +32,6 @@ impl Forms {
         Self { inputs, forms: Vec::new(), known: BTreeMap::new() }
     }
 
-    /// The outputs of a network.
     fn outputs(&mut self, network: &Network) -> Vec<Literal> {
         let mut made: Vec<Literal> = vec![(0, false), (0, true)];
         made.extend((1..=self.inputs as u32).map(|input| (input, false)));
@@ -61,12 +59,10 @@ impl Forms {
         }
     }
 
-    /// The function of a signal, unless it is an input or a constant.
     fn form(&self, signal: u32) -> Option<([u32; 2], u8)> {
         (signal as usize).checked_sub(1 + self.inputs).map(|at| self.forms[at])
     }
 
-    /// A literal as a function of a pair.
     fn function(&self, (signal, inverted): Literal, pair: [u32; 2]) -> Option<u8> {
         let bits = match pair.iter().position(|&one| one == signal) {
             _ if signal == 0 => 0,
@@ -94,7 +90,6 @@ mod tests {
     use crate::synth::reduce::cover;
     use nbc_base::model::Function;
 
-    /// A chain through every function, each of the one before and of an input; every signal is shown.
     fn chain() -> Network {
         let mut network = Network::new(3);
         let mut last = network.input(0);

@@ -7,7 +7,6 @@ use crate::{Cell, NetId, Netlist, Node};
 
 /// The most cells between a memory element and the net that closes it.
 const DEPTH: usize = 6;
-/// The most cells before an element that are looked at.
 const MOST_CELLS: usize = 64;
 
 /// Values of nets; a net that is missing is unknown.
@@ -55,7 +54,6 @@ fn only_pin(netlist: &Netlist, id: NetId, cell: &Cell) -> Option<(NetId, bool)> 
     (output(false) != output(true)).then(|| (free, output(false)))
 }
 
-/// The value of a constant.
 pub(super) fn constant(netlist: &Netlist, net: NetId) -> TernaryBit {
     match netlist.node(net) {
         Node::Constant(value) => Some(*value),
@@ -63,14 +61,10 @@ pub(super) fn constant(netlist: &Netlist, net: NetId) -> TernaryBit {
     }
 }
 
-/// A memory element with the cells before it.
 pub(super) struct Cone<'a> {
     netlist: &'a Netlist,
-    /// The cells of the element.
     pub element: &'a [NetId],
-    /// The nets that drive the element from outside.
     pub entering: Vec<NetId>,
-    /// The cells before the element, back to memory and inputs.
     cells: Vec<NetId>,
     /// The nets before the element by their distance from it.
     near: Vec<NetId>,
@@ -157,14 +151,12 @@ impl<'a> Cone<'a> {
         None
     }
 
-    /// The response of a cell to its pins.
     pub fn answer(&self, values: &Values, id: NetId) -> TernaryBit {
         let cell = self.netlist.cell(id).expect("elements and guards are cells");
         let bits: Vec<TernaryBit> = self.netlist.operands(id).iter().map(|&pin| self.value(values, pin)).collect();
         answer(cell.function, &bits)
     }
 
-    /// The known value of a net; a constant may be given another one.
     pub fn value(&self, values: &Values, net: NetId) -> TernaryBit {
         values.get(&net).copied().unwrap_or_else(|| constant(self.netlist, net))
     }

@@ -7,7 +7,6 @@ use crate::{NetId, Netlist, Node};
 
 /// The most cells of a shortest loop.
 const MOST_STEPS: usize = 32;
-/// The most cells that are visited in search of one.
 const MOST_VISITS: usize = 1024;
 
 /// The memory elements, in order of their first cells. Every loop through several elements is longer than the loops of

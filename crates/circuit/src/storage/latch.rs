@@ -10,14 +10,11 @@ use crate::{NetId, Netlist};
 /// The most inputs of a latch whose values are all tried.
 const MOST_DATA: usize = 6;
 
-/// A memory element that one net opens and closes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Latch {
-    /// The cells that keep the bit.
     pub cells: Vec<NetId>,
     /// The cells between the enable and them.
     pub guards: Vec<NetId>,
-    /// The net that opens and closes the guards.
     pub enable: NetId,
     /// The net of which the enable is a copy or the opposite.
     pub root: NetId,
@@ -53,7 +50,6 @@ impl Latch {
     }
 }
 
-/// What the cells of a latch show while it is open.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Follower {
     /// The one net that its data are copies or opposites of.
@@ -89,33 +85,22 @@ impl Follower {
     }
 }
 
-/// A memory element or loop that is not timed by phases.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Unphased {
-    /// The nets of the memory element.
     pub nets: Vec<NetId>,
-    /// The reason why it is not recognized as a latch.
     pub why: WhyUnphased,
 }
 
-/// Why a memory element or loop is not timed by phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum WhyUnphased {
-    /// No net closes it against all others.
     NoEnable,
-    /// When its enable closes it, its state depends on delays.
     Race,
-    /// A cell of it may glitch, so its state may change while it is closed.
     Glitch(NetId),
-    /// It has more inputs than are tried.
     ManyInputs,
-    /// The circuit has more enables than are tried.
     ManyEnables,
-    /// A loop of logic and open latches.
     StaysOpen,
 }
 
-/// Recognizes a memory element as a latch.
 pub(super) fn recognize<'k>(
     netlist: &Netlist,
     inverters: &Inverters,
@@ -168,7 +153,6 @@ fn holding(cone: &Cone) -> Option<(NetId, bool)> {
     both.find(|&(net, value)| holds(net, value) && !holds(net, !value))
 }
 
-/// The behavior of an element when its enable opens and closes it.
 struct Trial<'a> {
     cone: &'a Cone<'a>,
     enable: NetId,

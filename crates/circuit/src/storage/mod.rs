@@ -14,30 +14,22 @@ use crate::{NetId, Netlist};
 pub use cone::Inverters;
 pub use latch::{Follower, Latch, Unphased, WhyUnphased};
 
-/// Two latches that open in turn: the first while the clock has one value, the second while it has the other.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FlipFlop {
-    /// The number of the latch that takes the data, among the latches.
     pub first: usize,
-    /// The number of the latch that takes the state of the first.
     pub second: usize,
     /// Whether it takes its data when the clock rises.
     pub rising: bool,
 }
 
-/// The memory of a netlist without wires.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Storage {
-    /// The latches, which flip-flops refer to by number.
     pub latches: Vec<Latch>,
-    /// The pairs of latches that are flip-flops.
     pub flip_flops: Vec<FlipFlop>,
-    /// The memory that is not recognized as a latch.
     pub unphased: Vec<Unphased>,
 }
 
 impl Storage {
-    /// Recognizes the memory of a netlist whose cells are of these kinds.
     pub fn of<'k>(netlist: &Netlist, kind: impl Fn(NetId) -> &'k CellKind) -> Self {
         let loops = Loops::of(netlist);
         if loops.cores().is_empty() {
@@ -88,7 +80,6 @@ fn flip_flops(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
     found
 }
 
-/// All pairs that may be flip-flops.
 fn pairs(latches: &[Latch], inverters: &Inverters) -> Vec<FlipFlop> {
     let owner: BTreeMap<NetId, usize> =
         (0..).zip(latches).flat_map(|(i, latch)| latch.cells.iter().map(move |&cell| (cell, i))).collect();

@@ -15,12 +15,9 @@ const MOST_PAIRS: usize = 2_000;
 const BUCKETS: usize = 256;
 const HASHED_WORDS: usize = 16;
 
-/// The values of signals, row by row.
 #[derive(Clone, Copy, Debug)]
 pub struct Rows<'a> {
-    /// The words of all rows.
     pub words: &'a [u64],
-    /// The words of a row.
     pub width: usize,
     /// The row of each signal; `None` where its row is its number.
     pub places: Option<&'a [u32]>,
@@ -33,14 +30,10 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// A replacement of a gate: one function, or a function of a signal and of another function.
 #[derive(Clone, Copy, Debug)]
 pub enum Replacement {
-    /// Another signal, in place of the gate.
     Signal(Signal),
-    /// A function of two signals.
     One(Function, [Signal; 2]),
-    /// A function of a signal and of a function of two signals.
     Two(Function, Signal, Function, [Signal; 2]),
 }
 
@@ -50,17 +43,11 @@ type Literal = (Signal, bool);
 /// The function and the signal that a candidate's rest is combined with.
 type Outer = Option<(Function, Signal)>;
 
-/// The search for candidates, with its workspace.
 pub struct Finder {
-    /// The patterns in which the gate matters and is 1.
     pub on: Vec<u64>,
-    /// The patterns in which the gate matters and is 0.
     pub off: Vec<u64>,
-    /// The signals that a candidate may read.
     pub divisors: Vec<Signal>,
-    /// Whether exclusive ors are candidates.
     pub exclusive: bool,
-    /// The candidates of the last search.
     pub found: Vec<Replacement>,
     /// The words in which the gate matters; those that refute most come first.
     hot: Vec<usize>,
@@ -70,7 +57,6 @@ pub struct Finder {
 }
 
 impl Finder {
-    /// A search with an empty workspace.
     pub fn new() -> Self {
         Self {
             on: Vec::new(),
@@ -124,7 +110,6 @@ impl Finder {
         self.hot.sort_by_key(|&i| std::cmp::Reverse(on[i].count_ones().min(off[i].count_ones())));
     }
 
-    /// Records a signal as a candidate of its own, or as a literal of a pair.
     fn classify(&mut self, signal: Signal, fits: Fits, outer: Outer) {
         if fits.covers_on && fits.avoids_off {
             self.push_signal(signal, outer);
@@ -161,7 +146,6 @@ impl Finder {
         *(if and { &mut self.ands } else { &mut self.ors }) = literals;
     }
 
-    /// Pairs of signals whose exclusive or, or its opposite, fits.
     fn find_exclusive(&mut self, rows: Rows<'_>, on: &[u64], off: &[u64], outer: Outer) {
         let care = |i: usize| on[i] | off[i];
         let words: Vec<usize> = self.hot.iter().copied().take(HASHED_WORDS).collect();
@@ -191,7 +175,6 @@ impl Finder {
         }
     }
 
-    /// Takes one literal of a shape for granted, and looks for the rest.
     fn find_deep(&mut self, rows: Rows<'_>, on: &[u64], off: &[u64], shape: usize, random: &mut ChaCha8Rng) {
         let pick = rand::Rng::next_u32(random) as usize;
         let without = |set: &[u64], values: &[u64], turn: u64| -> Vec<u64> {
@@ -238,7 +221,6 @@ impl Finder {
     }
 }
 
-/// A number below a bound.
 pub fn below(random: &mut ChaCha8Rng, bound: usize) -> usize {
     ((u64::from(rand::Rng::next_u32(random)) * bound as u64) >> 32) as usize
 }
@@ -273,7 +255,6 @@ fn pair_function(one: bool, two: bool, and: bool) -> Function {
     function
 }
 
-/// The relation of a signal to the patterns in which a 1 or a 0 is wrong.
 struct Fits {
     covers_on: bool,
     avoids_on: bool,

@@ -10,17 +10,14 @@ use std::collections::BTreeMap;
 use crate::network::{Network, Signal};
 use nbc_base::model::Function;
 
-/// The fewest gates of a chain that becomes a tree.
 const FEWEST: usize = 8;
 /// The most gates of a chain, and of all chains together.
 const MOST: usize = 4_096;
 const MOST_OF_ALL: usize = 400_000;
 
-/// One gate of a chain: an AND or an OR of its chain and another signal.
 #[derive(Clone, Copy, Debug)]
 struct Link {
     is_or: bool,
-    /// The other signal in the network of the tree.
     side: Signal,
 }
 
@@ -71,7 +68,6 @@ fn chains(network: &Network, levels: &[u32]) -> Option<Vec<(Signal, Option<Chain
     all.iter().any(|(_, chain)| chain.is_some()).then_some(all)
 }
 
-/// The number of gates on the longest path to each signal.
 pub fn levels(network: &Network) -> Vec<u32> {
     let mut levels = vec![0; 2 + network.inputs];
     for gate in &network.gates {
@@ -83,7 +79,6 @@ pub fn levels(network: &Network) -> Vec<u32> {
 
 /// The gates from a signal back to where their latest pins are no AND or OR, the first one last.
 struct Chain {
-    /// Each gate with its pin that is in the chain.
     gates: Vec<(Signal, usize)>,
 }
 
@@ -113,7 +108,6 @@ impl Chain {
         self.gates.iter().map(move |&(signal, pin)| pins(signal)[1 - pin]).chain(first)
     }
 
-    /// Adds the tree and returns its signal; `made` has the signals that the others became.
     fn build(&self, network: &Network, made: &[Signal], tree: &mut Tree) -> Signal {
         let mut links = Vec::with_capacity(self.gates.len());
         // The chain computes the opposite of what its links do where it is inverted.
@@ -189,7 +183,6 @@ impl Tree {
         *self.known.entry((function.bits(), pins)).or_insert_with(|| network.add(function, pins))
     }
 
-    /// What the links make of a signal.
     fn all(&mut self, links: &[Link], x: Signal) -> Signal {
         let generated = self.generate(links);
         let passed = self.pass(links, x);
@@ -205,7 +198,6 @@ impl Tree {
         self.gate(Function::AND, [propagated, x])
     }
 
-    /// Where the links make the chain 1, whatever its first signal.
     fn generate(&mut self, links: &[Link]) -> Signal {
         let Some((inner, outer)) = halves(links) else {
             return if links[0].is_or { links[0].side } else { 0 };
@@ -219,7 +211,6 @@ impl Tree {
         self.gate(Function::OR, [above, passed])
     }
 
-    /// Where none of the links changes the chain.
     fn propagate(&mut self, links: &[Link]) -> Signal {
         let Some((inner, outer)) = halves(links) else {
             return if links[0].is_or { self.not(links[0].side) } else { links[0].side };

@@ -10,20 +10,15 @@ use crate::network::{Network, Signal, counting_word};
 use crate::synth::prices::Prices;
 use nbc_base::model::Function;
 
-/// The most inputs of an exact search.
 pub(crate) const MOST_INPUTS: usize = 3;
 
 /// The most cells of a sequence.
 const MOST_CELLS: usize = 24;
 
-/// The result of a search.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ExactResult {
-    /// A network of the fewest cells.
     Made(Network),
-    /// No sequence has so few cells.
     Impossible,
-    /// The search was too long.
     Unknown,
 }
 
@@ -49,7 +44,6 @@ pub fn fewer(network: &Network, prices: &Prices, below: u32, nodes: u64, cancel:
     ExactResult::Impossible
 }
 
-/// The outputs of a network as truth tables over three inputs.
 fn truths(network: &Network) -> Vec<u8> {
     assert!(network.inputs <= MOST_INPUTS, "an exact search has few inputs");
     let inputs: Vec<u64> = (0..network.inputs).map(|i| counting_word(i, 0)).collect();
@@ -60,17 +54,14 @@ fn truths(network: &Network) -> Vec<u8> {
 /// The values before the first cell: both constants and the inputs, in the order of a network's signals.
 const START: [u8; 2 + MOST_INPUTS] = [0x00, 0xff, 0xaa, 0xcc, 0xf0];
 
-/// A value that one cell makes of one or two earlier values.
 #[derive(Clone, Copy, Debug)]
 struct Operation {
     /// Its function of the two values in the order of the search.
     effect: Function,
     cell: Function,
-    /// The values that the cell's pins read.
     pins: [Pin; 2],
 }
 
-/// The value that a cell's pin reads.
 #[derive(Clone, Copy, Debug)]
 enum Pin {
     First,
@@ -79,7 +70,6 @@ enum Pin {
 }
 
 impl Operation {
-    /// The operations of a library: one for each effect.
     fn all(prices: &Prices) -> Vec<Self> {
         let pins = [Pin::First, Pin::Second, Pin::Constant(false), Pin::Constant(true)];
         let cells = || Function::all().filter(|&function| prices.cell(function) > 0);
@@ -102,7 +92,6 @@ impl Operation {
     }
 }
 
-/// A set of truth tables.
 type Set = [u64; 4];
 
 fn holds(set: &Set, value: u8) -> bool {
@@ -117,10 +106,8 @@ fn apply(function: Function, a: u8, b: u8) -> u8 {
     crate::network::word(function, a.into(), b.into()) as u8
 }
 
-/// A cell of the sequence: its operation and the positions of its operands.
 type Step = (Operation, [usize; 2]);
 
-/// The state of a search: a sequence of cells, each making a value that is new.
 struct Search<'a> {
     given: &'a [u8],
     targets: &'a [u8],
@@ -160,7 +147,6 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Whether no more sequences are visited.
     fn is_over(&self) -> bool {
         self.nodes == 0 || self.cancel.is_raised()
     }
@@ -256,14 +242,12 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Computes the missing entries for the values that make the only target.
     fn prepare_closing(&mut self) {
         for &value in &self.values[2..] {
             self.closing[usize::from(value)].get_or_insert_with(|| closing(&self.pairs, self.targets[0], value));
         }
     }
 
-    /// The values that make the only target together with the value at a position.
     fn closing_with(&self, place: usize) -> &Set {
         self.closing[usize::from(self.values[place])].as_ref().expect("values are prepared before they are asked for")
     }
@@ -281,7 +265,6 @@ impl<'a> Search<'a> {
         any
     }
 
-    /// The sequence as a network with these outputs.
     fn network(&self, outputs: &[u8]) -> Network {
         let mut network = Network::new(self.given.len() - 2);
         let mut signals: Vec<Signal> = (0..self.given.len() as Signal).collect();
@@ -299,7 +282,6 @@ impl<'a> Search<'a> {
     }
 }
 
-/// The values from which one cell makes a target, together with `value`.
 fn closing(pairs: &[Operation], target: u8, value: u8) -> Set {
     let mut set = Set::default();
     for other in 0..=255u8 {
@@ -313,7 +295,6 @@ fn closing(pairs: &[Operation], target: u8, value: u8) -> Set {
 /// The ways to exchange three inputs.
 const EXCHANGES: [[usize; 3]; 6] = [[0, 1, 2], [0, 2, 1], [1, 0, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0]];
 
-/// The function of exchanged inputs.
 fn exchanged(order: &[usize; 3], value: u8) -> u8 {
     let place = |row: usize| (0..3).fold(0, |place, i| place | (row >> order[i] & 1) << i);
     (0..8).fold(0, |image, row| image | (value >> place(row) & 1) << row)
@@ -336,7 +317,6 @@ mod tests {
     use super::*;
     use crate::example::library;
 
-    /// The fewest cells for a function of three inputs, checked to compute it.
     fn fewest(cells: &str, targets: &[u8]) -> usize {
         let library = library(cells);
         let prices = Prices::of(&library);
@@ -350,7 +330,6 @@ mod tests {
         made.gates.len()
     }
 
-    /// A network of sums of products for these truth tables.
     fn wanted(targets: &[u8]) -> Network {
         let mut network = Network::new(3);
         for target in targets {

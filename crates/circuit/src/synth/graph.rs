@@ -6,14 +6,12 @@ use crate::recipes::Operand;
 use crate::synth::prices::Prices;
 use nbc_base::model::Function;
 
-/// A gate, or a constant or an input.
 #[derive(Clone, Debug)]
 pub struct GraphNode {
     /// Its function; meaningless for sources.
     pub function: Function,
     /// The signals of its pins; the same twice for functions of one input.
     pub pins: [Signal; 2],
-    /// The number of pins and outputs that read it.
     pub refs: u32,
     /// Whether it is a gate in use, as opposed to a source or a free place.
     pub alive: bool,
@@ -23,14 +21,11 @@ pub struct GraphNode {
     pub arrival: u32,
 }
 
-/// Workspace of a graph, kept for its memory only.
 #[derive(Clone, Debug, Default)]
 struct Scratch {
     /// Gates on a walk over the removed gates.
     pending: Vec<Signal>,
-    /// Pins whose count such a walk lowered.
     touched: Vec<Signal>,
-    /// The gates whose values may have changed.
     stale: Vec<bool>,
 }
 
@@ -101,17 +96,14 @@ impl<'p> Graph<'p> {
         self.fanout.push(Vec::new());
     }
 
-    /// The number of 64-bit words of values of each signal.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// The total cost of the gates.
     pub fn cost(&self) -> u32 {
         self.cost
     }
 
-    /// The prices of the cells, by function.
     pub fn prices(&self) -> &'p Prices {
         self.prices
     }
@@ -121,12 +113,10 @@ impl<'p> Graph<'p> {
         &self.order
     }
 
-    /// The place of a gate in [`Graph::order`].
     pub fn position(&self, signal: Signal) -> usize {
         self.position[signal as usize].expect("a gate in use has a place in the order").get() as usize
     }
 
-    /// The gate, constant or input that drives a signal.
     pub fn node(&self, signal: Signal) -> &GraphNode {
         &self.nodes[signal as usize]
     }
@@ -136,27 +126,22 @@ impl<'p> Graph<'p> {
         self.nodes.len()
     }
 
-    /// The first signal that is not a source.
     pub fn first_gate(&self) -> Signal {
         2 + self.inputs as Signal
     }
 
-    /// The signals that are outputs, in order.
     pub fn outputs(&self) -> &[Signal] {
         &self.outputs
     }
 
-    /// The gates that listen to a signal.
     pub fn fanout(&self, signal: Signal) -> &[Signal] {
         &self.fanout[signal as usize]
     }
 
-    /// The values of a signal.
     pub fn values(&self, signal: Signal) -> &[u64] {
         &self.values[signal as usize * self.width..][..self.width]
     }
 
-    /// The values of all signals, each in the row of its number.
     pub fn all_values(&self) -> &[u64] {
         &self.values
     }
@@ -175,7 +160,6 @@ impl<'p> Graph<'p> {
         self.find(function, pins).unwrap_or_else(|| self.make_new(function, pins))
     }
 
-    /// A gate that computes this already.
     fn find(&self, function: Function, pins: [Signal; 2]) -> Option<Signal> {
         if function == Function::NOT && self.nodes[pins[0] as usize].function == Function::NOT {
             return Some(self.nodes[pins[0] as usize].pins[0]);
@@ -220,12 +204,10 @@ impl<'p> Graph<'p> {
         latest + self.prices.clock(function)
     }
 
-    /// Cycles after which every output is correct.
     pub fn depth(&self) -> u32 {
         self.outputs.iter().map(|&output| self.nodes[output as usize].arrival).max().unwrap_or(0)
     }
 
-    /// A function of two signals, made of library cells.
     pub fn compose(&mut self, function: Function, pins: [Signal; 2]) -> Option<Signal> {
         let prices = self.prices;
         let recipe = prices.recipe(function)?;
@@ -271,12 +253,10 @@ impl<'p> Graph<'p> {
             || one.function == two.function.swapped() && one.pins == swapped
     }
 
-    /// Keeps a signal from being released.
     pub fn hold(&mut self, signal: Signal) {
         self.nodes[signal as usize].refs += 1;
     }
 
-    /// Ends [`Graph::hold`] of a signal, without removing it.
     pub fn let_go(&mut self, signal: Signal) {
         self.nodes[signal as usize].refs -= 1;
     }
@@ -302,7 +282,6 @@ impl<'p> Graph<'p> {
         released
     }
 
-    /// Removes a gate without receivers, and all gates that only it needed.
     pub fn release(&mut self, signal: Signal) {
         if !self.nodes[signal as usize].alive || self.nodes[signal as usize].refs > 0 {
             return;
@@ -354,14 +333,12 @@ impl<'p> Graph<'p> {
         self.release(old);
     }
 
-    /// Removes every gate without receivers.
     fn drop_unused(&mut self) {
         for signal in (0..self.nodes.len()).rev() {
             self.release(signal as Signal);
         }
     }
 
-    /// Brings the order up to date.
     pub fn sort(&mut self) {
         self.order.clear();
         self.position.clear();
@@ -405,12 +382,10 @@ impl<'p> Graph<'p> {
         }
     }
 
-    /// Whether a signal is shown.
     pub fn is_output(&self, signal: Signal) -> bool {
         self.nodes[signal as usize].refs as usize > self.fanout[signal as usize].len()
     }
 
-    /// Sets the outputs, removes gates they do not need, and returns the network.
     pub fn finish(mut self, outputs: impl Iterator<Item = Signal>) -> Network {
         for output in outputs {
             self.nodes[output as usize].refs += 1;
@@ -421,7 +396,6 @@ impl<'p> Graph<'p> {
         self.network()
     }
 
-    /// The gates in use as a network.
     pub fn network(&self) -> Network {
         let mut network = Network::new(self.inputs);
         let mut signal: Vec<Signal> = (0..self.nodes.len() as Signal).collect();

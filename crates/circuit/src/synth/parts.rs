@@ -23,15 +23,12 @@ pub fn in_parts(
     parts.finish()
 }
 
-/// The network that grows piece by piece.
 struct Parts<'a> {
     source: &'a Network,
     /// The last gate that reads each signal of the source, counted from 1; outputs are read after all gates.
     last_read: Vec<usize>,
     result: Network,
-    /// The stage of each signal of the result.
     stages: Vec<u32>,
-    /// The signal of the result for each signal of the source.
     made: Vec<Signal>,
 }
 
@@ -49,7 +46,6 @@ impl<'a> Parts<'a> {
         Self { source, last_read, result: Network::new(source.inputs), stages: all, made }
     }
 
-    /// Searches the gates from `start` up to `end`.
     fn search(&mut self, start: usize, end: usize, search: &mut impl FnMut(&Network, &[u32]) -> Network) {
         let base = 2 + self.source.inputs;
         let gates = &self.source.gates[start..end];
@@ -75,7 +71,6 @@ impl<'a> Parts<'a> {
         self.append(&better, &inputs, &shown, base + end);
     }
 
-    /// Appends the gates of a piece, and records the signals that later gates read.
     fn append(&mut self, part: &Network, inputs: &[Signal], shown: &[Signal], end: usize) {
         let mut signal: Vec<Signal> = vec![0, 1];
         signal.extend(inputs.iter().map(|&input| self.made[input as usize]));

@@ -11,7 +11,6 @@ use crate::synth::candidates::below;
 use crate::synth::prices::Prices;
 use nbc_base::model::Function;
 
-/// The number of times that each gate's cells are chosen anew.
 const PASSES: usize = 12;
 
 /// The network with the phase of each gate chosen for the library; `None` if the library cannot make a function.
@@ -38,7 +37,6 @@ struct Source {
     /// The functions and pins of the gates; pins are nodes, counted as the signals of a network.
     gates: Vec<Gate>,
     outputs: Vec<Phase>,
-    /// The phases of functions of two nodes that are there already.
     known: BTreeMap<(u8, [Signal; 2]), Phase>,
 }
 
@@ -86,7 +84,6 @@ impl Source {
         Some(phase)
     }
 
-    /// Adds the cheapest cells for a function.
     fn expand(&mut self, function: Function, nodes: [Signal; 2], prices: &Prices) -> Option<Phase> {
         let recipe = prices.recipe(function)?;
         let mut made: Vec<Phase> = Vec::new();
@@ -133,12 +130,10 @@ fn folded(function: Function, nodes: [Signal; 2]) -> Option<Phase> {
     })
 }
 
-/// Whether a function is one cell in some phase of its pins and of its output.
 fn has_cell(function: Function, prices: &Prices) -> bool {
     (0..8).any(|phases| prices.cell(in_phases(function, [phases & 1 > 0, phases & 2 > 0], phases & 4 > 0)) > 0)
 }
 
-/// The function of pins that are maybe inverted, maybe inverted itself.
 fn in_phases(function: Function, pins: [bool; 2], inverted: bool) -> Function {
     let mut made = function;
     for (pin, inverted) in pins.into_iter().enumerate() {
@@ -147,18 +142,13 @@ fn in_phases(function: Function, pins: [bool; 2], inverted: bool) -> Function {
     if inverted { Function::new(!made.bits() & 15) } else { made }
 }
 
-/// How a phase is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Making {
-    /// By an inverter of the opposite phase.
     Inverter,
-    /// By a cell whose pins read these phases.
     Cell(Function, [Phase; 2]),
-    /// An input.
     Input,
 }
 
-/// The choice of cells for each phase, and the number of cells that read it.
 struct Phases<'p> {
     source: Source,
     prices: &'p Prices,
@@ -200,7 +190,6 @@ impl<'p> Phases<'p> {
         Some(phases)
     }
 
-    /// The cells that can make a phase.
     fn cells(&self, phase: Phase) -> Vec<Making> {
         let Some(&Gate { function, pins }) = self.source.gate(phase / 2) else {
             return Vec::new();
@@ -216,7 +205,6 @@ impl<'p> Phases<'p> {
         cells
     }
 
-    /// The phases that a phase is made of.
     fn pins(&self, phase: Phase) -> [Option<Phase>; 2] {
         match self.makings[phase] {
             Making::Input => [None, None],
@@ -233,7 +221,6 @@ impl<'p> Phases<'p> {
         }
     }
 
-    /// Adds a reader of a phase, and the cells that this takes.
     fn read(&mut self, phase: Phase) {
         self.pending.push(phase);
         while let Some(phase) = self.pending.pop() {
@@ -245,7 +232,6 @@ impl<'p> Phases<'p> {
         }
     }
 
-    /// Removes a reader of a phase, and the cells that only it needed.
     fn drop_reader(&mut self, phase: Phase) {
         self.pending.push(phase);
         while let Some(phase) = self.pending.pop() {
@@ -299,7 +285,6 @@ impl<'p> Phases<'p> {
         [plain, inverted].map(|phase| self.readers[phase] - by_inverter(phase))
     }
 
-    /// Adds or removes the readers of two opposite phases.
     fn set_readers(&mut self, both: [Phase; 2], readers: [u32; 2], add: bool) {
         for (phase, readers) in both.into_iter().zip(readers).filter(|(_, readers)| *readers > 0) {
             if add {

@@ -4,7 +4,6 @@ use crate::cells::{CellKind, CellLibrary};
 use crate::recipes::{Recipe, Recipes};
 use nbc_base::model::Function;
 
-/// The prices of a library, looked up by function.
 #[derive(Clone, Debug)]
 pub struct Prices {
     cells: [u32; 16],
@@ -13,7 +12,6 @@ pub struct Prices {
 }
 
 impl Prices {
-    /// The prices of a library's robots.
     pub fn of(library: &CellLibrary) -> Self {
         let (mut cells, mut clocks) = ([0; 16], [0; 16]);
         for (function, kind) in library.kinds() {
@@ -58,7 +56,6 @@ impl Prices {
         both.into_iter().filter_map(|function| self.cost(function)).min().unwrap_or(1).max(1)
     }
 
-    /// The cost of a cell.
     pub fn cell(&self, function: Function) -> u32 {
         self.cells[usize::from(function.bits())]
     }
@@ -68,17 +65,14 @@ impl Prices {
         self.cells.iter().all(|&cost| cost <= 1)
     }
 
-    /// The cycles that a cell takes.
     pub fn clock(&self, function: Function) -> u32 {
         self.clocks[usize::from(function.bits())]
     }
 
-    /// The cheapest cells for a function.
     pub fn recipe(&self, function: Function) -> Option<&Recipe> {
         self.recipes.get(function)
     }
 
-    /// The cost of the cheapest cells for a function.
     pub fn cost(&self, function: Function) -> Option<u32> {
         self.recipes.cost(function)
     }

@@ -22,12 +22,10 @@ use nbc_base::model::Function;
 
 /// The most inputs of a network that is searched as a whole.
 const WHOLE_INPUTS: usize = 12;
-/// The most inputs of a network that is searched from several starts at high effort, and the number of starts.
 const SMALL_INPUTS: usize = 4;
 const SMALL_STARTS: usize = 6;
 /// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 600;
-/// Above this number of gates, high effort makes fewer rounds.
 const FULL_ROUNDS_GATES: usize = 1_500;
 /// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
 const WHOLE_WORK: u64 = 1_200_000_000;
@@ -118,12 +116,10 @@ fn cheaper(one: Network, two: Network, prices: &Prices) -> Network {
     if rank(&two) < rank(&one) { two } else { one }
 }
 
-/// The cost of a network's cells.
 pub fn cost(network: &Network, prices: &Prices) -> u32 {
     network.gates.iter().map(|gate| prices.cell(gate.function)).sum()
 }
 
-/// Replaces each gate by the cheapest cells for its function, and shares equal cells.
 pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Network, Function> {
     let swept = network.swept();
     let mut graph = Graph::new(&Network::new(network.inputs), prices, stages, &[]);
@@ -138,16 +134,13 @@ pub fn cover(network: &Network, prices: &Prices, stages: &[u32]) -> Result<Netwo
     Ok(graph.finish(swept.outputs.iter().map(|&output| made[output as usize])))
 }
 
-/// Whether a network is searched as a whole, over every pattern.
 fn is_narrow(network: &Network) -> bool {
     network.inputs <= WHOLE_INPUTS && network.gates.len() <= WHOLE_GATES
 }
 
-/// The parameters of all searches of a synthesis.
 #[derive(Clone, Copy)]
 struct Reduction<'a> {
     prices: &'a Prices,
-    /// The number of kept cells before each input.
     stages: &'a [u32],
     effort: Effort,
     cancel: &'a CancelFlag,
@@ -163,7 +156,6 @@ impl<'a> Reduction<'a> {
         Ok((is_lower && covered.gates.len() <= MOST_GATES).then_some((tree, covered)))
     }
 
-    /// A walk that never climbs and never turns back.
     fn downhill(&self, visits: u64) -> WalkPlan<'a> {
         WalkPlan { cancel: Some(self.cancel), ..WalkPlan::downhill(visits) }
     }
@@ -229,7 +221,6 @@ impl<'a> Reduction<'a> {
         }
     }
 
-    /// Searches a narrow network over every pattern.
     fn search_whole(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         let gates = network.gates.len() as u64;
         let visits = match self.effort {
@@ -251,7 +242,6 @@ impl<'a> Reduction<'a> {
         (1..starts).fold(first, |best, _| cheaper(best, walk(), self.prices))
     }
 
-    /// Searches each gate's surroundings and then over samples of the patterns, in rounds.
     fn search_wide(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         let round = Round::of(self.effort);
         let rounds = rounds(self.effort, share, network.gates.len());
@@ -336,7 +326,6 @@ impl<'a> Reduction<'a> {
     }
 }
 
-/// The visits in a round of the search in a wide network.
 #[derive(Clone, Copy)]
 struct Round {
     /// Visits to each gate that see its surroundings, and the most such visits to all gates.
@@ -363,13 +352,11 @@ impl Round {
         (self.near * part).min(self.most_near * part / all.max(1))
     }
 
-    /// The visits to a part that see samples.
     fn far(&self, part: u64, all: u64) -> u64 {
         (self.far * part).min(self.most_far * part / all.max(1)).min(self.work / part.max(1))
     }
 }
 
-/// The number of rounds for a share of the work. High effort makes fewer in large networks, so that it always ends.
 fn rounds(effort: Effort, share: u64, gates: usize) -> u64 {
     match effort {
         Effort::Fast => 1,
@@ -378,7 +365,6 @@ fn rounds(effort: Effort, share: u64, gates: usize) -> u64 {
     }
 }
 
-/// Cycles until every output is correct, if each cell takes its clock.
 fn depth(network: &Network, prices: &Prices) -> u32 {
     Graph::new(network, prices, &[], &[]).depth()
 }

@@ -9,9 +9,7 @@ use crate::synth::care::CareSet;
 use crate::synth::prices::Prices;
 use crate::synth::walk::{self, WalkPlan};
 
-/// Words of 64 random patterns to start with.
 const WORDS: usize = 32;
-/// Words of patterns at most.
 const MOST_WORDS: usize = 128;
 /// Visits between two proofs: initial, smallest and largest number.
 const BATCH: [u64; 3] = [32, 8, 1_000];
@@ -67,7 +65,6 @@ pub fn improve_on_samples(
     now
 }
 
-/// Patterns of the inputs, `words[input][word]`.
 struct Samples {
     words: Vec<Vec<u64>>,
     next: usize,
@@ -103,7 +100,6 @@ impl Samples {
     }
 }
 
-/// As many words as samples begin with, spread over these.
 fn spread(words: &[u64]) -> Vec<u64> {
     (0..WORDS).map(|word| words[word * words.len() / WORDS]).collect()
 }

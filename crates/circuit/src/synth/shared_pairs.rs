@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::network::{Gate, Network, Signal};
 use nbc_base::model::Function;
 
-/// The most literals of a set.
 const MOST_LITERALS: usize = 100;
 
 /// A signal of the network, maybe inverted: 2 times the signal, plus 1 if it is inverted.
@@ -15,37 +14,26 @@ type Literal = u32;
 const FALSE: Literal = 0;
 const TRUE: Literal = 1;
 
-/// The network with shared pairs; inverters are part of the functions of its gates.
 pub fn share_pairs(network: &Network) -> Network {
     let mut conjunctions = Conjunctions::of(network);
     conjunctions.share();
     conjunctions.network(network)
 }
 
-/// What a signal is.
 #[derive(Clone, Debug)]
 enum Form {
-    /// An input, or a signal that equals another literal.
     Alias,
-    /// An exclusive or of two literals.
     Exclusive([Literal; 2]),
-    /// The AND of the literals of a set.
     Set(usize),
-    /// The AND of two literals that several sets have in common.
     Pair([Literal; 2]),
 }
 
-/// The sets of a network, and the pairs that they have in common.
 struct Conjunctions {
-    /// The form of each signal of the network, then of the pairs.
     forms: Vec<Form>,
-    /// The literal that each signal of the network equals.
     literals: Vec<Literal>,
-    /// The literals of each set, in order.
     sets: Vec<Vec<Literal>>,
     /// The sets that contain a literal.
     members: BTreeMap<Literal, BTreeSet<usize>>,
-    /// The number of sets that contain two literals, for each pair in order; and the pairs by their number.
     counts: BTreeMap<[Literal; 2], u32>,
     ranked: BTreeSet<(u32, std::cmp::Reverse<[Literal; 2]>)>,
 }
@@ -105,7 +93,6 @@ impl Conjunctions {
         readers
     }
 
-    /// The form of a gate of the network.
     fn form(&mut self, gate: &Gate, readers: &[u32]) -> Form {
         if is_alias(gate) {
             return Form::Alias;
@@ -178,7 +165,6 @@ impl Conjunctions {
         }
     }
 
-    /// Counts a pair of a set once more or once less.
     fn count(&mut self, pair: [Literal; 2], more: bool) {
         let count = self.counts.entry(pair).or_default();
         self.ranked.remove(&(*count, std::cmp::Reverse(pair)));
@@ -230,10 +216,8 @@ fn in_order(one: Literal, two: Literal) -> [Literal; 2] {
     [one.min(two), one.max(two)]
 }
 
-/// The new network.
 struct Builder {
     network: Network,
-    /// The literal of the new network for each signal that was made.
     made: Vec<Option<Literal>>,
     /// The levels of gates before each signal of the new network.
     levels: Vec<u32>,

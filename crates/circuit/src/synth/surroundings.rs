@@ -7,7 +7,6 @@ use crate::network::{Signal, counting_word, word};
 use crate::synth::candidates::Rows;
 use crate::synth::graph::Graph;
 
-/// The most inputs.
 const MOST_INPUTS: usize = 10;
 /// The most levels and gates after the gate, and the largest fan-out that is followed.
 const MOST_LEVELS: u32 = 4;
@@ -17,12 +16,9 @@ const MOST_FANOUT: usize = 12;
 const MOST_BEFORE: usize = 60;
 const MOST_SIGNALS: usize = 100;
 
-/// The surroundings of one gate after the other, with their workspace.
 #[derive(Default)]
 pub struct Surroundings {
-    /// Whether a signal of the graph depends on the gate.
     depends: Vec<bool>,
-    /// Whether a signal of the graph is in the surroundings.
     inside: Vec<bool>,
     /// The row of each signal in the surroundings in `words`.
     places: Vec<u32>,
@@ -53,12 +49,10 @@ impl Surroundings {
         self.simulate(graph, gate);
     }
 
-    /// The values of the signals in sight.
     pub fn rows(&self) -> Rows<'_> {
         Rows { words: &self.words, width: self.width, places: Some(&self.places) }
     }
 
-    /// The signals that do not depend on the gate.
     pub fn before(&self) -> &[Signal] {
         &self.before
     }
@@ -105,7 +99,6 @@ impl Surroundings {
         self.after = inside;
     }
 
-    /// The pins of the gate and of those after it from outside.
     fn collect_leaves(&mut self, graph: &Graph<'_>, gate: Signal) {
         let pins = self.after.iter().chain([&gate]).flat_map(|&signal| graph.node(signal).pins);
         self.leaves = pins.filter(|&pin| pin > 1 && !self.depends[pin as usize]).collect();
@@ -194,7 +187,6 @@ impl Surroundings {
         }
     }
 
-    /// Appends the row of a gate whose pins have rows.
     fn append(&mut self, graph: &Graph<'_>, signal: Signal) {
         let node = graph.node(signal);
         let [a, b] = node.pins.map(|pin| self.places[pin as usize] as usize * self.width);

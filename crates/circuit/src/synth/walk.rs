@@ -13,25 +13,19 @@ use crate::synth::prices::Prices;
 use crate::synth::surroundings::Surroundings;
 use nbc_base::model::Function;
 
-/// The length and the temperature of the search.
 #[derive(Clone, Copy, Debug)]
 pub struct WalkPlan<'a> {
-    /// The number of gates to visit.
     pub visits: u64,
     /// One of this number of visits may make the network slightly more expensive; 0 for never.
     pub climb: u32,
     /// Visits without a new best after which the search returns to the best so far.
     pub patience: u64,
-    /// Whether time matters, and how.
     pub delay: DelayGoal,
-    /// Ends the walk early, if there is one.
     pub cancel: Option<&'a CancelFlag>,
 }
 
-/// The role of delay in the walk.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum DelayGoal {
-    /// Outputs may become later.
     #[default]
     Any,
     /// No output may become later.
@@ -48,7 +42,6 @@ impl WalkPlan<'_> {
         Self { visits, climb: 0, patience: u64::MAX, delay: DelayGoal::Any, cancel: None }
     }
 
-    /// Whether the walk is to end.
     pub fn is_cancelled(&self) -> bool {
         self.cancel.is_some_and(CancelFlag::is_raised)
     }
@@ -111,7 +104,6 @@ pub fn wander(
     walk.graph.network()
 }
 
-/// As [`improve`], over every pattern of the inputs.
 pub fn improve_all(
     network: &Network,
     prices: &Prices,
@@ -122,28 +114,21 @@ pub fn improve_all(
     improve(network, prices, stages, &every_pattern(network.inputs), plan, random)
 }
 
-/// The state of a walk, with room for its sums.
 struct Walk<'p, 'r> {
     graph: Graph<'p>,
     delay: DelayGoal,
     /// Whether a visit looks only for candidates that are likely to pay.
     selective: bool,
-    /// The cost of an exclusive or.
     exclusive: u32,
-    /// The time at which the outputs must be correct.
     deadline: u32,
-    /// The latest arrival of a replacement of the visited gate.
     limit: Option<u32>,
-    /// The required time of each gate.
     required: Vec<u32>,
     random: &'r mut ChaCha8Rng,
     /// Values with the visited gate inverted, for the signals marked as changed.
     flipped: Vec<u64>,
     changed: Vec<bool>,
-    /// Whether a signal depends on the visited gate.
     after: Vec<bool>,
     finder: Finder,
-    /// The surroundings of the visited gate, if the walk does not see the whole network.
     surroundings: Option<Surroundings>,
 }
 
@@ -175,7 +160,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         below(self.random, bound)
     }
 
-    /// Visits a random gate; returns whether the network changed.
     fn visit(&mut self, slack: u32) -> bool {
         let at = self.below(self.graph.order().len());
         let gate = self.graph.order()[at];
@@ -190,7 +174,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         self.change(gate, slack)
     }
 
-    /// Visits a random gate on a slowest path to make it earlier.
     fn shorten_slowest_path(&mut self) {
         self.deadline = self.graph.depth();
         self.require();
@@ -204,7 +187,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
     }
 
-    /// Computes the required time of each gate.
     fn require(&mut self) {
         self.required.clear();
         self.required.resize(self.graph.places(), self.deadline);
@@ -240,7 +222,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         changed
     }
 
-    /// Finds candidates in the surroundings of a gate.
     fn look_around(&mut self, surroundings: &mut Surroundings, gate: Signal, deep: bool) {
         let graph = &self.graph;
         surroundings.look(graph, gate);
@@ -292,7 +273,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         on.iter_mut().zip(values).for_each(|(care, value)| *care &= value);
     }
 
-    /// Computes a gate with the visited one inverted; returns whether it changes.
     fn flip(&mut self, signal: Signal, pins: [Signal; 2]) -> bool {
         let width = self.graph.width();
         let function = self.graph.node(signal).function;
@@ -352,7 +332,6 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
     }
 
-    /// The added cost of the network; `None` if nothing would change.
     fn weigh(&mut self, gate: Signal, candidate: Replacement) -> Option<i64> {
         let before = i64::from(self.graph.cost());
         let root = self.build(candidate)?;
@@ -416,7 +395,6 @@ mod tests {
         }
     }
 
-    /// The latest stage that each output depends on.
     fn output_stages(network: &Network, inputs: &[u32]) -> Vec<u32> {
         let mut stages = vec![0, 0];
         stages.extend(inputs);

@@ -5,20 +5,17 @@ use crate::timing::phase::Phase;
 use crate::timing::update::NetUpdate;
 use crate::{NetId, Netlist, Node};
 
-/// Which delay a cell has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Delays {
     /// The robot's clock, for any transition. The resulting hold is safe; `hold: auto` never exceeds it.
     #[default]
     Clock,
-    /// The settle time measured for each transition of the inputs.
     Transition,
 }
 
 /// An event: an update falls (0) or rises (1).
 pub(super) type Event = (usize, usize);
 
-/// A netlist with the delays of its cells.
 pub(super) struct Delay<'a, F> {
     pub netlist: &'a Netlist,
     pub delays: Delays,
@@ -49,16 +46,13 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Delay<'_, F> {
     }
 }
 
-/// The latest changes of the updates of a phase.
 pub(super) struct Arrivals {
     /// The latest fall and rise of each update; `None` if it does not change.
     pub times: Vec<[Option<u32>; 2]>,
-    /// The event that each waits for.
     before: Vec<[Option<Event>; 2]>,
 }
 
 impl Arrivals {
-    /// The changes after any inputs switched.
     pub fn of<'k>(delay: &Delay<'_, impl Fn(NetId) -> &'k CellKind>, phase: &Phase) -> Self {
         Self::from(delay, phase, |update| delay.launch(phase, update))
     }
@@ -92,7 +86,6 @@ impl Arrivals {
         arrivals
     }
 
-    /// The latest change of an update.
     pub fn latest(&self, update: usize) -> Option<u32> {
         self.times[update][0].max(self.times[update][1])
     }
@@ -125,7 +118,6 @@ impl Arrivals {
         required.iter().zip(&self.times).map(slack).collect()
     }
 
-    /// The nets from a source to an event.
     pub fn path(&self, phase: &Phase, event: Event) -> Vec<NetId> {
         let steps = std::iter::successors(Some(event), |&(update, value)| self.before[update][value]);
         let mut nets: Vec<_> = steps.map(|(update, _)| phase.net(&phase.updates[update])).collect();

@@ -18,7 +18,6 @@ const MOST_PERIODS: usize = 64;
 /// and their clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClockTimes {
-    /// The input that is the clock.
     pub clock: NetId,
     /// The least time for which it must be 1, in cycles.
     pub high: u32,
@@ -30,20 +29,15 @@ pub struct ClockTimes {
     pub half: u32,
     /// The longest time between the opening of a latch and the arrival of its data, at this period.
     pub borrowed: u32,
-    /// The times of the other inputs.
     pub inputs: Vec<InputTimes>,
-    /// The slowest path of each kind.
     pub paths: Vec<ClockPath>,
     /// The latches whose data may change before they are closed.
     pub races: Vec<Vec<NetId>>,
 }
 
-/// The time for which an input must be stable around an edge of a clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct InputTimes {
-    /// The input that must be stable.
     pub input: NetId,
-    /// Whether it is the edge at which the clock rises.
     pub rises: bool,
     /// Cycles before the edge from which it must be stable.
     pub setup: u32,
@@ -51,21 +45,15 @@ pub struct InputTimes {
     pub hold: u32,
 }
 
-/// The ends of a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum PathEnds {
-    /// From an input to the data of a register.
     InputToRegister,
-    /// From an edge of the clock through a register to the data of a register.
     RegisterToRegister,
-    /// From an edge of the clock through a register to an output.
     RegisterToOutput,
 }
 
-/// The slowest path of a kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ClockPath {
-    /// Where it begins and where it ends.
     pub ends: PathEnds,
     /// The time that a change takes along it, in cycles.
     pub cycles: u32,
@@ -99,7 +87,6 @@ fn drives_race(netlist: &Netlist, storage: &Storage, input: NetId) -> bool {
     !races.is_empty() && std::iter::from_fn(|| driven.next(netlist.graph())).any(|net| races.contains(&net))
 }
 
-/// A netlist with the clock whose times are wanted.
 struct Clocked<'a, F> {
     netlist: &'a Netlist,
     storage: &'a Storage,
@@ -139,7 +126,6 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         Delay { netlist: self.netlist, delays: Delays::Clock, kind: self.kind }
     }
 
-    /// The phases for switches of some inputs.
     fn halves(&self, sources: &[NetId]) -> Halves {
         [false, true].map(|value| {
             let of_half = self.values.iter().filter(|values| values[&self.clock] == value);
@@ -152,7 +138,6 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         })
     }
 
-    /// The latches of this clock that are open while it has a value.
     fn open(&self, value: bool) -> impl Iterator<Item = &Latch> {
         self.storage.latches.iter().filter(move |latch| latch.root == self.clock && latch.open == value)
     }
@@ -201,7 +186,6 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         changes
     }
 
-    /// The times of the other inputs around the edges of the clock.
     fn inputs(&self) -> Vec<InputTimes> {
         let others = self.netlist.inputs().iter().filter(|&&input| input != self.clock);
         others.flat_map(|&input| self.around(input)).collect()
@@ -230,7 +214,6 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Clocked<'_, F> {
         [true, false].into_iter().filter_map(edge).collect()
     }
 
-    /// The slowest path of each kind.
     fn paths(&self, halves: &Halves) -> Vec<ClockPath> {
         let own = self.storage.latches.iter().filter(|latch| latch.root == self.clock);
         let mut data: BTreeSet<NetId> = own.flat_map(|latch| latch.data.iter().copied()).collect();

@@ -14,14 +14,10 @@ use crate::timing::pulsed::WhyKept;
 use crate::{Cell, FlipFlop, NetId, Netlist, Storage};
 use nbc_base::model::Function;
 
-/// A netlist with latches of one cell.
 #[derive(Clone, Debug)]
 pub struct Held {
-    /// The netlist.
     pub netlist: Netlist,
-    /// The latches of one cell.
     pub latches: Vec<NetId>,
-    /// A net of each memory element that stays as it is, with the reason.
     pub kept: Vec<(NetId, WhyKept)>,
 }
 
@@ -79,7 +75,6 @@ impl Held {
     }
 }
 
-/// The cells that are latches of one cell and one bit.
 fn recognized(netlist: &Netlist, library: &CellLibrary) -> BTreeSet<NetId> {
     let storage = Storage::of(netlist, library.kinds_of(netlist));
     let inverters = Inverters::of(netlist);
@@ -87,7 +82,6 @@ fn recognized(netlist: &Netlist, library: &CellLibrary) -> BTreeSet<NetId> {
     storage.latches.iter().filter(is_one).map(|latch| latch.cells[0]).collect()
 }
 
-/// A latch that is to be one cell.
 struct Plan {
     root: NetId,
     open: bool,
@@ -149,7 +143,6 @@ fn make(netlist: &Netlist, plans: &[(usize, Plan)], library: &CellLibrary) -> (N
     (made, latches)
 }
 
-/// The cell that inverts one net.
 fn inverter(library: &CellLibrary) -> Function {
     if library.get(Function::NOT).is_some() { Function::NOT } else { Function::NAND }
 }

@@ -24,16 +24,13 @@ pub use clock::{ClockPath, ClockTimes, InputTimes, PathEnds};
 pub use held::Held;
 pub use pulsed::{Pulse, Pulsed, PulsedRegisters, WhyKept};
 
-/// Arrival and required times in cycles after the inputs switched.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {
     /// The latest change of each net and its slack, by number; `None` for nets that never change.
     times: Vec<Option<NetTime>>,
     /// Cycles to hold a row so that every net is correct at its end.
     pub hold: u32,
-    /// The nets of the slowest path, input first.
     pub critical_path: Vec<NetId>,
-    /// The memory of the netlist, with what is not timed by phases.
     pub storage: Storage,
 }
 
@@ -44,7 +41,6 @@ struct NetTime {
 }
 
 impl Timing {
-    /// Times a mapped netlist with each cell's delay from the library.
     pub fn of(netlist: &Netlist, library: &CellLibrary, delays: Delays) -> Self {
         Self::with(netlist, delays, library.kinds_of(netlist))
     }
@@ -54,7 +50,6 @@ impl Timing {
         Self { times: Vec::new(), hold: cycles, critical_path: Vec::new(), storage: Storage::default() }
     }
 
-    /// Times a mapped netlist with the delay of each cell's own robot.
     pub fn with<'k>(netlist: &Netlist, delays: Delays, kind: impl Fn(NetId) -> &'k CellKind) -> Self {
         let mut storage = Storage::of(netlist, &kind);
         let phases = timed_phases(netlist, &mut storage, &kind);

@@ -25,7 +25,6 @@ const MOST_SWEEPS: usize = 16;
 /// What a change in a row may do at a latch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Passage {
-    /// It passes.
     Open,
     /// The latch closes in this row, and its data may change before it is closed.
     Closing,
@@ -36,18 +35,14 @@ pub(super) enum Passage {
 /// The first change of each net by its number, in cycles; `None` if it does not change.
 type FirstChanges = Vec<Option<u32>>;
 
-/// The values of the roots of latches.
 pub(super) type RootValues = BTreeMap<NetId, bool>;
 
-/// A phase as a graph of updates.
 pub(super) struct Phase {
     /// The net of each node that is a second copy of a guard: the guard with only its enable.
     copies: BTreeMap<NetId, NetId>,
-    /// The cells of closed latches.
     silent: BTreeSet<NetId>,
     /// The updates of its nets, drivers first.
     pub updates: Vec<NetUpdate>,
-    /// The loops that are not one latch.
     pub loops: Vec<Vec<NetId>>,
 }
 
@@ -72,7 +67,6 @@ impl Phase {
         Self { copies, silent, updates, loops }
     }
 
-    /// The net of an update.
     pub fn net(&self, update: &NetUpdate) -> NetId {
         self.copies.get(&update.node).copied().unwrap_or(update.node)
     }
@@ -82,7 +76,6 @@ impl Phase {
         !self.copies.contains_key(&update.node)
     }
 
-    /// Whether an update is that of a cell of a closed latch.
     pub fn is_silent(&self, update: &NetUpdate) -> bool {
         self.silent.contains(&update.node)
     }
@@ -157,7 +150,6 @@ pub(super) fn passages<'k>(
     passages
 }
 
-/// The races between the enable of a latch and its data, after a switch of the sources.
 struct Races<'a, F> {
     netlist: &'a Netlist,
     storage: &'a Storage,

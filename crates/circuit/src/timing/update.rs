@@ -9,10 +9,8 @@ use crate::NetId;
 use crate::components::Components;
 use crate::netlist::NetGraph;
 
-/// The recomputation of a net's times. A net on a loop is updated several times.
 #[derive(Clone, Debug)]
 pub(super) struct NetUpdate {
-    /// The node of the graph.
     pub node: NetId,
     /// The pins that an earlier update drives, with the number of that update.
     pub pins: Vec<(u8, usize)>,
@@ -49,7 +47,6 @@ pub(super) fn unroll(
 struct UpdateOrder<'g> {
     graph: &'g NetGraph,
     list: Vec<NetUpdate>,
-    /// The last update of each node.
     last: BTreeMap<NetId, usize>,
 }
 

@@ -3,7 +3,6 @@
 use crate::timing::pulsed::WhyKept;
 
 impl WhyKept {
-    /// The reason in words.
     pub fn explain(self) -> &'static str {
         match self {
             Self::OtherForm => {

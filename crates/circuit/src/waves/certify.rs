@@ -15,10 +15,8 @@ use crate::waves::wording::CertifyError;
 use crate::{NetId, Node};
 use nbc_base::model::Function;
 
-/// What was proved of a wave machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Certificate {
-    /// How the logic of a step was proved equal.
     pub method: Method,
 }
 
@@ -82,7 +80,6 @@ impl<'a> Checker<'a> {
         })
     }
 
-    /// Beats as whole steps.
     fn steps(&self, beats: i64, id: NetId) -> Result<i64, CertifyError> {
         let period = i64::from(self.machine.period);
         (beats % period == 0).then(|| beats / period).ok_or_else(|| self.mixed(id))
@@ -170,7 +167,6 @@ impl<'a> Checker<'a> {
         2 * self.step.inputs.len() + self.step.state.len()
     }
 
-    /// A port as an input of the networks.
     fn port(&self, port: usize, is_late: bool) -> usize {
         if is_late { self.step.inputs.len() + port } else { port }
     }
@@ -225,7 +221,6 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// The cells of a machine as the logic of a step.
 struct Steps<'a> {
     checker: &'a Checker<'a>,
     made: Network,
@@ -254,7 +249,6 @@ impl Steps<'_> {
         }
     }
 
-    /// What a cell shows in a step.
     fn cell(&mut self, root: NetId) -> Result<Signal, CertifyError> {
         let mut waiting = vec![root];
         while let Some(&id) = waiting.last() {

@@ -6,13 +6,11 @@ use crate::waves::ClockStep;
 /// The number of lanes: bit `k` of a value is that of lane `k`, which knows nothing of the others.
 pub const LANES: usize = 64;
 
-/// The state of a clocked circuit, which changes with its inputs and its clock.
 #[derive(Clone, Debug)]
 pub struct ClockRun {
     step: ClockStep,
     /// The input ports, the clock included, and then the state.
     inputs: Vec<u64>,
-    /// All signals, as they follow from the inputs.
     values: Vec<u64>,
 }
 
@@ -26,32 +24,25 @@ impl ClockRun {
         run
     }
 
-    /// The step that is made.
     pub fn step(&self) -> &ClockStep {
         &self.step
     }
 
     /// Applies inputs, in order of the ports. The value of the clock does not matter.
-    ///
-    /// # Panics
-    /// When there are not as many values as inputs.
     pub fn apply(&mut self, inputs: &[u64]) {
         assert_eq!(inputs.len(), self.step.inputs.len(), "a value for each input");
         self.inputs[..inputs.len()].copy_from_slice(inputs);
         self.compute();
     }
 
-    /// What is applied to an input port.
     pub fn input(&self, port: usize) -> u64 {
         self.inputs[port]
     }
 
-    /// A bit of the state, in order of those of the step.
     pub fn state(&self, bit: usize) -> u64 {
         self.inputs[self.step.inputs.len() + bit]
     }
 
-    /// What an output port shows.
     pub fn output(&self, port: usize) -> u64 {
         self.values[self.step.logic.outputs[port] as usize]
     }

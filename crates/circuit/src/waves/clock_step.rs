@@ -11,35 +11,26 @@ use crate::waves::wording::WaveError;
 use crate::{Blocks, Latch, Logic, NetId, Netlist, Node, Storage};
 use nbc_base::model::Function;
 
-/// A bit of the state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct StateBit {
-    /// The net that shows it in the source.
     pub name: String,
-    /// Its value before the first step.
     pub start: bool,
 }
 
 /// A circuit as the step that its clock makes.
 #[derive(Clone, Debug)]
 pub struct ClockStep {
-    /// The circuit's name.
     pub name: String,
-    /// The input ports, the clock included.
     pub inputs: Vec<String>,
-    /// The output ports.
     pub outputs: Vec<String>,
     /// The clock, as an index of the inputs; `None` if there is no register.
     pub clock: Option<usize>,
     /// Whether a step is a rise of the clock.
     pub rises: bool,
-    /// The state.
     pub state: Vec<StateBit>,
     /// The logic: its inputs are the ports and then the state, its outputs the ports and then the next state.
     pub logic: Network,
-    /// The calls of the source.
     pub(super) blocks: Blocks,
-    /// The call of each signal of the logic.
     pub(super) signal_blocks: SignalBlocks,
 }
 
@@ -58,7 +49,6 @@ struct Register {
 }
 
 impl ClockStep {
-    /// The step of a circuit of which every register has the same clock.
     pub fn of(source: &Netlist) -> Result<Self, WaveError> {
         const KIND: CellKind = CellKind::uniform(1, 1.0);
         let mut netlist = source.clone();
@@ -73,7 +63,6 @@ impl ClockStep {
         Self::cut(&netlist, &registers, clock)
     }
 
-    /// The netlist cut open at its registers.
     fn cut(netlist: &Netlist, registers: &[Register], clock: Option<(NetId, bool)>) -> Result<Self, WaveError> {
         let shown = registers.iter().flat_map(|register| register.shows.iter().map(|&(id, _)| id));
         let cuts: Vec<NetId> = shown.chain(registers.iter().flat_map(|register| register.first.clone())).collect();
@@ -139,7 +128,6 @@ impl ClockStep {
     }
 }
 
-/// Whether each input of a network is read.
 fn used_inputs(network: &Network) -> Vec<bool> {
     let mut used = vec![false; network.signals()];
     network.outputs.iter().for_each(|&output| used[output as usize] = true);
@@ -149,7 +137,6 @@ fn used_inputs(network: &Network) -> Vec<bool> {
     used[2..2 + network.inputs].to_vec()
 }
 
-/// The registers of a netlist, each of two latches.
 fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, WaveError> {
     let mut is_paired = vec![false; storage.latches.len()];
     for pair in &storage.flip_flops {
@@ -180,7 +167,6 @@ fn registers(netlist: &Netlist, storage: &Storage) -> Result<Vec<Register>, Wave
     storage.flip_flops.iter().map(register).collect()
 }
 
-/// The one clock of all registers, and whether a step is its rise.
 fn clock(netlist: &Netlist, registers: &[Register]) -> Result<Option<(NetId, bool)>, WaveError> {
     let Some(first) = registers.first() else { return Ok(None) };
     let name = |register: &Register| netlist.net_name(register.shows[0].0);

@@ -6,21 +6,16 @@ use crate::synth::{CellNetwork, NetworkCell};
 use crate::waves::clock_step::ClockStep;
 use nbc_base::model::Function;
 
-/// What drives a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Driver {
-    /// A constant.
     Constant(bool),
-    /// An input port.
     Input(usize),
-    /// A gate.
     Gate(usize),
 }
 
 /// A net as a listener sees it: in step `m`, counted from 0, what its driver shows in step `m - later`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Tap {
-    /// What drives it.
     pub driver: Driver,
     /// The number of steps; -1 where a port shows what the state of the next step brings forth.
     pub later: i64,
@@ -28,10 +23,8 @@ pub struct Tap {
     pub starts: Vec<bool>,
 }
 
-/// A gate with its nets.
 #[derive(Clone, Debug)]
 pub struct WaveGate {
-    /// What it computes of its pins.
     pub function: Function,
     /// Its nets; one for a function of one input.
     pub pins: Vec<Tap>,
@@ -40,11 +33,9 @@ pub struct WaveGate {
 /// A step as a graph in which a register is a property of a net.
 #[derive(Clone, Debug)]
 pub struct WaveGraph {
-    /// The number of input ports.
     pub inputs: usize,
     /// The gates; along nets that are not later, each listens to earlier gates only.
     pub gates: Vec<WaveGate>,
-    /// The output ports.
     pub outputs: Vec<Tap>,
     /// For each bit of the state, where it is: its net as a gate would read it.
     pub state: Vec<Tap>,
@@ -56,7 +47,6 @@ pub struct WaveGraph {
 pub struct WaveLogic {
     /// The ports, the state, and then the late ports; the outputs are those of the step.
     pub network: Network,
-    /// The port of each late port.
     late: Vec<usize>,
     /// The number of ports, of bits of the state, and of outputs.
     counts: [usize; 3],
@@ -64,7 +54,6 @@ pub struct WaveLogic {
 }
 
 impl WaveLogic {
-    /// The logic of a step.
     pub fn of(step: &ClockStep) -> Self {
         let counts = [step.inputs.len(), step.state.len(), step.outputs.len()];
         let starts = step.state.iter().map(|bit| bit.start).collect();
@@ -75,7 +64,6 @@ impl WaveLogic {
         Self { network, late, counts, starts }
     }
 
-    /// The graph of a network that was mapped from this logic.
     pub fn graph(&self, mapped: &CellNetwork) -> WaveGraph {
         let [ports, bits, outputs] = self.counts;
         let mut network = mapped.clone();
@@ -108,7 +96,6 @@ impl WaveLogic {
         step.signal_blocks.of_cells(&step.logic, &network, &ports)
     }
 
-    /// The bit of the state that a signal is.
     fn bit(&self, signal: Signal) -> Option<usize> {
         let [ports, bits, _] = self.counts;
         (signal as usize).checked_sub(2 + ports).filter(|&bit| bit < bits)
@@ -149,7 +136,6 @@ impl WaveLogic {
         }
     }
 
-    /// What drives a signal, behind the registers that only store it.
     fn tap(&self, network: &CellNetwork, signal: Signal) -> Tap {
         let [ports, bits, _] = self.counts;
         let (mut signal, mut starts) = (signal, Vec::new());

@@ -15,7 +15,6 @@ const WARM_UP: i64 = 3;
 /// The functions that delay a net, with the number of pins that are connected to it.
 const BUFFERS: [(Function, usize); 3] = [(Function::BUF, 1), (Function::AND, 2), (Function::OR, 2)];
 
-/// An output port of a wave machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct WaveOutput {
     /// The beat after the beginning of a step at whose end the port is read.
@@ -31,7 +30,6 @@ pub struct WaveState {
     pub net: Result<NetId, bool>,
     /// The number of steps by which the bit is later than the net.
     pub later: i64,
-    /// Its values in the first steps.
     pub starts: Vec<bool>,
 }
 
@@ -51,7 +49,6 @@ pub struct WaveMachine {
     pub phase: BTreeMap<NetId, i64>,
     /// For each input port that is read, the beat after the beginning of a step in which it is applied.
     pub inputs: Vec<Option<i64>>,
-    /// The output ports.
     pub outputs: Vec<WaveOutput>,
     /// The pins that read state, each with its values in the first steps.
     pub held: BTreeMap<(NetId, u8), Vec<bool>>,
@@ -65,7 +62,6 @@ pub struct WaveMachine {
     chains: Vec<Vec<NetId>>,
 }
 
-/// What an output port shows of a row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reading {
     /// The start value of a register.
@@ -88,12 +84,10 @@ impl WaveMachine {
         Some(Builder::new(step, graph, blocks, phases, buffer, beat).build())
     }
 
-    /// The number of robots.
     pub fn cells(&self) -> usize {
         self.phase.len()
     }
 
-    /// Cycles of a step.
     pub fn cycles_per_step(&self) -> usize {
         (self.period * self.beat) as usize
     }
@@ -135,7 +129,6 @@ impl WaveMachine {
         i64::from(self.clock.is_none())
     }
 
-    /// The cycles in which all threads show the results of so many rows.
     pub fn cycles(&self, rows: usize) -> usize {
         let last = |output| match self.reading(output, rows.saturating_sub(1), self.period as usize - 1) {
             Reading::Start(_) => 0,
@@ -165,7 +158,6 @@ impl WaveMachine {
     }
 }
 
-/// The making of a machine.
 struct Builder<'a> {
     step: &'a ClockStep,
     graph: &'a WaveGraph,
@@ -270,7 +262,6 @@ impl<'a> Builder<'a> {
         chain[needed]
     }
 
-    /// Notes where a bit of the state is. The gate that shows it has its name.
     fn note_state(&mut self, bit: &StateBit, tap: &Tap) {
         let net = match tap.driver {
             Driver::Constant(value) => Err(value),
@@ -285,7 +276,6 @@ impl<'a> Builder<'a> {
         self.machine.state.push(WaveState { net, later: tap.later, starts: tap.starts.clone() });
     }
 
-    /// Counts phases from the earliest one.
     fn begin_at_zero(&mut self) {
         let machine = &mut self.machine;
         let earliest = machine.phase.values().chain(machine.inputs.iter().flatten()).min().copied().unwrap_or(0);

@@ -28,14 +28,12 @@ use crate::waves::graph::WaveLogic;
 use crate::waves::search::{WaveCells, search};
 use crate::{MapError, Netlist};
 
-/// What a wave machine is made for.
 #[derive(Clone, Debug, Default)]
 pub struct WaveOptions {
     /// Cycles of a step; the fewest if not set.
     pub cycles: Option<u32>,
     /// Cycles of a beat: every cell has a clock of at most so many cycles.
     pub beat: u32,
-    /// How the logic is mapped.
     pub mapping: MapOptions,
 }
 
@@ -46,7 +44,6 @@ pub fn usable(library: &CellLibrary, beat: u32) -> CellLibrary {
     kinds.filter(|(_, kind)| is_usable(kind)).map(|(function, kind)| (function, kind.clone())).collect()
 }
 
-/// Makes a wave machine of a clocked circuit.
 pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -> Result<WaveMachine, WaveError> {
     let step = ClockStep::of(source)?;
     let beat = options.beat.max(1);

@@ -19,7 +19,6 @@ const ROUNDS: usize = 8;
 /// The most moves of phases, times the nets that they look at.
 const MOST_WORK: usize = 3_000_000;
 
-/// A capacity that no cut passes.
 const UNCUT: u32 = u32::MAX / 4;
 
 /// When each gate reads its nets, in beats after the beginning of a step.
@@ -51,7 +50,6 @@ struct Bound {
     steps: i64,
 }
 
-/// The nets of a graph, with a number for each port, gate and output.
 pub struct Balancing<'g> {
     graph: &'g WaveGraph,
     nets: Vec<Net>,
@@ -61,7 +59,6 @@ pub struct Balancing<'g> {
 }
 
 impl<'g> Balancing<'g> {
-    /// The problem of a graph.
     pub fn new(graph: &'g WaveGraph) -> Self {
         let drivers = graph.inputs + graph.gates.len();
         let [first_input, first_output] = [drivers + graph.outputs.len(), drivers + graph.outputs.len() + 1];
@@ -98,12 +95,10 @@ impl<'g> Balancing<'g> {
         self.nets[driver].listeners.push((listener, tap.later));
     }
 
-    /// Whether a step may have so many beats.
     pub fn is_enough(&self, period: u32) -> bool {
         self.earliest(period).is_some()
     }
 
-    /// The fewest beats of a step.
     pub fn least_period(&self) -> u32 {
         let (mut short, mut enough) = (0, self.graph.gates.len() as u32 + 1);
         // The longest chain of gates is often far shorter than that.
@@ -169,7 +164,6 @@ impl<'g> Balancing<'g> {
         unreachable!("the rounds have no end")
     }
 
-    /// The buffers that a listener needs.
     fn chain(net: &Net, (listener, later): (usize, i64), phase: &[i64], period: u32) -> i64 {
         phase[listener] + later * i64::from(period) - phase[net.driver] - 1
     }
@@ -252,7 +246,6 @@ fn has_loop(cause: &[Option<usize>]) -> bool {
     })
 }
 
-/// The nodes that are still reached from the source when all flows.
 fn reached(cuts: &DiGraph<(), u32>, flows: &[u32], source: NodeIndex) -> Vec<bool> {
     let mut reached = vec![false; cuts.node_count()];
     reached[source.index()] = true;

@@ -6,9 +6,6 @@ use crate::{NetId, Node};
 impl WaveMachine {
     /// What the output ports show of each row in each thread, by thread, row and port, if every thread gets these
     /// rows of input bits.
-    ///
-    /// # Panics
-    /// When there is no row, or a row has another number of bits than there are input ports.
     pub fn run(&self, rows: &[Vec<bool>]) -> Vec<Vec<Vec<bool>>> {
         let beat = self.beat as usize;
         let netlist = &self.netlist;

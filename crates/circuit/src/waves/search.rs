@@ -12,7 +12,6 @@ use crate::synth::{CellNetwork, Coverer, alternative, below};
 use crate::waves::graph::{WaveGraph, WaveLogic};
 use crate::waves::phases::{Balancing, Phases};
 
-/// The most gates of logic that is searched.
 const MOST_GATES: usize = 2_000;
 
 /// Robots more than the best so far with which the search returns to that.
@@ -21,16 +20,11 @@ const MOST_LOSS: usize = 4;
 /// What is to be small, the most important first: the cycles of a step, then the robots.
 pub type Weight = (u32, usize);
 
-/// Logic with its phases.
 #[derive(Clone, Debug)]
 pub struct Balanced {
-    /// The mapped logic.
     pub network: Network,
-    /// The logic as a graph.
     pub graph: WaveGraph,
-    /// Its phases.
     pub phases: Phases,
-    /// Beats of a step, and robots.
     pub weight: Weight,
 }
 
@@ -52,22 +46,18 @@ impl Balanced {
         Ok(Self { network, graph, phases, weight })
     }
 
-    /// Whether a network may have a step of so many beats.
     fn is_in_time(logic: &WaveLogic, network: &Network, cells: &WaveCells<'_>, period: u32) -> bool {
         Balancing::new(&logic.graph(&cells.of(network))).is_enough(period)
     }
 }
 
-/// The cells that networks of gates are made of.
 pub struct WaveCells<'a>(Option<Coverer<'a>>);
 
 impl<'a> WaveCells<'a> {
-    /// Those of a library; gates are cells if it has none of three inputs.
     pub fn new(library: &'a CellLibrary) -> Self {
         Self(library.is_wide().then(|| Coverer::new(library, MappingObjective::Area)))
     }
 
-    /// A network in these cells.
     pub fn of(&self, network: &Network) -> CellNetwork {
         self.0.as_ref().map_or_else(|| CellNetwork::of(network), |coverer| coverer.cover(network))
     }

@@ -6,70 +6,20 @@ use std::fmt;
 use crate::{MapError, NetlistError};
 use nbc_base::diag::counted;
 
-/// Why a circuit cannot be a wave machine.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum WaveError {
-    /// The netlist is not well formed.
     Netlist(NetlistError),
-    /// The library cannot make the circuit's logic.
     Unmapped(MapError),
-    /// The library has no robot that delays a net.
     NoBuffer,
-    /// A loop that is no register.
-    Loop {
-        /// A net of it.
-        net: String,
-    },
-    /// A latch that is not half of a register.
-    Latch {
-        /// A net of it.
-        net: String,
-    },
-    /// A register whose clock is a net inside the circuit.
-    GatedClock {
-        /// The register.
-        net: String,
-        /// Its clock.
-        clock: String,
-    },
-    /// Registers of two clocks.
-    TwoClocks {
-        /// A register of each.
-        nets: [String; 2],
-        /// The clocks.
-        clocks: [String; 2],
-    },
-    /// Registers that take their data at different edges.
-    BothEdges {
-        /// One that takes them when the clock rises.
-        rising: String,
-        /// One that takes them when it falls.
-        falling: String,
-    },
-    /// The clock drives something else than registers.
-    ClockIsRead {
-        /// The clock.
-        clock: String,
-    },
-    /// A register whose cells have start values that contradict each other.
-    Starts {
-        /// The register.
-        net: String,
-    },
-    /// The requested step is no whole number of beats.
-    UnevenStep {
-        /// The requested cycles.
-        wanted: u32,
-        /// Cycles of a beat.
-        beat: u32,
-    },
-    /// The requested step is too short.
-    ShortStep {
-        /// The requested cycles.
-        wanted: u32,
-        /// The fewest cycles.
-        least: u32,
-    },
+    Loop { net: String },
+    Latch { net: String },
+    GatedClock { net: String, clock: String },
+    TwoClocks { nets: [String; 2], clocks: [String; 2] },
+    BothEdges { rising: String, falling: String },
+    ClockIsRead { clock: String },
+    Starts { net: String },
+    UnevenStep { wanted: u32, beat: u32 },
+    ShortStep { wanted: u32, least: u32 },
 }
 
 impl From<MapError> for WaveError {
@@ -109,7 +59,6 @@ impl fmt::Display for WaveError {
 impl Error for WaveError {}
 
 impl WaveError {
-    /// What to do about it.
     pub fn help(&self) -> Option<String> {
         Some(match self {
             Self::Netlist(_) => return None,
@@ -133,29 +82,16 @@ impl WaveError {
     }
 }
 
-/// Why a wave machine is not proved to make the steps of its source.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CertifyError {
     /// The phase of a net does not fit that of its driver, so machines would mix.
-    Mixed {
-        /// The net.
-        net: String,
-    },
+    Mixed { net: String },
     /// A pin reads a state that the source does not have.
-    NoState {
-        /// The net of its cell.
-        net: String,
-    },
+    NoState { net: String },
     /// A pin or a bit of the state starts with other values.
-    Start {
-        /// The net.
-        net: String,
-    },
+    Start { net: String },
     /// An output or the next value of a bit differs.
-    Different {
-        /// The net.
-        net: String,
-    },
+    Different { net: String },
 }
 
 impl fmt::Display for CertifyError {

@@ -11,22 +11,17 @@ use crate::signal::Signals;
 use crate::state::State;
 use nbc_base::model::{Body, Fault, FaultKind, Palette, Schedule, Setting, Spell};
 
-/// One simulation: a body, its state between env steps, and what is left of its schedule.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The body's points and springs.
     pub lattice: Arc<Lattice>,
     /// The body's number: runs of one number share a body.
     pub body: usize,
-    /// The target widths of its channels.
     pub signals: Arc<Signals>,
     /// Its points. While the run is in a lane the batch has them, and these are outdated.
     pub state: State,
     /// Its center of mass at the end of the last whole env step, in voxels.
     pub center: [f64; 2],
-    /// Env steps done since the start.
     pub clock: u32,
-    /// The fault that ended it, if any.
     pub fault: Option<Fault>,
     /// Spells ahead, the next one last.
     spells: Vec<Spell>,
@@ -41,7 +36,6 @@ struct Build {
 }
 
 impl Run {
-    /// A body at its start, without a schedule.
     fn new(build: &Build, origin: [f64; 2], constants: &Constants) -> Self {
         let Build { body, lattice, signals } = build.clone();
         let state = State::start(&lattice, origin, constants);
@@ -49,22 +43,16 @@ impl Run {
         Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
     }
 
-    /// Sets its schedule.
     pub fn assign(&mut self, schedule: &Schedule) {
         let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
         self.spells.clear();
         self.spells.extend(spells.cloned());
     }
 
-    /// Whether its schedule is done.
     pub fn is_done(&self) -> bool {
         self.fault.is_some() || self.spells.is_empty()
     }
 
-    /// The stimuli of the env step ahead.
-    ///
-    /// # Panics
-    /// When there is nothing left to do.
     pub fn spell(&self) -> &Spell {
         self.spells.last().expect("a run that is not done has a spell")
     }
@@ -82,14 +70,12 @@ impl Run {
         }
     }
 
-    /// Ends it before its next env step, unless it is done.
     pub fn stop(&mut self) {
         if !self.is_done() {
             self.fault = Some(Fault { env_step: self.clock + 1, kind: FaultKind::Stopped });
         }
     }
 
-    /// Env steps left in the schedule.
     #[cfg(feature = "gpu")]
     pub fn remaining(&self) -> u32 {
         if self.fault.is_some() { 0 } else { self.spells.iter().map(|spell| spell.steps).sum() }
@@ -116,7 +102,6 @@ impl Run {
         }
     }
 
-    /// Restores a snapshot, without a schedule.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         assert_eq!(snapshot.state.position.len(), self.lattice.points().len(), "a snapshot is of the same body");
         let Snapshot { state, center, clock, fault } = snapshot.clone();

@@ -23,7 +23,6 @@ use crate::noise::RobotNoise;
 use nbc_base::model::{Body, Displacements, Fault, Pattern, Setting};
 use nbc_sim::Simulator;
 
-/// The result of each task.
 pub(crate) fn evaluate(
     simulator: &Simulator,
     memory: &WalkMemory,

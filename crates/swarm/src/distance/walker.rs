@@ -13,7 +13,6 @@ pub(super) struct Trail {
     pub state: Snapshot,
 }
 
-/// A body with what is known of it.
 pub(super) struct Walker {
     pub body: Body,
     /// What it senses of each pattern.
@@ -28,12 +27,10 @@ impl Walker {
         Self { sensed: sensed_patterns(&body), body, walks: Walks::default(), trail: None }
     }
 
-    /// What it senses of a pattern.
     pub fn senses(&self, pattern: Pattern) -> Pattern {
         self.sensed[pattern.number(self.sensed.len().ilog2() as usize)]
     }
 
-    /// The stretches of the long simulation that were simulated here.
     pub fn stretches_done(&self) -> usize {
         self.trail.as_ref().map_or(0, |trail| trail.places.len() - 1)
     }

@@ -20,7 +20,6 @@ pub(crate) struct Walks {
     pub long: Option<LongWalk>,
 }
 
-/// A long simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LongWalk {
     /// The sum of distances, or why the body has none.
@@ -54,7 +53,6 @@ struct Remembered {
 }
 
 impl WalkMemory {
-    /// Sets what is known of each body.
     pub(crate) fn recall<'a>(
         &self,
         protocol: &EvaluationProtocol,
@@ -70,7 +68,6 @@ impl WalkMemory {
         }
     }
 
-    /// Remembers what is known of each body.
     pub(crate) fn keep<'a>(&self, protocol: &EvaluationProtocol, bodies: impl Iterator<Item = (&'a Body, &'a Walks)>) {
         let mut memory = self.lock();
         let number = memory.number(protocol);
@@ -82,7 +79,6 @@ impl WalkMemory {
         }
     }
 
-    /// The number of bodies.
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
         let memory = self.lock();

@@ -9,20 +9,17 @@ use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, Function, Material
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NicheKey(pub Vec<u16>);
 
-/// How bodies are sorted into niches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descriptor {
     axes: Vec<Axis>,
     area: usize,
     rules: Rules,
-    /// The inputs of its bodies.
     inputs: usize,
     /// The class of each behavior, in order of the functions' bits: the lowest bits of its functions.
     classes: Vec<u8>,
 }
 
 impl Descriptor {
-    /// The descriptor of a declared run.
     pub fn new(evolution: &Evolution) -> Self {
         Self {
             axes: evolution.descriptors.clone(),
@@ -38,12 +35,10 @@ impl Descriptor {
         self.axes.iter().map(|axis| axis.bins(self.inputs)).product()
     }
 
-    /// The inputs of its bodies.
     pub(super) fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// The niche of a body with that behavior.
     pub fn niche(&self, body: &Body, behavior: Behavior) -> NicheKey {
         let bin = |axis: &Axis| match *axis {
             Axis::Count { of, bins } => self.bin(self.count(body, of), bins),

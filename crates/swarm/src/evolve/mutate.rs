@@ -166,7 +166,6 @@ fn closes_cycle(genotype: &Genotype, link: Link) -> bool {
     false
 }
 
-/// Adds a link, or sets the weight of the existing one.
 fn set_link(genotype: &mut Genotype, link: Link) {
     let same = |other: &&mut Link| other.source == link.source && other.target == link.target;
     match genotype.links.iter_mut().find(same) {

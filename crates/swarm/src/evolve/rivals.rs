@@ -13,9 +13,7 @@ pub struct Rivals {
 
 impl Rivals {
     /// The rivals in each niche of each behavior.
-    ///
-    /// # Panics
-    /// When there is not one entry for each behavior of two or three stimuli.
+    /// Panics when there is not one entry for each behavior of two or three stimuli.
     pub fn new(niche: Niche, behaviors: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
         assert!(matches!(behaviors.len(), 16 | 256), "each behavior has an entry");
         let is_open = |niches: &Vec<Vec<[f64; 2]>>| niches.iter().any(Vec::is_empty);
@@ -28,12 +26,10 @@ impl Rivals {
         Self::new(Niche::default(), Behavior::all(inputs).map(|_| Vec::new()).collect())
     }
 
-    /// The elites that each niche keeps.
     pub fn niche(&self) -> Niche {
         self.niche
     }
 
-    /// The rivals in each niche of each behavior.
     pub fn behaviors(&self) -> &[Vec<Vec<[f64; 2]>>] {
         &self.behaviors
     }
@@ -58,7 +54,6 @@ impl Rivals {
     }
 }
 
-/// Whether a body with fitnesses of at most `bound` could enter a niche with these fitnesses.
 fn has_room(niche: Niche, rivals: &[[f64; 2]], bound: &[f64; 2]) -> bool {
     match niche {
         Niche::Dominance => rivals.iter().all(|there| exceeds(bound, there)),
@@ -66,12 +61,10 @@ fn has_room(niche: Niche, rivals: &[[f64; 2]], bound: &[f64; 2]) -> bool {
     }
 }
 
-/// Whether `a` is greater than `b` in both fitnesses.
 pub(super) fn exceeds(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] > b[0] && a[1] > b[1]
 }
 
-/// Whether `a` is at least `b` in both fitnesses.
 pub(super) fn reaches(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] >= b[0] && a[1] >= b[1]
 }

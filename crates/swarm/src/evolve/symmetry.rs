@@ -41,12 +41,10 @@ pub fn recodings(palette: &Palette) -> Vec<Recoding> {
 }
 
 impl Recoding {
-    /// Whether it is the identity.
     pub fn is_identity(&self) -> bool {
         self.order.is_sorted() && !self.invert.contains(&true)
     }
 
-    /// The body with its sensors exchanged.
     pub fn body(&self, body: &Body) -> Body {
         body.recoded(|code| self.codes[usize::from(code)])
     }
@@ -66,12 +64,10 @@ impl Recoding {
         Pattern::of(self.order.iter().map(|&now| pattern.has(now) != self.invert[now]))
     }
 
-    /// The displacements of the recoded body from those of the original.
     pub fn displacement(&self, displacement: &Displacements) -> Displacements {
         Displacements::under(self.order.len(), |pattern| displacement.at(self.before(pattern)))
     }
 
-    /// The recoded body's behavior.
     pub fn behavior(&self, behavior: Behavior) -> Behavior {
         let stimuli = self.order.len();
         let right = |pattern: Pattern| behavior.function().under(self.before(pattern));

@@ -24,7 +24,6 @@ const HOPELESS: f64 = 0.25;
 /// Cycles after a fresh start until bodies that walk both ways can be recognized.
 const FIRST_LOOK: usize = 3;
 
-/// Env steps of a full evaluation.
 pub(super) fn steps(objective: GateObjective, protocol: &EvaluationProtocol) -> u64 {
     let cycles: usize = stages(objective, protocol.stimuli).iter().flatten().map(Vec::len).sum();
     cycles as u64 * u64::from(CYCLE_STEPS) * (1 + protocol.others.len() as u64)
@@ -82,7 +81,6 @@ fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attemp
     }
 }
 
-/// A body during its evaluation.
 struct Attempt<'a> {
     objective: GateObjective,
     /// The behaviors that it may be scored as; if there are none, its own.
@@ -91,15 +89,12 @@ struct Attempt<'a> {
     own: Behavior,
     /// The number of worlds besides its own.
     others: usize,
-    /// The number of worlds that it was right in.
     passed: usize,
     /// Whether it was wrong in a world, so that no others follow.
     is_done: bool,
     task: &'a EvaluationTask,
-    /// The holds of each lane so far.
     holds: Vec<Vec<PatternHold>>,
     scores: Scores,
-    /// Env steps simulated so far.
     env_steps: u64,
     outcome: Option<CandidateOutcome>,
 }
@@ -124,7 +119,6 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Records one more cycle of a lane.
     fn push(&mut self, lane: usize, pattern: Pattern, displacement: f64) {
         let holds = &mut self.holds[lane];
         let before = holds.last().map(|hold| hold.pattern);
@@ -140,7 +134,6 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Computes the scores so far, and decides whether to continue.
     fn look(&mut self) {
         let cycles = self.holds[0][0].cycles.len();
         if self.outcome.is_some() || cycles < FIRST_LOOK {
@@ -194,7 +187,6 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// Whether it is to be simulated further.
     fn is_open(&self) -> bool {
         self.outcome.is_none() && !self.is_done
     }
@@ -206,9 +198,7 @@ impl<'a> Attempt<'a> {
     }
 }
 
-/// What a body can still reach.
 struct Bound {
-    /// Whether that is enough for a niche.
     is_open: bool,
     behavior: Behavior,
     /// The fitnesses over all cycles so far, in whatever world.

@@ -11,7 +11,6 @@ use nbc_base::model::Behavior;
 /// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
 const RANDOM_SEED: u64 = 0x6761_7465;
 
-/// What the fitness of a gate is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GateObjective {
     /// The correct output soon after a switch: the objective `gate`.

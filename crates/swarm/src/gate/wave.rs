@@ -10,7 +10,6 @@ use nbc_base::model::{Behavior, Pattern};
 
 /// Cycles of the first hold: long enough to show bodies that are right only for a while.
 const FIRST_HOLD: usize = 12;
-/// Cycles of each random sequence.
 const RANDOM_CYCLES: usize = 48;
 
 /// Every step from pattern to pattern after a hold of each, and then random sequences.

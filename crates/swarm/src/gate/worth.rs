@@ -3,12 +3,10 @@
 /// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.
 const HALF_MARGIN: f64 = 0.05;
 
-/// The least of margins.
 pub(super) fn least(values: impl Iterator<Item = f64>) -> f64 {
     values.fold(f64::INFINITY, f64::min)
 }
 
-/// A margin as a number between 0 and 1.
 pub(super) fn worth(margin: f64) -> f64 {
     if margin.is_infinite() { 1.0 } else { 0.5 + 0.5 * margin / (margin.abs() + HALF_MARGIN) }
 }

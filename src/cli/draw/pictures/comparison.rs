@@ -21,7 +21,6 @@ impl PictureKind for ComparisonPicture {
     }
 }
 
-/// The champions of a run, compared by group of behaviors.
 pub(super) fn comparison(results: &EvolutionResults) -> Svg {
     let champions = results.runs.iter().map(|(&seed, run)| (seed, run.champions())).collect();
     let groups = report::behavior_groups(&champions);

@@ -10,7 +10,6 @@ use nbc_base::model::{Body, Setting};
 use nbc_session::SwarmRun;
 use nbc_session::report::{Film, Stage};
 
-/// A film, as GIF or APNG.
 pub(super) struct FilmPicture(pub(super) FilmFormat);
 
 impl PictureKind for FilmPicture {

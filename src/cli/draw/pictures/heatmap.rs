@@ -3,7 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
 use nbc_session::report::{self, ArchiveMap, EvolutionResults, axis_word};
 use nbc_swarm::evolve::NicheKey;
 
@@ -26,21 +26,19 @@ impl PictureKind for HeatmapPicture {
     }
 }
 
-/// The indices of the two requested axes; by default the first two.
+/// By default the first two.
 fn axes(results: &EvolutionResults, requested: &[String]) -> Result<[usize; 2], Failure> {
     let axes: Vec<String> = results.axes.iter().map(|&axis| axis_word(axis).to_owned()).collect();
     if requested.is_empty() {
         return Ok([0, usize::from(axes.len() > 1)]);
     }
     let [x, y] = requested else {
-        return Err(DrawError::AxisCount { found: requested.len(), axes }.into());
+        return Err(wording::axis_count(requested.len(), &axes).into());
     };
-    let place = |word: &String| {
-        let unknown = || DrawError::UnknownAxis { name: word.clone(), axes: axes.clone() };
-        axes.iter().position(|known| known == word).ok_or_else(unknown)
-    };
+    let place =
+        |word: &String| axes.iter().position(|known| known == word).ok_or_else(|| wording::unknown_axis(word, &axes));
     match [place(x)?, place(y)?] {
-        [x, y] if x == y => Err(DrawError::SameAxis { name: axes[x].clone(), axes }.into()),
+        [x, y] if x == y => Err(wording::same_axis(&axes[x], &axes).into()),
         places => Ok(places),
     }
 }

@@ -18,7 +18,7 @@ use crate::cli::draw::picture::{FilmFormat, PictureKind};
 
 pub(in crate::cli) use page::run_page;
 
-/// Every kind, in the order of the help.
+/// In the order of the help.
 pub(super) const PICTURES: [&dyn PictureKind; 14] = [
     &film::FilmPicture(FilmFormat::Apng),
     &comparison::ComparisonPicture,

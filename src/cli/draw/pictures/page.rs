@@ -39,7 +39,6 @@ impl PictureKind for PagePicture {
     }
 }
 
-/// The page of a run with all its plots, and warnings of robots that fail on their way through them.
 pub(in crate::cli) fn run_page(results: &EvolutionResults, scheme: Scheme) -> (String, Vec<Diagnostic>) {
     let figure = |heading: &str, drawing| PageFigure { heading: heading.to_owned(), drawing };
     let (paths, faults) = champions(&each_champion(results), &results.shown(10));

@@ -21,7 +21,6 @@ impl PictureKind for ProgressPicture {
     }
 }
 
-/// Coverage, QD-score and champions over the generations.
 pub(super) fn progress(results: &EvolutionResults) -> Svg {
     report::draw_progress(&format!("{} over time", results.name), "generation", &results.courses())
 }

@@ -9,7 +9,7 @@ use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, Su
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::titled_body::TitledBody;
 use crate::cli::draw::titled_robots::TitledRobots;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CYCLE_STEPS, Function, Schedule, Trial};
 use nbc_session::SwarmRun;
@@ -52,7 +52,7 @@ impl PictureKind for SpacetimePicture {
     }
 }
 
-/// The indices of the robots that drive a net, or all nets that begin with the text before a final `*`.
+/// The robots that drive a net, or all nets that begin with the text before a final `*`.
 fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
     let robots = &trace.robots;
     let is_meant = |driven: &str| match net.strip_suffix('*') {
@@ -61,13 +61,13 @@ fn robots_of(trace: &SwarmTrace, net: &str) -> Result<Vec<usize>, Failure> {
     };
     let meant: Vec<usize> = (0..robots.len()).filter(|&k| is_meant(&robots[k].net)).collect();
     if meant.is_empty() {
-        let known = robots.iter().map(|robot| robot.net.clone()).collect();
-        return Err(DrawError::UnknownNet { net: net.to_owned(), known }.into());
+        let known: Vec<String> = robots.iter().map(|robot| robot.net.clone()).collect();
+        return Err(wording::unknown_net(net, &known).into());
     }
     Ok(meant)
 }
 
-/// Every robot's path under one schedule, by behavior, and warnings of robots that fail.
+/// Paths under one schedule, by behavior, and warnings of robots that fail.
 pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> (Svg, Vec<Diagnostic>) {
     let trajectories = faults::walk(several.robots.iter().map(|one| &one.body), schedule);
     let faults = faults::of_paths(&several.robots, &trajectories);
@@ -81,7 +81,7 @@ pub(super) fn champions(several: &TitledRobots, schedule: &Schedule) -> (Svg, Ve
     (report::draw_champions(&several.title, &groups, &changes(schedule)), faults)
 }
 
-/// The cycles at which a schedule's stimuli change.
+/// In cycles.
 fn changes(schedule: &Schedule) -> Vec<f64> {
     let ends = schedule.spells.iter().scan(0, |steps, spell| {
         *steps += spell.steps;

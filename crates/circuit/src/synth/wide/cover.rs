@@ -13,7 +13,6 @@ use nbc_base::model::Function;
 /// Rounds in which the cut of each gate is chosen again.
 const ROUNDS: usize = 4;
 
-/// Covers networks by the cells of a library.
 pub struct Coverer<'a> {
     library: &'a CellLibrary,
     recipes: Recipes,
@@ -22,7 +21,6 @@ pub struct Coverer<'a> {
     prices: [Vec<Option<Price>>; 2],
 }
 
-/// What the cells of a function take.
 #[derive(Clone, Copy)]
 struct Price {
     cost: u32,
@@ -31,7 +29,6 @@ struct Price {
 }
 
 impl<'a> Coverer<'a> {
-    /// A coverer for an objective.
     pub fn new(library: &'a CellLibrary, objective: MappingObjective) -> Self {
         let recipes = Recipes::of(library);
         let narrow = |function| {
@@ -75,14 +72,11 @@ fn clock(library: &CellLibrary, function: Function) -> u32 {
     library.get(function).map_or(1, |kind| kind.clock)
 }
 
-/// The cuts of the gates of one network, and those that are chosen.
 struct Choice<'a> {
     coverer: &'a Coverer<'a>,
     network: &'a Network,
-    /// The cuts of each gate that the library has a cell for.
     cuts: Vec<Vec<(Cut, Price)>>,
     chosen: Vec<usize>,
-    /// The cells and outputs that read each signal.
     readers: Vec<u32>,
     arrivals: Vec<u32>,
 }
@@ -220,7 +214,6 @@ impl<'a> Choice<'a> {
         required
     }
 
-    /// The cells of the chosen cuts.
     fn build(self) -> CellNetwork {
         let network = self.network;
         let mut built = CellNetwork { inputs: network.inputs, ..CellNetwork::default() };

@@ -3,13 +3,11 @@
 use crate::network::{Network, Signal};
 use nbc_base::model::Function;
 
-/// The most cuts that are kept of a signal.
 const MOST_CUTS: usize = 40;
 
 /// The rows of a truth table of three inputs in which each input is 1.
 const INPUTS: [u8; 3] = [0xf0, 0xcc, 0xaa];
 
-/// Signals that determine another one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Cut {
     /// The signals in ascending order; the first `count` are valid.
@@ -29,7 +27,6 @@ impl Cut {
         }
     }
 
-    /// The signals in ascending order.
     pub fn leaves(&self) -> &[Signal] {
         &self.leaves[..self.count]
     }
@@ -95,7 +92,6 @@ impl Cut {
         Self { leaves, count: kept.len(), table }
     }
 
-    /// Whether another cut has all leaves of this one.
     fn is_within(&self, other: &Self) -> bool {
         self.leaves().iter().all(|leaf| other.leaves().contains(leaf))
     }

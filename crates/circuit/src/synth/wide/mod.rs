@@ -23,23 +23,17 @@ const MOST_GATES: usize = 3_000;
 /// Cells more than the fewest so far with which the search returns to those.
 const MOST_LOSS: u32 = 2;
 
-/// A cell of at most three inputs.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NetworkCell {
-    /// What it computes of its pins.
     pub function: Function,
-    /// The signals of its pins; one for a function of the first input alone.
     pub pins: Vec<Signal>,
 }
 
 /// Cells in topological order, between numbered inputs and outputs, with signals as in a [`Network`].
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct CellNetwork {
-    /// The number of inputs.
     pub inputs: usize,
-    /// The cells; each listens to earlier signals only.
     pub cells: Vec<NetworkCell>,
-    /// The signals that are outputs, in order.
     pub outputs: Vec<Signal>,
 }
 
@@ -57,10 +51,6 @@ impl CellNetwork {
         }
     }
 
-    /// Adds a cell and returns its signal.
-    ///
-    /// # Panics
-    /// When a pin is not an earlier signal.
     pub fn add(&mut self, function: Function, pins: Vec<Signal>) -> Signal {
         let signal = (2 + self.inputs + self.cells.len()) as Signal;
         assert!(pins.iter().all(|&pin| pin < signal), "a cell listens to earlier signals");

@@ -155,7 +155,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         Vector2::new(speed(0), speed(1))
     }
 
-    /// A lane's surface voxel at its current position, and its masses.
     pub fn quad(&self, lane: usize, voxel: usize) -> (Quad, [usize; CORNERS]) {
         let voxel = self.occupants[lane].surface[voxel];
         let masses = &self.masses.now;

@@ -22,7 +22,6 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The corners as places in a list of masses.
     #[inline(always)]
     pub fn indices(&self) -> [usize; CORNERS] {
         let [a, b, c, d] = self.corners;
@@ -36,9 +35,7 @@ impl Frame {
 pub struct Rim {
     /// The end with the lower number: a mass.
     pub from: u32,
-    /// The end with the higher number: a mass.
     pub to: u32,
-    /// The place of its goal length in [`Springs::aims`].
     pub aim: u32,
 }
 
@@ -46,7 +43,6 @@ pub struct Rim {
 /// them by these places.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
-/// A driven spring of one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Driven {
     /// The place of its goal length in [`Springs::aims`].
@@ -55,24 +51,19 @@ pub struct Driven {
     pub rest: f64,
     /// The channel of its first active owner; the material code in a body.
     pub first: u16,
-    /// The channel of the second, if both are active.
     pub second: Option<u16>,
 }
 
-/// The springs of all lanes.
 #[derive(Debug)]
 pub struct Springs<R: Real, K: Stiffness<R>> {
     /// The frames in reading order; then an idle one, because frames are measured one ahead.
     pub frames: Vec<Frame>,
-    /// The stiffness of their springs.
     pub frame_stiffness: Vec<[K; 4]>,
     /// Their springs' stiffness times frozen rest length (docs/physics.md 5).
     pub frame_frozen: Vec<[R; 4]>,
     /// The rims, in order of their masses.
     pub rims: Vec<Rim>,
-    /// The stiffness of the rims.
     pub rim_stiffness: Vec<K>,
-    /// Their stiffness times frozen rest length.
     pub rim_frozen: Vec<R>,
     /// Goal lengths times the approach factor (docs/physics.md 5): of springs that are not driven, and of each driven
     /// one.
@@ -160,7 +151,6 @@ pub fn rest(kind: usize, constants: &Constants) -> f64 {
     if kind == MAIN { cell } else { (cell * cell + cell * cell).sqrt() }
 }
 
-/// The place of each edge of a robot.
 fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
     let mut found: BTreeMap<(usize, usize), Spring> = BTreeMap::new();
     for voxel in body.voxels() {

@@ -14,7 +14,6 @@ struct Waiting<'a> {
     trajectory: &'a mut Trajectory,
 }
 
-/// Simulates each trial from a fresh start; result `i` is that of trial `i`.
 pub fn run_trials(world: &World, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
     let mut trajectories = vec![Trajectory::default(); trials.len()];
     let runs = runs(&world.constants, setting, trials.iter().map(|trial| &trial.body));

@@ -21,22 +21,18 @@ pub struct FallbackDevice {
 }
 
 impl FallbackDevice {
-    /// Opens a device; see [`Card::open`].
     pub fn open(device: &OpenClDevice, processor: LaneBackend, group: Option<usize>) -> Result<Self, DeviceError> {
         Ok(Self { processor, card: Arc::new(Card::open(device, group)?), failure: Arc::default() })
     }
 
-    /// The device that simulates.
     pub fn device(&self) -> &OpenClDevice {
         &self.card.device
     }
 
-    /// Why the device failed, if it did.
     pub fn failure(&self) -> Option<DeviceError> {
         self.failure.lock().unwrap_or_else(PoisonError::into_inner).clone()
     }
 
-    /// Counts the device as failed.
     pub fn give_up(&self, error: DeviceError) {
         *self.failure.lock().unwrap_or_else(PoisonError::into_inner) = Some(error);
     }

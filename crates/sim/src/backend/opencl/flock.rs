@@ -7,7 +7,6 @@ use crate::backend::{Backend, Flock, Snapshot};
 use crate::lattice::Lattice;
 use nbc_base::model::{Body, Fault, Schedule, Setting, Spell};
 
-/// Robots on a device.
 #[derive(Debug)]
 pub struct DeviceFlock {
     device: FallbackDevice,
@@ -17,13 +16,11 @@ pub struct DeviceFlock {
 }
 
 impl DeviceFlock {
-    /// A robot for each body, at its start.
     pub fn new(device: &FallbackDevice, setting: &Setting, bodies: &[Body]) -> Self {
         let runs = runs(&device.processor.constants.in_world(&setting.factors), setting, bodies);
         Self { device: device.clone(), setting: *setting, bodies: bodies.to_vec(), runs }
     }
 
-    /// Advances some robots on this processor.
     fn advance_here(&mut self, robots: &[usize], spells: &[Spell]) {
         let bodies: Vec<Body> = robots.iter().map(|&robot| self.bodies[robot].clone()).collect();
         let mut flock = self.device.processor.flock(&self.setting, &bodies);

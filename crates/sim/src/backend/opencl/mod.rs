@@ -28,7 +28,6 @@ use device_runs::AT_ONCE;
 use fallback_device::FallbackDevice;
 use flock::DeviceFlock;
 
-/// An OpenCL device, and this processor for what the device cannot do.
 #[derive(Clone, Debug)]
 pub struct OpenClBackend {
     device: FallbackDevice,
@@ -47,12 +46,10 @@ impl OpenClBackend {
         Ok(Self { device: FallbackDevice::open(device, processor, group)? })
     }
 
-    /// The device that simulates.
     pub fn device(&self) -> &OpenClDevice {
         self.device.device()
     }
 
-    /// The back end of what the device cannot do.
     pub fn processor(&self) -> &LaneBackend {
         &self.device.processor
     }
@@ -67,7 +64,6 @@ impl OpenClBackend {
         self.device.give_up(error);
     }
 
-    /// Compares the device with this processor, and says whether a result differs.
     pub fn test(&self, test: SelfTest) -> Result<(Vec<BoxComparison>, Option<DeviceError>), DeviceError> {
         let comparisons = test.compare(self, self.processor());
         if let Some(error) = self.failure() {

@@ -7,7 +7,6 @@ use crate::backend::lanes::FRAME;
 use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, Voxel};
 
-/// No mass, spring or tile.
 const NONE: u16 = 0xffff;
 
 /// The goals of springs that are not driven: of main edges, of diagonals. Driven springs follow.
@@ -44,7 +43,6 @@ struct SpringTable {
 }
 
 impl BodyPlan {
-    /// The plan of a body.
     pub fn new(body: &Lattice, constants: &Constants) -> Self {
         let masses = masses(body);
         let springs = SpringTable::new(body, &masses);
@@ -81,12 +79,10 @@ impl BodyPlan {
         }
     }
 
-    /// The number of springs.
     pub fn springs(&self) -> usize {
         self.stiffness.len()
     }
 
-    /// The number of surface voxels.
     pub fn tiles(&self) -> usize {
         self.tiles
     }
@@ -140,7 +136,6 @@ impl SpringTable {
     }
 }
 
-/// The goal of each spring.
 fn aims(body: &Lattice, springs: &SpringTable, frames: usize) -> Vec<u16> {
     let kind = |spring: usize| if spring < 4 * frames && spring % 4 >= 2 { DIAGONAL } else { MAIN };
     let mut aims: Vec<u16> = (0..springs.ends.len()).map(kind).collect();
@@ -169,7 +164,6 @@ fn gather(body: &Lattice, masses: &[usize], springs: &SpringTable, frames: usize
     gather.concat()
 }
 
-/// For each mass the surface voxels around it.
 fn around(surface: &[&Voxel], masses: &[usize]) -> Vec<u16> {
     let mut around = vec![[NONE; 4]; masses.len()];
     for (tile, voxel) in surface.iter().enumerate() {
@@ -204,7 +198,6 @@ fn rigid_levels(body: &Lattice, masses: &[usize]) -> Vec<Vec<[usize; CORNERS]>> 
     levels
 }
 
-/// Where each level ends.
 fn ends_of(levels: &[Vec<[usize; CORNERS]>]) -> Vec<u16> {
     let mut end = 0;
     let ends = levels.iter().map(|level| {

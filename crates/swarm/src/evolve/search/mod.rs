@@ -30,15 +30,11 @@ pub struct Search {
 /// The state needed to continue a search later.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchState {
-    /// The run's seed.
     pub seed: u64,
-    /// Generations done.
     pub generation: u32,
-    /// Counts of the results.
     pub counts: Counts,
     /// The mirror images to be tried next.
     pub mirrors: Vec<MirrorSource>,
-    /// Filled niches and their elites.
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
 }
 
@@ -75,7 +71,6 @@ impl SearchState {
 }
 
 impl Search {
-    /// A new search.
     pub fn new(evolution: &Evolution, seed: u64) -> Self {
         Self {
             evolution: evolution.clone(),
@@ -91,7 +86,6 @@ impl Search {
         }
     }
 
-    /// The search in the state that [`Search::state`] gave.
     pub fn resume(evolution: &Evolution, state: SearchState) -> Self {
         Self {
             archive: Archive::with_niches(evolution, state.niches),
@@ -102,7 +96,6 @@ impl Search {
         }
     }
 
-    /// Its state, as plain data.
     pub fn state(&self) -> SearchState {
         SearchState {
             seed: self.seed,
@@ -113,32 +106,26 @@ impl Search {
         }
     }
 
-    /// The declaration it follows.
     pub fn evolution(&self) -> &Evolution {
         &self.evolution
     }
 
-    /// The archive.
     pub fn archive(&self) -> &Archive {
         &self.archive
     }
 
-    /// The run's seed.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Generations done.
     pub fn generation(&self) -> u32 {
         self.generation
     }
 
-    /// Counts of the results.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Whether all declared generations are done.
     pub fn is_done(&self) -> bool {
         self.generation >= self.evolution.generations
     }
@@ -168,9 +155,7 @@ impl Search {
     }
 
     /// Takes the outcomes of a generation's candidates, in their order.
-    ///
-    /// # Panics
-    /// When there is not one outcome for each candidate.
+    /// Panics when there is not one outcome for each candidate.
     pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[CandidateOutcome]) {
         assert_eq!(candidates.len(), outcomes.len(), "each candidate has one outcome");
         self.mirrors.clear();
@@ -243,7 +228,6 @@ impl Search {
         taken
     }
 
-    /// The robots with which the search begins.
     fn first_bodies(&self) -> Vec<Body> {
         let rows = self.evolution.start.iter().flat_map(|start| &start.bodies);
         let bodies = rows.filter_map(|rows| Body::parse(rows, &self.evolution.palette).ok());
@@ -264,7 +248,6 @@ impl Search {
         parents
     }
 
-    /// The random stream of a place in the coming generation.
     fn stream(&self, index: u32) -> ChaCha8Rng {
         stream(self.seed, self.generation, index)
     }
@@ -297,7 +280,6 @@ pub fn images(elite: &Elite) -> Vec<Elite> {
     images
 }
 
-/// The image of an elite under a recoding.
 fn image(recoding: &Recoding, elite: &Elite) -> Elite {
     if recoding.is_identity() {
         return elite.clone();
@@ -322,7 +304,6 @@ pub(crate) mod tests {
         SearchObjective, Spell,
     };
 
-    /// The paper's run in a 5 x 5 box.
     pub(crate) fn evolution() -> Evolution {
         let spells = Pattern::PAIRS.map(|pattern| Spell::of(pattern, 840)).to_vec();
         let count = |of| Axis::Count { of, bins: 4 };

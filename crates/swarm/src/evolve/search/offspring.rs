@@ -11,12 +11,9 @@ use nbc_base::model::{Body, Evolution, Genome, Genotype, Matter, Rules};
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
 
-/// The origin of a candidate.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CandidateOrigin {
-    /// A new random network.
     Random,
-    /// From an elite of that niche by mutation.
     Offspring(NicheKey),
     /// A robot with which the search begins.
     Start,
@@ -24,16 +21,12 @@ pub enum CandidateOrigin {
     Mirror,
 }
 
-/// A body to be tried.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
     /// Its place in the generation.
     pub index: u32,
-    /// How the candidate was made.
     pub origin: CandidateOrigin,
-    /// Its network, if it developed from one.
     pub genotype: Option<Genotype>,
-    /// Its voxels.
     pub body: Body,
     /// Networks or bodies drawn before it that could not be tried.
     pub undeveloped: u32,
@@ -42,9 +35,7 @@ pub struct Candidate {
 /// A body whose mirror image is to be tried next.
 #[derive(Clone, Debug, PartialEq)]
 pub enum MirrorSource {
-    /// The network that develops into the mirror image.
     Network(Genotype),
-    /// The mirror image itself.
     Voxels(Body),
 }
 
@@ -120,12 +111,9 @@ impl Search {
     }
 }
 
-/// What follows a mutation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Attempt {
-    /// The body is tried.
     Done,
-    /// Mutate again.
     GoOn,
     /// Undo all mutations so far.
     Undo,
