@@ -149,7 +149,7 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, jo
         let free = free.expect("there are more numbers than files");
         return Err(Refused::RobotExists { path, free, is_replaceable: !is_shared });
     }
-    // What can fail at once does so before the body is measured, which takes long.
+    // Fail early: measuring the body takes long.
     files.may_write(&folder)?;
     let text = robot_file(&request.name, body, job)?;
     files.make_folder(&folder)?;

@@ -1,6 +1,5 @@
 //! The class of a server: learners who have joined it with a name, and where they are. It is in memory only. A learner
-//! is away without the page's connection, and keeps the name until they leave: only who has its key can join with it
-//! again.
+//! without a connection is away, and keeps the name until they leave: joining with it again needs its key.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};

@@ -1,4 +1,4 @@
-//! Parts of simulations that others can do: what becomes of one depends on it alone.
+//! Parts of simulations for workers. The result of a part depends on that part alone.
 
 use std::sync::Mutex;
 

@@ -66,7 +66,7 @@ impl SharedSearch {
     /// The bodies of a generation and their scores; `None` while workers still try some.
     fn generation(&mut self, job: &Job) -> Option<(Vec<Body>, Vec<Option<Scores>>)> {
         let size = self.shell.crew().map_or(0, Crew::size);
-        // What was given to others who have gone will not come.
+        // Results of workers that have left will not come.
         if let Some(begun) = self.begun.take_if(|_| size > 0) {
             let Some(others) = begun.others.take() else {
                 self.begun = Some(begun);

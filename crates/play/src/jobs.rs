@@ -38,11 +38,6 @@ impl Running {
         self.stop.raise();
         self.monitor.stop();
     }
-
-    fn stop_late(&self) {
-        self.is_late.store(true, Ordering::Relaxed);
-        self.stop();
-    }
 }
 
 pub(super) struct Job {
@@ -52,7 +47,7 @@ pub(super) struct Job {
     making: CompileOptions,
     monitor: Arc<Monitor>,
     is_late: Arc<AtomicBool>,
-    told: u64,
+    percent: u64,
 }
 
 pub(super) enum PortionEnd {
@@ -97,20 +92,18 @@ impl Jobs {
             let is_check = |kind: WorkKind| kind == WorkKind::Check;
             // Checks have room of their own.
             let same = running.values().filter(|one| is_check(one.kind) == is_check(kind)).count() as u64;
-            // Otherwise it could not be cancelled, and the end of one would count as that of the other.
-            let refused = match running.contains_key(&id) {
-                true => Some(Refused::NumberInUse { id }),
-                false => Limit::PageJobs.permit(same + 1).err().map(|_| Refused::Busy { most: same as usize }),
-            };
-            if let Some(refused) = refused {
-                self.outbox.answer(id, Err(refused));
+            // Two requests of one number could not be told apart when one is cancelled or ends.
+            let is_in_use = running.contains_key(&id);
+            if is_in_use || Limit::PageJobs.permit(same + 1).is_err() {
+                let busy = Refused::Busy { most: same as usize };
+                self.outbox.answer(id, Err(if is_in_use { Refused::NumberInUse { id } } else { busy }));
                 return None;
             }
             let (stop, monitor, is_late) = (stop.clone(), monitor.clone(), is_late.clone());
             running.insert(id, Running { kind, stop, monitor, end: now + TIME, is_late });
         }
         let (running, outbox) = (self.running.clone(), self.outbox.clone());
-        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, is_late, told: 0 };
+        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, is_late, percent: 0 };
         let portion = move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
             let ended = ended.unwrap_or(Err(Refused::Internal));
@@ -140,7 +133,10 @@ impl Jobs {
     }
 
     pub(super) fn end_late(&self, now: Duration) {
-        lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop_late);
+        for late in lock(&self.running).values().filter(|one| one.end < now) {
+            late.is_late.store(true, Ordering::Relaxed);
+            late.stop();
+        }
     }
 }
 
@@ -175,9 +171,9 @@ impl Job {
 
 impl Observer for Job {
     fn progress(&mut self, done: u64, all: u64) {
-        let percentage = done * 100 / all.max(1);
-        if percentage > self.told {
-            self.told = percentage;
+        let percent = done * 100 / all.max(1);
+        if percent > self.percent {
+            self.percent = percent;
             self.outbox.progress(self.id, [done, all]);
         }
     }

@@ -44,7 +44,7 @@ pub fn live_page(
     for file in checked.sources.iter() {
         over.insert(&file.name, file.text.clone());
     }
-    // Whatever is read to compile it is needed.
+    // The page needs every file that is read to compile the circuit.
     let noted = Arc::new(NotingWorld { over, read: Mutex::default() });
     let mut session = Session::new(noted.clone());
     let again = session.open(&checked.path)?;
@@ -58,7 +58,7 @@ pub fn live_page(
         swarm: choice.swarm.as_deref(),
         files: read.iter().map(|(path, text)| (within(folder, path), text.as_str())).collect(),
     };
-    // No text may end the element that it is in.
+    // No text may end its element.
     let data = to_string(&sources).expect("texts can be written as JSON").replace('<', "\\u003c");
     let html = template.replacen(TITLE, &format!("<title>{circuit} – nbc"), 1);
     let html = html.replacen(SOURCES, &format!("{SOURCES}{data}"), 1);

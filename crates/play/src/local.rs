@@ -1,4 +1,4 @@
-//! A site in memory, whose work is done by whoever has it: what a page needs where there are no threads and no disk.
+//! A site in memory, whose owner does its work: for a page without threads and without a disk.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -79,7 +79,7 @@ impl PageFolder for MemoryFolder {
     }
 
     fn may_write(&self, path: &str) -> Result<(), FileError> {
-        // A name of a file is no way out: there is nothing but this folder.
+        // No name of a file leads out: there is nothing but this folder.
         let is_part = |part: &str| !matches!(part, "" | "." | "..");
         let is_folder = path.is_empty() || path.split('/').all(is_part);
         if is_folder { Ok(()) } else { Err(FileError::NotFound) }

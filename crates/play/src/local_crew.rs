@@ -1,5 +1,4 @@
-//! Others that do parts of simulations, as whoever has a [`LocalShell`](crate::LocalShell) sees them: parts to be taken
-//! to them, and what they bring back.
+//! Workers that simulate parts for a [`LocalShell`](crate::LocalShell).
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, Weak};

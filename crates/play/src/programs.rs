@@ -7,7 +7,8 @@ use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
 use crate::message::{
     CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
-    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WrittenProgram, findings, listed, looks,
+    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WaveRegister, WrittenProgram, findings,
+    listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
@@ -146,7 +147,7 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
         frames: FRAMES,
         waves: compiled.mapping.waves.as_ref().map(|machine| {
             let registers = state::wave_registers(&compiled.mapping, machine);
-            ShownWaves { registers, ..waves(machine, &trace.recording.robots) }
+            waves(machine, &trace.recording.robots, registers)
         }),
         script: None,
     }
@@ -158,7 +159,7 @@ fn columns(ground: &GroundProfile) -> Vec<Vec<u8>> {
     (0..ground.columns().len()).map(|column| ends(column).collect()).collect()
 }
 
-fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
+fn waves(machine: &WaveMachine, robots: &[Recorded], registers: Vec<WaveRegister>) -> ShownWaves {
     // A swarm has its robots in the order of the cells.
     let phases: Vec<i64> = machine.netlist.cells().map(|(cell, _)| machine.phase[&cell]).collect();
     ShownWaves {
@@ -168,7 +169,7 @@ fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
         phases: robots.iter().map(|recorded| phases[recorded.robot]).collect(),
         begins: machine.beginning() * i64::from(machine.beat),
         clock: machine.clock.map(|(bit, _)| bit),
-        registers: Vec::new(),
+        registers,
     }
 }
 

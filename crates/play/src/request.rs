@@ -105,7 +105,7 @@ pub(super) enum Verb {
     },
     Join {
         name: String,
-        // That of the name, if this browser has had it before.
+        // The key of the name, if this browser has had it before.
         #[cfg_attr(test, ts(optional))]
         key: Option<String>,
     },
@@ -193,22 +193,5 @@ impl Verb {
             Self::View { robots } => Change::View { robots },
             other => return Err(other),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn requests_are_read_and_changes_of_the_swarm_told_apart() {
-        let read = |text: &str| serde_json::from_str::<Request>(text);
-        let step = read(r#"{ "id": 3, "do": "step", "cycles": 2 }"#).unwrap();
-        assert_eq!((step.id, step.verb.change()), (3, Ok(Change::Step { cycles: 2 })));
-        let inputs = read(r#"{ "id": 4, "do": "inputs", "bits": "01" }"#).unwrap();
-        assert_eq!(inputs.verb.change(), Ok(Change::Inputs(vec![false, true])));
-        let compile = read(r#"{ "id": 5, "do": "compile", "path": "a.nb", "circuit": "a", "swarm": null }"#).unwrap();
-        assert!(compile.verb.change().is_err());
-        assert!(read(r#"{ "id": 6, "do": "fly" }"#).is_err() && read("[]").is_err());
     }
 }

@@ -129,7 +129,7 @@ impl Runner {
     }
 
     pub(super) fn change(&mut self, id: u64, change: Change, now: Duration) {
-        // A frame of before would come after the answer, and the page would take it for what follows.
+        // An older frame would come after the answer, and the page would take it for a newer one.
         if let Some(shown) = self.shown.as_mut().filter(|_| self.outbox.line().remove_frame()) {
             shown.take_back();
         }
@@ -273,7 +273,7 @@ impl RunningSwarm {
     }
 
     fn change(&mut self, change: Change, now: Duration) -> Result<(), Refused> {
-        // A cycle that others still simulate has not been seen: it is simulated again, with what is changed.
+        // Nobody has seen a cycle that workers still simulate: it is simulated again, with the change.
         self.cycles = SharedCycles::new(self.shell.clone());
         match change {
             Change::Inputs(bits) if bits.len() != self.inputs.len() => {

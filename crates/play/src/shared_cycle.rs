@@ -1,4 +1,4 @@
-//! A cycle of a swarm of which others simulate parts.
+//! A cycle of a swarm of which workers simulate parts.
 
 use core::task::Poll;
 use std::ops::Range;

@@ -202,7 +202,7 @@ impl Visit {
             Verb::Read { path: Some(path), .. } => {
                 let checker = self.checker.clone();
                 once(move |job| {
-                    // Its text is not one of the page's, but it waits for its turn to be translated.
+                    // Its text is not one of the page's, but its translation waits for its turn.
                     let stop = job.stop.clone();
                     let mut apart = Session::new(site.folder.guarded(Arc::new(move || stop.clone())));
                     let read = checker.with(job, |_| program_around(&*site.folder, &mut apart, &path))??;

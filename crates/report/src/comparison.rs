@@ -1,5 +1,5 @@
 //! Performances by group of behaviors (paper, figure 4): every run as a dot, a cross at the mean, gaps where groups of
-//! another difficulty differ, and below a table of all pairs.
+//! another difficulty differ, and below a table of all pairs. Accuracies of bodies are drawn alike.
 
 use crate::Color;
 use crate::chart::{Panel, range_of, with_minus};
@@ -37,7 +37,10 @@ pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], compar
     panel.y_axis(&mut svg, 5, unit);
     panel.frame(&mut svg);
     for (group, &slot) in groups.iter().zip(&slots) {
-        svg.group(&format!("group-{}", group.name), group.name, |svg| draw_group(svg, &panel, group, slot));
+        let color = [4, 5, 2].map(Color::series)[group.stimuli.min(2)];
+        svg.group(&format!("group-{}", group.name), group.name, |svg| {
+            draw_values(svg, &panel, slot, (group.name, "run"), &group.values, color);
+        });
     }
     draw_table(&mut svg, table, groups, comparisons);
     svg
@@ -56,11 +59,6 @@ fn is_set_apart(groups: &[BehaviorGroup], comparisons: &[GroupComparison], place
         && groups[..place].iter().any(found)
         && groups.iter().any(|group| group.difficulty == difficulty && found(group))
         && across.all(|pair| pair.p_adjusted < SIGNIFICANT && pair.a12 > 0.5)
-}
-
-fn draw_group(svg: &mut Svg, panel: &Panel, group: &BehaviorGroup, slot: f64) {
-    let color = [Color::series(4), Color::series(5), Color::series(2)][group.stimuli.min(2)];
-    draw_values(svg, panel, slot, (group.name, "run"), &group.values, color);
 }
 
 /// Draws values above a slot: a dot for each, a cross at their mean, and below the panel the name and the number of
@@ -124,4 +122,25 @@ fn draw_table(svg: &mut Svg, top: f64, groups: &[BehaviorGroup], comparisons: &[
 
 fn p_value(p: f64) -> String {
     if p < 0.001 { with_minus(&format!("{p:.1e}")) } else { format!("{p:.3}") }
+}
+
+/// Draws the shares, from 0 to 1, of each evolution side by side: a dot for each body, a cross at the mean.
+pub fn draw_accuracies(title: &str, groups: &[(&str, Vec<f64>)]) -> Svg {
+    let (height, pitch) = (220.0, 100.0);
+    let percent: Vec<Vec<f64>> =
+        groups.iter().map(|(_, shares)| shares.iter().map(|share| 100.0 * share).collect()).collect();
+    let least = percent.iter().flatten().copied().fold(100.0, f64::min);
+    let width = (groups.len() as f64 * pitch).max(200.0);
+    let mut svg = Svg::titled(width + 84.0, TOP + height + 46.0, title);
+    let low = (10.0 * libm::floor(least / 10.0)).min(90.0);
+    let panel = Panel::new((64.0, TOP), width, height, (-0.5, groups.len() as f64 - 0.5), (low, 101.0));
+    panel.y_axis(&mut svg, 5, "told apart, %");
+    panel.frame(&mut svg);
+    for (place, ((name, _), values)) in groups.iter().zip(&percent).enumerate() {
+        let color = Color::series(place);
+        svg.group(&format!("evolution-{name}"), name, |svg| {
+            draw_values(svg, &panel, place as f64, (name, "body"), values, color);
+        });
+    }
+    svg
 }

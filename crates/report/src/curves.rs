@@ -2,8 +2,8 @@
 
 use crate::Color;
 use crate::chart::Panel;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
-use crate::scheme::Scheme;
 use crate::svg::Svg;
 use nbc_base::model::{CYCLE_STEPS, Material, MaterialKind, Palette, Pattern, Schedule, Spell};
 use nbc_sim::{Constants, Signals};

@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use crate::chart::range_of;
+use crate::color::Scheme;
 use crate::evolution_results::{EvolutionResults, axis_word};
 use crate::heatmap::{heat, share};
 use crate::html::{Html, base64, controls, escape, picture};
 use crate::listing::walked;
 use crate::looks::Looks;
 use crate::page_bodies::{look_data, materials, voxel_data};
-use crate::scheme::Scheme;
 use crate::stage::Stage;
 use crate::svg::Svg;
 use nbc_base::diag::counted;

@@ -6,11 +6,11 @@ use std::io::{self, Write};
 use tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::element::{Anchor, Paint, Type};
 use crate::image::{ink, pixel_side};
 use crate::looks::{Look, Looks, draw_mark};
 use crate::raster::{ink as ink_path, line, rasterize, solid};
-use crate::scheme::Scheme;
 use crate::sprite::Pose;
 use crate::stage::{Moment, Stage};
 use crate::svg::{Svg, shorten};

@@ -122,7 +122,7 @@ fn approximate_p(u: f64, a: &[f64], b: &[f64]) -> f64 {
     let ties = values.chunk_by(|one, other| one == other).map(|equal| equal.len() as f64);
     let tied: f64 = ties.map(|equal| equal * equal * equal - equal).sum();
     let variance = pairs / 12.0 * (all + 1.0 - tied / (all * (all - 1.0)));
-    // Equal values throughout have no variance, and differ as little as can be.
+    // Equal values throughout have no variance, and do not differ.
     if variance <= 0.0 {
         return 1.0;
     }
@@ -217,11 +217,11 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
     if comparisons.iter().any(|pair| pair.is_approximate) {
         text.push_str("~ approximate, because there are ties\n");
     }
-    let mut told = 0;
+    let mut before = 0;
     for (threshold, _) in THRESHOLDS {
         let beyond = comparisons.iter().filter(|comparison| comparison.p_least > threshold).count();
         // A comparison that cannot reach one threshold cannot reach a lower one either.
-        if beyond > told {
+        if beyond > before {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
@@ -229,7 +229,7 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
                 comparisons.len()
             );
         }
-        told = beyond;
+        before = beyond;
     }
     text
 }

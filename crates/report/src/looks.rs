@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::element::{Paint, Point};
-use crate::scheme::Scheme;
 use crate::svg::Svg;
 use nbc_base::model::{Body, Drive, Material, MaterialKind, Palette, Response};
 

@@ -1,10 +1,10 @@
 //! What a body needs of images: a map of how much less far it walks when each pixel is covered.
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
 use crate::image::{draw_pixels, ink};
 use crate::looks::Looks;
-use crate::scheme::Scheme;
 use crate::sprite::{draw_body, draw_legend, legend_size};
 use crate::svg::Svg;
 use nbc_base::model::{Body, ImageSize};

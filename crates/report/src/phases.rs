@@ -99,16 +99,38 @@ impl PhaseTiming {
         kind: impl Fn(NetId) -> &'k CellKind,
         registers: Option<&PulsedRegisters>,
     ) -> Self {
-        let named = Named(netlist);
+        let name = |net: NetId| netlist.net_name(net);
         let storage = &timing.storage;
+        let latch = |latch: &Latch| LatchReport {
+            nets: names(netlist, &latch.cells),
+            enable: name(latch.root),
+            open: latch.open,
+        };
+        let flip_flop = |pair: &FlipFlop| {
+            let second = &storage.latches[pair.second];
+            FlipFlopReport { nets: names(netlist, &second.cells), clock: name(second.root), rising: pair.rising }
+        };
+        let unphased =
+            |loops: &Unphased| UnphasedReport { nets: names(netlist, &loops.nets), why: loops.why.explain(netlist) };
+        let pulse = |&Pulse { net, clock, rises, width, needed, ends, latches, padding }: &Pulse| PulseReport {
+            net: name(net),
+            clock: name(clock),
+            rises,
+            width,
+            needed,
+            ends,
+            latches,
+            padding,
+        };
+        let kept = |&(net, why): &(NetId, WhyKept)| KeptReport { net: name(net), why: why.explain() };
         let clocks = ClockTimes::all(netlist, storage, timing.hold, kind);
         Self {
-            latches: storage.latches.iter().map(|latch| named.latch(latch)).collect(),
-            flip_flops: storage.flip_flops.iter().map(|pair| named.flip_flop(&storage.latches, pair)).collect(),
-            clocks: clocks.iter().map(|times| named.clock(times)).collect(),
-            unphased: storage.unphased.iter().map(|unphased| named.unphased(unphased)).collect(),
-            pulses: registers.iter().flat_map(|registers| &registers.pulses).map(|pulse| named.pulse(pulse)).collect(),
-            kept: registers.iter().flat_map(|registers| &registers.kept).map(|kept| named.kept(*kept)).collect(),
+            latches: storage.latches.iter().map(latch).collect(),
+            flip_flops: storage.flip_flops.iter().map(flip_flop).collect(),
+            clocks: clocks.iter().map(|times| ClockReport::of(netlist, times)).collect(),
+            unphased: storage.unphased.iter().map(unphased).collect(),
+            pulses: registers.iter().flat_map(|registers| &registers.pulses).map(pulse).collect(),
+            kept: registers.iter().flat_map(|registers| &registers.kept).map(kept).collect(),
         }
     }
 
@@ -142,6 +164,37 @@ impl PulseReport {
 }
 
 impl ClockReport {
+    fn of(netlist: &Netlist, times: &ClockTimes) -> Self {
+        let name = |net: NetId| netlist.net_name(net);
+        let &ClockTimes { clock, high, low, period, half, borrowed, .. } = times;
+        let input = |&InputTimes { input, rises, setup, hold }: &InputTimes| InputReport {
+            input: name(input),
+            rises,
+            setup,
+            hold,
+        };
+        let path = |path: &ClockPath| PathReport {
+            ends: match path.ends {
+                PathEnds::InputToRegister => "input to register",
+                PathEnds::RegisterToRegister => "register to register",
+                PathEnds::RegisterToOutput => "register to output",
+            },
+            cycles: path.cycles,
+            nets: names(netlist, &path.nets),
+        };
+        Self {
+            clock: name(clock),
+            high,
+            low,
+            period,
+            half,
+            borrowed,
+            inputs: times.inputs.iter().map(input).collect(),
+            paths: times.paths.iter().map(path).collect(),
+            races: times.races.iter().map(|nets| names(netlist, nets)).collect(),
+        }
+    }
+
     fn describe(&self) -> String {
         let Self { clock, high, low, period, borrowed, inputs, paths, races, .. } = self;
         let period = counted(*period as usize, "cycle");
@@ -165,66 +218,6 @@ impl ClockReport {
     }
 }
 
-struct Named<'a>(&'a Netlist);
-
-impl Named<'_> {
-    fn name(&self, net: NetId) -> String {
-        self.0.net_name(net)
-    }
-
-    fn names(&self, nets: &[NetId]) -> Vec<String> {
-        nets.iter().map(|&net| self.name(net)).collect()
-    }
-
-    fn latch(&self, latch: &Latch) -> LatchReport {
-        LatchReport { nets: self.names(&latch.cells), enable: self.name(latch.root), open: latch.open }
-    }
-
-    fn flip_flop(&self, latches: &[Latch], pair: &FlipFlop) -> FlipFlopReport {
-        let second = &latches[pair.second];
-        FlipFlopReport { nets: self.names(&second.cells), clock: self.name(second.root), rising: pair.rising }
-    }
-
-    fn clock(&self, times: &ClockTimes) -> ClockReport {
-        let &ClockTimes { clock, high, low, period, half, borrowed, .. } = times;
-        let input = |&InputTimes { input, rises, setup, hold }: &InputTimes| InputReport {
-            input: self.name(input),
-            rises,
-            setup,
-            hold,
-        };
-        let path = |path: &ClockPath| PathReport {
-            ends: match path.ends {
-                PathEnds::InputToRegister => "input to register",
-                PathEnds::RegisterToRegister => "register to register",
-                PathEnds::RegisterToOutput => "register to output",
-            },
-            cycles: path.cycles,
-            nets: self.names(&path.nets),
-        };
-        ClockReport {
-            clock: self.name(clock),
-            high,
-            low,
-            period,
-            half,
-            borrowed,
-            inputs: times.inputs.iter().map(input).collect(),
-            paths: times.paths.iter().map(path).collect(),
-            races: times.races.iter().map(|nets| self.names(nets)).collect(),
-        }
-    }
-
-    fn pulse(&self, pulse: &Pulse) -> PulseReport {
-        let &Pulse { net, clock, rises, width, needed, ends, latches, padding } = pulse;
-        PulseReport { net: self.name(net), clock: self.name(clock), rises, width, needed, ends, latches, padding }
-    }
-
-    fn kept(&self, (net, why): (NetId, WhyKept)) -> KeptReport {
-        KeptReport { net: self.name(net), why: why.explain() }
-    }
-
-    fn unphased(&self, unphased: &Unphased) -> UnphasedReport {
-        UnphasedReport { nets: self.names(&unphased.nets), why: unphased.why.explain(self.0) }
-    }
+fn names(netlist: &Netlist, nets: &[NetId]) -> Vec<String> {
+    nets.iter().map(|&net| netlist.net_name(net)).collect()
 }

@@ -2,10 +2,10 @@
 
 use crate::Color;
 use crate::chart::with_minus;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
 use crate::image::draw_image;
 use crate::looks::Looks;
-use crate::scheme::Scheme;
 use crate::sprite::{Pose, draw_legend, legend_size};
 use crate::stage::{Moment, Stage};
 use crate::svg::Svg;

@@ -1,16 +1,16 @@
 //! The report of a run as one self-contained HTML page: the verdict, the schematic, and a player in step with the
-//! waveform.
+//! waveform; of tests at the level of logic, their truth tables.
 
 use serde_json::{Value as Json, json};
 
+use crate::color::Scheme;
 use crate::html::{Html, base64, controls, escape, picture};
 use crate::looks::Looks;
 use crate::page_bodies::{cell_data, look_data, voxel_data};
 use crate::schematic::SchematicPages;
-use crate::schematic_page::explorer;
-use crate::scheme::Scheme;
+use crate::schematic::explorer;
 use crate::svg::Svg;
-use crate::verdict::{in_world, named_world};
+use crate::verdict::{describe_test, in_world, named_world};
 use nbc_base::diag::counted;
 use nbc_base::model::{CYCLE_STEPS, Column, Value};
 use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
@@ -257,4 +257,23 @@ fn port_waves(trace: &SwarmTrace) -> [Vec<Json>; 2] {
 
 fn row(name: &str, color: &str, shift: usize, values: Json) -> Json {
     json!({ "name": name, "color": color, "shift": shift, "values": values })
+}
+
+pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {
+    let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
+    let all = verdicts.len();
+    let word = if passed == all { "pass" } else { "FAIL" };
+    Html {
+        heading: source,
+        passed: passed == all,
+        verdict: format!("{word}: {passed} of {} passed", counted(all, "test")),
+        body: verdicts.iter().map(|verdict| logic_section(verdict)).collect(),
+        script: None,
+    }
+    .finish()
+}
+
+fn logic_section(verdict: &TestVerdict) -> String {
+    let (circuit, title) = (escape(&verdict.circuit), escape(&verdict.title));
+    format!("<section>\n<h2>{circuit} {title}</h2>\n<pre>{}</pre>\n</section>\n", escape(&describe_test(verdict)))
 }

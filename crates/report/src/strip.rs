@@ -3,10 +3,10 @@
 
 use crate::Color;
 use crate::chart::with_minus;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
 use crate::image::draw_image;
 use crate::looks::Looks;
-use crate::scheme::Scheme;
 use crate::stage::{Moment, Stage};
 use crate::svg::Svg;
 use nbc_base::model::{Body, CYCLE_STEPS, Schedule, Setting, Spell};

@@ -3,8 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::looks::{Look, Looks};
-use crate::scheme::Scheme;
 
 /// The index that is not a color: the pixel is the same as in the previous frame.
 pub const UNCHANGED: u8 = 255;

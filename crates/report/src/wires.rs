@@ -4,8 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Color;
 use crate::element::{Paint, Point};
-use crate::heights;
-use crate::layers::{Layers, Slot};
+use crate::layers::{Layers, Slot, straighten};
 use crate::svg::Svg;
 use nbc_circuit::{NetId, Netlist, Node};
 
@@ -69,7 +68,7 @@ impl SheetPlan {
             let widest = slots.iter().map(|&slot| size(netlist, slot).0).fold(0.0, f64::max);
             lefts.push(lefts[layer] + widest + channel_width(&tracks[layer + 1]));
         }
-        let tops = heights::straighten(&layers, netlist, |slot| size(netlist, slot).1, GAP);
+        let tops = straighten(&layers, netlist, |slot| size(netlist, slot).1, GAP);
         let mut corners = BTreeMap::new();
         let mut bottom = TOP + 60.0;
         for (layer, slots) in layers.layers.iter().enumerate() {

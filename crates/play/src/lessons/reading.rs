@@ -208,7 +208,7 @@ impl<'a> Reader<'a> {
 
     fn check(&mut self, value: Piece<'a>) {
         let read = check(value, &mut self.lesson.ports);
-        // A wrong check is one, so that it is not missed, too.
+        // A wrong check counts as one, so that the step is not also reported as one without a check.
         let read = self.kept(read).unwrap_or(LessonCheck::Evolving);
         if let Some(step) = self.lesson.entry.steps.last_mut() {
             step.checks.push(read);
