@@ -15,11 +15,11 @@ impl<T> Default for Interned<T> {
     }
 }
 
-impl<T: Copy + Ord> Interned<T> {
+impl<T: Clone + Ord> Interned<T> {
     /// The number of an item, which is added unless an equal one is there.
     pub fn number(&mut self, item: T) -> usize {
-        *self.known.entry(item).or_insert_with(|| {
-            self.items.push(item);
+        *self.known.entry(item).or_insert_with_key(|item| {
+            self.items.push(item.clone());
             self.items.len() - 1
         })
     }

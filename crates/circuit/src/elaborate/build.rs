@@ -3,8 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal, Passes, Sum};
-use crate::elaborate::unroll::{Item, Scope};
+use crate::elaborate::module::{Bit, Item, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal, Passes, Scope, Sum};
 use crate::elaborate::wording;
 use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};

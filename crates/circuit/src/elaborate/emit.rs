@@ -3,9 +3,8 @@
 use std::ops::Range;
 
 use crate::elaborate::build::{ModuleBuilder, ModuleKey};
-use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
+use crate::elaborate::module::{Bit, Item, ModuleId, ModuleSignal, Site};
 use crate::elaborate::table::TableValues;
-use crate::elaborate::unroll::Item;
 use crate::elaborate::wording::{self, OperandText};
 use crate::index::ListIndex;
 use nbc_base::budget::Limit;

@@ -4,21 +4,9 @@
 use std::ops::Range;
 
 use crate::elaborate::build::ModuleBuilder;
+use crate::elaborate::module::MemoryPorts;
 use nbc_base::budget::Limit;
 use nbc_base::model::NetSlot;
-
-/// The ports of a memory, counted over the bits of the inputs and outputs of its environment; the highest bit of a port
-/// comes first.
-#[derive(Clone, Debug)]
-pub struct MemoryPorts {
-    pub memory: usize,
-    pub words: usize,
-    pub width: usize,
-    /// The output bits of the address, and the input bits of the word.
-    pub reads: Vec<[Range<usize>; 2]>,
-    /// The output bits of the address, the word, the enable and the clock.
-    pub writes: Vec<[Range<usize>; 4]>,
-}
 
 impl ModuleBuilder<'_, '_> {
     pub(super) fn memory_ports(&mut self) {

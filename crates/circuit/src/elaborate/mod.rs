@@ -8,7 +8,6 @@ mod build;
 mod dense;
 mod emit;
 mod flatten;
-mod inspection;
 mod instance;
 mod loops;
 mod memories;
@@ -23,13 +22,12 @@ mod unroll;
 mod width;
 mod wording;
 
-pub use inspection::{Inspection, NetWidths};
-pub use memories::MemoryPorts;
+pub use module::MemoryPorts;
 pub use table_faults::{table_fault, table_in_bits};
 pub use wording::{not_a_pattern, two_else};
 
 use crate::Netlist;
-use nbc_base::budget::WorkBudget;
+use nbc_base::budget::{OverBudget, WorkBudget};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Circuit, CircuitId, Column, Instance, Program};
 use nbc_base::source::Span;
@@ -153,6 +151,33 @@ impl<'a> Inspector<'a> {
     }
 
     pub fn finish(self) -> Inspection {
-        Inspection::of(self.0)
+        let nets = self.0.modules.iter().flat_map(|module| &module.nets);
+        let mut widths: Vec<_> = nets.filter_map(|net| Some((net.span, net.width?))).collect();
+        widths.sort_unstable();
+        widths.dedup();
+        let (widths, instances) = (NetWidths(widths), self.0.instances().collect());
+        let is_cancelled = self.0.over == Some(OverBudget::Cancelled);
+        Inspection { diagnostics: self.0.diagnostics, widths, instances, is_cancelled }
+    }
+}
+
+#[derive(Clone, Debug, Default)]
+pub struct Inspection {
+    pub diagnostics: Vec<Diagnostic>,
+    pub widths: NetWidths,
+    pub instances: Vec<Instance>,
+    /// Whether it ended early, so that a part of the result is missing.
+    pub is_cancelled: bool,
+}
+
+/// The widths of nets, in order of their declarations. A net of a circuit with parameters may have several.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct NetWidths(Vec<(Span, u32)>);
+
+impl NetWidths {
+    /// The widths of a net, in order; none if its circuit was not built.
+    pub fn of(&self, declared: Span) -> impl Iterator<Item = u32> + '_ {
+        let start = self.0.partition_point(|(place, _)| *place < declared);
+        self.0[start..].iter().take_while(move |(place, _)| *place == declared).map(|(_, width)| *width)
     }
 }

@@ -1,11 +1,11 @@
 //! A circuit with values for its parameters, built: bits with their drivers, and the circuits inside it.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use crate::elaborate::memories::MemoryPorts;
 use crate::index::ListIndex;
 use nbc_base::budget::Limit;
-use nbc_base::model::{CircuitId, Function};
+use nbc_base::model::{CircuitId, ExpressionId, Function, Target};
 use nbc_base::source::Span;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -169,4 +169,45 @@ impl Sum {
             (Limit::NetNameBytes, self.name_bytes),
         ]
     }
+}
+
+/// The ports of a memory, counted over the bits of the inputs and outputs of its environment; the highest bit of a port
+/// comes first.
+#[derive(Clone, Debug)]
+pub struct MemoryPorts {
+    pub memory: usize,
+    pub words: usize,
+    pub width: usize,
+    /// The output bits of the address, and the input bits of the word.
+    pub reads: Vec<[Range<usize>; 2]>,
+    /// The output bits of the address, the word, the enable and the clock.
+    pub writes: Vec<[Range<usize>; 4]>,
+}
+
+/// A block of statements in one turn of the loops around it, with its nets.
+pub(super) struct Scope {
+    pub(super) parent: Option<u32>,
+    /// The first slot of the block's nets, and the net it is in this turn.
+    pub(super) first_slot: u32,
+    pub(super) first_net: u32,
+    pub(super) nets: u32,
+    pub(super) variables: Vec<i128>,
+    /// The loop variables as a suffix of names.
+    pub(super) turn: String,
+}
+
+impl Scope {
+    /// The first slot of the block's nets, its net in this iteration, and the number of slots.
+    pub(super) fn nets(&self) -> (u32, u32, u32) {
+        (self.first_slot, self.first_net, self.nets)
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Item<'a> {
+    pub(super) frame: u32,
+    pub(super) targets: &'a [Target],
+    /// Whether the targets are the parts of one value.
+    pub(super) joined: bool,
+    pub(super) value: ExpressionId,
 }

@@ -3,40 +3,12 @@
 use std::ops::Range;
 
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::module::ModuleNet;
+use crate::elaborate::module::{Item, ModuleNet, Scope};
 use crate::elaborate::size;
 use crate::elaborate::wording;
 use nbc_base::budget::Limit;
-use nbc_base::model::{Block, ExpressionId, NetSlot, Size, SizeId, SizeKind, Statement, Target};
+use nbc_base::model::{Block, NetSlot, Size, SizeId, SizeKind, Statement};
 use nbc_base::source::Span;
-
-/// A block of statements in one turn of the loops around it, with its nets.
-pub(super) struct Scope {
-    pub(super) parent: Option<u32>,
-    /// The first slot of the block's nets, and the net it is in this turn.
-    pub(super) first_slot: u32,
-    pub(super) first_net: u32,
-    pub(super) nets: u32,
-    pub(super) variables: Vec<i128>,
-    /// The loop variables as a suffix of names.
-    pub(super) turn: String,
-}
-
-impl Scope {
-    /// The first slot of the block's nets, its net in this iteration, and the number of slots.
-    pub(super) fn nets(&self) -> (u32, u32, u32) {
-        (self.first_slot, self.first_net, self.nets)
-    }
-}
-
-#[derive(Clone, Copy)]
-pub(super) struct Item<'a> {
-    pub(super) frame: u32,
-    pub(super) targets: &'a [Target],
-    /// Whether the targets are the parts of one value.
-    pub(super) joined: bool,
-    pub(super) value: ExpressionId,
-}
 
 impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls loops: fills the list of statements to build.

@@ -420,8 +420,7 @@ fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool)
     let legal = |name: &str| if name.is_empty() { "_".to_owned() } else { readable(name) };
     let names = FileNames::new(&design.logic, &design.registers, &[], true, legal);
     let label = |kind: &str, ids: &[NetId]| {
-        let line = |(i, &id)| format!("{kind}{i} {}\n", names.net(id));
-        ids.iter().enumerate().map(line).collect::<String>()
+        ids.iter().enumerate().map(|(i, &id)| format!("{kind}{i} {}\n", names.net(id))).collect::<String>()
     };
     let (inputs, states) = design.logic.inputs().split_at(ports);
     bytes.extend(label("i", inputs).bytes());

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::formats::blif_register::forced_cell;
+use crate::formats::blif_text::forced_cell;
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
@@ -36,8 +36,7 @@ pub fn read_model(
     let top = match model {
         None => 0,
         Some(name) => {
-            let missing = || vec![wording::missing_model(name, Span::new(file, 0, 0))];
-            *models.by_name.get(name).ok_or_else(missing)?
+            *models.by_name.get(name).ok_or_else(|| vec![wording::missing_model(name, Span::new(file, 0, 0))])?
         }
     };
     let mut extents = vec![None; models.all.len()];

@@ -4,7 +4,6 @@ pub mod aiger;
 mod aiger_model;
 pub mod bench;
 pub mod blif;
-mod blif_register;
 mod blif_text;
 pub mod buses;
 mod design;
@@ -16,9 +15,7 @@ mod names;
 pub mod nb;
 mod nb_names;
 pub mod pla;
-mod pla_text;
 pub mod verilog;
-mod verilog_names;
 mod verilog_ports;
 mod wording;
 

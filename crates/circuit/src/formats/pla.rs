@@ -1,13 +1,17 @@
-//! The reader of PLA files, as espresso writes them: cubes of input digits with the outputs that they set.
+//! PLA files, as espresso writes them: cubes of input digits with the outputs that they set.
+
+use std::fmt::Write;
 
 use crate::formats::design::Design;
 use crate::formats::draft::{Definition, Draft, MOST_ERRORS};
+use crate::formats::names::{FileNames, visible};
 use crate::formats::wording::{pla as wording, text};
+use crate::interned::Interned;
+use crate::two_level;
+use crate::{NetId, Settled};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Span};
-
-pub use crate::formats::pla_text::write;
 
 /// What the digits of an output mean, and what an output is where no cube sets it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -246,6 +250,45 @@ fn numbered(letter: &str, width: usize, span: Span) -> Vec<(String, Span)> {
         1 => vec![(letter.to_owned(), span)],
         _ => (0..width).rev().map(|bit| (format!("{letter}[{bit}]"), span)).collect(),
     }
+}
+
+/// A design as PLA text. It has no registers and no loops, and so few inputs that its truth table can be written.
+pub fn write(design: &Design) -> String {
+    let netlist = &design.logic;
+    let (inputs, outputs) = (netlist.inputs(), netlist.outputs());
+    let names = FileNames::new(netlist, &[], &[], true, |name| visible(name, &['#']));
+    let list = |ids: &[NetId]| ids.iter().map(|&id| format!(" {}", names.net(id))).collect::<String>();
+    // The outputs of each cube, in the order in which cubes are found.
+    let (mut cubes, mut cube_outputs) = (Interned::default(), Vec::new());
+    for (output, table) in tables(design).into_iter().enumerate() {
+        for cube in two_level::cover(&table, &table) {
+            let place = cubes.number(cube);
+            cube_outputs.resize(cubes.items.len(), vec![b'0'; outputs.len()]);
+            cube_outputs[place][output] = b'1';
+        }
+    }
+    let mut text = format!(".i {}\n.o {}\n", inputs.len(), outputs.len());
+    let _ = write!(text, ".ilb{}\n.ob{}\n.p {}\n", list(inputs), list(outputs), cubes.items.len());
+    for (cube, outputs) in cubes.items.iter().zip(&cube_outputs) {
+        let digits = |digits: &[u8]| String::from_utf8_lossy(digits).into_owned();
+        let _ = writeln!(text, "{} {}", digits(cube), digits(outputs));
+    }
+    text.push_str(".e\n");
+    text
+}
+
+fn tables(design: &Design) -> Vec<Vec<bool>> {
+    let bits = design.inputs();
+    let mut tables = vec![Vec::with_capacity(1 << bits); design.outputs()];
+    let mut settled = Settled::new(&design.logic);
+    let inputs = |pattern: usize| (0..bits).rev().map(|bit| pattern >> bit & 1 == 1).collect();
+    for first in (0..1usize << bits).step_by(Settled::ROWS) {
+        let block: Vec<Vec<bool>> = (first..(first + Settled::ROWS).min(1 << bits)).map(inputs).collect();
+        for end in settled.apply(&block.iter().map(Vec::as_slice).collect::<Vec<_>>()) {
+            tables.iter_mut().zip(end.outputs).for_each(|(table, bit)| table.push(bit));
+        }
+    }
+    tables
 }
 
 #[cfg(test)]

@@ -8,8 +8,7 @@ use std::fmt::Write;
 
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, starts, visible};
-use crate::formats::verilog_names::{escaped, plain};
-use crate::formats::verilog_ports::VerilogPorts;
+use crate::formats::verilog_ports::{VerilogPorts, escaped, plain};
 use crate::guarded::Guarded;
 use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;

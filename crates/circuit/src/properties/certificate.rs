@@ -80,9 +80,7 @@ fn is_kept(system: &TransitionSystem, property: usize, clauses: &[Clause], given
     written.steps(system, 2);
     written.constrain(system, 0);
     given.iter().for_each(|&other| written.require(0, system.bad[other] ^ 1));
-    let literals = |clause: &[ValuedBit]| -> Vec<AndLiteral> {
-        clause.iter().map(|&(at, value)| system.register(at) ^ usize::from(!value)).collect()
-    };
+    let literals = |clause: &[ValuedBit]| -> Vec<AndLiteral> { clause.iter().map(|&bit| system.has(bit)).collect() };
     clauses.iter().for_each(|clause| written.clause(0, &literals(clause)));
     let is_violated = |written: &mut Written, clause: &Clause| {
         let opposite: Vec<Lit> = literals(clause).into_iter().map(|literal| !written.literal(1, literal)).collect();

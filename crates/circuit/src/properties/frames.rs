@@ -113,7 +113,7 @@ impl Frames {
         self.active.push(start);
         for at in system.relevant() {
             if let Some(value) = system.registers[at].start {
-                let literal = self.step.literal(system, 0, system.register(at) ^ usize::from(!value));
+                let literal = self.step.literal(system, 0, system.has((at, value)));
                 self.step.solver.clause(&[!start, literal]);
             }
         }
@@ -240,7 +240,7 @@ impl Frames {
         let mut wanted = system.constraints.clone();
         match to {
             None => wanted.push(system.bad[self.property]),
-            Some(cube) => wanted.extend(cube.iter().map(|&(at, value)| next_of(system, at, value))),
+            Some(cube) => wanted.extend(cube.iter().map(|&bit| system.gets(bit))),
         }
         clause.extend(wanted.into_iter().map(|literal| !self.step.literal(system, 0, literal)));
         self.step.solver.clause(&clause);
@@ -249,7 +249,7 @@ impl Frames {
             assumed.push(self.step.literal(system, 0, 2 * (at + 1) + usize::from(!value)));
         }
         let registers: Vec<Lit> = (state.iter().enumerate())
-            .map(|(at, &value)| self.step.literal(system, 0, system.register(at) + usize::from(!value)))
+            .map(|(at, &value)| self.step.literal(system, 0, system.has((at, value))))
             .collect();
         assumed.extend(&registers);
         let solved = self.step.solver.solve(&assumed, u64::MAX);
@@ -274,8 +274,7 @@ impl Frames {
             assumed.push(active);
             outside = Some(active);
         }
-        let nexts: Vec<Lit> =
-            cube.iter().map(|&(at, value)| self.step.literal(system, 0, next_of(system, at, value))).collect();
+        let nexts: Vec<Lit> = cube.iter().map(|&bit| self.step.literal(system, 0, system.gets(bit))).collect();
         assumed.extend(&nexts);
         let reached = match self.step.solver.solve(&assumed, u64::MAX) {
             Solved::Open => Reached::Open,
@@ -349,7 +348,7 @@ impl Frames {
     }
 
     fn outside(&mut self, system: &TransitionSystem, cube: &[ValuedBit]) -> Vec<Lit> {
-        cube.iter().map(|&(at, value)| !self.step.literal(system, 0, register_of(system, at, value))).collect()
+        cube.iter().map(|&bit| !self.step.literal(system, 0, system.has(bit))).collect()
     }
 
     fn run(&self, system: &TransitionSystem, obligation: usize) -> SystemRun {
@@ -372,12 +371,4 @@ enum Reached {
         state: Vec<bool>,
         inputs: Vec<bool>,
     },
-}
-
-fn register_of(system: &TransitionSystem, at: usize, value: bool) -> usize {
-    system.register(at) ^ usize::from(!value)
-}
-
-fn next_of(system: &TransitionSystem, at: usize, value: bool) -> usize {
-    system.registers[at].next ^ usize::from(!value)
 }

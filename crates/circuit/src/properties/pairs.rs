@@ -50,12 +50,11 @@ fn retain_kept(system: &TransitionSystem, cubes: &mut Vec<Cube>, work: &mut u64,
     system.constraints.iter().for_each(|&constraint| step.require(system, 0, constraint));
     let mut entered = Vec::new();
     for cube in &*cubes {
-        let outside = |&(at, value): &ValuedBit| step.literal(system, 0, system.register(at) ^ usize::from(value));
-        let outside: Vec<_> = cube.iter().map(outside).collect();
+        let outside: Vec<_> = cube.iter().map(|&bit| !step.literal(system, 0, system.has(bit))).collect();
         step.solver.clause(&outside);
         let this = step.solver.fresh();
-        for &(at, value) in cube {
-            let next = step.literal(system, 0, system.registers[at].next ^ usize::from(!value));
+        for &bit in cube {
+            let next = step.literal(system, 0, system.gets(bit));
             step.solver.clause(&[!this, next]);
         }
         entered.push(this);

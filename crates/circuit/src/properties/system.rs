@@ -41,6 +41,16 @@ impl TransitionSystem {
         1 + self.inputs.len() + self.registers.len() + self.ands.len()
     }
 
+    /// The literal that is 1 where a register has a value.
+    pub(super) fn has(&self, (at, value): ValuedBit) -> AndLiteral {
+        self.register(at) ^ usize::from(!value)
+    }
+
+    /// The literal that is 1 where a register has a value in the next step.
+    pub(super) fn gets(&self, (at, value): ValuedBit) -> AndLiteral {
+        self.registers[at].next ^ usize::from(!value)
+    }
+
     /// The register that a literal is, maybe inverted.
     pub(super) fn register_of(&self, literal: AndLiteral) -> Option<usize> {
         (literal / 2).checked_sub(1 + self.inputs.len()).filter(|&at| at < self.registers.len())

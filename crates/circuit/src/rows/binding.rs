@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::ports::{FileRow, RowFile};
 use super::wording::{self, MOST_ERRORS};
-use super::{FileRow, RowFile};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::Column;
 use nbc_base::source::Span;

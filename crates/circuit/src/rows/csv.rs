@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::ports::{FileRow, RowColumn, RowFile};
 use super::wording::{self, MOST_ERRORS};
-use super::{FileRow, RowColumn, RowFile};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Span};

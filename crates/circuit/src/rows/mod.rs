@@ -7,11 +7,11 @@ mod table;
 mod wording;
 
 pub use binding::PortRow;
-pub use ports::RowPorts;
+pub use ports::{FileRow, RowColumn, RowFile, RowPorts};
 
 use crate::formats::pla;
 use nbc_base::diag::Diagnostic;
-use nbc_base::source::{FileId, SourceFile, Span};
+use nbc_base::source::{FileId, SourceFile};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RowFormat {
@@ -38,39 +38,6 @@ impl RowFormat {
             Self::Csv => csv::read(text, file),
             Self::Pla => table::rows(pla::parse(text, file)?),
         }
-    }
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RowColumn {
-    pub name: String,
-    pub width: usize,
-    /// Whether it is an output, if the format says so.
-    pub is_output: Option<bool>,
-    pub span: Span,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct FileRow {
-    /// The bits of the columns in order, the most significant of a column first; `None` is any.
-    pub bits: Vec<Option<bool>>,
-    pub span: Span,
-}
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct RowFile {
-    pub columns: Vec<RowColumn>,
-    pub rows: Vec<FileRow>,
-}
-
-impl RowFile {
-    /// For each column, the place of its first bit in a row.
-    pub fn starts(&self) -> Vec<usize> {
-        let start = |next: &mut usize, column: &RowColumn| {
-            *next += column.width;
-            Some(*next - column.width)
-        };
-        self.columns.iter().scan(0, start).collect()
     }
 }
 

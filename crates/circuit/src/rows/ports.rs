@@ -1,15 +1,46 @@
-//! The ports that the columns of a file are.
+//! The rows of a file, and the ports that its columns are.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::RowFile;
 use super::wording;
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Column, bit_parts};
+use nbc_base::source::Span;
 
 pub type RowPorts = (Vec<Column>, Vec<Column>);
 
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowColumn {
+    pub name: String,
+    pub width: usize,
+    /// Whether it is an output, if the format says so.
+    pub is_output: Option<bool>,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileRow {
+    /// The bits of the columns in order, the most significant of a column first; `None` is any.
+    pub bits: Vec<Option<bool>>,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowFile {
+    pub columns: Vec<RowColumn>,
+    pub rows: Vec<FileRow>,
+}
+
 impl RowFile {
+    /// For each column, the place of its first bit in a row.
+    pub fn starts(&self) -> Vec<usize> {
+        let start = |next: &mut usize, column: &RowColumn| {
+            *next += column.width;
+            Some(*next - column.width)
+        };
+        self.columns.iter().scan(0, start).collect()
+    }
+
     /// The ports of the columns: the inputs, then the outputs. Columns `x[0]`, `x[1]`, … without a gap are one port.
     /// `outputs` names the outputs; by default they are those that the format says, or the last port.
     pub fn ports(&self, outputs: &[String]) -> Result<RowPorts, Diagnostic> {

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
+use super::ports::{FileRow, RowColumn, RowFile};
 use super::wording;
-use super::{FileRow, RowColumn, RowFile};
 use crate::formats::pla::{Pla, PlaCube};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
