@@ -150,8 +150,10 @@ mod tests {
     use super::*;
     use nbc_base::model::Image;
 
+    type Messages = Vec<(String, String)>;
+
     /// The spells, or the messages with the texts at their places.
-    fn read(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Vec<(String, String)>> {
+    fn read(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Messages> {
         let shown = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
         match read_schedule("--schedule", text, stimuli) {
             Ok(schedule) => Ok(schedule.spells.into_iter().map(shown).collect()),

@@ -48,6 +48,10 @@ pub(super) enum FilmFormat {
     Gif,
 }
 
+/// Draws a subject.
+type Draw<S> = fn(&S, &DrawRequest) -> Result<Drawn, Failure>;
+type DrawProgram = fn(&DrawRequest) -> Result<Drawn, Failure>;
+
 /// A kind of picture. What it has no function for is refused, with the kind of subject that it is for.
 pub(super) struct PictureKind {
     pub(super) word: &'static str,
@@ -58,10 +62,10 @@ pub(super) struct PictureKind {
     pub(super) options: &'static [&'static str],
     /// The subject to name if another is given. A kind for libraries also shows the best robots of a run.
     pub(super) subject: SubjectKind,
-    pub(super) robot: Option<fn(&TitledBody, &DrawRequest) -> Result<Drawn, Failure>>,
-    pub(super) library: Option<fn(&TitledRobots, &DrawRequest) -> Result<Drawn, Failure>>,
-    pub(super) run: Option<fn(&EvolutionResults, &DrawRequest) -> Result<Drawn, Failure>>,
-    pub(super) program: Option<fn(&DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) robot: Option<Draw<TitledBody>>,
+    pub(super) library: Option<Draw<TitledRobots>>,
+    pub(super) run: Option<Draw<EvolutionResults>>,
+    pub(super) program: Option<DrawProgram>,
 }
 
 impl PictureKind {

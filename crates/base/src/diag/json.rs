@@ -48,7 +48,7 @@ mod tests {
         let mut sources = Sources::default();
         let file = sources.add("a.nb", "circuit\n  é }\n");
         let diagnostic = Diagnostic::new(Code::Syntax, "unexpected `}`", Span::new(file, 13, 14), "here");
-        let written = json(&[diagnostic.clone()], &sources).remove(0);
+        let written = json(std::slice::from_ref(&diagnostic), &sources).remove(0);
         let label = &written["labels"][0];
         assert_eq!(label["start"], json!({ "byte": 13, "line": 2, "column": 5 }));
         assert_eq!(label["end"], json!({ "byte": 14, "line": 2, "column": 6 }));
