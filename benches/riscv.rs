@@ -68,9 +68,8 @@ fn main() -> ExitCode {
     println!("| registers | objective | robots | cycles of a clock: mean, most |");
     println!("|---|---|---|---|");
     for fields in [
-        "library: sturdy, registers: pulsed",
-        "registers: pulsed",
-        "registers: master_slave",
+        "library: sturdy",
+        "library: shipped",
         "library: three, registers: mux",
     ] {
         for objective in [MappingObjective::Area, MappingObjective::Delay] {

@@ -63,7 +63,7 @@ pub use nbc_circuit::CancelFlag;
 
 /// ```
 /// use nbc::{CompileOptions, Effort, MappingObjective};
-/// let fast = CompileOptions { objective: MappingObjective::Delay, effort: Effort::High, ..CompileOptions::default() };
+/// let fast = CompileOptions { objective: MappingObjective::Delay, effort: Effort::Fast, ..CompileOptions::default() };
 /// assert_eq!(fast.runs, "out");
 /// ```
 pub use nbc_circuit::{Effort, MappingObjective};

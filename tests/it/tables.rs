@@ -40,7 +40,6 @@ fn expect(page: &str, sentence: &str) {
 }
 
 const NORMAL: &str = "| circuit | a: nbc | a: ABC | a: opt |";
-const HIGH: &str = "| circuit | a: nbc | a: ABC | b: nbc |";
 
 #[test]
 fn the_ratios_to_abc_are_those_of_the_table() {
@@ -61,33 +60,6 @@ fn the_ratios_to_abc_are_those_of_the_table() {
             mean(&b),
             mean(&c),
             rows.len()
-        ),
-    );
-}
-
-#[test]
-fn the_ratios_of_high_effort_are_those_of_its_table() {
-    let (high, normal) = (rows("synthesis.md", HIGH), rows("synthesis.md", NORMAL));
-    let normal: BTreeMap<&str, &Vec<String>> = normal.iter().map(|row| (&row[0][..], row)).collect();
-    let means = [[1, 2], [3, 4], [5, 6]].map(|columns| mean(&ratios(&high, columns)));
-    // The cells of normal effort to the fewest of ABC in the table of high effort.
-    let others = [[1, 2], [4, 4], [7, 6]].map(|[over, under]| {
-        let ratios: Vec<_> =
-            high.iter().map(|row| (number(&normal[&row[0][..]][over]) / number(&row[under]), &row[0][..])).collect();
-        mean(&ratios)
-    });
-    expect(
-        "synthesis.md",
-        &format!(
-            "On these {} circuits the geometric mean of the ratios to ABC is {:.3}, {:.3} and {:.3}; that of normal \
-             effort is {:.3}, {:.3} and {:.3}.",
-            high.len(),
-            means[0],
-            means[1],
-            means[2],
-            others[0],
-            others[1],
-            others[2]
         ),
     );
 }

@@ -29,7 +29,6 @@ mod proof;
 pub mod properties;
 mod races;
 mod random_run;
-pub mod reachable;
 mod recipes;
 mod register_forms;
 pub mod registers;

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use nbc_base::diag::counted;
-use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, PathEnds, Pulse, PulsedRegisters, WhyKept};
+use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, PathEnds, WhyKept};
 use nbc_circuit::{CellKind, FlipFlop, Latch, NetId, Netlist, Timing, Unphased};
 
 /// The registers and clocks of a circuit.
@@ -18,31 +18,8 @@ pub struct PhaseTiming {
     pub clocks: Vec<ClockReport>,
     /// The memory and loops that a change is assumed to pass twice.
     pub unphased: Vec<UnphasedReport>,
-    /// The generators of pulses for pulsed latches.
-    pub pulses: Vec<PulseReport>,
     /// The registers that stay as they are, although latches of another form were asked for.
     pub kept: Vec<KeptReport>,
-}
-
-/// A generator of pulses, with times in cycles.
-#[derive(Clone, Debug, Serialize)]
-pub struct PulseReport {
-    /// The net of the pulse.
-    pub net: String,
-    /// Its clock.
-    pub clock: String,
-    /// Whether a pulse follows each rise of the clock; otherwise it follows each fall.
-    pub rises: bool,
-    /// The least length of a pulse.
-    pub width: u32,
-    /// The length that its latches need.
-    pub needed: u32,
-    /// The time after the edge at which it has ended for certain.
-    pub ends: u32,
-    /// The number of latches that it opens.
-    pub latches: usize,
-    /// The number of robots that delay data.
-    pub padding: usize,
 }
 
 /// A register that stays as it is.
@@ -134,12 +111,13 @@ pub struct UnphasedReport {
 }
 
 impl PhaseTiming {
-    /// The registers and clocks of a timed netlist whose cells are of these kinds, and of its pulsed latches.
+    /// The registers and clocks of a timed netlist whose cells are of these kinds; `kept` is memory that has not become
+    /// latches of one robot.
     pub fn of<'k>(
         netlist: &Netlist,
         timing: &Timing,
         kind: impl Fn(NetId) -> &'k CellKind,
-        registers: Option<&PulsedRegisters>,
+        kept: &[(NetId, WhyKept)],
     ) -> Self {
         let named = Named(netlist);
         let storage = &timing.storage;
@@ -149,8 +127,7 @@ impl PhaseTiming {
             flip_flops: storage.flip_flops.iter().map(|pair| named.flip_flop(&storage.latches, pair)).collect(),
             clocks: clocks.iter().map(|times| named.clock(times)).collect(),
             unphased: storage.unphased.iter().map(|unphased| named.unphased(unphased)).collect(),
-            pulses: registers.iter().flat_map(|registers| &registers.pulses).map(|pulse| named.pulse(pulse)).collect(),
-            kept: registers.iter().flat_map(|registers| &registers.kept).map(|kept| named.kept(*kept)).collect(),
+            kept: kept.iter().map(|&kept| named.kept(kept)).collect(),
         }
     }
 
@@ -160,27 +137,8 @@ impl PhaseTiming {
         let unphased = self.unphased.iter().map(|UnphasedReport { nets, why }| {
             format!("unphased {}: {why}; timed as a loop that a change passes twice\n", nets.join(" "))
         });
-        let pulses = self.pulses.iter().map(PulseReport::describe);
         let kept = self.kept.iter().map(|KeptReport { net, why }| format!("kept     {net} stays as written: {why}\n"));
-        clocks.chain(pulses).chain(kept).chain(unphased).collect()
-    }
-}
-
-impl PulseReport {
-    fn describe(&self) -> String {
-        let Self { net, clock, rises, width, needed, ends, latches, padding } = self;
-        let registers = counted(*latches, "register");
-        let edge = if *rises { "rises" } else { "falls" };
-        let padding = match padding {
-            0 => String::new(),
-            _ => format!("; {} delay data", counted(*padding, "robot")),
-        };
-        format!(
-            "pulse    {net} opens {registers} for {} at least, of {needed} needed; inputs are stable before {clock} \
-             {edge} and {} after{padding}\n",
-            counted(*width as usize, "cycle"),
-            counted(*ends as usize, "cycle")
-        )
+        clocks.chain(kept).chain(unphased).collect()
     }
 }
 
@@ -257,11 +215,6 @@ impl Named<'_> {
             paths: times.paths.iter().map(path).collect(),
             races: times.races.iter().map(|nets| self.names(nets)).collect(),
         }
-    }
-
-    fn pulse(&self, pulse: &Pulse) -> PulseReport {
-        let &Pulse { net, clock, rises, width, needed, ends, latches, padding } = pulse;
-        PulseReport { net: self.name(net), clock: self.name(clock), rises, width, needed, ends, latches, padding }
     }
 
     fn kept(&self, (net, why): (NetId, WhyKept)) -> KeptReport {

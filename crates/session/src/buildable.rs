@@ -113,9 +113,7 @@ impl Look<'_> {
     fn swarm(&mut self, swarm: &Swarm) {
         self.registers(swarm);
         match swarm.registers {
-            RegisterStyle::MasterSlave | RegisterStyle::Pulsed => {
-                self.circuit(&swarm.circuit, &swarm.library, swarm.span);
-            }
+            RegisterStyle::MasterSlave => self.circuit(&swarm.circuit, &swarm.library, swarm.span),
             RegisterStyle::Mux => {
                 let Some(robots) = self.library(&swarm.library) else { return };
                 if Held::is_possible(&nbc_swarm::cells(&robots)) {
@@ -130,16 +128,14 @@ impl Look<'_> {
 
     /// Whether a swarm that says what its registers are made of has any.
     fn registers(&mut self, swarm: &Swarm) {
-        let style = match swarm.registers {
-            RegisterStyle::Pulsed => "pulsed",
-            RegisterStyle::Mux => "mux",
-            // Anything can be a wave machine, and the other is what is usual.
-            RegisterStyle::Waves | RegisterStyle::MasterSlave => return,
-        };
+        // Anything can be a wave machine, and `master_slave` is the default.
+        if swarm.registers != RegisterStyle::Mux {
+            return;
+        }
         let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
         if Loops::of(&netlist).cores().is_empty() {
             let (swarm, circuit, span) = (swarm.name.clone(), swarm.circuit.to_string(), swarm.span);
-            self.note(Err(vec![NoRegistersError { style, swarm, circuit }.at(span)]));
+            self.note(Err(vec![NoRegistersError { swarm, circuit }.at(span)]));
         }
     }
 

@@ -1,8 +1,8 @@
 //! A circuit as cells of a library.
 
-use nbc_circuit::timing::{Delays, Held, Pulsed, PulsedRegisters};
+use nbc_circuit::timing::{Delays, Held, WhyKept};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{CellLibrary, Netlist, Proof, Timing, prove_forms};
+use nbc_circuit::{CellLibrary, NetId, Netlist, Proof, Timing, prove_forms};
 
 /// A circuit made of cells, and proved.
 #[derive(Clone, Debug)]
@@ -16,8 +16,8 @@ pub struct Mapping {
     /// How the two netlists were proved equal, before registers became latches of another form, which has a proof of
     /// its own; or the steps of a wave machine.
     pub proof: Proof,
-    /// The registers, if they were to be pulsed latches or latches of one robot.
-    pub registers: Option<PulsedRegisters>,
+    /// A net of each memory element that should have become a latch of one robot and has not.
+    pub kept: Vec<(NetId, WhyKept)>,
     /// Whether no proof was found that registers of another form store the same, because latches are not recognized.
     pub unproved_registers: bool,
     /// The wave machine, if the circuit was to be one.
@@ -25,28 +25,17 @@ pub struct Mapping {
 }
 
 impl Mapping {
-    /// The same circuit with pulsed latches as registers.
-    pub(super) fn pulsed(self) -> Self {
-        let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
-        self.with(netlist, registers)
-    }
-
     /// The same circuit with latches of one robot; none if the library has no robot for them.
-    pub(super) fn held(self) -> Option<Self> {
-        let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
-        Some(self.with(netlist, PulsedRegisters { pulses: Vec::new(), kept }))
-    }
-
-    /// The same circuit with registers of another form.
     ///
     /// # Panics
     /// When they store something else, which is a fault of the compiler.
-    fn with(self, netlist: Netlist, registers: PulsedRegisters) -> Self {
-        let proof = prove_forms(&self.netlist, &netlist, &registers.pulses);
+    pub(super) fn held(self) -> Option<Self> {
+        let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
+        let proof = prove_forms(&self.netlist, &netlist);
         if let Some(Err(error)) = &proof {
             panic!("the registers of `{}` differ from those of its source: {error}", self.source.name);
         }
-        Self { netlist, registers: Some(registers), unproved_registers: proof.is_none(), ..self }
+        Some(Self { netlist, kept, unproved_registers: proof.is_none(), ..self })
     }
 
     /// When each net has settled; the hold of a wave machine is the length of a step.

@@ -6,7 +6,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Function, Library};
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
-use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
 use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, prove_expanded, registers};
 
 /// How a design is mapped.
@@ -18,8 +17,6 @@ pub struct SynthesisOptions {
     pub map: MapOptions,
     /// Whether registers become cells.
     pub expand: bool,
-    /// Whether the result need only be right in reachable states.
-    pub reachable_only: bool,
     /// Functions of which it is asked how many cells a robot for each would save.
     pub what_if: Vec<Function>,
 }
@@ -27,7 +24,7 @@ pub struct SynthesisOptions {
 impl SynthesisOptions {
     /// The design as it is, mapped onto few of these cells.
     pub fn onto(cells: CellLibrary) -> Self {
-        Self { cells, map: MapOptions::default(), expand: false, reachable_only: false, what_if: Vec::new() }
+        Self { cells, map: MapOptions::default(), expand: false, what_if: Vec::new() }
     }
 }
 
@@ -40,21 +37,10 @@ pub struct Synthesis {
     pub result: Design,
     /// The registers that the design does not need.
     pub removed: Removed,
-    /// What was assumed of its states; `None` if the result is right in every state by request.
-    pub states: Option<AssumedStates>,
     /// Whether no proof was found that the cells of its registers store what they store ([`prove_expanded`]).
     pub unproved_registers: bool,
     /// The cells that a robot for each of the functions would save; negative if it needs more.
     pub what_if: Vec<(Function, i64)>,
-}
-
-/// The states of a design in which a result is right.
-#[derive(Clone, Debug)]
-pub enum AssumedStates {
-    /// All of them, for this reason.
-    Every(WhyEveryState),
-    /// The reachable ones, which saves so many cells. If it saves none, the result is right in all states.
-    Reachable(Reachable, usize),
 }
 
 impl Synthesis {
@@ -72,9 +58,8 @@ impl Synthesis {
         {
             panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
         }
-        let (Made { design, source, result, unproved_registers }, states) =
-            if options.reachable_only { whole.within_reach(options)? } else { (whole, None) };
-        let mut synthesis = Self { design, result, removed, states, unproved_registers, what_if: Vec::new() };
+        let Made { design, source, result, unproved_registers } = whole;
+        let mut synthesis = Self { design, result, removed, unproved_registers, what_if: Vec::new() };
         for &function in &options.what_if {
             let mut more = options.cells.clone();
             more.insert(function, CellKind::uniform(1, 1.0));
@@ -144,17 +129,5 @@ impl Made {
         let registers = if options.expand { Vec::new() } else { design.registers.clone() };
         let ascending = design.ascending.clone();
         Ok(Self { design, source, result: Design { logic, registers, ascending }, unproved_registers })
-    }
-
-    /// The same design where only reachable states count, if that saves cells.
-    fn within_reach(self, options: &SynthesisOptions) -> Result<(Self, Option<AssumedStates>), Diagnostic> {
-        let (simpler, reachable) = match reachable::simplify(&self.design, &options.cells, &options.map) {
-            Ok(found) => found,
-            Err(why) => return Ok((self, Some(AssumedStates::Every(why)))),
-        };
-        let other = Self::of(simpler, options)?;
-        let cells = |made: &Self| made.result.logic.cells().count();
-        let saved = cells(&self).saturating_sub(cells(&other));
-        Ok((if saved > 0 { other } else { self }, Some(AssumedStates::Reachable(reachable, saved))))
     }
 }

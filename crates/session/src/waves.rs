@@ -40,7 +40,7 @@ pub(super) fn map_waves(
     let proof = Proof { method: certificate.method, cuts };
     let netlist = machine.netlist.clone();
     let waves = Some(machine);
-    Ok(Mapping { source, netlist, cells, proof, registers: None, unproved_registers: false, waves })
+    Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves })
 }
 
 /// The steps of a wave machine that the rows of a test are: the first is before the first edge of the clock, and each

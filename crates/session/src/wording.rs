@@ -163,7 +163,7 @@ impl From<ChoiceError> for Diagnostic {
                 let message =
                     "the library has no multiplexer without glitches, of which `registers: mux` makes latches";
                 Self::without_place(Code::IncompleteLibrary, message)
-                    .with_help("write `library: three`, or `registers: pulsed`")
+                    .with_help("write `library: three`")
             }
             ChoiceError::NoWaves(WaveError::Unmapped(error)) => ChoiceError::Unmapped(error).into(),
             ChoiceError::NoWaves(error) => {
@@ -248,7 +248,6 @@ impl ClaimError {
 /// A swarm that says what the registers of a circuit without memory are made of.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NoRegistersError {
-    pub style: &'static str,
     pub swarm: String,
     pub circuit: String,
 }
@@ -256,10 +255,10 @@ pub(super) struct NoRegistersError {
 impl NoRegistersError {
     /// The error at the swarm.
     pub(super) fn at(self, span: Span) -> Diagnostic {
-        let Self { style, swarm, circuit } = self;
-        let message = format!("`registers: {style}` has no effect in the swarm `{swarm}`");
+        let Self { swarm, circuit } = self;
+        let message = format!("`registers: mux` has no effect in the swarm `{swarm}`");
         Diagnostic::new(Code::NoEffect, message, span, format!("`{circuit}` has no register"))
-            .with_help(format!("remove `registers: {style}`"))
+            .with_help("remove `registers: mux`")
     }
 }
 

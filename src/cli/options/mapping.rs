@@ -104,8 +104,6 @@ enum EffortWord {
     /// Seconds for circuits of a few hundred cells
     #[default]
     Normal,
-    /// As good as it gets in minutes
-    High,
 }
 
 impl From<ObjectiveWord> for MappingObjective {
@@ -124,7 +122,6 @@ impl From<EffortWord> for Effort {
         match word {
             EffortWord::Fast => Self::Fast,
             EffortWord::Normal => Self::Normal,
-            EffortWord::High => Self::High,
         }
     }
 }

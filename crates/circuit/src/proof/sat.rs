@@ -7,7 +7,6 @@ use batsat::{Lit, Solver, SolverInterface, SolverOpts, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::clause::{Clause, ValuedBit};
 use crate::network::{Gate, Network, Signal, word};
 use crate::proof::method::Method;
 use crate::proof::patterns::random_word;
@@ -32,7 +31,7 @@ const MOST_CALLS: usize = 100;
 const MANY_VARIABLES: usize = 1_000;
 
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
-    let mut comparison = Comparison::within(one, &[]);
+    let mut comparison = Comparison::with(one);
     comparison.compare(two)?;
     Ok(Method::Sat { calls: comparison.sweep.calls })
 }
@@ -44,10 +43,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// A comparison with this network where all clauses hold: of each, an input has the given value.
-    pub fn within(network: &Network, clauses: &[Clause]) -> Self {
+    pub fn with(network: &Network) -> Self {
         let mut sweep = SatSweep::new(network.inputs);
-        clauses.iter().for_each(|clause| sweep.assume(clause));
         let signals = sweep.add(network);
         Self { outputs: network.outputs.iter().map(|&output| signals[output as usize]).collect(), sweep }
     }
@@ -75,8 +72,6 @@ impl Comparison {
 pub struct SatSweep {
     cones: Cones,
     propagations: u64,
-    /// Of each clause, one of these inputs has the given value.
-    assumed: Vec<Vec<(Signal, bool)>>,
     /// The input words so far, `patterns[word][input]`.
     patterns: Vec<Vec<u64>>,
     inputs: usize,
@@ -116,7 +111,6 @@ impl SatSweep {
             propagations: 0,
             portion,
             cancel,
-            assumed: Vec::new(),
             patterns,
             inputs,
             gates: Vec::new(),
@@ -140,13 +134,6 @@ impl SatSweep {
             1 => vec![!0; words.len()],
             _ => words.iter().map(|inputs| inputs[signal - 2]).collect(),
         }
-    }
-
-    /// Requires that one of these inputs has the given value. Signals that are merged later are equal only then.
-    pub fn assume(&mut self, clause: &[ValuedBit]) {
-        let clause: Vec<_> = clause.iter().map(|&(input, value)| (input as Signal + 2, value)).collect();
-        self.cones.clause(&clause);
-        self.assumed.push(clause);
     }
 
     pub fn add(&mut self, network: &Network) -> Vec<(Signal, bool)> {
@@ -223,15 +210,6 @@ impl SatSweep {
         Compared::Equal
     }
 
-    /// Inputs at which signals, each maybe inverted, have these values.
-    pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
-        match self.solve(wanted, self.portion) {
-            Solved::Yes => Some(self.inputs_found()),
-            Solved::No => None,
-            Solved::Open => panic!("a solver without limits ends with an answer"),
-        }
-    }
-
     fn inputs_found(&self) -> Vec<bool> {
         (0..self.inputs).map(|input| self.cones.is_on(input as Signal + 2)).collect()
     }
@@ -241,7 +219,6 @@ impl SatSweep {
         if self.cones.calls >= MOST_CALLS && self.cones.variable.len() > MANY_VARIABLES {
             self.propagations += self.cones.propagations();
             self.cones = Cones::new(&self.cancel);
-            self.assumed.iter().for_each(|clause| self.cones.clause(clause));
         }
         let assumed: Vec<_> = wanted.iter().map(|&((signal, inverted), value)| (signal, value != inverted)).collect();
         let first_gate = 2 + self.inputs;

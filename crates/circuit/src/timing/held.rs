@@ -10,7 +10,6 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::cells::CellLibrary;
 use crate::passes::{Pass, Sweep};
 use crate::storage::{Follower, Inverters, Latch};
-use crate::timing::pulsed::WhyKept;
 use crate::{Cell, FlipFlop, NetId, Netlist, Storage};
 use nbc_base::model::Function;
 
@@ -19,6 +18,14 @@ pub struct Held {
     pub netlist: Netlist,
     pub latches: Vec<NetId>,
     pub kept: Vec<(NetId, WhyKept)>,
+}
+
+/// Why a latch stays as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhyKept {
+    NotOneBit,
+    /// Such as where its data depend on what opens it.
+    NotRecognized,
 }
 
 /// The multiplexer that shows its second input while the first is 1, and else the third; and that for the opposite.

@@ -8,7 +8,6 @@ mod arrivals;
 mod clock;
 mod held;
 mod phase;
-mod pulsed;
 mod update;
 mod wording;
 
@@ -21,8 +20,7 @@ use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 
 pub use arrivals::Delays;
 pub use clock::{ClockPath, ClockTimes, InputTimes, PathEnds};
-pub use held::Held;
-pub use pulsed::{Pulse, Pulsed, PulsedRegisters, WhyKept};
+pub use held::{Held, WhyKept};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {

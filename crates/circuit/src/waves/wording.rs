@@ -65,7 +65,7 @@ impl WaveError {
             Self::Unmapped(error) => return error.help(),
             Self::NoBuffer => "a `buf`, `and` or `or` robot that is quick enough for the beat suffices".to_owned(),
             Self::Loop { .. } | Self::Latch { .. } => {
-                "in a wave machine every loop passes a `register`; `registers: pulsed` allows latches".to_owned()
+                "in a wave machine every loop passes a `register`; `registers: mux` allows latches".to_owned()
             }
             Self::GatedClock { .. } => {
                 "let every register change in each step, and keep a value with `if enable then new else old`".to_owned()

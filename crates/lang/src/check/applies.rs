@@ -13,7 +13,7 @@ const ACTUATOR: &[Fact] = &[("kind", "actuator")];
 const SENSOR: &[Fact] = &[("kind", "sensor")];
 /// The noise that is drawn.
 const DRAWN: &[Fact] = &[("start", ""), ("missed", ""), ("dead", "")];
-const HOLDS: &[Fact] = &[("registers", "master_slave"), ("registers", "pulsed"), ("registers", "mux")];
+const HOLDS: &[Fact] = &[("registers", "master_slave"), ("registers", "mux")];
 const WAVES: &[Fact] = &[("registers", "waves")];
 const NETWORKS: &[Fact] = &[("genome", "cppn")];
 const VOXELS: &[Fact] = &[("genome", "voxels")];
@@ -138,7 +138,7 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
             ("swarm", "circuit") => ["f", "g"],
             ("swarm", "library") | ("evolution", "start") => ["shipped", "few"],
             ("swarm", "hold" | "window" | "beat" | "step") | ("evolution", "fixed") => ["3 cycles", "6 cycles"],
-            ("swarm", "registers") => ["master_slave", "pulsed"],
+            ("swarm", "registers") => ["master_slave", "mux"],
             (_, "world") => ["paper", "rough"],
             ("evolution", "box") => ["4 x 4", "6 x 6"],
             ("evolution", "materials") => ["[bone, muscle]", "[flesh, muscle]"],

@@ -19,9 +19,8 @@ pub const DEFAULT_LIBRARY: &str = "shipped";
 const MAX_WINDOW: u32 = 1000;
 
 /// What registers are made of, by name.
-const REGISTERS: [(&str, RegisterStyle); 4] = [
+const REGISTERS: [(&str, RegisterStyle); 3] = [
     ("master_slave", RegisterStyle::MasterSlave),
-    ("pulsed", RegisterStyle::Pulsed),
     ("mux", RegisterStyle::Mux),
     ("waves", RegisterStyle::Waves),
 ];

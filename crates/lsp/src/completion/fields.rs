@@ -94,7 +94,7 @@ const SWARM: [(&str, Holds); 8] = [
     ("library", Holds::Name(NameKind::Library, &[])),
     ("hold", Holds::Words(&["auto"])),
     ("window", Holds::Words(&[])),
-    ("registers", Holds::Words(&["master_slave", "mux", "pulsed", "waves"])),
+    ("registers", Holds::Words(&["master_slave", "mux", "waves"])),
     ("beat", Holds::Words(&[])),
     ("step", Holds::Words(&[])),
     ("world", Holds::Name(NameKind::World, &[])),
