@@ -132,7 +132,7 @@ fn describe_passes(source: Netlist) -> String {
             true => ("no change".to_owned(), ""),
             false => (cells(&netlist), after.as_str()),
         };
-        text += &format!("\n{} ({}): {left}\n{shown}", pass.name(), pass.about());
+        text += &format!("\n{} ({}): {left}\n{shown}", pass.name, pass.about);
         before = after;
     }
     text

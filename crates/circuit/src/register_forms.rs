@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::cells::CellKind;
 use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::network::View;
-use crate::passes::{DissolveWires, Pass, Sweep};
+use crate::passes::{dissolve_wires, sweep};
 use crate::proof::{self, Counterpart};
 use crate::storage::{Follower, Inverters};
 use crate::{Latch, Logic, NetId, Netlist, Node, Proof, ProofError, Storage};
@@ -39,7 +39,7 @@ pub fn prove_expanded(design: &Design, netlist: &Netlist) -> Option<Result<Proof
     }
     let edges: BTreeMap<&str, bool> = read.registers.iter().map(|one| (one.name.as_str(), is_edge(one))).collect();
     let mut plain = netlist.clone();
-    if let Err(error) = DissolveWires.run_on(&mut plain) {
+    if let Err(error) = dissolve_wires(&mut plain) {
         return Some(Err(error.into()));
     }
     let mut made = Bits::of(&plain).taken(|name| edges.get(name).copied());
@@ -136,12 +136,7 @@ impl<'n> Bits<'n> {
         self.without(&named)
     }
 
-    fn element<'b>(
-        &'b self,
-        bit: &'b Bit,
-        shown: (NetId, bool),
-        is_edge: bool,
-    ) -> Option<Element<'b>> {
+    fn element<'b>(&'b self, bit: &'b Bit, shown: (NetId, bool), is_edge: bool) -> Option<Element<'b>> {
         let Bit { latch, follower } = bit;
         let edge = |rises: bool| if rises { RegisterKind::Rising } else { RegisterKind::Falling };
         let element = |data, root, kind| Some(Element { bit, shown, data, root, kind });
@@ -175,7 +170,7 @@ impl<'n> Bits<'n> {
             }
         }
         for (&cell, &net) in &now {
-            logic.fanout(cell).into_iter().for_each(|(listener, pin)| logic.drive(listener, pin, net));
+            logic.move_listeners(cell, net);
         }
         let now = |net: NetId| now.get(&net).copied().unwrap_or(net);
         let mut registers = Vec::new();
@@ -200,7 +195,7 @@ impl<'n> Bits<'n> {
             let data = if inverted { logic.add_gate(Function::NOT, &[net]) } else { net };
             logic.add_output(format!("{name}_next"), data);
         }
-        Sweep.run(&mut logic).expect("sweeping only removes");
+        sweep(&mut logic);
         Design::new(logic, registers)
     }
 }

@@ -162,8 +162,7 @@ impl From<ChoiceError> for Diagnostic {
             ChoiceError::NoMultiplexer => {
                 let message =
                     "the library has no multiplexer without glitches, of which `registers: mux` makes latches";
-                Self::without_place(Code::IncompleteLibrary, message)
-                    .with_help("write `library: three`")
+                Self::without_place(Code::IncompleteLibrary, message).with_help("write `library: three`")
             }
             ChoiceError::NoWaves(WaveError::Unmapped(error)) => ChoiceError::Unmapped(error).into(),
             ChoiceError::NoWaves(error) => {

@@ -7,9 +7,8 @@ use batsat::{Lit, Solver, SolverInterface, SolverOpts, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::network::{Gate, Network, Signal, word};
-use crate::proof::method::Method;
-use crate::proof::patterns::random_word;
+use crate::network::{Gate, Network, Signal, inverted, word};
+use crate::proof::method::{Method, random_word};
 use crate::properties::{Solved, SolverLimits};
 use nbc_base::model::Function;
 use nbc_base::source::CancelFlag;
@@ -140,10 +139,7 @@ impl SatSweep {
         let mut made: Vec<(Signal, bool)> = (0..2 + network.inputs as Signal).map(|signal| (signal, false)).collect();
         for gate in &network.gates {
             let [a, b] = gate.pins.map(|pin| made[pin as usize]);
-            let mut function = gate.function;
-            for (pin, (_, inverted)) in [a, b].into_iter().enumerate() {
-                function = if inverted { function.with_input_inverted(pin) } else { function };
-            }
+            let function = inverted(gate.function, [a.1, b.1]);
             let (function, pins) = if a.0 <= b.0 { (function, [a.0, b.0]) } else { (function.swapped(), [b.0, a.0]) };
             let key = pins.iter().fold(u128::from(function.bits()), |key, &pin| key << 32 | u128::from(pin));
             let known = self.known.get(&key).copied().unwrap_or_else(|| {

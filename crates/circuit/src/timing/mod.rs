@@ -55,7 +55,7 @@ impl Timing {
         let timed: Vec<(Phase, Arrivals)> = phases
             .into_iter()
             .map(|phase| {
-                let arrivals = Arrivals::of(&delay, &phase);
+                let arrivals = Arrivals::from(&delay, &phase, |update| delay.launch(&phase, update));
                 (phase, arrivals)
             })
             .collect();

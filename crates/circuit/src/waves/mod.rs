@@ -10,15 +10,14 @@ mod clock_step;
 mod graph;
 mod machine;
 mod phases;
-mod run;
 mod search;
 mod wording;
 
-pub use certify::{Certificate, certify};
+pub use certify::certify;
 pub use clock_run::{ClockRun, LANES};
 pub use clock_step::{ClockStep, StateBit};
 pub use machine::{Reading, WaveMachine, WaveOutput, WaveState};
-pub use wording::{CertifyError, WaveError};
+pub use wording::WaveError;
 
 use crate::cells::CellLibrary;
 use crate::network::Network;

@@ -19,11 +19,8 @@ pub const DEFAULT_LIBRARY: &str = "shipped";
 const MAX_WINDOW: u32 = 1000;
 
 /// What registers are made of, by name.
-const REGISTERS: [(&str, RegisterStyle); 3] = [
-    ("master_slave", RegisterStyle::MasterSlave),
-    ("mux", RegisterStyle::Mux),
-    ("waves", RegisterStyle::Waves),
-];
+const REGISTERS: [(&str, RegisterStyle); 3] =
+    [("master_slave", RegisterStyle::MasterSlave), ("mux", RegisterStyle::Mux), ("waves", RegisterStyle::Waves)];
 
 /// The longest step of a wave machine, in cycles.
 const MAX_STEP: u32 = 100_000;
