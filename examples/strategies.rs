@@ -58,7 +58,7 @@ fn best(checkpoint: &Checkpoint, behavior: Behavior) -> String {
     let elites = checkpoint.state.niches.iter().flat_map(|(_, elites)| elites);
     let scores = elites.filter(|elite| elite.behavior == behavior).map(|elite| elite.fitness[1]);
     let Some(score) = scores.reduce(f64::max) else { return "–".to_owned() };
-    let worlds = 1 + checkpoint.declared.others();
+    let worlds = 1 + checkpoint.declared.sample.map_or(0, |sample| sample.worlds as usize);
     let passed = ((score * worlds as f64).floor() as usize).min(worlds - 1);
     let own = 2.0 * (score * worlds as f64 - passed as f64) - 1.0;
     let margin = HALF_MARGIN * own / (1.0 - own.abs());

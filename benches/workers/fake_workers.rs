@@ -8,8 +8,10 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use serde_json::json;
+
 use crate::cluster::server::Server;
-use crate::cluster::wire::varint;
+use crate::cluster::wire::{message, subject_of};
 
 /// The time that a stand-in sleeps over an evaluation.
 const EVALUATION: Duration = Duration::from_millis(100);
@@ -103,7 +105,7 @@ impl FakeWorkers {
             thread::sleep(due.saturating_duration_since(Instant::now()));
             let payload = better(&task, count * 1000 + self.number as u64);
             let (number, search, length) = (self.number, task.split('.').nth(4).unwrap(), payload.len());
-            let (subject, reply) = (format!("nbc.v2.answer.{search}.sleeper{number}"), format!("reply{number}"));
+            let (subject, reply) = (subject_of(&format!("answer.{search}.sleeper{number}")), format!("reply{number}"));
             let head = format!("PUB {subject} {reply}.{acknowledgment} {length}\r\n");
             self.say(&[head.as_bytes(), &payload, b"\r\n"].concat());
         }
@@ -112,11 +114,17 @@ impl FakeWorkers {
 
 /// An answer with greater fitnesses than any before: it enters the archive, so that the search has elites to vary.
 fn better(task: &str, count: u64) -> Vec<u8> {
-    let key = task.split('.').skip(5).flat_map(|number| varint(number.parse().unwrap()));
+    let key: Vec<u64> = task.split('.').skip(5).map(|number| number.parse().unwrap()).collect();
+    let is_right = |bit: &u64| count >> bit & 1 == 1;
     let fitness = count as f64;
-    let sign = |bit: u64| if count >> bit & 1 == 1 { fitness } else { -fitness };
-    let numbers = [fitness, fitness].into_iter().chain((0..4).map(sign)).flat_map(f64::to_le_bytes);
-    [2].into_iter().chain(key).chain([0, 0]).chain(numbers).chain(varint(GATES_STEPS)).chain([0]).collect()
+    let displacement: Vec<f64> = (0..4).map(|bit| if is_right(&bit) { fitness } else { -fitness }).collect();
+    let behavior: String = (0..4).map(|bit| if is_right(&bit) { 'R' } else { 'L' }).collect();
+    let scores = json!({ "fitness": [fitness, fitness], "behavior": behavior, "displacement": displacement });
+    let work = json!({ "env_steps": GATES_STEPS, "left_out": 0 });
+    message(&json!({
+        "key": { "run": key[0], "generation": key[1], "index": key[2] },
+        "result": { "Evaluation": { "outcome": { "Measured": scores }, "work": work } },
+    }))
 }
 
 /// Env steps of an evaluation of `gates`.

@@ -299,7 +299,7 @@ pub fn read_checkpoint(py: Python<'_>, path: PathBuf) -> PyResult<ArchiveOnAxes<
         let niches = checkpoint.state.niches.iter();
         let elites = niches.flat_map(|(key, elites)| elites.iter().map(move |elite| (key, elite)));
         let palette = &checkpoint.declared.palette;
-        let axes = axes(&checkpoint.declared.axes, palette);
+        let axes = axes(&checkpoint.declared.descriptors, palette);
         let depth = checkpoint.state.niches.first().map_or(axes.len(), |(key, _)| key.0.len());
         Ok((archive(py, elites, depth, palette)?, axes, materials(palette)))
     })

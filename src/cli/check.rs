@@ -24,7 +24,6 @@ pub struct CheckArguments {
 }
 
 impl CheckArguments {
-    /// Checks and prints.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut session = Session::new(DiskWorld);
         let mut check = |path: &String| match path.as_str() {
@@ -54,7 +53,6 @@ impl CheckArguments {
     }
 }
 
-/// The number of errors and warnings in a file.
 pub(super) fn describe(checked: &Checked) -> String {
     let count = |severity| checked.diagnostics.iter().filter(|found| found.severity == severity).count();
     let errors = match count(Severity::Error) {

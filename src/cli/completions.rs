@@ -6,7 +6,7 @@ use clap::Args;
 use clap_complete::Shell;
 
 use crate::cli::options::new_path::new_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_session::store;
 
@@ -23,10 +23,9 @@ pub struct CompletionsArguments {
 }
 
 impl CompletionsArguments {
-    /// Prints the script, or writes it.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         if context.format == OutputFormat::Json {
-            return Err(UsageError::NoJson { what: "a completion script" }.into());
+            return Err(wording::no_json("a completion script").into());
         }
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut (context.command)(), "nbc", &mut script);

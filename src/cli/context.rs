@@ -9,8 +9,9 @@ use serde::Serialize;
 use serde_json::ser::Formatter;
 
 use crate::cli::Status;
-use crate::cli::failure::{Failure, unprintable};
+use crate::cli::failure::Failure;
 use crate::cli::output::Output;
+use crate::cli::wording;
 use nbc_base::diag::suggest::alternatives;
 use nbc_base::diag::{Diagnostic, Diagnostics, is_hidden, render, visible};
 use nbc_base::source::{ForeignCircuit, ProofOrigin, Sources};
@@ -18,7 +19,6 @@ use nbc_session::Checked;
 use nbc_session::report::{Document, Schema, Svg, png};
 use nbc_session::store;
 
-/// The format of the output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub enum OutputFormat {
     /// Text for people.
@@ -28,7 +28,6 @@ pub enum OutputFormat {
     Json,
 }
 
-/// When to color.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum ColorChoice {
     /// On a terminal, unless NO_COLOR is set
@@ -40,7 +39,6 @@ pub(super) enum ColorChoice {
     Never,
 }
 
-/// Options that every command takes.
 #[derive(Args)]
 pub(super) struct GlobalArguments {
     /// The format of the output: text for people or JSON for programs
@@ -52,7 +50,6 @@ pub(super) struct GlobalArguments {
 }
 
 impl ColorChoice {
-    /// Whether a stream is colored.
     fn on(self, stream: &impl IsTerminal) -> bool {
         match self {
             Self::Always => true,
@@ -62,15 +59,14 @@ impl ColorChoice {
     }
 }
 
-/// The output channels of a command: results go to standard output; progress, logs and diagnostics to standard error.
+/// Results go to standard output; progress, logs and diagnostics to standard error.
 pub struct Context {
-    /// The format of the output.
     pub format: OutputFormat,
-    /// Whether messages are colored.
+    /// Of messages.
     pub color: bool,
-    /// Whether results are colored.
+    /// Of results.
     paint: bool,
-    /// Describes the command line, for completion scripts.
+    /// For completion scripts.
     pub command: fn() -> Command,
     out: Output,
 }
@@ -97,7 +93,7 @@ impl Context {
         Ok(self.out.write_all(visible(&text.to_string()).as_bytes())?)
     }
 
-    /// Prints verdicts: [`Context::print`], with the words for passing and failing in green and red.
+    /// Prints with the words for passing and failing in green and red.
     pub fn print_verdicts(&mut self, text: &str) -> Result<(), Failure> {
         let text = visible(text);
         let text = if self.paint { painted(&text).into() } else { text };
@@ -112,14 +108,12 @@ impl Context {
         self.flush()
     }
 
-    /// Prints a value as one line of JSON, with its schema.
     pub fn print_json(&mut self, schema: Schema, value: &impl Serialize) -> Result<(), Failure> {
         let mut writer = serde_json::Serializer::with_formatter(&mut self.out, Visible);
         Document::new(schema, value).serialize(&mut writer).map_err(io::Error::from)?;
         Ok(writeln!(self.out)?)
     }
 
-    /// Prints a result in the requested format: the value as JSON, or the text.
     pub fn print_result<T: fmt::Display>(
         &mut self,
         schema: Schema,
@@ -132,18 +126,16 @@ impl Context {
         }
     }
 
-    /// Flushes standard output.
     pub fn flush(&mut self) -> Result<(), Failure> {
         Ok(self.out.flush()?)
     }
 
-    /// Writes a message to standard error. Errors of writing are ignored, because there is no other place to report
-    /// them.
+    /// Writes to standard error. Errors are ignored, because there is no other place to report them.
     pub fn log(&self, text: &str) {
         log(text);
     }
 
-    /// Logs warnings about a source, each one once.
+    /// Logs warnings about a source, each once.
     pub fn warn<'d>(&self, source: &Checked, warnings: impl IntoIterator<Item = &'d Diagnostic>) {
         let mut told: Vec<Diagnostic> = Vec::new();
         for warning in warnings {
@@ -179,12 +171,12 @@ impl Context {
                 self.print_diagnostics(&found);
                 self.tell(&found.list, &found.sources);
             }
-            Failure::Output(error) => self.tell(&[unprintable(&error)], &Sources::default()),
+            Failure::Output(error) => self.tell(&[wording::unprintable(&error)], &Sources::default()),
         }
         Status::BadInput
     }
 
-    /// Prints diagnostics to standard output, if it is JSON.
+    /// Prints to standard output, if it is JSON.
     pub(super) fn print_diagnostics(&mut self, found: &Diagnostics) {
         if self.format == OutputFormat::Json {
             let value = serde_json::json!({ "diagnostics": found.json() });
@@ -200,35 +192,33 @@ impl Context {
         Ok(())
     }
 
-    /// Writes a drawing, as PNG if the path ends so and else as SVG, and says so.
+    /// Writes PNG if the path ends so, and else SVG.
     pub fn write_picture(&self, path: &Path, svg: &Svg) -> Result<(), Failure> {
         let is_png = path.extension().is_some_and(|extension| extension == "png");
         self.write(path, &if is_png { png(svg) } else { svg.finish().into_bytes() })
     }
 
-    /// Says on standard error that a file that the user named is written.
     pub fn wrote(&self, path: &Path) {
         self.log(&format!("wrote {}\n", path.display()));
     }
 
-    /// Writes diagnostics to standard error, with excerpts of the sources.
     pub fn tell(&self, diagnostics: &[Diagnostic], sources: &Sources) {
         tell(diagnostics, sources, self.color);
     }
 }
 
-/// Writes a message to standard error, as [`Context::log`], from any thread.
+/// As [`Context::log`], from any thread.
 pub(super) fn log(text: &str) {
     let _ = io::stderr().write_all(visible(text).as_bytes());
 }
 
-/// Writes diagnostics to standard error, as [`Context::tell`], from any thread.
+/// As [`Context::tell`], from any thread.
 pub(super) fn tell(diagnostics: &[Diagnostic], sources: &Sources, color: bool) {
     // `render` escapes the control characters of the user's text; those of the colors must stay.
     let _ = io::stderr().write_all(render::text(diagnostics, sources, color).as_bytes());
 }
 
-/// The text with colors: `pass` in green, `fail` and `FAIL` in red, where they begin or end a line.
+/// `pass` in green, `fail` and `FAIL` in red, where they begin or end a line.
 fn painted(text: &str) -> String {
     text.split_inclusive('\n').map(paint_line).collect()
 }

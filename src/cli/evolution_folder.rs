@@ -9,12 +9,10 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::source::FileError;
 use nbc_session::store::{self, Checkpoint};
 
-/// The file in a run's folder that it is resumed from.
 pub(super) const CHECKPOINT: &str = "checkpoint.nbc";
-/// The file in a run's folder with a line for each generation.
 pub(super) const PROGRESS: &str = "progress.jsonl";
 
-/// The checkpoints of a run: that of one seed, or those of all seeds in their order.
+/// Of one seed, or of all seeds in their order.
 pub(super) fn checkpoints(folder: &Path) -> Vec<PathBuf> {
     let own = folder.join(CHECKPOINT);
     if own.is_file() {
@@ -33,16 +31,15 @@ pub(super) fn checkpoints(folder: &Path) -> Vec<PathBuf> {
     seeds.into_iter().map(|(_, checkpoint)| checkpoint).collect()
 }
 
-/// The checkpoint at a path, if there is one.
 pub(super) fn read_checkpoint(path: &Path) -> Result<Option<Checkpoint>, Failure> {
-    Checkpoint::open(path).map_err(Failure::plain)
+    Ok(Checkpoint::open(path)?)
 }
 
-/// The bytes of a file of progress; empty if there is no file.
+/// Empty if there is no file.
 pub(super) fn read_progress(path: &Path) -> Result<Vec<u8>, Failure> {
     match store::read(path, Limit::ProgressBytes.most()) {
         Ok(bytes) => Ok(bytes),
         Err(FileError::NotFound) => Ok(Vec::new()),
-        Err(error) => Err(Failure::plain(Diagnostic::unreadable(&path.display().to_string(), &error))),
+        Err(error) => Err(Diagnostic::unreadable(&path.display().to_string(), &error).into()),
     }
 }

@@ -3,9 +3,9 @@
 use clap::Args;
 use serde_json::json;
 
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
-use nbc_base::diag::{Code, Suggestion};
+use nbc_base::diag::Code;
 use nbc_lang::check::PRELUDE;
 use nbc_session::report::Schema;
 
@@ -22,7 +22,6 @@ pub struct ExplainArguments {
 }
 
 impl ExplainArguments {
-    /// Prints the page of a code, or the list of codes.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Some(word) = self.code else { return list(context) };
         if let Some((name, text)) = PRELUDE.iter().find(|(name, _)| name.strip_suffix(".nb") == Some(&word)) {
@@ -36,8 +35,7 @@ impl ExplainArguments {
             return Ok(Status::Done);
         }
         let Some(code) = Code::ALL.iter().find(|code| code.word() == word) else {
-            let meant = Suggestion::near(&word, Code::ALL.iter().map(|code| code.word()));
-            return Err(UsageError::UnknownCode { word, meant }.into());
+            return Err(wording::unknown_code(&word).into());
         };
         let page = nbc_session::error_page(*code);
         match context.format {

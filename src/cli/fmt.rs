@@ -6,7 +6,7 @@ use clap::Args;
 use serde_json::json;
 
 use crate::cli::standard_input::{self, DASH};
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
@@ -30,13 +30,12 @@ pub struct FmtArguments {
 }
 
 impl FmtArguments {
-    /// Formats the files. A file that cannot be parsed is not changed.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let mut told = Vec::new();
         for path in &self.files {
             if path == DASH && !self.check {
                 if context.format == OutputFormat::Json {
-                    return Err(UsageError::TwoFormats { option: DASH }.into());
+                    return Err(wording::two_formats(DASH).into());
                 }
                 context.print(&format_input()?.text)?;
                 continue;
@@ -54,7 +53,7 @@ impl FmtArguments {
         Ok(if self.check && differs { Status::TestFailed } else { Status::Done })
     }
 
-    /// Formats a file, or only checks it; returns whether it was formatted.
+    /// Returns whether it was formatted.
     fn format_file(&self, path: &str) -> Result<bool, Failure> {
         let Formatted { text, is_canonical } = match path {
             DASH => format_input()?,
@@ -68,7 +67,6 @@ impl FmtArguments {
     }
 }
 
-/// Standard input in its canonical form.
 fn format_input() -> Result<Formatted, Failure> {
     let mut session = Session::new(DiskWorld);
     let path = standard_input::open(&mut session);

@@ -9,7 +9,6 @@ use crate::cli::{Context, Failure, Interrupt};
 use nbc_base::model::{Instance, Variation};
 use nbc_session::{Checked, CompileOptions, Hardened, Hardening, Session};
 
-/// The worlds in which the tests of a circuit must pass.
 #[derive(Args)]
 pub(super) struct HardenArguments {
     /// Leave out the robots that fail first in worlds that differ by so much, such as `20%` or `friction=30%`, until
@@ -29,8 +28,7 @@ pub(super) struct HardenArguments {
 }
 
 impl HardenArguments {
-    /// Finds the robots to leave out of the swarm of a circuit; nothing if hardening is not asked for, and `None` after
-    /// an interruption.
+    /// Finds robots to leave out: none if hardening is not asked for, `None` after an interruption.
     pub(super) fn find(
         &self,
         session: &Session,

@@ -5,14 +5,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, Sender};
 use std::thread;
 
-/// Does the work for each item, with its place in the list, and passes the results to `hand_on` in order of the items,
-/// each as soon as it and those before it are complete. After an error of `hand_on`, no more work is started.
-///
-/// There are at most `most` threads. If that is one, or no other can be started, the work is done on the caller's
-/// thread.
-///
-/// These are not rayon's threads, which run the parts of a simulation: a rayon thread that waits for a part would start
-/// another item, and return only when that is done.
+/// Works on a list in parallel, and passes the results to `hand_on` in order of the items, each as soon as it and those
+/// before it are complete. After an error of `hand_on`, no more work is started. There are at most `most` threads; if
+/// no other can be started, the caller's thread does the work. These are not rayon's threads, which run the parts of a
+/// simulation: a rayon thread that waits for a part would start another item, and return only when that is done.
 pub(super) fn in_order<T: Sync, R: Send, E>(
     most: usize,
     items: &[T],
@@ -53,7 +49,6 @@ pub(super) fn in_order<T: Sync, R: Send, E>(
     })
 }
 
-/// Does the work on this thread.
 fn one_by_one<T, R, E>(
     items: &[T],
     work: impl Fn(usize, &T) -> R,
@@ -62,7 +57,6 @@ fn one_by_one<T, R, E>(
     items.iter().enumerate().try_for_each(|(place, item)| hand_on(work(place, item)))
 }
 
-/// The next item that is not taken yet, with its place.
 fn pick<'a, T>(items: &'a [T], next: &AtomicUsize) -> Option<(usize, &'a T)> {
     let place = next.fetch_add(1, Ordering::Relaxed);
     Some((place, items.get(place)?))

@@ -15,7 +15,6 @@ use nbc_sim::{LaneBackend, Monitor};
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// Watches the signals from now on.
     #[cfg(unix)]
     pub fn watch() -> io::Result<Self> {
         use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
@@ -30,7 +29,7 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Watches Ctrl-C and the end of the console from now on.
+    /// Watches Ctrl-C and the end of the console.
     #[cfg(windows)]
     pub fn watch() -> io::Result<Self> {
         let interrupt = Self::default();
@@ -44,32 +43,28 @@ impl Interrupt {
         Ok(interrupt)
     }
 
-    /// Whether a signal has arrived.
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Stops the work as a signal would.
     pub fn raise(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// The same request, for the search of a compilation.
     pub fn cancel(&self) -> CancelFlag {
         CancelFlag::from(self.0.clone())
     }
 
-    /// What simulates on this processor, as `processor` does, until this request.
+    /// The processor's back end, which stops after this request.
     pub fn ending(&self, processor: LaneBackend) -> LaneBackend {
         LaneBackend { monitor: Some(Arc::new(Monitor::until(self.cancel()))), ..processor }
     }
 
-    /// The files of the disk, whose translations end with this request.
+    /// The files of the disk; reading Verilog ends with this request.
     pub fn world(&self) -> GuardedWorld<DiskWorld> {
         GuardedWorld::until(DiskWorld, self.cancel())
     }
 
-    /// An observer that hands on the progress, and stops the work when a signal arrives.
     pub fn observe<F: FnMut(u64, u64)>(&self, progress: F) -> impl Observer + use<F> {
         Cancellable { cancel: self.cancel(), progress }
     }

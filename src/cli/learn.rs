@@ -53,11 +53,10 @@ pub struct LearnArguments {
 }
 
 impl LearnArguments {
-    /// Reads, learns, writes and reports.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
         let format = |path: &PathBuf| CircuitFormat::of_path(&path.to_string_lossy());
-        let format = self.output.as_ref().map(format).transpose().map_err(Failure::plain)?;
+        let format = self.output.as_ref().map(format).transpose()?;
         let interrupt = Interrupt::watch()?;
         let (sources, file) = store::read_rows(&self.rows)?;
         let named = self.output.as_ref().unwrap_or(&self.rows).file_stem();
@@ -69,7 +68,7 @@ impl LearnArguments {
         let mut learning = Learning::new(&request).map_err(|faults| Failure::input(faults, sources.clone()))?;
         // A format that the circuit does not fit is refused before it is learned.
         if let Some(format) = format {
-            store::encode_circuit(&learning.outline(), format).map_err(Failure::plain)?;
+            store::encode_circuit(&learning.outline(), format)?;
         }
         let bar = Progress::new("learning", learning.progress().1);
         while learning.advance() {
@@ -82,19 +81,18 @@ impl LearnArguments {
         let learned = learning.finish();
         let report = LearningReport::of(&learned, started.elapsed().as_secs_f64());
         if let (Some(path), Some(format)) = (&self.output, format) {
-            let bytes = store::encode_circuit(&learned.design, format).map_err(Failure::plain)?;
+            let bytes = store::encode_circuit(&learned.design, format)?;
             let comment = report.provenance(&command);
             context.write(path, &store::with_comment(bytes, format, &comment))?;
         }
         context.print_result(Schema::Learn, &report, || report.text())?;
         if let Some(path) = &self.confusion {
-            context.write_picture(path, &report.draw_confusion().map_err(Failure::plain)?)?;
+            context.write_picture(path, &report.draw_confusion()?)?;
         }
         Ok(Status::Done)
     }
 }
 
-/// A share in percent.
 fn percent(text: &str) -> Result<f64, String> {
     let percent = text.parse().ok().filter(|percent| (0.0..100.0).contains(percent));
     percent.ok_or_else(|| "expected a number from 0 to less than 100".to_owned())

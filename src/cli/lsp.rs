@@ -18,7 +18,6 @@ pub struct LspArguments {
 }
 
 impl LspArguments {
-    /// Serves until the client ends the session or closes its connection.
     pub fn run(self, _context: &mut Context) -> Result<Status, Failure> {
         Ok(match nbc_lsp::serve_standard()? {
             ServerEnd::Orderly => Status::Done,

@@ -29,8 +29,8 @@ mod library;
 mod lsp;
 mod manual;
 mod new;
-#[cfg(not(all(feature = "play", feature = "cluster", feature = "gpu")))]
-mod not_built;
+#[cfg(not(feature = "gpu"))]
+mod only_processor;
 mod options;
 mod output;
 #[cfg(feature = "play")]
@@ -58,12 +58,10 @@ use std::ffi::OsString;
 
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
-#[cfg(not(feature = "cluster"))]
-use not_built::cluster;
+#[cfg(feature = "gpu")]
+use gpu::OpenDevice;
 #[cfg(not(feature = "gpu"))]
-use not_built::gpu;
-#[cfg(not(feature = "play"))]
-use not_built::play;
+use only_processor::OnlyProcessor as OpenDevice;
 
 pub use context::{Context, OutputFormat};
 pub use failure::Failure;
@@ -72,16 +70,16 @@ pub use progress::Progress;
 pub use status::Status;
 
 macro_rules! commands {
-    ($($name:ident($module:ident::$arguments:ident),)*) => {
+    ($($(#[$when:meta])* $name:ident($module:ident::$arguments:ident),)*) => {
         #[derive(Subcommand)]
         enum Command {
-            $($name($module::$arguments),)*
+            $($(#[$when])* $name($module::$arguments),)*
         }
 
         impl Command {
             fn run(self, context: &mut Context) -> Result<Status, Failure> {
                 match self {
-                    $(Self::$name(arguments) => arguments.run(context),)*
+                    $($(#[$when])* Self::$name(arguments) => arguments.run(context),)*
                 }
             }
         }
@@ -94,6 +92,7 @@ commands! {
     Build(build::BuildArguments),
     Check(check::CheckArguments),
     Completions(completions::CompletionsArguments),
+    #[cfg(feature = "gpu")]
     Devices(gpu::DevicesArguments),
     Draw(draw::DrawArguments),
     Evolve(evolve::EvolveArguments),
@@ -105,6 +104,7 @@ commands! {
     Lsp(lsp::LspArguments),
     Manual(manual::ManualArguments),
     New(new::NewArguments),
+    #[cfg(feature = "play")]
     Play(play::PlayArguments),
     Prove(prove::ProveArguments),
     Run(run::RunArguments),
@@ -113,7 +113,9 @@ commands! {
     Synth(synth::SynthArguments),
     Test(test::TestArguments),
     Watch(watch::WatchArguments),
+    #[cfg(feature = "cluster")]
     Worker(cluster::WorkerArguments),
+    #[cfg(feature = "cluster")]
     Workers(cluster::WorkersArguments),
 }
 
@@ -137,9 +139,8 @@ struct Cli {
     command: Command,
 }
 
-/// Runs the program on a command line, its own name first.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Status {
-    let arguments = options::circuit::with_named_files(arguments);
+    let arguments = options::files::with_named_files(arguments);
     let parsed = usage::with_negative_numbers(Cli::command())
         .try_get_matches_from(&arguments)
         .and_then(|found| Cli::from_arg_matches(&found));
@@ -191,5 +192,19 @@ mod tests {
             all.insert("play".to_owned());
         }
         assert_eq!(makers, all);
+    }
+
+    #[test]
+    fn the_manual_names_every_command_and_option() {
+        fn check(command: &clap::Command, path: &str, manual: &str) {
+            assert!(manual.contains(path), "docs/commands.md does not name `{path}`");
+            for option in command.get_arguments().filter_map(clap::Arg::get_long) {
+                assert!(manual.contains(&format!("--{option}")), "docs/commands.md does not name `{path} --{option}`");
+            }
+            command.get_subcommands().for_each(|inner| check(inner, &format!("{path} {}", inner.get_name()), manual));
+        }
+        let pages = ["commands", "gpu", "cluster"]
+            .map(|page| std::fs::read_to_string(format!("{}/docs/{page}.md", env!("CARGO_MANIFEST_DIR"))).unwrap());
+        check(&Cli::command(), "nbc", &pages.concat());
     }
 }

@@ -5,12 +5,12 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::cli::options::new_path::new_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status};
 use nbc_circuit::formats::is_word;
 use nbc_session::store;
 
-/// The program, with `NAME` for the circuit's name and `FILE` for the path.
+/// `NAME` stands for the circuit's name, `FILE` for the path.
 const STARTER: &str = "\
 //! Adds two bits.
 //!
@@ -49,17 +49,16 @@ pub struct NewArguments {
 }
 
 impl NewArguments {
-    /// Writes the program.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let path = self.name.with_extension("nb");
         let shown = path.display().to_string();
         let name = path.file_stem().and_then(|stem| stem.to_str()).filter(|stem| is_word(stem));
-        let Some(name) = name else { return Err(UsageError::NoWord { file: shown }.into()) };
+        let Some(name) = name else { return Err(wording::no_word(&shown).into()) };
         if context.format == OutputFormat::Json {
-            return Err(UsageError::NoJson { what: "a first program" }.into());
+            return Err(wording::no_json("a first program").into());
         }
         if path.exists() {
-            return Err(UsageError::Exists { file: shown }.into());
+            return Err(wording::exists(&shown).into());
         }
         let text = STARTER.replace("NAME", name).replace("FILE", &shown);
         store::write(&path, text.as_bytes()).map_err(|error| Failure::unwritable(&path, &error))?;

@@ -14,7 +14,6 @@ impl<W: Write> Output<W> {
         Self { open: Some(BufWriter::new(out)) }
     }
 
-    /// Calls a function with the output if it is still open.
     fn with<T>(&mut self, swallowed: T, work: impl FnOnce(&mut BufWriter<W>) -> io::Result<T>) -> io::Result<T> {
         let Some(out) = &mut self.open else { return Ok(swallowed) };
         match work(out) {
@@ -42,7 +41,7 @@ impl<W: Write> Write for Output<W> {
 mod tests {
     use super::*;
 
-    /// A pipe that takes some bytes before it fails.
+    /// Takes `room` bytes before it fails.
     struct Pipe {
         room: usize,
         error: io::ErrorKind,

@@ -16,13 +16,12 @@ use serde_json::json;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::source_path::source_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
 
-/// The name of the lessons that come with the program.
+/// The lessons that come with the program.
 const SHIPPED: &str = "shipped";
-/// The most pages.
 const MOST_PAGES: u64 = PlayOptions::MOST_PAGES as u64;
 
 /// Show robots live in a browser
@@ -86,7 +85,6 @@ pub struct PlayArguments {
 }
 
 impl PlayArguments {
-    /// Serves until a signal arrives, or exports a circuit.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Self { file, port, host, no_open, page, token, export, live, making, lessons, class, public_page, pages } =
             self;
@@ -94,7 +92,7 @@ impl PlayArguments {
             return write_page(file, &output, &making, live, context);
         }
         if making.choice() != Choice::default() {
-            return Err(UsageError::OnlyExported.into());
+            return Err(wording::only_exported().into());
         }
         let making = making.options()?;
         file.as_deref().map(source_path).transpose()?;
@@ -116,7 +114,6 @@ impl PlayArguments {
     }
 }
 
-/// Writes a circuit as a page of its own, with the whole program or as a recording.
 fn write_page(
     file: &Path,
     output: &Path,
@@ -124,7 +121,7 @@ fn write_page(
     live: bool,
     context: &mut Context,
 ) -> Result<Status, Failure> {
-    let template = if live { Some(live_template().ok_or(UsageError::NoLivePages)?) } else { None };
+    let template = if live { Some(live_template().ok_or_else(wording::no_live_pages)?) } else { None };
     let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
     let checked = session.open(source_path(file)?)?;
     let (choice, options) = (making.choice(), making.options()?);
@@ -148,7 +145,7 @@ fn write_page(
     Ok(Status::Done)
 }
 
-/// Prints the address, and the one for other computers.
+/// Prints the addresses for this computer, other computers and the teacher.
 fn tell(server: &PlayServer, context: &mut Context) -> Result<(), Failure> {
     let (address, elsewhere, teacher) = (server.address(), server.address_elsewhere(), server.address_of_teacher());
     match context.format {
@@ -169,7 +166,6 @@ fn tell(server: &PlayServer, context: &mut Context) -> Result<(), Failure> {
     context.flush()
 }
 
-/// The lessons that come with the program, or those of a folder.
 fn source(folder: PathBuf) -> LessonSource {
     if folder == Path::new(SHIPPED) { LessonSource::Shipped } else { LessonSource::Folder(folder) }
 }

@@ -6,56 +6,51 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Shows the progress of some work. Dropping it removes the bar.
+/// Dropping it removes the bar.
 pub struct Progress {
     bar: ProgressBar,
     started: Instant,
     state: Mutex<State>,
 }
 
-/// The numbers of a progress display.
 #[derive(Clone, Debug)]
 struct State {
-    /// The current action, such as `measuring`.
+    /// Such as `measuring`.
     what: &'static str,
-    /// The amount done before the display started.
+    /// Done before the display started.
     from: u64,
     done: u64,
     total: u64,
-    /// A note, such as the speed.
     note: String,
-    pace: Pace,
-}
-
-/// The schedule of lines without a terminal.
-#[derive(Clone, Debug)]
-struct Pace {
+    /// When the next line is due without a terminal.
     next: Duration,
 }
 
+/// The time before the first line, and the first interval between lines.
+const LEAST: Duration = Duration::from_secs(10);
+/// The longest interval between lines.
+const MOST: Duration = Duration::from_secs(60);
+
 impl Progress {
-    /// Progress of `total` pieces of work, with a word for the action.
     pub fn new(what: &'static str, total: u64) -> Self {
         Self::resumed(what, 0, total)
     }
 
-    /// Progress of work that continues after `from` pieces, which are not counted in the speed.
+    /// Continues after `from` pieces, which are not counted in the speed.
     pub fn resumed(what: &'static str, from: u64, total: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(total), ProgressDrawTarget::stderr_with_hz(10));
         let style = ProgressStyle::with_template("{prefix:>12} [{bar:30}] {pos}/{len}{msg}");
         bar.set_style(style.expect("a well-formed template").progress_chars("=> "));
         bar.set_prefix(what);
         bar.set_position(from);
-        let state = State { what, from, done: from, total, note: String::new(), pace: Pace::default() };
+        let state = State { what, from, done: from, total, note: String::new(), next: LEAST };
         Self { bar, started: Instant::now(), state: Mutex::new(state) }
     }
 
-    /// Sets the amount done.
     pub fn set(&self, done: u64) {
         self.change(|state| state.done = done);
     }
 
-    /// Adds `more` to the amount done.
     pub fn add(&self, more: u64) {
         self.change(|state| state.done += more);
     }
@@ -66,17 +61,15 @@ impl Progress {
         move |done, _| self.add(done - std::mem::replace(&mut before, done))
     }
 
-    /// An observer of the whole work, which also tells the total.
+    /// An observer of the whole work, which also knows the total.
     pub fn whole(&self) -> impl FnMut(u64, u64) {
         |done, total| self.change(|state| (state.done, state.total) = (done, total))
     }
 
-    /// Sets the amount done and a note.
     pub fn set_with_note(&self, done: u64, note: String) {
         self.change(|state| (state.done, state.note) = (done, note));
     }
 
-    /// Sets a note.
     pub fn note(&self, note: String) {
         self.change(|state| state.note = note);
     }
@@ -110,16 +103,18 @@ impl Drop for Progress {
 }
 
 impl State {
-    /// The pieces of work, of less than a tenth of all, after which the remaining time is known.
+    /// Pieces of work, of less than a tenth of all, after which the remaining time is known.
     const SAMPLE: u64 = 100;
 
     /// A line for a log, if one is due.
     fn line(&mut self, elapsed: Duration) -> Option<String> {
-        let due = self.done < self.total && self.pace.is_due(elapsed);
-        due.then(|| format!("{}: {} of {}{}\n", self.what, self.done, self.total, self.rest(elapsed)))
+        if self.done >= self.total || elapsed < self.next {
+            return None;
+        }
+        self.next = elapsed + elapsed.clamp(LEAST, MOST);
+        Some(format!("{}: {} of {}{}\n", self.what, self.done, self.total, self.rest(elapsed)))
     }
 
-    /// The note and the remaining time, if known.
     fn rest(&self, elapsed: Duration) -> String {
         let left = self.left(elapsed).map(|left| format!("about {} left", duration(left)));
         [Some(self.note.clone()).filter(|note| !note.is_empty()), left]
@@ -140,28 +135,7 @@ impl State {
     }
 }
 
-impl Pace {
-    /// The time before the first line, and the first interval between lines.
-    const LEAST: Duration = Duration::from_secs(10);
-    /// The longest interval between lines.
-    const MOST: Duration = Duration::from_secs(60);
-
-    fn is_due(&mut self, elapsed: Duration) -> bool {
-        let due = elapsed >= self.next;
-        if due {
-            self.next = elapsed + elapsed.clamp(Self::LEAST, Self::MOST);
-        }
-        due
-    }
-}
-
-impl Default for Pace {
-    fn default() -> Self {
-        Self { next: Self::LEAST }
-    }
-}
-
-/// A duration in a suitable unit, at least one second.
+/// At least one second.
 fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
     if seconds < 99.5 {
@@ -178,7 +152,7 @@ mod tests {
     use super::*;
 
     fn state(from: u64, done: u64, total: u64) -> State {
-        State { what: "measuring", from, done, total, note: String::new(), pace: Pace::default() }
+        State { what: "measuring", from, done, total, note: String::new(), next: LEAST }
     }
 
     fn rest(state: &State, seconds: f64) -> String {

@@ -10,10 +10,8 @@ use clap::Args;
 
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::number::number;
-use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::source_path::source_path;
-use crate::cli::wording::UsageError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, runs, wording};
 use nbc_base::diag::counted;
 use nbc_base::model::Claim;
 use nbc_circuit::CancelFlag;
@@ -24,7 +22,7 @@ use nbc_session::store;
 use nbc_session::{Checked, ClaimReport, DecidedClaim, ModelSearch, Session, TestOptions};
 use nbc_swarm::Level;
 
-/// How often the time is looked at while the solver works.
+/// How often the time is checked while the solver works.
 const WATCH: Duration = Duration::from_millis(20);
 
 /// Prove that circuits have their properties, for all inputs and for ever
@@ -67,7 +65,6 @@ pub struct ProveArguments {
 }
 
 impl ProveArguments {
-    /// Proves, and prints each result as soon as it is there.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut session = Session::new(interrupt.world());
@@ -79,7 +76,7 @@ impl ProveArguments {
             });
         }
         if self.witness.is_some() && !matches!(subjects[..], [Subject::Model(..)]) {
-            return Err(UsageError::WitnessOfSource.into());
+            return Err(wording::witness_of_source().into());
         }
         let chosen = self.chosen(&subjects)?;
         for subject in &subjects {
@@ -134,7 +131,6 @@ impl ProveArguments {
         })
     }
 
-    /// The claims of the files that have the wanted name, and the models.
     fn chosen<'s>(&self, subjects: &'s [Subject<'s>]) -> Result<Vec<(&'s Subject<'s>, Option<&'s Claim>)>, Failure> {
         let mut chosen = Vec::new();
         for subject in subjects {
@@ -154,7 +150,7 @@ impl ProveArguments {
                 let mut known: Vec<String> = claims.iter().map(|claim| claim.circuit.to_string()).collect();
                 known.extend(claims.iter().map(|claim| claim.title.clone()).filter(|title| !title.is_empty()));
                 known.dedup();
-                Err(RunChoiceError::UnknownClaim { file: first.path.clone(), name: name.clone(), known }.into())
+                Err(runs::wording::unknown_claim(&first.path, name, &known).into())
             }
             _ => Ok(chosen),
         }
@@ -191,7 +187,6 @@ impl ProveArguments {
     }
 }
 
-/// Searches to the end, and shows the properties that are decided, and the steps in which the others hold.
 fn decide(search: &mut PropertySearch) {
     let bar = Progress::new("proving", search.system().bad.len() as u64);
     while !search.is_done() {
@@ -200,7 +195,6 @@ fn decide(search: &mut PropertySearch) {
     }
 }
 
-/// Runs the tests that refute properties with robots.
 fn in_physics(
     session: &Session,
     file: &Checked,
@@ -222,7 +216,6 @@ fn in_physics(
     Ok(())
 }
 
-/// What is proved.
 enum Subject<'a> {
     Source(Arc<Checked>),
     Model(&'a Path, Box<AigerModel>),
@@ -235,7 +228,7 @@ fn is_model(path: &Path) -> bool {
 fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
     let file = session.open(source_path(path)?)?;
     if file.program.claims.is_empty() {
-        return Err(RunChoiceError::NoClaim { file: file.path.clone() }.into());
+        return Err(runs::wording::no_claim(&file.path).into());
     }
     Ok(file)
 }

@@ -5,16 +5,14 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::gpu::OpenDevice;
-use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::files::FilesArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::timings::{TimedStage, Timings};
-use crate::cli::runs::wording::RunChoiceError;
 use crate::cli::runs::{CompleteRun, chosen_runs, in_physics, run_list, unknown_run};
 use crate::cli::source_path::{result_path, source_path};
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use crate::cli::{Context, Failure, Interrupt, OpenDevice, OutputFormat, Status, runs};
 use nbc_session::report::{
     self, Document, PageSwarm, RunResult, Schema, SchematicPages, Scheme, Svg, SwarmResult, SwarmTiming,
 };
@@ -60,7 +58,6 @@ pub struct RunArguments {
     timings: Timings,
 }
 
-/// The drawings of a run.
 struct Drawn<'a> {
     ran: &'a CompleteRun,
     spacetime: Svg,
@@ -69,10 +66,9 @@ struct Drawn<'a> {
 }
 
 impl RunArguments {
-    /// Runs the file's tests and simulations, and writes the results.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
-        let device = OpenDevice::open(self.device.choice(), timer.processor(), context)?;
+        let device = OpenDevice::open(self.device, timer.processor(), context)?;
         let mut session =
             Session::new(interrupt.world()).with_simulator(device.simulator()).with_files(self.named.files());
         if !self.no_report {
@@ -82,7 +78,7 @@ impl RunArguments {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             file => file?,
         };
-        self.named.check(std::slice::from_ref(&file)).map_err(Failure::plain)?;
+        self.named.check(std::slice::from_ref(&file))?;
         let list = self.chosen(&file)?;
         let folder = self.folder();
         folder.probe().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
@@ -105,16 +101,15 @@ impl RunArguments {
         Ok(if interrupt.is_raised() { Status::Interrupted } else { status })
     }
 
-    /// The requested tests and simulations.
     fn chosen<'f>(&'f self, file: &'f Checked) -> Result<RunList<'f>, Failure> {
         let choice = self.making.choice();
         let list = in_physics(chosen_runs(file, self.only.as_deref(), &choice)?);
         if !list.is_empty() {
             return Ok(list);
         }
-        let nothing = || RunChoiceError::NothingToRun { file: file.path.clone() };
         let named = self.only.as_ref().or(choice.swarm.as_ref()).or(choice.circuit.as_ref());
-        Err(named.map_or_else(nothing, |name| unknown_run(file, name)).into())
+        let fault = named.map_or_else(|| runs::wording::nothing_to_run(&file.path), |name| unknown_run(file, name));
+        Err(fault.into())
     }
 
     fn folder(&self) -> ResultPlace {
@@ -122,7 +117,6 @@ impl RunArguments {
         ResultPlace::new(self.out.as_deref(), &Path::new(RUNS).join(stem), "")
     }
 
-    /// Writes pictures and results, then prints the verdict.
     fn report(&self, runs: &[CompleteRun], folder: &Path, context: &mut Context) -> Result<Status, Failure> {
         let stems = stems(runs);
         let drawn =
@@ -161,8 +155,7 @@ impl RunArguments {
     }
 }
 
-/// The names of the runs' files: the circuit's, with those of the swarm and the world if a test has several, and a
-/// number for repeated names.
+/// The circuit's name, with those of the swarm and the world if a test has several, and a number for repeated names.
 fn stems(runs: &[CompleteRun]) -> Vec<String> {
     let mut cases: BTreeMap<(&str, usize), usize> = BTreeMap::new();
     for run in runs {
@@ -188,7 +181,6 @@ fn stems(runs: &[CompleteRun]) -> Vec<String> {
     names.iter().enumerate().map(numbered).collect()
 }
 
-/// Draws a run and writes the drawings, the waveforms and the table of the cycles.
 fn draw<'a>(ran: &'a CompleteRun, stem: &str, folder: &Path) -> Result<Drawn<'a>, Failure> {
     let SwarmRun { compiled, trace } = ran.swarm();
     let (spacetime, schematic) = (report::draw_swarm(trace), compiled.schematic(Scheme::default()));
@@ -237,7 +229,7 @@ fn describe(drawn: &Drawn<'_>) -> String {
     format!("{}: {swarm}\n\n{outcome}\n{files}{hold}", trace.circuit)
 }
 
-/// What is said of one of several that passed: the line of a test, the table of a simulation.
+/// Of several that passed: a line for a test, the table of a simulation.
 fn summarize(drawn: &Drawn<'_>) -> String {
     match drawn.ran {
         CompleteRun::Test(run) => report::describe_verdict(&run.verdict),
@@ -245,7 +237,6 @@ fn summarize(drawn: &Drawn<'_>) -> String {
     }
 }
 
-/// The label of a file in the summary.
 fn word_of(file: &str) -> &'static str {
     match file.rsplit('.').next() {
         Some("vcd") => "waves",

@@ -49,7 +49,6 @@ pub struct SeeArguments {
 }
 
 impl SeeArguments {
-    /// Reads the bodies, shows the images and reports.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut session = Session::new(interrupt.world());
@@ -57,10 +56,9 @@ impl SeeArguments {
         let recognition = |run: &PathBuf| {
             let results = read_run(run, context)?;
             let (program, bodies) = (&checked.program, best(&results, self.best as usize));
-            let recognition = Recognition::new(program, &results.name, &self.schedule, bodies, Simulator::default());
-            recognition.map_err(Failure::plain)
+            Ok(Recognition::new(program, &results.name, &self.schedule, bodies, Simulator::default())?)
         };
-        let mut recognitions = self.runs.iter().map(recognition).collect::<Result<Vec<_>, _>>()?;
+        let mut recognitions = self.runs.iter().map(recognition).collect::<Result<Vec<_>, Failure>>()?;
         let bar = Progress::new("seeing", recognitions.iter().map(|one| one.progress().1).sum());
         let mut shown = 0;
         for recognition in &mut recognitions {

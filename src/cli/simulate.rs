@@ -5,16 +5,14 @@ use std::path::Path;
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording::unknown_behavior;
 use crate::cli::draw::{is_run, read_run};
-use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::images::{ImagesArguments, ShownSchedule};
 use crate::cli::options::number::number;
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::robots::read_body;
-use crate::cli::wording::{GroundEnds, UsageError};
-use crate::cli::{Context, Failure, Status};
+use crate::cli::{Context, Failure, OpenDevice, Status, wording};
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Direction, Fault, Schedule, Setting, Trajectory, Trial};
 use nbc_base::source::Sources;
@@ -58,26 +56,24 @@ pub struct SimulateArguments {
     device: DeviceArguments,
 }
 
-/// The output for programs.
 #[derive(Serialize)]
 struct Outcome<'a> {
     /// Voxels walked in each entry of the schedule; null if the simulation ended before the entry did.
     displacement: Vec<Option<f64>>,
-    /// Place of the center of mass in voxels, at the start and after each env step.
+    /// In voxels, at the start and after each env step.
     com_x: &'a [f64],
     /// The env step that was abandoned, from 1.
     unstable_at: Option<u32>,
 }
 
 impl SimulateArguments {
-    /// Simulates and prints.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let setting = Setting { world_width: self.world_width, start_x: self.start_x, ..Setting::default() };
         let body = self.body(context)?;
         let ShownSchedule { schedule, shown } =
             self.images.schedule(Some(&self.schedule), [&body])?.expect("a text is a schedule");
-        setting.check(&body).map_err(UsageError::Setting)?;
-        let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;
+        setting.check(&body).map_err(wording::setting)?;
+        let device = OpenDevice::open(self.device, LaneBackend::default(), context)?;
         let trial = Trial { body, schedule: schedule.clone() };
         let trajectory = device.simulator().run_trials(&setting, &[trial]).remove(0);
         device.end(context)?;
@@ -89,29 +85,29 @@ impl SimulateArguments {
         Ok(if trajectory.fault.is_none() { Status::Done } else { Status::TestFailed })
     }
 
-    /// The body of the file, the robot or the run.
     fn body(&self, context: &Context) -> Result<Body, Failure> {
-        let (path, what) = (Path::new(&self.robot), || self.robot.clone());
+        let path = Path::new(&self.robot);
         match self.behavior {
-            Some(_) if !is_run(path) => Err(UsageError::BehaviorOfFile.into()),
+            Some(_) if !is_run(path) => Err(wording::behavior_of_file().into()),
             Some(behavior) => match read_run(path, context)?.champion(behavior) {
                 Some(elite) => Ok(elite.body.clone()),
-                None => Err(DrawError::UnknownBehavior { what: what(), behavior }.into()),
+                None => Err(unknown_behavior(&self.robot, behavior).into()),
             },
             None if is_run(path) => {
-                let behaviors = read_run(path, context)?.behaviors().iter().map(Behavior::to_string).collect();
-                Err(UsageError::BodyOfRun { path: what(), behaviors }.into())
+                let behaviors = read_run(path, context)?.behaviors();
+                let behaviors: Vec<String> = behaviors.iter().map(Behavior::to_string).collect();
+                Err(wording::body_of_run(&self.robot, &behaviors).into())
             }
             None => read_body(&self.robot, &self.library),
         }
     }
 }
 
-/// The warning for a robot that left its ground: from then on it falls, or creeps along the plane below.
+/// A robot that left its ground falls, or creeps along the plane below.
 fn ground_ends(setting: &Setting, trajectory: &Trajectory) -> Option<Diagnostic> {
     let ground = 0.0..=setting.world_width as f64;
     let step = trajectory.com_x.iter().position(|x| !ground.contains(x))?;
-    Some(GroundEnds { step, width: setting.world_width }.into())
+    Some(wording::ground_ends(step, setting.world_width))
 }
 
 impl<'a> Outcome<'a> {

@@ -2,14 +2,14 @@
 
 use std::path::{MAIN_SEPARATOR, Path};
 
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
+use nbc_base::diag::Diagnostic;
 
-/// The path of a source file as text.
-pub(super) fn source_path(path: &Path) -> Result<&str, UsageError> {
-    path.to_str().ok_or_else(|| UsageError::NotText { name: path.display().to_string() })
+pub(super) fn source_path(path: &Path) -> Result<&str, Diagnostic> {
+    path.to_str().ok_or_else(|| wording::not_text(path.display()))
 }
 
-/// The path of a file in results for programs, which is the same text on every system.
+/// The same text on every system.
 pub(super) fn result_path(path: &Path) -> String {
     with_slashes(&path.display().to_string(), MAIN_SEPARATOR)
 }

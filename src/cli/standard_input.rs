@@ -4,11 +4,8 @@ use nbc_base::source::SourceWorld;
 use nbc_session::Session;
 use nbc_session::store::DiskWorld;
 
-/// The argument that stands for standard input.
 pub(super) const DASH: &str = "-";
-/// Its name in messages.
 const NAME: &str = "<stdin>";
-/// Its path.
 const PATH: &str = "/dev/stdin";
 
 /// Adds standard input to a session as a file of the current folder, and returns its path there.

@@ -2,23 +2,17 @@
 
 use std::process::ExitCode;
 
-/// How a command ended, as the shell sees it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Status {
-    /// Done, and every test passed: 0.
     Done,
-    /// A test failed: 1.
     TestFailed,
-    /// An editor ended its server without a request to shut down: 1, as the protocol says.
+    /// An editor ended its server without a request to shut down; the protocol asks for 1.
     Abandoned,
-    /// The input or the usage is at fault: 2.
     BadInput,
-    /// A signal ended it in good order: 4.
     Interrupted,
 }
 
 impl Status {
-    /// The exit status.
     pub fn code(self) -> u8 {
         match self {
             Self::Done => 0,

@@ -65,13 +65,12 @@ enum RegisterWord {
 }
 
 impl SynthArguments {
-    /// Reads, synthesizes, proves and writes.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let started = Instant::now();
         let format = |path: &PathBuf| CircuitFormat::of_path(&path.to_string_lossy());
-        let target = self.output.as_ref().map(format).transpose().map_err(Failure::plain)?;
+        let target = self.output.as_ref().map(format).transpose()?;
         let library = self.mapping.library()?;
-        let what_if = nbc_session::named_functions(&self.what_if).map_err(Failure::plain)?;
+        let what_if = nbc_session::named_functions(&self.what_if)?;
         let top = TopModule { name: self.top, parameters: self.param.into_iter().collect() };
         let (path, others) = self.input.split_first().expect("a file is required");
         let file = CircuitFile { path, others, clock: self.clock.as_deref(), top: &top };
@@ -86,10 +85,10 @@ impl SynthArguments {
             },
             what_if,
         };
-        let synthesis = Synthesis::of(&design, &options).map_err(Failure::plain)?;
+        let synthesis = Synthesis::of(&design, &options)?;
         let result = &synthesis.result;
         if let (Some(path), Some(target)) = (&self.output, target) {
-            let bytes = store::encode_circuit(result, target).map_err(Failure::plain)?;
+            let bytes = store::encode_circuit(result, target)?;
             context.write(path, &bytes)?;
             let others = if target == CircuitFormat::Nb { renumbered(result) } else { Vec::new() };
             if !others.is_empty() {
@@ -103,7 +102,6 @@ impl SynthArguments {
     }
 }
 
-/// A parameter with its value.
 fn parameter(text: &str) -> Result<(String, ParameterValue), String> {
     let (name, value) = text.split_once('=').unwrap_or((text, ""));
     let value = value.parse().map_err(|expected| format!("expected a name and a number: {expected}"))?;

@@ -2,21 +2,19 @@
 
 use std::sync::Arc;
 
-use crate::cli::cluster::{QueueExecutor, open_queue};
-use crate::cli::gpu::OpenDevice;
 use crate::cli::options::device::DeviceArguments;
-use crate::cli::options::queue::QueueArguments;
-use crate::cli::{Context, Failure, Interrupt, Progress};
+use crate::cli::options::queue::{self, QueueArguments, QueueExecutor};
+use crate::cli::{Context, Failure, Interrupt, OpenDevice, Progress};
 use nbc_sim::LaneBackend;
 use nbc_swarm::{Executor, LocalExecutor};
 
-/// The most calls for workers at once: each has a thread here that waits, and a run also keeps a file open.
+/// Each call for workers has a thread here that waits, and a run also keeps a file open.
 const MOST_WAITING: usize = 500;
 
 /// The most runs whose robots are simulated together: 22 of the paper kept the card of docs/gpu.md busy.
 const MOST_TOGETHER: usize = 32;
 
-/// Does the tasks of a command. If workers are chosen, they do all tasks; otherwise the device does.
+/// Does the tasks of a command: workers do all of them if they are chosen, else the device.
 pub struct TaskExecutor {
     device: OpenDevice,
     local: LocalExecutor,
@@ -25,21 +23,19 @@ pub struct TaskExecutor {
 }
 
 impl TaskExecutor {
-    /// Connects to the workers, if `queue` names a server. A signal stops their work, and that of a device which is
-    /// opened with [`Interrupt::ending`]; `note` receives notes on its
-    /// progress.
+    /// Connects to the workers, if `queue` names a server. A signal stops them, and a device that was opened with
+    /// [`Interrupt::ending`]. `note` receives notes on the progress.
     pub fn open(
         device: OpenDevice,
         queue: &QueueArguments,
         interrupt: &Interrupt,
         note: impl Fn(String) + Send + 'static,
     ) -> Result<Self, Failure> {
-        let queue = open_queue(queue, interrupt, note)?;
+        let queue = queue.open(interrupt, note)?;
         let local = LocalExecutor::new(device.simulator()).until(interrupt.cancel());
         Ok(Self { local, device, queue, interrupt: interrupt.clone() })
     }
 
-    /// The same on the device that the user chose. Notes are shown by `bar`.
     pub fn choose(
         device: DeviceArguments,
         queue: &QueueArguments,
@@ -47,12 +43,11 @@ impl TaskExecutor {
         bar: &Arc<Progress>,
         context: &Context,
     ) -> Result<Self, Failure> {
-        let device = OpenDevice::open(device.choice(), interrupt.ending(LaneBackend::default()), context)?;
+        let device = OpenDevice::open(device, interrupt.ending(LaneBackend::default()), context)?;
         let bar = Arc::clone(bar);
         Self::open(device, queue, interrupt, move |note| bar.note(note))
     }
 
-    /// The executor to hand the tasks to.
     pub fn executor(&self) -> &dyn Executor {
         match &self.queue {
             Some(queue) => queue,
@@ -60,17 +55,16 @@ impl TaskExecutor {
         }
     }
 
-    /// Whether workers do the tasks.
     pub fn is_elsewhere(&self) -> bool {
         self.queue.is_some()
     }
 
-    /// The number of threads that can have work done at once.
+    /// How many threads can have work done at once.
     pub fn threads(&self) -> usize {
         threads(self.queue.as_ref())
     }
 
-    /// The most runs of searches whose tasks should be handed over together. Workers have those of a run at a time;
+    /// The most runs of searches whose tasks should be handed over together. Workers take those of a run at a time;
     /// here the robots of several runs fill the lanes of the processor or the device.
     pub fn most_together(&self) -> usize {
         if self.is_elsewhere() { 1 } else { MOST_TOGETHER }
@@ -87,26 +81,21 @@ impl TaskExecutor {
         }
     }
 
-    /// Whether a signal has stopped the work.
     pub fn is_stopped(&self) -> bool {
         self.interrupt.is_raised()
     }
 
-    /// Checks that the device has not failed.
     pub fn check(&self) -> Result<(), Failure> {
         self.device.check()
     }
 
     /// Waits until the workers have stopped, and reports a failure of the device.
     pub fn end(self, context: &Context) -> Result<(), Failure> {
-        if let Some(queue) = self.queue {
-            queue.end()?;
-        }
+        queue::end(self.queue)?;
         self.device.end(context)
     }
 }
 
-/// The number of threads that can have work done at once: here, or by workers.
 pub fn threads(queue: Option<&QueueExecutor>) -> usize {
     if queue.is_some() { MOST_WAITING } else { rayon::current_num_threads() }
 }

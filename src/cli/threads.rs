@@ -7,16 +7,14 @@ use std::thread::{self, JoinHandle};
 
 use rayon::{ThreadBuilder, ThreadPoolBuilder};
 
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure};
 
-/// The environment variable with the number of threads.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
-/// The most threads that are started.
 const MOST: usize = 1024;
 
-/// Starts the threads. If the system cannot start all of them, there are fewer and a warning is logged. Results do not
-/// depend on the number.
+/// If the system cannot start all threads, there are fewer and a warning is logged. Results do not depend on the
+/// number.
 pub(super) fn start(context: &Context) -> Result<(), Failure> {
     let wanted = wanted(env::var_os(VARIABLE).map(|value| value.to_string_lossy().into_owned()).as_deref())?;
     let mut idle: Vec<Idle> = (0..wanted).map_while(|_| Idle::start()).collect();
@@ -48,7 +46,6 @@ pub(super) fn start(context: &Context) -> Result<(), Failure> {
     Ok(())
 }
 
-/// The number of threads in the value of [`VARIABLE`].
 fn wanted(value: Option<&str>) -> Result<usize, Failure> {
     let cores = || thread::available_parallelism().map_or(1, usize::from);
     match value.map(str::trim) {
@@ -58,7 +55,7 @@ fn wanted(value: Option<&str>) -> Result<usize, Failure> {
             // A number that is too long to be read is above the limit, too.
             number => Ok(number.min(MOST)),
         },
-        Some(other) => Err(UsageError::Threads { variable: VARIABLE, found: other.to_owned() }.into()),
+        Some(other) => Err(wording::threads(VARIABLE, other).into()),
     }
 }
 
@@ -85,7 +82,6 @@ impl Idle {
         self.work.send(work).expect("an idle thread waits for its work");
     }
 
-    /// Ends the thread.
     fn end(self) {
         drop(self.work);
         self.thread.join().expect("a thread without work ends");

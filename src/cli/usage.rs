@@ -6,13 +6,12 @@ use std::io::{self, Write};
 use clap::error::ErrorKind;
 use clap::{Arg, Command};
 
-use crate::cli::failure::unprintable;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, OutputFormat, Status};
 use nbc_base::diag::{Diagnostic, is_hidden, render, visible, without_passwords};
 use nbc_base::source::Sources;
 
-/// A command whose options take negative numbers: one that is out of range is then refused as a number.
+/// Lets options take negative numbers, so that one out of range is refused as a number.
 pub(super) fn with_negative_numbers(command: Command) -> Command {
     let allow = |argument: Arg| {
         let is_option = argument.get_long().is_some() && argument.get_action().takes_values();
@@ -27,7 +26,7 @@ pub(super) fn tell(told: &clap::Error, arguments: &[OsString], command: fn() -> 
     let mut context = Context::bare(format, command);
     if told.kind() == ErrorKind::InvalidUtf8 {
         let argument = arguments.iter().find(|argument| argument.to_str().is_none()).cloned().unwrap_or_default();
-        return context.report(UsageError::NotText { name: argument.display().to_string() }.into());
+        return context.report(wording::not_text(argument.display()).into());
     }
     let plain = told.render().to_string();
     if !told.use_stderr() {
@@ -47,7 +46,7 @@ fn print(told: &clap::Error) -> Status {
     match told.print().and_then(|()| io::stdout().flush()) {
         Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
             // If standard error is closed too, the exit status still reports the failure.
-            let fault = unprintable(&error);
+            let fault = wording::unprintable(&error);
             let _ = io::stderr().write_all(render::text(&[fault], &Sources::default(), false).as_bytes());
             Status::BadInput
         }
@@ -56,7 +55,7 @@ fn print(told: &clap::Error) -> Status {
     }
 }
 
-/// Whether the arguments ask for JSON. Clap has refused them, so they are read without it.
+/// Clap has refused the arguments, so they are read without it.
 fn asks_for_json(arguments: &[OsString]) -> bool {
     let options = arguments.iter().take_while(|argument| *argument != "--");
     let options: Vec<&str> = options.map(|argument| argument.to_str().unwrap_or_default()).collect();
@@ -75,16 +74,16 @@ fn without_passwords_of(arguments: &[OsString], text: &str) -> String {
     text
 }
 
-/// The fault as data: the first paragraph of clap's text is the message, the others are the help.
+/// The first paragraph of clap's text is the message, the others are the help.
 fn diagnostic(kind: ErrorKind, text: &str) -> Diagnostic {
     if matches!(kind, ErrorKind::MissingSubcommand | ErrorKind::DisplayHelpOnMissingArgumentOrSubcommand) {
-        return UsageError::NoCommand.into();
+        return wording::no_command();
     }
     let one_line = |paragraph: &str| paragraph.split_whitespace().collect::<Vec<_>>().join(" ");
     let mut paragraphs = text.trim().split("\n\n").map(one_line);
     let message = paragraphs.next().unwrap_or_default();
     let message = message.strip_prefix("error: ").unwrap_or(&message).to_owned();
-    UsageError::Arguments { message, help: paragraphs.collect::<Vec<_>>().join("\n") }.into()
+    wording::arguments(message, paragraphs.collect::<Vec<_>>().join("\n"))
 }
 
 #[cfg(test)]

@@ -14,7 +14,7 @@ use crate::cli::{Context, Failure, Interrupt, Status};
 use nbc_base::diag::counted;
 use nbc_session::{Checked, Session};
 
-/// The time between two looks at the files. Looking works for every editor and file system.
+/// Polling works for every editor and file system.
 const PAUSE: Duration = Duration::from_millis(100);
 
 /// Check and test programs again whenever they are saved
@@ -30,7 +30,7 @@ pub struct WatchArguments {
     test: TestArguments,
 }
 
-/// When each file or folder was changed and its length; `None` if it is missing.
+/// Time of change and length of each file or folder; `None` if it is missing.
 #[derive(Debug, Default, PartialEq, Eq)]
 struct Stamps(BTreeMap<String, Option<(SystemTime, u64)>>);
 
@@ -53,7 +53,7 @@ impl Stamps {
         Self(now.filter(|(_, known, now)| *known != now).map(|(path, _, now)| (path.clone(), now)).collect())
     }
 
-    /// The paths whose stamps were different; the new ones are known from here on.
+    /// Returns the paths that have changed, and stores their new stamps.
     fn renew(&mut self) -> Vec<String> {
         let changes = self.changes();
         let paths = changes.0.keys().cloned().collect();
@@ -63,7 +63,6 @@ impl Stamps {
 }
 
 impl WatchArguments {
-    /// Checks and tests until a signal arrives.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let signal = Interrupt::watch()?;
         let device = self.test.device(context)?;
@@ -86,7 +85,7 @@ impl WatchArguments {
         Ok(Status::Done)
     }
 
-    /// Prints the diagnostics, and tests if there are no errors, until a file changes or a signal arrives.
+    /// Tests if there are no errors, until a file changes or a signal arrives.
     fn round(
         &self,
         session: &Session,
@@ -124,8 +123,8 @@ impl WatchArguments {
     }
 }
 
-/// Checks the programs. Only a check tells what they depend on, and a path may change before it has its stamp, so what
-/// has a new stamp is read again.
+/// Only a check finds the dependencies, and a path may change before it has its stamp, so what has a new stamp is read
+/// again.
 fn check(paths: &[&str], session: &mut Session, stamps: &mut Stamps) -> Vec<Arc<Checked>> {
     loop {
         let checked = paths.iter().map(|path| session.checked(path)).collect();

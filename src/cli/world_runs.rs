@@ -5,8 +5,8 @@ use crate::cli::{Failure, Interrupt, Progress};
 use nbc_session::{Session, WorldResult, WorldRun, Yields};
 use nbc_swarm::Robustness;
 
-/// Runs each experiment in all worlds, and tells each result as soon as those before it are complete. Returns those
-/// that are complete; after an interruption, that is not all.
+/// Runs each experiment in all worlds, and passes each result to `tell` as soon as those before it are complete. After
+/// an interruption, only complete ones are returned.
 pub(super) fn world_runs(
     session: &Session,
     yields: &Yields<'_>,

@@ -15,65 +15,13 @@ use nbc_swarm::{Assembly, Member, StimulusSource, SwarmConditions};
 use crate::support::bench::Bench;
 use crate::support::root;
 
-/// A folder with a run of format 1 in `out/hearts/seed-1`, whose third material is not the paper's.
-fn first_format() -> Bench {
+/// A folder with a run in `out/hearts/seed-1`, whose third material is not the paper's.
+fn hearts() -> Bench {
     let bench = Bench::new();
-    let golden = root().join("tests/golden/checkpoint_1");
-    bench.file("own.nb", fs::read(golden.join("own.nb")).unwrap());
-    fs::create_dir_all(bench.path().join("out/hearts/seed-1")).unwrap();
-    bench.file("out/hearts/seed-1/checkpoint.nbc", fs::read(golden.join("checkpoint.nbc")).unwrap());
+    bench.file("own.nb", fs::read(root().join("tests/golden/hearts.nb")).unwrap());
+    let ran = bench.run(&["evolve", "own.nb"]);
+    assert_eq!(ran.status, 0, "{}", ran.err);
     bench
-}
-
-#[test]
-fn a_checkpoint_of_format_1_continues_and_becomes_format_2() {
-    let bench = first_format();
-    let evolve = |out: &str, more: &[&str]| {
-        let arguments = [&["evolve", "own.nb", "--generations", "4", "--out", out], more].concat();
-        let ran = bench.run(&arguments);
-        assert_eq!(ran.status, 0, "{}", ran.err);
-        fs::read_to_string(bench.path().join(out).join("hearts/seed-1/checkpoint.nbc")).unwrap()
-    };
-    let (resumed, straight) = (evolve("out", &["--resume"]), evolve("straight", &[]));
-    assert!(resumed.starts_with("nbc-checkpoint 2 "), "{resumed:.40}");
-    let read = |text: &str| {
-        let mut read: serde_json::Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
-        // When format 1 was written, more of the protocol was simulated; what was left out is counted beside it.
-        let [simulated, left_out] = ["env_steps", "left_out"].map(|count| read[count].take().as_u64().unwrap());
-        (read, simulated + left_out)
-    };
-    assert_eq!(read(&resumed), read(&straight));
-    assert_eq!(evolve("out", &["--resume"]), resumed, "format 2 goes on too");
-}
-
-#[test]
-fn a_checkpoint_of_format_1_is_compared_with_its_declaration() {
-    let bench = first_format();
-    let own = fs::read_to_string(bench.path().join("own.nb")).unwrap();
-    bench.file("own.nb", own.replace("0.98..1.02", "0.98..1.03"));
-    let ran = bench.run(&["evolve", "own.nb", "--resume"]);
-    ran.expect_fault(&["was made by a different declaration of `hearts`"]);
-}
-
-#[test]
-fn rewriting_robot_files_keeps_their_contents() {
-    let bench = Bench::new();
-    fs::create_dir(bench.path().join("robots")).unwrap();
-    let first = fs::read_to_string(root().join("tests/golden/robot_1.yaml")).unwrap();
-    let path = bench.file("robots/old.yaml", &first);
-    let rewrite = || {
-        let ran = bench.run(&["library", "rewrite", "robots", "--format", "json"]);
-        ran.expect_json()["files"][0]["changed"].as_bool().unwrap()
-    };
-    assert!(rewrite());
-    let second = fs::read_to_string(&path).unwrap();
-    let before_genotype = |text: &str| text.split_once("genotype:").unwrap().0.to_owned();
-    assert_eq!(
-        before_genotype(&second),
-        before_genotype(&first).replace("format: 1", "format: 2").replace(": 0.2.0", ": '0.2.0'")
-    );
-    assert!(!rewrite(), "the newest format is left alone");
-    assert_eq!(fs::read_to_string(&path).unwrap(), second);
 }
 
 #[test]
@@ -82,7 +30,7 @@ fn robot_files_have_no_tags() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "yaml") {
             let text = fs::read_to_string(&path).unwrap();
-            assert!(text.starts_with("format: 2\n"), "{}: `nbc library rewrite` writes format 2", path.display());
+            assert!(text.starts_with("format: 2\n"), "{}", path.display());
             assert!(!text.contains('!'), "{} has a tag, which other readers refuse", path.display());
         }
     }
@@ -90,16 +38,12 @@ fn robot_files_have_no_tags() {
 
 #[test]
 fn a_run_is_drawn_with_the_materials_of_its_checkpoint() {
-    let bench = first_format();
-    for format in [1, 2] {
-        let ran = bench.run(&["draw", "out/hearts", "--as", "sprite", "-o", "a.svg"]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
-        let svg = fs::read_to_string(bench.path().join("a.svg")).unwrap();
-        assert!(svg.contains("3 heart: 0.98..1.02 in 84 steps, 0°"), "format {format}: {svg}");
-        assert!(svg.contains("2 muscle") && !svg.contains("3 muscle"), "format {format}: {svg}");
-        let ran = bench.run(&["evolve", "own.nb", "--resume"]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
-    }
+    let ran = hearts();
+    let drawn = ran.run(&["draw", "out/hearts", "--as", "sprite", "-o", "a.svg"]);
+    assert_eq!(drawn.status, 0, "{}", drawn.err);
+    let svg = fs::read_to_string(ran.path().join("a.svg")).unwrap();
+    assert!(svg.contains("3 heart: 0.98..1.02 in 84 steps, 0°"), "{svg}");
+    assert!(svg.contains("2 muscle") && !svg.contains("3 muscle"), "{svg}");
 }
 
 /// A checkpoint whose header fits its text.
@@ -109,8 +53,7 @@ fn sealed(text: &str) -> String {
 
 #[test]
 fn a_foreign_checkpoint_with_a_correct_checksum_is_rejected() {
-    let bench = first_format();
-    assert_eq!(bench.run(&["evolve", "own.nb", "--resume"]).status, 0);
+    let bench = hearts();
     let path = bench.path().join("out/hearts/seed-1/checkpoint.nbc");
     let whole = fs::read_to_string(&path).unwrap();
     let (_, text) = whole.trim_end().split_once('\n').unwrap();

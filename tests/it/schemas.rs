@@ -106,7 +106,6 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     let robot = root().join("library/robots/zero_5x5.yaml");
     check(&bench, "verify", 0, &["library", "verify", robot.to_str().unwrap()]);
     fs::copy(&robot, bench.path().join("zero.yaml")).unwrap();
-    check(&bench, "rewritten", 0, &["library", "rewrite", "zero.yaml"]);
     check(&bench, "run", 0, &["run", "flip.nb", "--no-report"]);
     validate("run", &fs::read_to_string(bench.path().join("out/flip/result.json")).unwrap());
     bench.file("failing.nb", FLIP.replace("0 | 1", "0 | 0\n    1 | 0"));

@@ -175,11 +175,6 @@ mod not_text {
         let found = validate("evolve", &ran.out);
         assert_eq!(found["runs"][0]["folder"], "caf\u{fffd}/small/seed-1");
         assert!(bench.path().join(name("")).join("small/seed-1/checkpoint.nbc").exists());
-        let robots = bench.path().join("robots");
-        fs::create_dir(&robots).unwrap();
-        fs::copy(root().join("library/robots/nand_5x5.yaml"), robots.join(name(".yaml"))).unwrap();
-        let ran = bench.run(&["library", "rewrite", "robots", "--format", "json"]);
-        assert_eq!(validate("rewritten", &ran.out)["files"][0]["path"], "robots/caf\u{fffd}.yaml", "{}", ran.err);
     }
 }
 
@@ -227,7 +222,7 @@ fn texts_in_tables_are_no_formulas() {
 
 #[cfg(not(feature = "cluster"))]
 #[test]
-fn options_of_features_that_are_not_there_are_not_listed_but_answered() {
+fn commands_and_options_of_features_that_are_not_there_are_unknown() {
     let bench = bench();
     for command in [&["evolve"][..], &["test"], &["library", "add"], &["library", "verify"]] {
         let help = bench.run(&[command, &["--help"]].concat()).out;
@@ -239,10 +234,9 @@ fn options_of_features_that_are_not_there_are_not_listed_but_answered() {
     let listed = bench.run(&["--help"]).out;
     for command in ["worker", "workers"] {
         assert!(!listed.contains(&format!("\n  {command} ")), "{listed}");
-        bench.run(&[command]).expect_fault(&["built without work on several machines", "--features cluster"]);
+        bench.run(&[command]).expect_fault(&["unrecognized subcommand"]);
     }
-    let ran = bench.run(&["test", "flip.nb", "--nats", "nats://localhost"]);
-    ran.expect_fault(&["built without work on several machines", "--features cluster"]);
+    bench.run(&["test", "flip.nb", "--nats", "nats://localhost"]).expect_fault(&["unexpected argument '--nats'"]);
 }
 
 #[test]

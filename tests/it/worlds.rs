@@ -363,12 +363,11 @@ fn a_robot_has_a_radius_and_its_file_keeps_it() {
     let written = std::fs::read_to_string(&file).unwrap();
     assert!(written.contains("vary: 'dead=100%'"), "{written}");
     assert_eq!(radius(&bench, "dead=100%", &[]), (0, least));
-    let show = bench.run(&["library", "rewrite", "nand.yaml"]);
-    assert_eq!((show.status, std::fs::read_to_string(&file).unwrap()), (0, written.clone()));
+    assert_eq!(bench.run(&["library", "show", "nand.yaml"]).status, 0);
     bench.file("nand.yaml", written.replace(&format!("radius: {least:?}"), "radius: 77.0"));
     assert_eq!(radius(&bench, "dead=100%", &[]), (1, least), "the file says something else");
     bench.file("nand.yaml", written.replace("vary: 'dead=100%'", "vary: 'daed=100%'"));
-    assert_eq!(bench.run(&["library", "rewrite", "nand.yaml"]).status, 2);
+    assert_eq!(bench.run(&["library", "show", "nand.yaml"]).status, 2);
 }
 
 /// A library of two robots for one gate: a quick one, and one that bears other worlds.

@@ -11,19 +11,16 @@ impl Default for Fnv {
 }
 
 impl Fnv {
-    /// Adds bytes.
     pub fn add(&mut self, bytes: &[u8]) {
         for byte in bytes {
             self.0 = (self.0 ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3);
         }
     }
 
-    /// The hash of all bytes that were added.
     pub fn value(self) -> u64 {
         self.0
     }
 
-    /// The hash of a text.
     pub fn of(text: &str) -> u64 {
         let mut hash = Self::default();
         hash.add(text.as_bytes());

@@ -14,6 +14,7 @@ mod example;
 pub mod formats;
 mod guarded;
 mod index;
+pub mod interned;
 pub mod known;
 pub mod levels;
 mod logic;

@@ -16,10 +16,9 @@ use tokio::time;
 
 use crate::Log;
 use crate::message::{MOST_BYTES, TaskKey, VERSION};
-use crate::wording::ClusterError;
-use nbc_base::diag::without_passwords;
+use crate::wording;
+use nbc_base::diag::{Diagnostic, without_passwords};
 
-/// The stream of tasks.
 const STREAM: &str = "nbc-tasks";
 /// A task is given to another worker when its worker has not reported for this time.
 pub const SILENCE: Duration = Duration::from_secs(6);
@@ -61,13 +60,13 @@ pub struct Connection {
 
 impl Connection {
     /// Connects. If the connection breaks later, the client connects again by itself.
-    pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, ClusterError> {
+    pub fn open(server: &NatsServer, name: &str, log: Log) -> Result<Self, Diagnostic> {
         let shown = without_passwords(&server.address);
         let runtime = Builder::new_multi_thread()
             .worker_threads(1)
             .enable_all()
             .build()
-            .map_err(|error| ClusterError::Start { reason: error.to_string() })?;
+            .map_err(|error| wording::no_client(&error.to_string()))?;
         let runtime: &'static Runtime = Box::leak(Box::new(runtime));
         let _entered = runtime.enter();
         let mut options = ConnectOptions::new().name(name).connection_timeout(PATIENCE).ping_interval(PING);
@@ -84,17 +83,15 @@ impl Connection {
             options = options.add_root_certificates(path.clone()).require_tls(true);
         }
         if let Some(path) = &server.credentials {
-            let fault = |error: std::io::Error| ClusterError::Credentials {
-                path: path.display().to_string(),
-                reason: error.to_string(),
-            };
+            let fault =
+                |error: std::io::Error| wording::no_credentials(&path.display().to_string(), &error.to_string());
             options = runtime.block_on(options.credentials_file(path)).map_err(fault)?;
         }
         let connecting = async { options.connect(server.address.as_str()).await };
         let client = runtime.block_on(connecting).map_err(|error| {
             // Some reasons repeat the address.
             let reason = error.to_string().replace(&server.address, &shown);
-            ClusterError::Connect { server: shown.clone(), reason }
+            wording::no_server(&shown, &reason)
         })?;
         let jetstream = jetstream::ContextBuilder::new().timeout(PATIENCE).ack_timeout(PATIENCE).build(client.clone());
         Ok(Self { runtime, client, jetstream, server: shown })
@@ -150,15 +147,14 @@ impl Connection {
     }
 
     /// As [`Connection::queue`], for a program that begins.
-    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, ClusterError> {
+    pub fn open_queue(&self, token: &str) -> Result<PullConsumer, Diagnostic> {
         let jetstream = jetstream::ContextBuilder::new().timeout(OPENING).build(self.client.clone());
         let queue = self.runtime.block_on(Self::queue(&jetstream, token));
         queue.map_err(|reason| self.no_queue(reason))
     }
 
-    /// The error of a server that cannot keep the queue.
-    pub fn no_queue(&self, reason: String) -> ClusterError {
-        ClusterError::JetStream { server: self.server.clone(), reason }
+    pub fn no_queue(&self, reason: String) -> Diagnostic {
+        wording::no_queue(&self.server, &reason)
     }
 }
 
@@ -188,7 +184,6 @@ impl Silence {
     }
 }
 
-/// The words of an error.
 pub fn words(error: impl ToString) -> String {
     error.to_string()
 }
@@ -199,33 +194,27 @@ fn has_overlap(error: &CreateStreamError) -> bool {
     error.error_code() == ErrorCode::STREAM_SUBJECT_OVERLAP
 }
 
-/// The subject of a task of a search, for workers of some physics.
 pub fn task_subject(token: &str, search: &str, key: TaskKey) -> String {
     let TaskKey { run, generation, index } = key;
     format!("nbc.v{VERSION}.task.{token}.{search}.{run}.{generation}.{index}")
 }
 
-/// The subjects of all tasks of a search.
 pub fn task_subjects(token: &str, search: &str) -> String {
     format!("nbc.v{VERSION}.task.{token}.{search}.>")
 }
 
-/// The search that a task belongs to.
 pub fn search_of(subject: &str) -> Option<&str> {
     subject.split('.').nth(4)
 }
 
-/// The subject of answers of a worker to a search.
 pub fn answer_subject(search: &str, worker: &str) -> String {
     format!("nbc.v{VERSION}.answer.{search}.{worker}")
 }
 
-/// The subject of the reports of workers.
 pub fn worker_note_subject() -> String {
     format!("nbc.v{VERSION}.worker")
 }
 
-/// The subject of the reports of searches.
 pub fn search_note_subject() -> String {
     format!("nbc.v{VERSION}.search")
 }
@@ -235,7 +224,6 @@ pub fn reply_subject(worker: &str) -> String {
     format!("nbc.v{VERSION}.reply.{worker}")
 }
 
-/// Random letters and digits.
 pub fn random_name() -> String {
     format!("{:08x}", getrandom::u32().unwrap_or_else(|_| std::process::id()))
 }
@@ -254,7 +242,7 @@ mod tests {
     #[test]
     fn the_subject_of_a_task_names_its_search() {
         let subject = task_subject("0_2_0-00ff", "abcd", TaskKey { run: 1, generation: 2, index: 3 });
-        assert_eq!(subject, "nbc.v7.task.0_2_0-00ff.abcd.1.2.3");
+        assert_eq!(subject, "nbc.v8.task.0_2_0-00ff.abcd.1.2.3");
         assert_eq!(search_of(&subject), Some("abcd"));
     }
 

@@ -11,14 +11,13 @@ use tokio::task::JoinSet;
 use tokio::time;
 
 use crate::connection::{Connection, answer_subject};
-use crate::message::AnswerReply;
+use crate::message::{AnswerReply, decode};
 
 /// The time for a reply to one attempt, and between attempts.
 const ATTEMPT: Duration = Duration::from_secs(2);
 /// The number of attempts. A search that does not reply for so long has ended.
 const ATTEMPTS: usize = 30;
 
-/// Deliveries in progress.
 pub struct Delivery {
     handle: Handle,
     client: async_nats::Client,
@@ -26,25 +25,22 @@ pub struct Delivery {
     open: JoinSet<DeliveryEnd>,
 }
 
-/// How a delivery ended.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DeliveryEnd {
-    /// The search has the result.
     Received,
     /// The search has ended, or cannot be reached.
-    Unwanted { search: String },
-    /// The search does not want results of this worker.
+    Unwanted {
+        search: String,
+    },
     Rejected(AnswerReply),
 }
 
 impl Delivery {
-    /// Prepares the deliveries of a worker.
     pub fn new(connection: &Connection, worker: &str) -> Self {
         let handle = connection.runtime.handle().clone();
         Self { handle, client: connection.client.clone(), worker: worker.to_owned(), open: JoinSet::new() }
     }
 
-    /// Starts to deliver a result.
     pub fn start(&mut self, search: String, bytes: Vec<u8>, acker: Arc<Acker>) {
         let (client, subject) = (self.client.clone(), answer_subject(&search, &self.worker));
         let deliver = async move {
@@ -57,7 +53,6 @@ impl Delivery {
         self.open.spawn_on(deliver, &self.handle);
     }
 
-    /// The deliveries that have ended since the last call.
     pub fn finished(&mut self) -> Vec<DeliveryEnd> {
         std::iter::from_fn(|| self.open.try_join_next()).flatten().collect()
     }
@@ -83,7 +78,7 @@ async fn deliver(
     for _ in 0..ATTEMPTS {
         let request = client.request(subject.clone(), bytes.clone().into());
         if let Ok(Ok(message)) = time::timeout(ATTEMPT, request).await
-            && let Ok(reply) = AnswerReply::decode(&message.payload)
+            && let Some(reply) = decode(&message.payload)
         {
             if reply == AnswerReply::Received {
                 // A task that is not acknowledged is made once more, which does no harm.

@@ -3,7 +3,6 @@
 //! A program hands tasks to a [`QueueExecutor`]; [`Worker`]s on other machines do them. [`ClusterWatch`] lists both.
 
 mod answer_message;
-mod bits;
 mod checker;
 mod connection;
 mod delivery;
@@ -26,7 +25,6 @@ mod worker_thread;
 pub use connection::NatsServer;
 pub use listing::{ClusterListing, ClusterWatch};
 pub use queue_executor::{QueueExecutor, QueueOptions};
-pub use wording::ClusterError;
 pub use worker::{Worker, WorkerOptions};
 
 /// Shows a line of text to the user.

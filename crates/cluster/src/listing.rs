@@ -12,7 +12,7 @@ use tokio::time;
 use crate::Log;
 use crate::connection::{Connection, NatsServer, search_note_subject, worker_note_subject};
 use crate::message::{SearchNote, WorkerNote};
-use crate::wording::ClusterError;
+use nbc_base::diag::Diagnostic;
 use nbc_circuit::CancelFlag;
 use nbc_session::report::{Align, TextTable};
 
@@ -24,37 +24,8 @@ const GLANCE: Duration = Duration::from_millis(100);
 /// The searches and workers that have reported.
 #[derive(Serialize)]
 pub struct ClusterListing {
-    searches: Vec<ListedSearch>,
-    workers: Vec<ListedWorker>,
-}
-
-/// A search.
-#[derive(Serialize)]
-struct ListedSearch {
-    name: String,
-    version: String,
-    /// In hexadecimal.
-    physics: String,
-    runs: u32,
-    workers: u32,
-    evaluations: u64,
-    evaluations_per_second: f64,
-    waiting: u64,
-    redelivered: u64,
-    refused: u32,
-}
-
-/// A worker.
-#[derive(Serialize)]
-struct ListedWorker {
-    name: String,
-    version: String,
-    /// In hexadecimal.
-    physics: String,
-    threads: u32,
-    evaluations: u64,
-    evaluations_per_second: f64,
-    redelivered: u64,
+    searches: Vec<SearchNote>,
+    workers: Vec<WorkerNote>,
 }
 
 /// Receives the reports of searches and workers. It must stay on the thread that opened it.
@@ -67,8 +38,7 @@ pub struct ClusterWatch {
 }
 
 impl ClusterWatch {
-    /// Connects.
-    pub fn open(server: &NatsServer, log: Log) -> Result<Self, ClusterError> {
+    pub fn open(server: &NatsServer, log: Log) -> Result<Self, Diagnostic> {
         let connection = Connection::open(server, "nbc workers", log)?;
         let entered = connection.enter();
         let subscribing = async {
@@ -94,57 +64,22 @@ async fn listen(from_searches: &mut Subscriber, from_workers: &mut Subscriber, c
     while time::Instant::now() < end && !cancel.is_raised() {
         tokio::select! {
             Some(message) = from_searches.next() => {
-                if let Ok(note) = SearchNote::decode(&message.payload) {
+                if let Some(note) = SearchNote::decode(&message.payload) {
                     searches.insert(note.name.clone(), note);
                 }
             }
             Some(message) = from_workers.next() => {
-                if let Ok(note) = WorkerNote::decode(&message.payload) {
+                if let Some(note) = WorkerNote::decode(&message.payload) {
                     workers.insert(note.name.clone(), note);
                 }
             }
             () = time::sleep(GLANCE) => {}
         }
     }
-    ClusterListing {
-        searches: searches.into_values().map(ListedSearch::of).collect(),
-        workers: workers.into_values().map(ListedWorker::of).collect(),
-    }
-}
-
-impl ListedSearch {
-    fn of(note: SearchNote) -> Self {
-        Self {
-            name: note.name,
-            version: note.program,
-            physics: format!("{:016x}", note.physics),
-            runs: note.runs,
-            workers: note.workers,
-            evaluations: note.evaluations,
-            evaluations_per_second: note.per_kilosecond as f64 / 1000.0,
-            waiting: note.waiting,
-            redelivered: note.redelivered,
-            refused: note.refused,
-        }
-    }
-}
-
-impl ListedWorker {
-    fn of(note: WorkerNote) -> Self {
-        Self {
-            name: note.name,
-            version: note.program,
-            physics: format!("{:016x}", note.physics),
-            threads: note.threads,
-            evaluations: note.evaluations,
-            evaluations_per_second: note.per_kilosecond as f64 / 1000.0,
-            redelivered: note.redelivered,
-        }
-    }
+    ClusterListing { searches: searches.into_values().collect(), workers: workers.into_values().collect() }
 }
 
 impl ClusterListing {
-    /// The listing for people.
     pub fn describe(&self) -> String {
         let searches = if self.searches.is_empty() { "no searches\n".to_owned() } else { self.searches_table() };
         let workers = if self.workers.is_empty() { "no workers\n".to_owned() } else { self.workers_table() };
@@ -152,18 +87,8 @@ impl ClusterListing {
     }
 
     fn searches_table(&self) -> String {
-        let right = Align::Right;
-        let mut table = TextTable::new(&[
-            ("search", Align::Left),
-            ("physics", Align::Left),
-            ("runs", right),
-            ("workers", right),
-            ("evaluations", right),
-            ("per second", right),
-            ("waiting", right),
-            ("redelivered", right),
-            ("refused", right),
-        ]);
+        let counts = ["runs", "workers", "evaluations", "per second", "waiting", "redelivered", "refused"];
+        let mut table = table(&["search", "physics"], &counts);
         for search in &self.searches {
             table.push(vec![
                 search.name.clone(),
@@ -181,16 +106,8 @@ impl ClusterListing {
     }
 
     fn workers_table(&self) -> String {
-        let right = Align::Right;
-        let mut table = TextTable::new(&[
-            ("worker", Align::Left),
-            ("version", Align::Left),
-            ("physics", Align::Left),
-            ("threads", right),
-            ("evaluations", right),
-            ("per second", right),
-            ("redelivered", right),
-        ]);
+        let counts = ["threads", "evaluations", "per second", "redelivered"];
+        let mut table = table(&["worker", "version", "physics"], &counts);
         for worker in &self.workers {
             table.push(vec![
                 worker.name.clone(),
@@ -204,4 +121,9 @@ impl ClusterListing {
         }
         table.to_string()
     }
+}
+
+fn table<'a>(names: &[&'a str], counts: &[&'a str]) -> TextTable {
+    let columns = names.iter().map(|name| (*name, Align::Left)).chain(counts.iter().map(|name| (*name, Align::Right)));
+    TextTable::new(&columns.collect::<Vec<_>>())
 }

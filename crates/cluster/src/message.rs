@@ -1,28 +1,13 @@
 //! The messages between searches and their workers: data only, checked when read. The first byte is the version; the
-//! rest is in postcard's format.
+//! rest is JSON.
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 /// The version of the messages, which is also in their subjects.
-pub const VERSION: u8 = 7;
-/// The most bytes of a message.
-pub const MOST_BYTES: usize = 256 * 1024;
-/// The most characters of a name.
+pub const VERSION: u8 = 8;
+pub const MOST_BYTES: usize = 1_000_000;
 const MOST_NAME: usize = 100;
-
-/// An error in a message.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MessageFault {
-    /// It is longer than [`MOST_BYTES`].
-    TooLong,
-    /// It has another version.
-    Version,
-    /// It is not the expected message.
-    Shape,
-    /// It has values that no program of this version sends.
-    Values,
-}
 
 /// The place of a task in the work of a program: its run, its generation, its number among the tasks of that.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -32,98 +17,75 @@ pub struct TaskKey {
     pub index: u32,
 }
 
-/// The report that a worker sends regularly.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The report that a worker sends regularly, as `nbc workers` shows it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct WorkerNote {
     pub name: String,
     /// The version of the program.
-    pub program: String,
-    /// The hash of its physics.
-    pub physics: u64,
+    pub version: String,
+    /// The hash of its physics, in hexadecimal.
+    pub physics: String,
     pub threads: u32,
     pub evaluations: u64,
+    /// In the last seconds.
+    pub evaluations_per_second: f64,
     /// Evaluations that it took over because another worker did not answer.
     pub redelivered: u64,
-    /// Evaluations of the last seconds, for each thousand seconds.
-    pub per_kilosecond: u64,
 }
 
-/// The report that a search sends regularly.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+/// The report that a search sends regularly, as `nbc workers` shows it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct SearchNote {
     pub name: String,
     /// The version of the program.
-    pub program: String,
-    /// The hash of its physics.
-    pub physics: u64,
-    /// Runs in progress.
+    pub version: String,
+    /// The hash of its physics, in hexadecimal.
+    pub physics: String,
     pub runs: u32,
-    /// Workers that work for it.
     pub workers: u32,
-    /// Evaluations that it has received.
     pub evaluations: u64,
-    /// Evaluations of the last seconds, for each thousand seconds.
-    pub per_kilosecond: u64,
+    /// In the last seconds.
+    pub evaluations_per_second: f64,
     /// Evaluations without a result.
     pub waiting: u64,
     /// Evaluations that were given to a second worker.
     pub redelivered: u64,
-    /// Workers that it has refused.
     pub refused: u32,
 }
 
 /// The reply to an answer or a note.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum AnswerReply {
-    /// The answer was received.
     Received,
     /// The worker has other physics, or another version of the program.
     OtherPhysics,
-    /// The worker sent a message that is invalid.
     Invalid,
-    /// The worker sent a result that is wrong.
     Wrong,
 }
 
-/// The bytes of a message of plain values.
 pub fn encode(message: &impl Serialize) -> Vec<u8> {
-    postcard::to_extend(message, vec![VERSION]).expect("plain values can be written")
+    let mut bytes = vec![VERSION];
+    serde_json::to_writer(&mut bytes, message).expect("messages can be written as JSON");
+    bytes
 }
 
-/// Reads a message of plain values.
-pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, MessageFault> {
-    if bytes.len() > MOST_BYTES {
-        return Err(MessageFault::TooLong);
-    }
-    match bytes.split_first() {
-        Some((&VERSION, rest)) => match postcard::take_from_bytes(rest) {
-            Ok((message, [])) => Ok(message),
-            _ => Err(MessageFault::Shape),
-        },
-        _ => Err(MessageFault::Version),
-    }
+/// Reads a message; `None` if it is too long, of another version or damaged.
+pub fn decode<T: DeserializeOwned>(bytes: &[u8]) -> Option<T> {
+    let (&VERSION, rest) = bytes.split_first().filter(|_| bytes.len() <= MOST_BYTES)? else { return None };
+    serde_json::from_slice(rest).ok()
 }
 
 impl WorkerNote {
     /// Reads and checks.
-    pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
-        let note: Self = decode(bytes)?;
-        if is_name(&note.name) && is_name(&note.program) { Ok(note) } else { Err(MessageFault::Values) }
+    pub fn decode(bytes: &[u8]) -> Option<Self> {
+        decode(bytes).filter(|note: &Self| [&note.name, &note.version, &note.physics].iter().all(|name| is_name(name)))
     }
 }
 
 impl SearchNote {
     /// Reads and checks.
-    pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
-        let note: Self = decode(bytes)?;
-        if is_name(&note.name) && is_name(&note.program) { Ok(note) } else { Err(MessageFault::Values) }
-    }
-}
-
-impl AnswerReply {
-    /// Reads.
-    pub fn decode(bytes: &[u8]) -> Result<Self, MessageFault> {
-        decode(bytes)
+    pub fn decode(bytes: &[u8]) -> Option<Self> {
+        decode(bytes).filter(|note: &Self| [&note.name, &note.version, &note.physics].iter().all(|name| is_name(name)))
     }
 }
 
@@ -141,14 +103,13 @@ mod tests {
 
     #[test]
     fn messages_that_are_too_long_old_or_followed_by_more_are_rejected() {
+        let reply = decode::<AnswerReply>;
         let mut bytes = encode(&AnswerReply::Received);
-        assert_eq!(AnswerReply::decode(&bytes), Ok(AnswerReply::Received));
-        bytes.push(0);
-        assert_eq!(AnswerReply::decode(&bytes), Err(MessageFault::Shape));
+        assert_eq!(reply(&bytes), Some(AnswerReply::Received));
+        assert_eq!(reply(&[&bytes[..], b" 0"].concat()), None);
+        assert_eq!(reply(&[&bytes[..], &[b' '; MOST_BYTES]].concat()), None);
         bytes[0] = VERSION + 1;
-        assert_eq!(AnswerReply::decode(&bytes), Err(MessageFault::Version));
-        assert_eq!(AnswerReply::decode(&vec![VERSION; MOST_BYTES + 1]), Err(MessageFault::TooLong));
-        assert_eq!(AnswerReply::decode(&[]), Err(MessageFault::Version));
+        assert_eq!([reply(&bytes), reply(&[])], [None; 2]);
     }
 
     proptest! {
@@ -157,7 +118,7 @@ mod tests {
             let bytes = [vec![VERSION], rest].concat();
             let _ = WorkerNote::decode(&bytes);
             let _ = SearchNote::decode(&bytes);
-            let _ = AnswerReply::decode(&bytes);
+            let _ = decode::<AnswerReply>(&bytes);
         }
     }
 }

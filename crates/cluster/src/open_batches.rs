@@ -13,32 +13,25 @@ const BETWEEN: Duration = Duration::from_secs(1);
 
 /// Tasks that are requested together. Their results are passed on when all can be used.
 pub struct BatchRequest {
-    /// The number of the series that they belong to.
     pub run: u32,
     /// Each task, with its place in the list of whoever waits.
     pub tasks: Vec<(usize, Task)>,
-    /// Takes the results with those places.
     pub reply: Sender<(usize, TaskResult)>,
 }
 
-/// The batches that wait for results.
 #[derive(Default)]
 pub struct OpenBatches {
-    /// By their run and their number in it.
     open: BTreeMap<(u32, u32), Waiting>,
     runs: BTreeMap<u32, Run>,
 }
 
-/// The batches that a run has requested.
 struct Run {
-    /// The number of its batches, and that of those that are open.
     batches: u32,
     open: u32,
     /// When it handed in a batch or received results.
     seen: Instant,
 }
 
-/// A batch, and the channel for its results.
 struct Waiting {
     batch: TaskBatch,
     places: Vec<usize>,
@@ -59,7 +52,6 @@ impl OpenBatches {
         keys
     }
 
-    /// The batch that a key belongs to.
     pub fn get(&mut self, key: TaskKey) -> Option<&mut TaskBatch> {
         self.open.get_mut(&(key.run, key.generation)).map(|waiting| &mut waiting.batch)
     }
@@ -80,7 +72,6 @@ impl OpenBatches {
         workers
     }
 
-    /// The same for all batches.
     pub fn pass_on_all(&mut self, is_trusted: impl Fn(&str) -> bool) -> Vec<String> {
         let keys: Vec<TaskKey> =
             self.open.keys().map(|&(run, generation)| TaskKey { run, generation, index: 0 }).collect();
@@ -97,27 +88,22 @@ impl OpenBatches {
         self.open.values_mut().flat_map(|waiting| waiting.batch.forget(worker)).collect()
     }
 
-    /// The tasks without a result of batches that were handed in so long ago.
     pub fn overdue(&self, age: Duration) -> Vec<TaskKey> {
         self.open.values().flat_map(|waiting| waiting.batch.overdue(age)).collect()
     }
 
-    /// The number of tasks without a result.
     pub fn missing(&self) -> usize {
         self.open.values().map(|waiting| waiting.batch.missing()).sum()
     }
 
-    /// The number of runs in progress.
     pub fn runs(&self) -> usize {
         self.runs.values().filter(|run| run.open > 0 || run.seen.elapsed() < BETWEEN).count()
     }
 
-    /// The number of batches.
     pub fn len(&self) -> usize {
         self.open.len()
     }
 
-    /// Whether nobody waits.
     pub fn is_empty(&self) -> bool {
         self.open.is_empty()
     }

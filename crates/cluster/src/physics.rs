@@ -1,21 +1,26 @@
 //! An identifier of a program's physics. All machines that work for a search must have the same.
 
+use std::fmt;
+
 use nbc_base::fnv::Fnv;
 use nbc_base::model::{Body, ImageOrder, Pattern, PhysicsWorld, Schedule, SearchObjective, Setting, Spell, Trial};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Rivals;
 use nbc_swarm::{EvaluationProtocol, EvaluationTask, evaluate_tasks};
 
-/// The version of this program.
 pub const PROGRAM: &str = nbc_base::VERSION;
 /// Env steps of each pattern.
 const STEPS: u32 = 8;
-/// The bodies.
 const BODIES: usize = 2;
 
-/// An identifier of a program's physics.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PhysicsId(pub u64);
+
+impl fmt::Display for PhysicsId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:016x}", self.0)
+    }
+}
 
 impl PhysicsId {
     /// The hash of the bits of two short trajectories, and of the evaluations of their bodies.
@@ -48,7 +53,7 @@ impl PhysicsId {
 
     /// The part of a subject that separates programs with different physics or versions.
     pub fn token(self) -> String {
-        format!("{}-{:016x}", PROGRAM.replace('.', "_"), self.0)
+        format!("{}-{self}", PROGRAM.replace('.', "_"))
     }
 }
 

@@ -19,7 +19,8 @@ use crate::reports::{Reporter, Reports};
 use crate::task_batch::Verdict;
 use crate::task_message::{TOGETHER, TaskMessage};
 use crate::task_sender::TaskSender;
-use crate::wording::ClusterError;
+use crate::wording;
+use nbc_base::diag::Diagnostic;
 use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, TaskResult};
@@ -42,8 +43,7 @@ pub struct Queue {
 }
 
 impl Queue {
-    /// Connects and prepares the queue.
-    pub fn open(server: &NatsServer, is_trusting: bool, log: Log) -> Result<Self, ClusterError> {
+    pub fn open(server: &NatsServer, is_trusting: bool, log: Log) -> Result<Self, Diagnostic> {
         let search = random_name();
         let connection = Connection::open(server, &format!("nbc evolve {search}"), log)?;
         let entered = connection.enter();
@@ -76,7 +76,7 @@ impl Queue {
         mut requests: UnboundedReceiver<BatchRequest>,
         cancel: &CancelFlag,
         note: impl Fn(String),
-    ) -> Result<(), ClusterError> {
+    ) -> Result<(), Diagnostic> {
         let handle = self.connection.runtime.handle().clone();
         handle.block_on(async {
             while !cancel.is_raised() && self.checker.unsound().is_none() && self.is_wanted(&requests) {
@@ -89,17 +89,15 @@ impl Queue {
             self.sender.clear().await;
         });
         match self.checker.unsound() {
-            Some(worker) => Err(ClusterError::Unsound { worker: worker.to_owned() }),
+            Some(worker) => Err(wording::unsound(worker)),
             None => Ok(()),
         }
     }
 
-    /// Whether there are tasks, or more can be requested.
     fn is_wanted(&self, requests: &UnboundedReceiver<BatchRequest>) -> bool {
         !self.batches.is_empty() || !requests.is_closed() || !requests.is_empty()
     }
 
-    /// The progress, for people.
     fn describe(&mut self) -> String {
         let (waiting, refused) = (self.batches.missing(), self.checker.refused());
         format!("{}, {waiting} waiting, {refused} refused", self.reports.workers.summary().describe())
@@ -159,7 +157,7 @@ impl Queue {
     }
 
     fn judge(&mut self, worker: &str, payload: &[u8]) -> AnswerReply {
-        let Ok(answer) = AnswerMessage::decode(payload) else {
+        let Some(answer) = AnswerMessage::decode(payload) else {
             self.checker.count_junk(worker);
             return AnswerReply::Invalid;
         };

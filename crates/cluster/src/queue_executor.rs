@@ -7,11 +7,11 @@ use tokio::sync::mpsc::{UnboundedSender, unbounded_channel};
 
 use crate::Log;
 use crate::connection::NatsServer;
-use crate::message::MOST_BYTES;
+use crate::message::{MOST_BYTES, encode};
 use crate::open_batches::BatchRequest;
 use crate::queue::Queue;
-use crate::task_message::task_bytes;
-use crate::wording::ClusterError;
+use crate::wording;
+use nbc_base::diag::Diagnostic;
 use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 use nbc_swarm::{Executor, Task, TaskResult, perform};
@@ -19,28 +19,24 @@ use nbc_swarm::{Executor, Task, TaskResult, perform};
 /// Bytes of a message besides its task or result, at most.
 const RESERVE: usize = 1024;
 
-/// How workers do the tasks of a program.
 #[derive(Clone, Debug)]
 pub struct QueueOptions {
-    /// The server with the queue.
     pub server: NatsServer,
     /// Whether no work of workers is done again here as a check.
     pub trust_workers: bool,
-    /// Stops all work.
     pub cancel: CancelFlag,
-    /// Shows faults to the user.
     pub log: Log,
 }
 
 /// Workers at a server, which do tasks. After a cancellation or a failure, all work is stopped.
 pub struct QueueExecutor {
     requests: UnboundedSender<BatchRequest>,
-    thread: JoinHandle<Result<(), ClusterError>>,
+    thread: JoinHandle<Result<(), Diagnostic>>,
 }
 
 impl QueueExecutor {
     /// Opens the queue. Notes on the progress go to `note`.
-    pub fn open(options: QueueOptions, note: impl Fn(String) + Send + 'static) -> Result<Self, ClusterError> {
+    pub fn open(options: QueueOptions, note: impl Fn(String) + Send + 'static) -> Result<Self, Diagnostic> {
         let (requests, requested) = unbounded_channel();
         let (opened, opening) = mpsc::channel();
         // The queue belongs to the thread that opens it.
@@ -51,8 +47,7 @@ impl QueueExecutor {
             let _ = opened.send(());
             queue.work(requested, &cancel, note)
         };
-        let thread =
-            thread::Builder::new().spawn(work).map_err(|error| ClusterError::Start { reason: error.to_string() })?;
+        let thread = thread::Builder::new().spawn(work).map_err(|error| wording::no_client(&error.to_string()))?;
         let executor = Self { requests, thread };
         match opening.recv() {
             Ok(()) => Ok(executor),
@@ -60,8 +55,7 @@ impl QueueExecutor {
         }
     }
 
-    /// Ends the work.
-    pub fn end(self) -> Result<(), ClusterError> {
+    pub fn end(self) -> Result<(), Diagnostic> {
         let Self { requests, thread } = self;
         drop(requests);
         thread.join().expect("the queue does not panic")
@@ -106,8 +100,8 @@ fn fits(task: &Task) -> bool {
         Task::Evaluation(..) => return true,
         // A swarm without robots has no bits that could be asked for.
         Task::Swarm(swarm) if swarm.robots() == 0 => return false,
-        Task::Swarm(swarm) => (task_bytes(task), swarm.robots() * swarm.cycles() / 8),
-        _ => (task_bytes(task), 0),
+        Task::Swarm(swarm) => (encode(task).len(), (swarm.robots() + 3) * swarm.cycles()),
+        _ => (encode(task).len(), 0),
     };
     bytes.max(answer) < MOST_BYTES - RESERVE
 }

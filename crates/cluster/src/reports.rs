@@ -9,42 +9,42 @@ use crate::message::{AnswerReply, SearchNote, WorkerNote, encode};
 use crate::physics::{PROGRAM, PhysicsId};
 use crate::worker_statistics::WorkerStatistics;
 
-/// The time between reports.
 const REPORT: Duration = Duration::from_secs(2);
 
-/// The reports of workers, and those of a search.
 pub struct Reports {
     client: Client,
     /// The random name of the search.
     search: String,
     physics: PhysicsId,
-    /// The reports of workers.
     pub notes: Subscriber,
     /// The workers with the physics of the search.
     pub workers: WorkerStatistics,
     reported: Option<Instant>,
 }
 
-/// Who sent a report.
 pub enum Reporter {
-    /// A worker that the search can use.
-    Fit { name: String },
-    /// One that it cannot use.
-    Unfit { name: String, reason: String },
+    Fit {
+        name: String,
+    },
+    Unfit {
+        name: String,
+        reason: String,
+    },
     /// Somebody with other physics in the name of a worker that reports, too.
-    Two { name: String },
+    Two {
+        name: String,
+    },
 }
 
 impl Reports {
-    /// The state before the first report.
     pub fn new(client: Client, search: String, physics: PhysicsId, notes: Subscriber) -> Self {
         Self { client, search, physics, notes, workers: WorkerStatistics::default(), reported: None }
     }
 
     /// Takes the report of a worker. If the worker has other physics, replies so.
     pub async fn take(&mut self, message: &Message) -> Option<Reporter> {
-        let note = WorkerNote::decode(&message.payload).ok()?;
-        if note.physics == self.physics.0 && note.program == PROGRAM {
+        let note = WorkerNote::decode(&message.payload)?;
+        if note.physics == self.physics.to_string() && note.version == PROGRAM {
             let name = note.name.clone();
             self.workers.take(note);
             return Some(Reporter::Fit { name });
@@ -52,13 +52,12 @@ impl Reports {
         if self.workers.has(&note.name) {
             return Some(Reporter::Two { name: note.name });
         }
-        let WorkerNote { name, program, physics, .. } = note;
+        let WorkerNote { name, version, physics, .. } = note;
         let reply = encode(&AnswerReply::OtherPhysics);
         // The worker is refused in any case.
         let _ = self.client.publish(reply_subject(&name), reply.into()).await;
-        let own = self.physics.0;
-        let reason =
-            format!("its physics is {physics:016x} (version {program}), expected {own:016x} (version {PROGRAM})");
+        let own = self.physics;
+        let reason = format!("its physics is {physics} (version {version}), expected {own} (version {PROGRAM})");
         Some(Reporter::Unfit { name, reason })
     }
 
@@ -72,12 +71,12 @@ impl Reports {
         let summary = self.workers.summary();
         let note = SearchNote {
             name: self.search.clone(),
-            program: PROGRAM.to_owned(),
-            physics: self.physics.0,
+            version: PROGRAM.to_owned(),
+            physics: self.physics.to_string(),
             runs: runs as u32,
             workers: summary.workers as u32,
             evaluations: summary.evaluations,
-            per_kilosecond: (summary.rate * 1000.0) as u64,
+            evaluations_per_second: (summary.rate * 1000.0).floor() / 1000.0,
             waiting: waiting as u64,
             redelivered: summary.redelivered,
             refused: refused as u32,

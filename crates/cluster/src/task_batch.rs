@@ -11,14 +11,12 @@ use nbc_swarm::{Task, TaskResult};
 /// Tasks that were handed in together, such as the evaluations of a generation.
 pub struct TaskBatch {
     run: u32,
-    /// Its number in the run.
     number: u32,
     tasks: Vec<Task>,
     results: Vec<Option<TakenResult>>,
     handed_in: Instant,
 }
 
-/// The result of a task.
 #[derive(Clone, Debug)]
 struct TakenResult {
     result: TaskResult,
@@ -26,41 +24,34 @@ struct TakenResult {
     trust: Trust,
 }
 
-/// Whether a result can be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Trust {
     /// As far as its worker can be trusted.
     Claimed,
-    /// It is being checked here.
     Doubted,
-    /// It was checked here.
     Verified,
 }
 
-/// The effect of an answer.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Verdict {
-    /// It is the first result of its task.
     Taken,
-    /// It equals the first result.
     Again,
-    /// It belongs to another batch.
     Late,
-    /// The task cannot have this result.
     Implausible,
     /// It differs from the result that was checked here.
     Wrong,
     /// It differs from the first result, which came from this worker. Only doing the task here can decide.
-    Differs { worker: String, result: Box<TaskResult> },
+    Differs {
+        worker: String,
+        result: Box<TaskResult>,
+    },
 }
 
 impl TaskBatch {
-    /// A batch without results.
     pub fn new(run: u32, number: u32, tasks: Vec<Task>) -> Self {
         Self { run, number, results: vec![None; tasks.len()], tasks, handed_in: Instant::now() }
     }
 
-    /// The keys of its tasks.
     pub fn keys(&self) -> Vec<TaskKey> {
         (0..self.tasks.len()).map(|index| self.key(index)).collect()
     }
@@ -69,12 +60,10 @@ impl TaskBatch {
         TaskKey { run: self.run, generation: self.number, index: index as u32 }
     }
 
-    /// A task, if it has no result.
     pub fn missing_task(&self, key: TaskKey) -> Option<&Task> {
         self.task(key).filter(|_| self.results[key.index as usize].is_none())
     }
 
-    /// A task, if it belongs to this batch.
     pub fn task(&self, key: TaskKey) -> Option<&Task> {
         let task = self.tasks.get(key.index as usize)?;
         (self.key(key.index as usize) == key).then_some(task)
@@ -132,7 +121,6 @@ impl TaskBatch {
         lost.into_iter().map(|index| self.key(index)).collect()
     }
 
-    /// The number of tasks without a result.
     pub fn missing(&self) -> usize {
         self.results.iter().filter(|result| result.is_none()).count()
     }
@@ -172,7 +160,6 @@ mod tests {
     use nbc_swarm::evolve::{CandidateOutcome, Search};
     use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, perform};
 
-    /// A batch of two tasks and its true answers.
     fn batch() -> (TaskBatch, Vec<AnswerMessage>) {
         let search = Search::new(&evolution(), 1);
         let protocol = Arc::new(EvaluationProtocol::of(&evolution()));

@@ -23,7 +23,6 @@ const STUCK: Duration = Duration::from_secs(10);
 /// The same if all tasks are given out: one that takes long may be at work.
 const STUCK_IF_GIVEN_OUT: Duration = Duration::from_secs(60);
 
-/// The tasks that are being sent, and those that must be sent again.
 pub struct TaskSender {
     jetstream: jetstream::Context,
     handle: tokio::runtime::Handle,
@@ -42,7 +41,6 @@ pub struct TaskSender {
 }
 
 impl TaskSender {
-    /// A sender without tasks.
     pub fn new(connection: &Connection, token: String, search: &str, log: Log) -> Self {
         let (jetstream, handle) = (connection.jetstream.clone(), connection.runtime.handle().clone());
         Self {
@@ -60,7 +58,6 @@ impl TaskSender {
         }
     }
 
-    /// Starts to send a task.
     pub fn send(&mut self, task: &TaskMessage) {
         let (jetstream, key, bytes) = (self.jetstream.clone(), task.key, task.encode());
         let subject = self.subject(key);
@@ -93,7 +90,6 @@ impl TaskSender {
         self.trouble = Some(fault);
     }
 
-    /// The tasks that must be sent again now.
     pub async fn retry(&mut self) -> BTreeSet<TaskKey> {
         if self.kept.is_empty() || self.failed.elapsed() < AGAIN {
             return BTreeSet::new();

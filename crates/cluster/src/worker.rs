@@ -12,22 +12,20 @@ use crate::Log;
 use crate::connection::{Connection, NatsServer, random_name};
 use crate::message::is_name;
 use crate::physics::PhysicsId;
-use crate::wording::ClusterError;
+use crate::wording;
 use crate::worker_state::WorkerState;
 use crate::worker_thread::WorkerThread;
+use nbc_base::diag::Diagnostic;
 use nbc_circuit::CancelFlag;
 use nbc_sim::Simulator;
 
-/// The options of a worker.
 #[derive(Clone, Debug)]
 pub struct WorkerOptions {
-    /// The server with the tasks.
     pub server: NatsServer,
     /// The name of the worker; without it, that of the machine and a random number.
     pub name: Option<String>,
     /// Lets the worker finish what it has begun, and end.
     pub cancel: CancelFlag,
-    /// Shows faults to the user.
     pub log: Log,
 }
 
@@ -40,12 +38,11 @@ pub struct Worker {
 }
 
 impl Worker {
-    /// Connects to the server.
-    pub fn open(options: WorkerOptions) -> Result<Self, ClusterError> {
+    pub fn open(options: WorkerOptions) -> Result<Self, Diagnostic> {
         let WorkerOptions { server, name, cancel, log } = options;
         let name = name.unwrap_or_else(default_name);
         if !is_name(&name) || name.contains('.') {
-            return Err(ClusterError::Name { name });
+            return Err(wording::bad_worker_name(&name));
         }
         let connection = Connection::open(&server, &format!("nbc worker {name}"), log)?;
         let entered = connection.enter();
@@ -54,7 +51,6 @@ impl Worker {
         Ok(Self { queue, state: WorkerState::new(name, connection, physics, cancel, log), _entered: entered })
     }
 
-    /// Its name.
     pub fn name(&self) -> &str {
         &self.state.name
     }
@@ -64,13 +60,11 @@ impl Worker {
         self.state.physics.0
     }
 
-    /// The number of tasks that it has done.
     pub fn done(&self) -> u64 {
         self.state.tally.evaluations.load(Ordering::Relaxed)
     }
 
-    /// Does tasks on this number of threads until the worker is cancelled.
-    pub fn work(&self, threads: usize) -> Result<(), ClusterError> {
+    pub fn work(&self, threads: usize) -> Result<(), Diagnostic> {
         self.state.report(threads as u32);
         self.state.listen();
         thread::scope(|scope| {
@@ -78,7 +72,7 @@ impl Worker {
                 let _entered = self.state.connection.enter();
                 // The simulations of this thread's tasks stay on it.
                 let alone = ThreadPoolBuilder::new().num_threads(1).use_current_thread().build();
-                let _alone = alone.map_err(|error| ClusterError::Start { reason: error.to_string() })?;
+                let _alone = alone.map_err(|error| wording::no_client(&error.to_string()))?;
                 WorkerThread::new(&self.state, self.queue.clone()).work()
             };
             let started: Vec<_> = (0..threads).map(|_| scope.spawn(work)).collect();

@@ -11,19 +11,18 @@ use tokio::time;
 use crate::Log;
 use crate::connection::{Connection, reply_subject, worker_note_subject};
 use crate::delivery::{Delivery, DeliveryEnd};
-use crate::message::{AnswerReply, WorkerNote, encode};
+use crate::message::{AnswerReply, WorkerNote, decode, encode};
 use crate::physics::{PROGRAM, PhysicsId};
-use crate::wording::ClusterError;
+use crate::wording;
+use nbc_base::diag::Diagnostic;
 use nbc_circuit::CancelFlag;
 
-/// The time between reports.
 pub const REPORT: Duration = Duration::from_secs(2);
 /// The worker ends when so many of its answers were rejected.
 const MOST_REJECTIONS: usize = 3;
 /// Tasks of a search that did not receive an answer are dropped for this time.
 const SHUNNED: Duration = Duration::from_secs(10);
 
-/// The state that the threads of a worker share.
 pub struct WorkerState {
     pub name: String,
     pub connection: Connection,
@@ -37,7 +36,6 @@ pub struct WorkerState {
     silent: Mutex<BTreeMap<String, Instant>>,
 }
 
-/// The number of tasks that a worker has done.
 #[derive(Default)]
 pub struct Tally {
     pub evaluations: AtomicU64,
@@ -45,13 +43,11 @@ pub struct Tally {
 }
 
 impl WorkerState {
-    /// A worker that has done nothing yet.
     pub fn new(name: String, connection: Connection, physics: PhysicsId, cancel: CancelFlag, log: Log) -> Self {
         let (tally, rejections, silent) = (Arc::default(), AtomicUsize::new(0), Mutex::default());
         Self { name, connection, physics, tally, log, cancel, rejections, silent }
     }
 
-    /// Whether no more tasks should be taken.
     pub fn is_ending(&self) -> bool {
         self.cancel.is_raised() || self.rejections.load(Ordering::Relaxed) >= MOST_REJECTIONS
     }
@@ -62,8 +58,7 @@ impl WorkerState {
         silent.get(search).is_some_and(|since| since.elapsed() < SHUNNED)
     }
 
-    /// Counts deliveries that have ended.
-    pub fn count(&self, ended: Vec<DeliveryEnd>) -> Result<(), ClusterError> {
+    pub fn count(&self, ended: Vec<DeliveryEnd>) -> Result<(), Diagnostic> {
         for one in ended {
             match one {
                 DeliveryEnd::Received => _ = self.tally.evaluations.fetch_add(1, Ordering::Relaxed),
@@ -80,7 +75,7 @@ impl WorkerState {
                     };
                     let (name, count) = (self.name.clone(), self.rejections.fetch_add(1, Ordering::Relaxed) + 1);
                     if count >= MOST_REJECTIONS {
-                        return Err(ClusterError::Rejected { name, reason });
+                        return Err(wording::rejected(&name, reason));
                     }
                     let said = format!("an answer was rejected: {reason} ({count} of {MOST_REJECTIONS})");
                     (self.log)(&format!("worker `{name}`: {said}\n"));
@@ -90,27 +85,25 @@ impl WorkerState {
         Ok(())
     }
 
-    /// Deliveries of a thread.
     pub fn delivery(&self) -> Delivery {
         Delivery::new(&self.connection, &self.name)
     }
 
-    /// Starts to send reports at regular times.
     pub fn report(&self, threads: u32) {
         let (client, tally, name) = (self.connection.client.clone(), Arc::clone(&self.tally), self.name.clone());
-        let physics = self.physics.0;
+        let physics = self.physics.to_string();
         self.connection.runtime.spawn(async move {
             let mut before = 0;
             loop {
                 let evaluations = tally.evaluations.load(Ordering::Relaxed);
                 let note = WorkerNote {
                     name: name.clone(),
-                    program: PROGRAM.to_owned(),
-                    physics,
+                    version: PROGRAM.to_owned(),
+                    physics: physics.clone(),
                     threads,
                     evaluations,
                     redelivered: tally.redelivered.load(Ordering::Relaxed),
-                    per_kilosecond: (evaluations - before) * 1000 / REPORT.as_secs(),
+                    evaluations_per_second: (evaluations - before) as f64 / REPORT.as_secs_f64(),
                 };
                 before = evaluations;
                 let _ = client.publish(worker_note_subject(), encode(&note).into()).await;
@@ -124,7 +117,7 @@ impl WorkerState {
         let (client, name, log) = (self.connection.client.clone(), self.name.clone(), self.log);
         self.connection.runtime.spawn(async move {
             let Ok(mut replies) = client.subscribe(reply_subject(&name)).await else { return };
-            let is_refusal = |bytes: &[u8]| AnswerReply::decode(bytes) == Ok(AnswerReply::OtherPhysics);
+            let is_refusal = |bytes: &[u8]| decode(bytes) == Some(AnswerReply::OtherPhysics);
             while let Some(message) = replies.next().await {
                 if is_refusal(&message.payload) {
                     log(&format!("worker `{name}`: a search refused this worker, because its physics is different\n"));

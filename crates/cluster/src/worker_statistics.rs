@@ -13,18 +13,15 @@ const WINDOW: Duration = Duration::from_secs(10);
 /// The time after which a summary is computed again.
 const FRESH: Duration = Duration::from_millis(200);
 
-/// The workers, by name.
 #[derive(Default)]
 pub struct WorkerStatistics {
     workers: BTreeMap<String, (WorkerNote, Instant)>,
-    /// The number of results taken.
     taken: u64,
     /// That number at some times of the last seconds.
     history: VecDeque<(Instant, u64)>,
     summary: Option<(Instant, Summary)>,
 }
 
-/// The workers in numbers.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Summary {
     /// Workers that have reported lately, and their threads.
@@ -38,17 +35,14 @@ pub struct Summary {
 }
 
 impl WorkerStatistics {
-    /// Takes the report of a worker.
     pub fn take(&mut self, note: WorkerNote) {
         self.workers.insert(note.name.clone(), (note, Instant::now()));
     }
 
-    /// Whether a worker has reported lately.
     pub fn has(&self, name: &str) -> bool {
         self.workers.get(name).is_some_and(|(_, seen)| seen.elapsed() < GONE)
     }
 
-    /// Counts a result.
     pub fn count(&mut self) {
         self.taken += 1;
     }
@@ -83,7 +77,6 @@ impl WorkerStatistics {
 }
 
 impl Summary {
-    /// The numbers for people.
     pub fn describe(&self) -> String {
         let workers = counted(self.workers, "worker");
         format!("{workers}, {:.1} evaluations/s, {} redelivered", self.rate, self.redelivered)

@@ -15,21 +15,18 @@ use crate::answer_message::AnswerMessage;
 use crate::connection::{Connection, PATIENCE, SILENCE, search_of, words};
 use crate::delivery::Delivery;
 use crate::task_message::{TOGETHER, TaskMessage};
-use crate::wording::ClusterError;
 use crate::worker_state::WorkerState;
+use nbc_base::diag::Diagnostic;
 use nbc_sim::Simulator;
 use nbc_swarm::{Task, perform};
 
 /// The most time for which a thread asks for a task at once.
 const REQUEST: Duration = Duration::from_secs(5);
-/// The time between two checks of the request to stop.
 const GLANCE: Duration = Duration::from_millis(100);
-/// The time before another attempt after a fault.
 const AGAIN: Duration = Duration::from_secs(1);
 /// The most time for the deliveries in progress at the end.
 const FAREWELL: Duration = Duration::from_secs(10);
 
-/// The state of a thread.
 pub struct WorkerThread<'a> {
     worker: &'a WorkerState,
     queue: PullConsumer,
@@ -40,22 +37,18 @@ pub struct WorkerThread<'a> {
     trouble: Option<String>,
 }
 
-/// A task that the thread has taken.
 struct OpenTask {
     message: TaskMessage,
-    /// The name of the search.
     search: String,
     acker: Arc<Acker>,
 }
 
 impl<'a> WorkerThread<'a> {
-    /// A thread without tasks.
     pub fn new(worker: &'a WorkerState, queue: PullConsumer) -> Self {
         Self { worker, queue, delivery: worker.delivery(), together: 1, trouble: None }
     }
 
-    /// Works until a signal arrives.
-    pub fn work(&mut self) -> Result<(), ClusterError> {
+    pub fn work(&mut self) -> Result<(), Diagnostic> {
         let handle = self.worker.connection.runtime.handle().clone();
         while !self.worker.is_ending() {
             match handle.block_on(self.fetch()) {
@@ -72,7 +65,6 @@ impl<'a> WorkerThread<'a> {
         self.worker.count(ended)
     }
 
-    /// Logs a fault, waits, and connects to the queue again.
     async fn recover(&mut self, reason: String) {
         if self.trouble.as_ref() != Some(&reason) {
             (self.worker.log)(&format!("worker `{}`: {reason}; trying again\n", self.worker.name));
@@ -128,7 +120,7 @@ impl<'a> WorkerThread<'a> {
         let (message, acker) = message.split();
         let search = search_of(&message.subject).filter(|search| !self.worker.shuns(search));
         match (TaskMessage::decode(&message.payload), search) {
-            (Ok(task), Some(search)) => {
+            (Some(task), Some(search)) => {
                 self.together = task.together.clamp(1, TOGETHER).into();
                 taken.push(OpenTask { message: task, search: search.to_owned(), acker: Arc::new(acker) });
             }
@@ -137,7 +129,6 @@ impl<'a> WorkerThread<'a> {
         }
     }
 
-    /// Does the tasks and starts to deliver the results.
     fn perform(&mut self, taken: Vec<OpenTask>) {
         let ackers: Vec<Arc<Acker>> = taken.iter().map(|taken| Arc::clone(&taken.acker)).collect();
         let holding = self.worker.connection.runtime.spawn(hold(ackers));

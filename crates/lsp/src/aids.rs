@@ -16,12 +16,11 @@ use nbc_base::source::Span;
 use nbc_session::Checked;
 
 impl Server {
-    /// Answers a hover. If its figures must be compiled first, the answer waits for them for a short time.
+    /// Waits a short time for figures that must be compiled first.
     pub(super) fn hover(&mut self, id: RequestId, asked: lsp::HoverParams) -> Option<Response> {
         let place = asked.text_document_position_params;
         let Some(checked) = self.checked(&place.text_document.uri) else { return Some(Response::new_ok(id, ())) };
-        let (world, shell) = (self.world.clone(), self.shell.clone());
-        let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
+        let files = self.files(&checked);
         let spot = Spot::of(files, place.position);
         let shown = spot.and_then(|spot| hover::show(&spot, &self.session, self.settings.pictures));
         let Some(shown) = shown else { return Some(Response::new_ok(id, ())) };
@@ -41,7 +40,6 @@ impl Server {
         Some(Response::new_ok(id, hover_of(shown.text, figures.as_ref(), range)))
     }
 
-    /// Answers the hovers whose figures are there, or that have waited long enough.
     pub(super) fn answer_hovers(&mut self) {
         for waiting in std::mem::take(&mut self.waiting) {
             let known = self.compiler.known(&waiting.path, &waiting.subject);
@@ -87,8 +85,7 @@ impl Server {
         Ok(Some(found))
     }
 
-    /// The robots and the clock of a circuit; `None` if they are not compiled yet. The client is asked to request them
-    /// again when they are.
+    /// `None` if they are not compiled yet; the client is asked to request them again when they are.
     pub(super) fn summary(&mut self, checked: &Arc<Checked>, subject: &Subject) -> Option<String> {
         match self.compiler.ask(checked, subject) {
             FigureState::Done(Some(Figures::Circuit(figures))) => Some(figures.summary()),

@@ -8,17 +8,15 @@ use crate::position::{Encoding, Lines};
 use crate::uri;
 use nbc_base::source::LineStarts;
 
-/// An open text.
 #[derive(Clone, Debug)]
 pub(super) struct Buffer {
     pub(super) uri: Uri,
-    /// The path under which the session has it.
+    /// The path in the session.
     pub(super) path: String,
     pub(super) version: i32,
     pub(super) text: String,
 }
 
-/// The open texts by path.
 #[derive(Default)]
 pub(super) struct Buffers {
     open: BTreeMap<String, Buffer>,
@@ -31,7 +29,6 @@ impl Buffers {
         self.open.entry(path).insert_entry(buffer).into_mut()
     }
 
-    /// Changes a text; `None` if it is not open.
     pub(super) fn change(
         &mut self,
         uri: &Uri,
@@ -64,7 +61,6 @@ impl Buffers {
         self.open.get(&name(uri))
     }
 
-    /// The text that the session has under a path.
     pub(super) fn at(&self, path: &str) -> Option<&Buffer> {
         self.open.get(path)
     }
@@ -74,7 +70,7 @@ impl Buffers {
     }
 }
 
-/// The name of a text for the session: its path, or the URI of a text that is not in a file.
+/// Its path, or the URI of a text that is not in a file.
 fn name(uri: &Uri) -> String {
     uri::path(uri).unwrap_or_else(|| uri.to_string())
 }

@@ -12,7 +12,7 @@ use crate::settings::Settings;
 use crate::workspace::Workspace;
 use crate::{completion, runs, semantics};
 
-/// The client as its `initialize` request describes it. Only these parts are read; others may be missing or wrong.
+/// Other parts of `initialize` are not read; those may be missing or wrong.
 #[derive(Clone, Debug)]
 pub(super) struct Client {
     pub(super) encoding: Encoding,
@@ -21,21 +21,16 @@ pub(super) struct Client {
     pub(super) abilities: Abilities,
 }
 
-/// Requests and notifications of the server that the client supports.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Abilities {
-    /// Asks for lenses, hints and tokens again.
     pub(super) refreshes_lenses: bool,
     pub(super) refreshes_hints: bool,
     pub(super) refreshes_tokens: bool,
-    /// Shows the progress of what the server began.
     pub(super) shows_progress: bool,
-    /// Watches files for the server.
     pub(super) watches_files: bool,
 }
 
 impl Client {
-    /// Reads the parameters of the `initialize` request.
     pub(super) fn of(parameters: &Value) -> Self {
         let encodings = parameters.pointer("/capabilities/general/positionEncodings").cloned().unwrap_or_default();
         let encodings: Vec<PositionEncodingKind> = serde_json::from_value(encodings).unwrap_or_default();
@@ -56,7 +51,6 @@ impl Client {
     }
 }
 
-/// The capabilities of the server, for the answer to `initialize`.
 pub(super) fn capabilities(encoding: Encoding) -> ServerCapabilities {
     let sync = TextDocumentSyncOptions {
         open_close: Some(true),

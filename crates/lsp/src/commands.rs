@@ -12,9 +12,9 @@ use serde_json::{Value, json};
 use crate::figures::Subject;
 use crate::files::Files;
 use crate::lenses;
-use crate::request_error::RequestError;
-use crate::runs::{OrderError, RunEvent, RunOrder, RunOutcome};
+use crate::runs::{RunEvent, RunOrder, RunOutcome};
 use crate::service::{Reply, Server};
+use crate::wording::{self, RequestError};
 use nbc_session::Checked;
 
 impl Server {
@@ -32,11 +32,11 @@ impl Server {
         Ok(Some(found))
     }
 
-    /// Starts a command. The answer is sent when it ends.
+    /// The answer is sent when the command ends.
     pub(super) fn execute(&mut self, id: RequestId, asked: lsp::ExecuteCommandParams) -> Option<Response> {
         let (order, checked) = match self.ordered(&asked) {
             Ok(ordered) => ordered,
-            Err(error) => return Some(RequestError::Order(error).answer(id)),
+            Err(error) => return Some(error.answer(id)),
         };
         let token = self.progress_token(&id, asked.work_done_progress_params.work_done_token);
         let begin = json!({ "kind": "begin", "title": order.title(&checked), "cancellable": true, "percentage": 0 });
@@ -45,12 +45,12 @@ impl Server {
         None
     }
 
-    fn ordered(&mut self, asked: &lsp::ExecuteCommandParams) -> Result<(RunOrder, Arc<Checked>), OrderError> {
+    fn ordered(&mut self, asked: &lsp::ExecuteCommandParams) -> Result<(RunOrder, Arc<Checked>), RequestError> {
         let order = RunOrder::read(asked)?;
         if !self.shell.shows_results() {
-            return Err(OrderError::NoPlace);
+            return Err(wording::no_place());
         }
-        let checked = self.checked(&order.uri).ok_or_else(|| OrderError::Closed(order.uri.0.clone()))?;
+        let checked = self.checked(&order.uri).ok_or_else(|| wording::not_open(&order.uri.0))?;
         Ok((order, checked))
     }
 
@@ -69,7 +69,6 @@ impl Server {
         self.send(Message::Notification(Notification::new("$/progress".to_owned(), told)));
     }
 
-    /// Passes the progress or the result of a run to the client.
     pub(super) fn told(&mut self, event: RunEvent) {
         match event {
             RunEvent::Progress { token, percentage, message } => {
@@ -88,7 +87,7 @@ impl Server {
         }
     }
 
-    /// Shows a result to the user as a message, because some editors do not show the answer to a command.
+    /// Some editors do not show the answer to a command.
     fn show(&self, outcome: &RunOutcome) {
         let message = match &outcome.path {
             Some(path) => format!("{}: {path}", outcome.text),

@@ -11,44 +11,35 @@ use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, Session};
 
-/// A subject of a source.
 type Key = (String, Subject);
 
-/// The most figures that are kept.
 const MOST: usize = 4096;
 
-/// The figures computed so far.
 pub(super) struct Compiler {
     shell: Arc<dyn LanguageShell>,
-    /// That of the work, apart from that of the texts.
+    /// The texts have another session.
     session: Arc<Session>,
     results: (Sender<Compilation>, Receiver<Compilation>),
     known: BTreeMap<Key, (Weak<Checked>, Option<Figures>)>,
-    /// The subjects that are not yet compiled.
     asked: BTreeSet<Key>,
-    /// The flags that end the jobs in progress, by their sources.
     flags: Vec<(Weak<Checked>, CancelFlag)>,
 }
 
-/// A subject of a source that may have changed since.
 struct Job {
     checked: Weak<Checked>,
     key: Key,
     cancel: CancelFlag,
 }
 
-/// The result of a job; without a source if the source had changed.
 pub(super) struct Compilation {
     checked: Weak<Checked>,
     key: Key,
     figures: Option<Figures>,
 }
 
-/// The state of the figures of a subject.
 pub(super) enum FigureState<'a> {
-    /// It is being compiled.
     NotYet,
-    /// The figures; `None` if it cannot be compiled.
+    /// `None` if it cannot be compiled.
     Done(Option<&'a Figures>),
 }
 
@@ -64,12 +55,11 @@ impl Compiler {
         }
     }
 
-    /// The result of a job that has ended.
     pub(super) fn result(&self) -> Option<Compilation> {
         self.results.1.try_recv().ok()
     }
 
-    /// The figures of a subject. If they are not known, a job to compute them is started.
+    /// Starts a job if they are not known.
     pub(super) fn ask(&mut self, checked: &Arc<Checked>, subject: &Subject) -> FigureState<'_> {
         let key = (checked.path.clone(), subject.clone());
         if checked.has_errors() {
@@ -89,13 +79,12 @@ impl Compiler {
         FigureState::NotYet
     }
 
-    /// The figures of a subject that was asked for; `None` if it is still being compiled.
+    /// `None` while it is being compiled.
     pub(super) fn known(&self, path: &str, subject: &Subject) -> Option<Option<&Figures>> {
         let key = (path.to_owned(), subject.clone());
         if self.asked.contains(&key) { None } else { Some(self.known.get(&key).and_then(|(_, found)| found.as_ref())) }
     }
 
-    /// Keeps the figures of a job that is done.
     pub(super) fn keep(&mut self, done: Compilation) {
         let Compilation { checked, key, figures } = done;
         self.asked.remove(&key);
@@ -108,7 +97,7 @@ impl Compiler {
         self.known.insert(key, (checked, figures));
     }
 
-    /// Ends the jobs of sources that have changed: only the thread still has a reference to these.
+    /// If a source has changed, only the thread still has a reference to it.
     pub(super) fn cancel_stale(&mut self) {
         self.flags.retain(|(checked, flag)| {
             let is_stale = checked.strong_count() <= 1;
@@ -119,7 +108,6 @@ impl Compiler {
         });
     }
 
-    /// Whether nothing is being compiled.
     pub(super) fn is_idle(&self) -> bool {
         self.asked.is_empty()
     }
@@ -130,7 +118,7 @@ fn is_same(of: &Weak<Checked>, checked: &Arc<Checked>) -> bool {
 }
 
 impl Job {
-    /// Does it, unless its source has changed: then there is no other reference to it.
+    /// If the source has changed, there is no other reference to it.
     fn done(self, session: &Session) -> Compilation {
         let Self { checked, key, cancel } = self;
         // A bug in compiling one circuit must not end whoever does the work.

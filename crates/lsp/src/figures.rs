@@ -6,42 +6,35 @@ use nbc_base::source::Span;
 use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, CompileOptions, Mapping, Session};
 
-/// A circuit or a net to compile.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Subject {
-    /// A circuit as the swarm of that name, or as the first that is declared for it.
+    /// As the swarm of that name, or as the first that is declared for the circuit.
     Circuit(Instance, Option<String>),
-    /// The part of a circuit that drives the net declared at a place.
+    /// The part of the circuit that drives the net declared at this place.
     Net(Instance, Span),
 }
 
-/// The figures of a subject.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Figures {
     Circuit(CircuitFigures),
     Net { cells: usize, robots: usize },
 }
 
-/// The figures of a circuit as a swarm.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct CircuitFigures {
-    /// The declared swarm.
     swarm: Option<String>,
     robots: usize,
     /// Cycles after which every net is correct.
     hold: u32,
-    /// The least period of each clock.
+    /// The least period of each clock, in cycles.
     clocks: Vec<(String, u32)>,
-    /// The slowest path, input first.
+    /// Input first.
     path: Vec<String>,
-    /// The timing as text.
     pub(super) timing: String,
 }
 
 impl Subject {
-    /// Compiles a subject of a source without errors; `None` if it cannot be made.
-    ///
-    /// The figures of a cancelled compilation must not be used.
+    /// `None` if it cannot be made. The figures of a cancelled compilation must not be used.
     pub(super) fn compile(&self, session: &Session, checked: &Checked, cancel: &CancelFlag) -> Option<Figures> {
         match self {
             Self::Circuit(circuit, swarm) => {
@@ -81,7 +74,6 @@ impl CircuitFigures {
         format!("{}, clock {clock}", self.robots())
     }
 
-    /// `12 robots`
     pub(super) fn robots(&self) -> String {
         counted(self.robots, "robot")
     }
@@ -102,7 +94,6 @@ impl CircuitFigures {
 }
 
 impl Figures {
-    /// The figures as Markdown.
     pub(super) fn describe(&self) -> String {
         match self {
             Self::Circuit(figures) => figures.describe(),

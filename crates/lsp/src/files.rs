@@ -9,7 +9,6 @@ use nbc_base::source::{FileId, SourceWorld, Span};
 use nbc_lang::check::PRELUDE;
 use nbc_session::Checked;
 
-/// A checked source and how its client counts characters.
 #[derive(Clone, Copy)]
 pub(super) struct Files<'a> {
     pub(super) checked: &'a Checked,
@@ -20,12 +19,10 @@ pub(super) struct Files<'a> {
 }
 
 impl Files<'_> {
-    /// The URI of the source itself.
     pub(super) fn own(&self) -> Uri {
         self.named(&self.checked.path)
     }
 
-    /// The URI of one of its files.
     pub(super) fn uri(&self, file: FileId) -> Uri {
         let name = &self.checked.sources.file(file).name;
         match self.prelude(file) {
@@ -40,30 +37,27 @@ impl Files<'_> {
         if is_uri { Uri(name.to_owned()) } else { uri::uri(self.world, name) }
     }
 
-    /// Writes a text of the program to a file that editors can open, and returns its URI. There is none if it cannot be
-    /// written, or the client does not see such files.
+    /// Writes a text of the program to a file that editors can open. `None` if it cannot be written, or the client does
+    /// not see such files.
     pub(super) fn readable(&self, name: &str, text: &str) -> Option<Uri> {
         Some(uri::uri(self.world, &self.shell.write_text(name, text)?))
     }
 
-    /// The text of a file, if it is one of the prelude.
+    /// `None` if the file is not one of the prelude.
     pub(super) fn prelude(&self, file: FileId) -> Option<&'static str> {
         let source = self.checked.sources.file(file);
         let known = PRELUDE.into_iter().find(|(name, text)| *name == source.name && *text == source.text);
         known.filter(|_| self.checked.file != Some(file)).map(|(_, text)| text)
     }
 
-    /// A place in its file.
     pub(super) fn range(&self, span: Span) -> Range {
         self.lines(span.file).range(span.range())
     }
 
-    /// A place with its file.
     pub(super) fn location(&self, span: Span) -> Location {
         Location { uri: self.uri(span.file), range: self.range(span) }
     }
 
-    /// The lines of a file.
     pub(super) fn lines(&self, file: FileId) -> Lines<'_> {
         let source = self.checked.sources.file(file);
         Lines { text: &source.text, starts: source.lines(), encoding: self.encoding }

@@ -12,7 +12,7 @@ use nbc_lang::syntax::tree::{
     BodySyntax, DeclarationKind, ExpressionSyntax, ExpressionSyntaxKind, OperandSyntax, TestKind,
 };
 
-/// The hints that need nothing compiled, in a part of a file.
+/// The hints that need nothing compiled.
 pub(super) fn of(files: &Files<'_>, file: FileId, part: Span, settings: HintSettings) -> Vec<InlayHint> {
     let mut hints = Vec::new();
     if settings.widths {
@@ -24,7 +24,6 @@ pub(super) fn of(files: &Files<'_>, file: FileId, part: Span, settings: HintSett
     hints
 }
 
-/// A hint of the robots of a circuit, after its ports.
 pub(super) fn robots(files: &Files<'_>, circuit: &Circuit, summary: &str) -> InlayHint {
     let text = &files.checked.sources.file(circuit.span.file).text[circuit.span.end as usize..];
     let ports = text.find('{').map_or(0, |brace| text[..brace].trim_end().len());
@@ -32,7 +31,6 @@ pub(super) fn robots(files: &Files<'_>, circuit: &Circuit, summary: &str) -> Inl
     InlayHint { padding_left: Some(true), ..hint(files, circuit.span, at, summary, InlayHintKind::Type) }
 }
 
-/// The circuits of a part of a file that can be compiled.
 pub(super) fn circuits<'a>(
     files: &Files<'a>,
     file: FileId,
@@ -47,7 +45,6 @@ fn is_in(place: Span, file: FileId, part: Span) -> bool {
     place.file == file && part.start <= place.end && place.start <= part.end
 }
 
-/// The widths of nets that are declared without one.
 fn widths(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     let text = &files.checked.sources.file(file).text;
     let declared = files.checked.uses.of_file(file).filter(|found| {
@@ -62,7 +59,6 @@ fn widths(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     declared.filter_map(|found| hint(found.place)).collect()
 }
 
-/// The names of ports before the operands of calls.
 fn operands(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     let declarations = files.checked.tree(file).into_iter().flat_map(|tree| &tree.declarations);
     let bodies = declarations.filter(|declaration| is_in(declaration.span, file, part)).filter_map(|declaration| {
@@ -80,8 +76,7 @@ fn operands(files: &Files<'_>, file: FileId, part: Span) -> Vec<InlayHint> {
     calls.filter(|(_, call)| is_in(call.span, file, part)).flat_map(|(body, call)| of_call(files, body, call)).collect()
 }
 
-/// The hints of an expression that is a call. An operand that is named like its port gets none, nor does a single
-/// operand.
+/// An operand that is named like its port gets none, nor does a single operand.
 fn of_call(files: &Files<'_>, body: &BodySyntax, call: &ExpressionSyntax) -> Vec<InlayHint> {
     let ExpressionSyntaxKind::Call { name, operands, .. } = &call.kind else { return Vec::new() };
     let checked = files.checked;
@@ -104,7 +99,6 @@ fn of_call(files: &Files<'_>, body: &BodySyntax, call: &ExpressionSyntax) -> Vec
     pairs.filter_map(hint).collect()
 }
 
-/// A hint at a byte of the file of a place.
 fn hint(files: &Files<'_>, place: Span, at: u32, label: &str, kind: InlayHintKind) -> InlayHint {
     InlayHint {
         position: files.lines(place.file).position(at as usize),

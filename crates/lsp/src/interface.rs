@@ -6,17 +6,14 @@ use crate::files::Files;
 use nbc_base::model::{Circuit, Net};
 use nbc_base::source::Span;
 
-/// A circuit's name, parameters and ports.
 pub(super) struct Interface {
     pub(super) name: String,
     pub(super) parameters: Vec<String>,
     pub(super) inputs: Vec<WrittenPort>,
     outputs: Vec<WrittenPort>,
-    /// The comment above it.
     pub(super) comment: String,
 }
 
-/// A port.
 pub(super) struct WrittenPort {
     pub(super) name: String,
     /// With its width: `a[8]`.
@@ -43,12 +40,10 @@ impl Interface {
         format!("{}({}) -> ({})", self.head(), list(&self.inputs), list(&self.outputs))
     }
 
-    /// The places of the parameters in the label.
     pub(super) fn parameter_places(&self) -> Vec<Range<usize>> {
         places(self.name.len() + 1, self.parameters.iter().map(String::as_str))
     }
 
-    /// The places of the inputs in the label.
     pub(super) fn input_places(&self) -> Vec<Range<usize>> {
         places(self.head().len() + 1, self.inputs.iter().map(|port| port.text.as_str()))
     }
@@ -61,7 +56,7 @@ impl Interface {
     }
 }
 
-/// The places of words that are listed from `start` on.
+/// The places of words in a list that begins at `start`.
 fn places<'t>(start: usize, words: impl Iterator<Item = &'t str>) -> Vec<Range<usize>> {
     let place = |at: &mut usize, word: &str| {
         let start = *at;
@@ -71,7 +66,6 @@ fn places<'t>(start: usize, words: impl Iterator<Item = &'t str>) -> Vec<Range<u
     words.scan(start, place).collect()
 }
 
-/// A port, a net or a number, with its width.
 pub(super) fn entry(text: &str, place: Span) -> &str {
     let rest = &text[place.end as usize..];
     let end = match rest.as_bytes().first() {
@@ -81,7 +75,6 @@ pub(super) fn entry(text: &str, place: Span) -> &str {
     &text[place.start as usize..place.end as usize + end]
 }
 
-/// The comment in the lines just above a place.
 pub(super) fn comment(text: &str, place: Span) -> String {
     let line = text[..place.start as usize].rfind('\n').map_or(0, |end| end + 1);
     let mut lines: Vec<&str> = text[..line]

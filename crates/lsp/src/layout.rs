@@ -9,7 +9,7 @@ use nbc_base::source::{Sources, Span};
 use nbc_lang::syntax;
 use nbc_session::Formatted;
 
-/// The edits that bring the declarations in a part of a text into canonical form.
+/// Edits of the declarations in a part of a text, so that the rest stays in its place.
 pub(super) fn edits(lines: &Lines<'_>, formatted: &Formatted, part: Range<usize>) -> Vec<TextEdit> {
     let (before, after) = (declarations(lines.text), declarations(&formatted.text));
     assert_eq!(before.len(), after.len(), "formatting keeps every declaration");

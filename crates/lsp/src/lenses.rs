@@ -9,7 +9,6 @@ use crate::runs;
 use nbc_base::model::Instance;
 use nbc_base::source::{FileId, Span};
 
-/// The lenses of the tests, simulations and claims of a file.
 pub(super) fn of_runs(files: &Files<'_>, file: FileId) -> Vec<CodeLens> {
     let program = &files.checked.program;
     let mut lenses = Vec::new();
@@ -28,7 +27,6 @@ pub(super) fn of_runs(files: &Files<'_>, file: FileId) -> Vec<CodeLens> {
     lenses
 }
 
-/// The circuits and swarms of a file that can be compiled: their places, with the circuits and the swarms.
 pub(super) fn subjects(files: &Files<'_>, file: FileId) -> Vec<(Span, Instance, Option<String>)> {
     let checked = files.checked;
     let circuits = checked.program.circuits.iter().filter(|circuit| circuit.span.file == file);
@@ -38,7 +36,6 @@ pub(super) fn subjects(files: &Files<'_>, file: FileId) -> Vec<(Span, Instance, 
     circuits.chain(swarms).collect()
 }
 
-/// The lenses of a circuit or swarm, with its figures if they are known.
 pub(super) fn of_subject(files: &Files<'_>, place: Span, subject: &Subject, summary: Option<String>) -> Vec<CodeLens> {
     let Subject::Circuit(circuit, swarm) = subject else { return Vec::new() };
     let order = json!({ "uri": files.own(), "circuit": circuit.to_string(), "swarm": swarm });

@@ -26,12 +26,10 @@ mod outline;
 mod position;
 mod problems;
 mod rename;
-mod request_error;
 mod requests;
 mod runs;
 mod selection;
 mod semantics;
-mod server_end;
 mod service;
 mod settings;
 mod shell;
@@ -47,9 +45,7 @@ mod wording;
 mod workspace;
 
 pub use message::{message, parse, refusal, written};
-pub use server_end::ServerEnd;
 pub use service::LanguageService;
-pub use shell::{LanguageShell, LanguageWork};
+pub use shell::{LanguageShell, LanguageWork, ServerEnd};
 #[cfg(feature = "disk")]
 pub use stdio::{file_uri, serve, serve_standard, serve_texts};
-pub use wording::ServerError;

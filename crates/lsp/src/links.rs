@@ -7,7 +7,6 @@ use nbc_base::source::{FileId, Span};
 use nbc_lang::check::beside;
 use nbc_lang::syntax::tree::{DeclarationKind, RecordKeyword, ValueKind};
 
-/// The links of a file to others that exist.
 pub(super) fn of(files: &Files<'_>, file: FileId) -> Vec<DocumentLink> {
     let declarations = files.checked.tree(file).into_iter().flat_map(|tree| &tree.declarations);
     let named = declarations.flat_map(|declaration| match &declaration.kind {

@@ -3,10 +3,8 @@
 use lsp_server::{ErrorCode, Message};
 use serde_json::{Value, json};
 
-/// Why a value is not a message.
 const NO_MESSAGE: &str = "expected a request, a notification or a response";
 
-/// The message that a value is.
 pub fn message(value: Value) -> Result<Message, Value> {
     let id = value.get("id").filter(|id| id.is_number() || id.is_string()).cloned().unwrap_or_default();
     match Some(value).filter(Value::is_object).and_then(|value| serde_json::from_value(value).ok()) {
@@ -16,18 +14,16 @@ pub fn message(value: Value) -> Result<Message, Value> {
     }
 }
 
-/// The answer to a text that is not a message. The id is null if the text has none.
+/// The id is null if the text has none.
 pub fn refusal(id: &Value, code: ErrorCode, reason: &str) -> Value {
     json!({ "jsonrpc": "2.0", "id": id, "error": { "code": code as i32, "message": reason } })
 }
 
-/// The value of a text from a client.
 pub fn parse(text: &[u8]) -> Result<Value, Value> {
     serde_json::from_slice(text)
         .map_err(|error| refusal(&Value::Null, ErrorCode::ParseError, &format!("the message is not JSON: {error}")))
 }
 
-/// A message as its client reads it.
 pub fn written(message: &Message) -> String {
     let mut value = serde_json::to_value(message).expect("messages are data");
     value["jsonrpc"] = json!("2.0");

@@ -10,17 +10,15 @@ use gen_lsp_types::{
 
 use crate::navigation;
 use crate::rename::Rename;
-use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
 use crate::used_files::UsedFiles;
+use crate::wording::RequestError;
 use nbc_lang::check::NameUse;
 use nbc_session::Checked;
 
-/// The most symbols of an answer.
 const MOST_SYMBOLS: usize = 1000;
 
 impl Server {
-    /// The name at a place, with its source.
     pub(super) fn name(&mut self, place: &TextDocumentPositionParams) -> Option<(Arc<Checked>, NameUse)> {
         let checked = self.checked(&place.text_document.uri)?;
         let file = checked.file?;
@@ -36,7 +34,6 @@ impl Server {
         }))
     }
 
-    /// The uses of a name in all open texts and in the files of the workspace.
     fn uses(&mut self, checked: &Checked, found: NameUse, with_declaration: bool) -> Vec<lsp::Location> {
         let home = self.files(checked).uri(found.declared.file);
         let mut places: Vec<lsp::Location> = Vec::new();
@@ -48,8 +45,7 @@ impl Server {
         places
     }
 
-    /// The open texts and files of the workspace in which a declaration can be used: those that use its file, also
-    /// through others. Others need not be checked, which takes long.
+    /// The sources that use a declaration's file, also through others. Checking all others would take long.
     fn sources_of(&mut self, checked: &Checked, found: NameUse) -> Vec<Arc<Checked>> {
         let home = checked.sources.file(found.declared.file);
         let mut paths = self.all_paths();
@@ -67,12 +63,10 @@ impl Server {
         paths.iter().map(|path| self.as_it_is(path)).collect()
     }
 
-    /// Every open text and every file of the workspace, as it is now.
     fn all_sources(&mut self) -> Vec<Arc<Checked>> {
         self.all_paths().iter().map(|path| self.as_it_is(path)).collect()
     }
 
-    /// The files of the workspace that are not open, and the open texts.
     fn all_paths(&self) -> Vec<String> {
         let open: BTreeSet<String> = self.buffers.iter().map(|buffer| buffer.path.clone()).collect();
         let names: BTreeSet<String> = open.iter().map(|path| self.world.identity(path)).collect();
@@ -80,7 +74,7 @@ impl Server {
         closed.filter(|path| !names.contains(&self.world.identity(path))).chain(open.iter().cloned()).collect()
     }
 
-    /// A source. A file that is not open is read again if it has changed.
+    /// A file that is not open is read again if it has changed.
     fn as_it_is(&mut self, path: &str) -> Arc<Checked> {
         let checked = self.session.checked(path);
         let known = checked.file.map(|file| checked.sources.file(file).text.as_str());
@@ -91,7 +85,6 @@ impl Server {
         self.session.checked(path)
     }
 
-    /// The declarations of all sources whose names contain a text.
     pub(super) fn find(&mut self, asked: lsp::WorkspaceSymbolParams) -> Reply<WorkspaceSymbolRequest> {
         let sources = self.all_sources();
         let found = sources.iter().flat_map(|checked| navigation::declarations(&self.files(checked), &asked.query));
@@ -118,7 +111,6 @@ impl Server {
         }
     }
 
-    /// The edits that rename a declaration in all sources, or the reason why that is not possible.
     pub(super) fn renamed(
         &mut self,
         checked: &Checked,

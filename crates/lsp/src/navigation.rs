@@ -6,26 +6,25 @@ use gen_lsp_types::{
 };
 
 use crate::files::Files;
-use crate::request_error::RequestError;
+use crate::wording::{self, RequestError};
 use nbc_base::source::Span;
 use nbc_circuit::formats::is_word;
 use nbc_lang::check::{NameKind, NameUse};
 
-/// The places in the file of a name that mean the same.
 pub(super) fn highlights(files: &Files<'_>, found: NameUse) -> Vec<DocumentHighlight> {
     let same = files.checked.uses.of(found.declared).filter(|other| other.place.file == found.place.file);
     let highlight = |other: NameUse| DocumentHighlight {
         range: files.range(other.place),
-        kind: Some(match other.place == other.declared {
-            true => DocumentHighlightKind::Write,
-            false => DocumentHighlightKind::Read,
+        kind: Some(if other.place == other.declared {
+            DocumentHighlightKind::Write
+        } else {
+            DocumentHighlightKind::Read
         }),
     };
     same.map(highlight).collect()
 }
 
-/// The uses of a declaration in a source and the files that it uses; `home` and `declared` are the declaration's file
-/// and place.
+/// `home` and `declared` are the file and the place of the declaration.
 pub(super) fn uses(files: &Files<'_>, home: &Uri, declared: Span, with_declaration: bool) -> Vec<Location> {
     let own = files.checked.sources.iter().filter(|source| files.uri(source.id) == *home);
     let declared = own.map(|source| Span { file: source.id, ..declared });
@@ -36,7 +35,7 @@ pub(super) fn uses(files: &Files<'_>, home: &Uri, declared: Span, with_declarati
     places.map(|place| files.location(place)).collect()
 }
 
-/// The named declarations of a source itself whose names contain a text, in any case.
+/// In the source itself; upper and lower case are the same.
 pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbol> {
     let query = query.to_lowercase();
     let Some(file) = files.checked.file else { return Vec::new() };
@@ -66,15 +65,13 @@ pub(super) fn declarations(files: &Files<'_>, query: &str) -> Vec<WorkspaceSymbo
     files.checked.uses.of_file(file).filter_map(symbol).collect()
 }
 
-/// Why a name cannot be changed.
 pub(super) fn refusal(files: &Files<'_>, found: NameUse, new: &str) -> Option<RequestError> {
     if files.prelude(found.declared.file).is_some() {
-        return Some(RequestError::OfPrelude);
+        return Some(wording::name_of_prelude());
     }
-    (!is_word(new)).then(|| RequestError::NotAName { new: new.to_owned() })
+    (!is_word(new)).then(|| wording::not_a_name(new))
 }
 
-/// Edits of several files.
 pub(super) fn workspace_edit(edits: impl Iterator<Item = (Uri, TextEdit)>) -> WorkspaceEdit {
     let mut edit = WorkspaceEdit::default();
     let changes = edit.changes.get_or_insert_default();

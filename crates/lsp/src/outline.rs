@@ -6,7 +6,6 @@ use crate::position::Lines;
 use nbc_base::source::Span;
 use nbc_lang::syntax::tree::{CircuitSyntax, Declaration, DeclarationKind, NameSyntax, RecordKeyword, Tree};
 
-/// The declarations with names; circuits contain their ports.
 pub(super) fn symbols(tree: &Tree, lines: &Lines<'_>) -> Vec<DocumentSymbol> {
     tree.declarations.iter().flat_map(|declaration| symbols_of(declaration, lines)).collect()
 }
@@ -80,7 +79,6 @@ fn symbol(name: &NameSyntax, kind: SymbolKind, detail: &str, span: Span, lines: 
     }
 }
 
-/// Declarations of several lines, and comments in adjacent lines.
 pub(super) fn folds(tree: &Tree, lines: &Lines<'_>) -> Vec<FoldingRange> {
     let of = |span: &Span| {
         let range = lines.range(span.range());

@@ -4,12 +4,10 @@ use gen_lsp_types::{Position, PositionEncodingKind, Range};
 
 use nbc_base::source::LineStarts;
 
-/// The unit in which a client counts characters.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Encoding {
-    /// Bytes.
     Utf8,
-    /// Code units of UTF-16, which every client knows.
+    /// Every client knows it.
     #[default]
     Utf16,
 }
@@ -20,7 +18,6 @@ impl Encoding {
         if known.contains(&PositionEncodingKind::UTF8) { Self::Utf8 } else { Self::Utf16 }
     }
 
-    /// Its name in the protocol.
     pub(super) fn kind(self) -> PositionEncodingKind {
         match self {
             Self::Utf8 => PositionEncodingKind::UTF8,
@@ -36,7 +33,6 @@ impl Encoding {
     }
 }
 
-/// A text with its lines.
 pub(super) struct Lines<'t> {
     pub(super) text: &'t str,
     pub(super) starts: &'t LineStarts,
@@ -60,7 +56,6 @@ impl Lines<'_> {
         start + line.len()
     }
 
-    /// The position of a byte.
     pub(super) fn position(&self, offset: usize) -> Position {
         let offset = offset.min(self.text.len());
         let line = self.starts.line(offset);
@@ -69,12 +64,10 @@ impl Lines<'_> {
         Position { line: line as u32, character: character as u32 }
     }
 
-    /// The range of bytes.
     pub(super) fn range(&self, bytes: std::ops::Range<usize>) -> Range {
         Range { start: self.position(bytes.start), end: self.position(bytes.end) }
     }
 
-    /// The bytes of a range.
     pub(super) fn bytes(&self, range: Range) -> std::ops::Range<usize> {
         let (start, end) = (self.offset(range.start), self.offset(range.end));
         start.min(end)..end
@@ -101,18 +94,12 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_as_in_the_language() {
+    fn a_position_past_the_end_of_a_line_or_text_is_its_end() {
         let starts = LineStarts::of(TEXT);
         let lines = Lines { text: TEXT, starts: &starts, encoding: Encoding::Utf16 };
-        assert_eq!(lines.position(10), Position { line: 2, character: 0 });
-        assert_eq!(lines.offset(Position { line: 9, character: 0 }), TEXT.len());
-    }
-
-    #[test]
-    fn a_position_past_the_end_of_a_line_is_its_end() {
-        let starts = LineStarts::of(TEXT);
-        let lines = Lines { text: TEXT, starts: &starts, encoding: Encoding::Utf16 };
-        assert_eq!(lines.offset(Position { line: 0, character: 99 }), 7);
-        assert_eq!(lines.offset(Position { line: 0, character: 2 }), 1, "inside a pair, its start");
+        assert_eq!(lines.position(10), Position { line: 2, character: 0 }, "lines end as in the language");
+        for (line, character, offset) in [(9, 0, TEXT.len()), (0, 99, 7), (0, 2, 1)] {
+            assert_eq!(lines.offset(Position { line, character }), offset, "inside a pair it is its start");
+        }
     }
 }

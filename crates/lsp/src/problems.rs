@@ -11,7 +11,6 @@ use crate::files::Files;
 use nbc_base::diag::{Code, Diagnostic, Fix, Severity};
 use nbc_lang::check::{NameKind, NameUse};
 
-/// The diagnostics of a source, by the file that each is in.
 pub(super) fn by_file(files: &Files<'_>) -> BTreeMap<String, (Uri, Vec<Problem>)> {
     let mut found: BTreeMap<String, (Uri, Vec<Problem>)> = BTreeMap::new();
     for diagnostic in &files.checked.diagnostics {
@@ -54,7 +53,6 @@ fn problem(files: &Files<'_>, diagnostic: &Diagnostic) -> Problem {
     }
 }
 
-/// The diagnostics that touch a range of a file.
 fn touching<'f>(files: &Files<'f>, uri: &Uri, range: Range) -> Vec<&'f Diagnostic> {
     let touches = |diagnostic: &&Diagnostic| {
         diagnostic.labels.iter().any(|label| {
@@ -65,7 +63,6 @@ fn touching<'f>(files: &Files<'f>, uri: &Uri, range: Range) -> Vec<&'f Diagnosti
     files.checked.diagnostics.iter().filter(touches).collect()
 }
 
-/// The fixes of the diagnostics that touch a range of a file.
 pub(super) fn fixes(files: &Files<'_>, uri: &Uri, range: Range) -> Vec<CodeActionResponse> {
     let fix = |diagnostic: &Diagnostic| {
         let fix = diagnostic.fix.as_ref()?;
@@ -74,7 +71,6 @@ pub(super) fn fixes(files: &Files<'_>, uri: &Uri, range: Range) -> Vec<CodeActio
     touching(files, uri, range).into_iter().filter_map(fix).collect()
 }
 
-/// The nets that are never used, which another name would mark.
 pub(super) fn unused<'f>(files: &Files<'f>, uri: &Uri, range: Range) -> Vec<(&'f Diagnostic, NameUse)> {
     let found = |diagnostic: &'f Diagnostic| {
         let place = diagnostic.labels.first().filter(|_| diagnostic.code == Code::Unused)?.span;
@@ -84,7 +80,6 @@ pub(super) fn unused<'f>(files: &Files<'f>, uri: &Uri, range: Range) -> Vec<(&'f
     touching(files, uri, range).into_iter().filter_map(found).collect()
 }
 
-/// The fix that renames an unused net.
 pub(super) fn rename(files: &Files<'_>, diagnostic: &Diagnostic, new: &str, edit: WorkspaceEdit) -> CodeActionResponse {
     action(files, diagnostic, format!("rename to `{new}`"), edit)
 }

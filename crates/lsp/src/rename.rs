@@ -9,31 +9,28 @@ use crate::buffers::Buffers;
 use crate::files::Files;
 use crate::navigation::workspace_edit;
 use crate::position::Encoding;
-use crate::request_error::RequestError;
 use crate::shell::LanguageShell;
 use crate::uri;
+use crate::wording::{self, RequestError};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::SharedWorld;
 use nbc_base::source::Span;
 use nbc_lang::check::NameUse;
 use nbc_session::{Checked, Session};
 
-/// A new name for a declaration.
 pub(super) struct Rename<'a> {
     new: &'a str,
-    /// The file of the declaration, and its place there.
     home: Uri,
     declared: Span,
     encoding: Encoding,
     world: SharedWorld,
     shell: Arc<dyn LanguageShell>,
-    /// The files that change, by URI.
+    /// By URI.
     files: BTreeMap<String, RenamedFile>,
-    /// The sources in which the name is used, with the number of its uses.
+    /// With the number of uses.
     sources: Vec<(Arc<Checked>, usize)>,
 }
 
-/// A file and the places of the name in it.
 struct RenamedFile {
     text: String,
     places: BTreeSet<(u32, u32)>,
@@ -51,7 +48,6 @@ impl<'a> Rename<'a> {
         Self { new, home, declared, encoding, world, shell, files: BTreeMap::new(), sources: Vec::new() }
     }
 
-    /// Adds the uses in a source and the files that it uses.
     pub(super) fn add(&mut self, checked: Arc<Checked>) {
         let (world, shell) = (self.world.clone(), self.shell.clone());
         let files = Files { checked: &checked, encoding: self.encoding, world: &world, shell: &*shell };
@@ -74,14 +70,12 @@ impl<'a> Rename<'a> {
         }
     }
 
-    /// The place of the declaration among the files of a source.
     fn declared_in(&self, files: &Files<'_>, declared: Span) -> Option<Span> {
         let home = files.checked.sources.iter().find(|source| files.uri(source.id) == self.home)?;
         Some(Span { file: home.id, ..declared })
     }
 
-    /// The edits, or the reason why the name cannot be used: the program would have a new error, or another name would
-    /// get another meaning.
+    /// Refuses a name that causes an error, or that changes the meaning of another name.
     pub(super) fn finish(self, buffers: &Buffers) -> Result<WorkspaceEdit, RequestError> {
         let mut session = Session::new(self.world.clone());
         for buffer in buffers.iter() {
@@ -94,12 +88,12 @@ impl<'a> Rename<'a> {
         for (before, count) in &self.sources {
             let after = session.checked(&before.path);
             if let Some(fault) = new_error(before, &after) {
-                return Err(RequestError::BadName { new: self.new.to_owned(), fault: fault.message.clone() });
+                return Err(wording::bad_name(self.new, &fault.message));
             }
             let files = Files { checked: &after, encoding: self.encoding, world: &self.world, shell: &*self.shell };
             let declared = self.declared_in(&files, self.moved());
             if declared.map(|declared| after.uses.of(declared).count()) != Some(*count) {
-                return Err(RequestError::OtherMeaning { new: self.new.to_owned() });
+                return Err(wording::other_meaning(self.new));
             }
         }
         let edits = self
@@ -109,7 +103,6 @@ impl<'a> Rename<'a> {
         Ok(workspace_edit(edits))
     }
 
-    /// The place of the declaration after the change.
     fn moved(&self) -> Span {
         let places = self.files.get(&self.home.0).into_iter().flat_map(|file| &file.places);
         let before = places.take_while(|(start, _)| *start < self.declared.start);
@@ -130,7 +123,6 @@ impl RenamedFile {
     }
 }
 
-/// An error that a source did not have before.
 fn new_error<'c>(before: &Checked, after: &'c Checked) -> Option<&'c Diagnostic> {
     let errors = |checked: &Checked| checked.diagnostics.iter().filter(|fault| fault.is_error()).count();
     if errors(after) <= errors(before) {

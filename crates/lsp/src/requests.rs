@@ -11,11 +11,11 @@ use gen_lsp_types::{
 };
 use lsp_server::{Request, RequestId, Response};
 
-use crate::request_error::RequestError;
 use crate::service::{Reply, Server};
+use crate::wording;
 
 impl Server {
-    /// Answers a request; `None` if the answer comes later.
+    /// `None` if the answer comes later.
     pub(super) fn request(&mut self, request: Request) -> Option<Response> {
         let method = request.method.clone();
         Some(match LspRequestMethod::from(method.as_str()) {
@@ -58,11 +58,11 @@ impl Server {
             LspRequestMethod::WorkspaceExecuteCommand => {
                 return self.answer_later::<ExecuteCommandRequest>(request, Self::execute);
             }
-            _ => RequestError::UnknownMethod { method }.answer(request.id),
+            _ => wording::unknown_method(&method).answer(request.id),
         })
     }
 
-    /// Answers a request now. If the handler panics, the answer is an error, and the server continues.
+    /// If the handler panics, the answer is an error, and the server continues.
     fn answer<R: lsp::Request>(
         &mut self,
         request: Request,
@@ -77,7 +77,7 @@ impl Server {
         self.answer_later::<R>(request, respond).expect("it was answered")
     }
 
-    /// Answers a request now or, if the handler returns `None`, later.
+    /// The handler returns `None` if the answer comes later.
     fn answer_later<R: lsp::Request>(
         &mut self,
         request: Request,
@@ -86,9 +86,9 @@ impl Server {
         let id = request.id;
         let parameters = match serde_json::from_value(request.params) {
             Ok(parameters) => parameters,
-            Err(error) => return Some(RequestError::Parameters { reason: error.to_string() }.answer(id)),
+            Err(error) => return Some(wording::invalid_parameters(error.to_string()).answer(id)),
         };
         catch_unwind(AssertUnwindSafe(|| handle(self, id.clone(), parameters)))
-            .unwrap_or_else(|_| Some(RequestError::Internal.answer(id)))
+            .unwrap_or_else(|_| Some(wording::internal().answer(id)))
     }
 }

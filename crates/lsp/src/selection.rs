@@ -10,7 +10,7 @@ use nbc_lang::syntax::tree::{
     TestKind, ValueKind, ValueSyntax, With,
 };
 
-/// The ranges around a place, the smallest outside.
+/// The smallest range, with those around it as its parents.
 pub(super) fn around(spot: &Spot<'_>) -> SelectionRange {
     let text = spot.text();
     let whole = Span::new(spot.file, 0, text.len());
@@ -35,7 +35,6 @@ pub(super) fn around(spot: &Spot<'_>) -> SelectionRange {
     outward.expect("the whole file is around every place")
 }
 
-/// The places of the parts of a declaration, and its own.
 fn parts(declaration: &Declaration) -> Vec<Span> {
     let mut spans = vec![declaration.span];
     match &declaration.kind {

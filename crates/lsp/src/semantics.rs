@@ -9,7 +9,7 @@ use nbc_circuit::formats::is_word;
 use nbc_lang::check::{NameKind, NameUse};
 use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
-/// The types, in the order of their numbers.
+/// In the order of their numbers.
 const TYPES: [&str; 13] = [
     "keyword",
     "comment",
@@ -26,10 +26,10 @@ const TYPES: [&str; 13] = [
     "class",
 ];
 
-/// The modifiers, in the order of their bits.
+/// In the order of their bits.
 const MODIFIERS: [&str; 2] = ["declaration", "defaultLibrary"];
 
-/// Words that are keywords where they have no other meaning.
+/// Keywords where they have no other meaning.
 const WORDS: [&str; 21] = [
     "against", "all", "always", "assume", "at", "bins", "cycles", "deg", "ever", "from", "inputs", "least", "match",
     "most", "never", "repeat", "rows", "steps", "until", "with", "within",
@@ -42,7 +42,6 @@ pub(super) fn legend() -> SemanticTokensLegend {
     }
 }
 
-/// The tokens of a part of a file.
 pub(super) fn of(files: &Files<'_>, file: FileId, part: std::ops::Range<usize>) -> SemanticTokens {
     let text = &files.checked.sources.file(file).text;
     let lines = files.lines(file);
@@ -72,7 +71,7 @@ pub(super) fn of(files: &Files<'_>, file: FileId, part: std::ops::Range<usize>) 
     SemanticTokens { result_id: None, data }
 }
 
-/// The type and the modifiers of a token that is followed by `next`.
+/// `next` is the text of the token after it.
 fn meaning(
     files: &Files<'_>,
     file: FileId,
@@ -122,7 +121,6 @@ fn of_name(files: &Files<'_>, found: NameUse) -> (&'static str, u32) {
     (kind, declaration | library << 1)
 }
 
-/// Whether the net declared at a place is an input.
 fn is_input(files: &Files<'_>, declared: Span) -> bool {
     let circuits = &files.checked.program.circuits;
     circuits.iter().any(|circuit| circuit.nets[..circuit.inputs].iter().any(|net| net.span == declared))

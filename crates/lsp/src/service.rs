@@ -19,36 +19,33 @@ use crate::compiler::{Compilation, Compiler};
 use crate::files::Files;
 use crate::later::WaitingHover;
 use crate::position::Encoding;
-use crate::request_error::RequestError;
 use crate::runs::Runs;
-use crate::server_end::ServerEnd;
 use crate::settings::Settings;
-use crate::shell::LanguageShell;
+use crate::shell::{LanguageShell, ServerEnd};
+use crate::wording::{self, RequestError};
 use crate::workspace::Workspace;
 use crate::{problems, uri};
 use nbc_base::source::SharedWorld;
 use nbc_session::{Checked, Session};
 
-/// The language service of one client. `now` is always the time since any moment, and never goes back.
+/// The language service of one client. `now` is the time since any moment, and never goes back.
 pub struct LanguageService {
     shell: Arc<dyn LanguageShell>,
     outbox: (Sender<Message>, Receiver<Message>),
-    /// From the client's `initialize` request on.
+    /// Once the client has sent `initialize`.
     server: Option<Server>,
 }
 
 impl LanguageService {
-    /// A service that waits for its client.
     pub fn new(shell: Arc<dyn LanguageShell>) -> Self {
         Self { shell, outbox: channel(), server: None }
     }
 
-    /// Whether the client has sent `initialize`.
     pub fn is_greeted(&self) -> bool {
         self.server.is_some()
     }
 
-    /// Handles a message. Returns how the service ends, if this was the last message.
+    /// Returns how the service ends, if this was the last message.
     pub fn receive(&mut self, message: Message, now: Duration) -> Option<ServerEnd> {
         match &mut self.server {
             Some(server) => {
@@ -59,8 +56,8 @@ impl LanguageService {
         }
     }
 
-    /// Takes what work has done, answers hovers that have waited, and publishes diagnostics. If more messages are
-    /// waiting, it is better called after these.
+    /// Takes finished work, answers hovers that have waited, and publishes diagnostics. Call it after all waiting
+    /// messages.
     pub fn advance(&mut self, now: Duration) {
         if let Some(server) = &mut self.server {
             server.now = now;
@@ -68,13 +65,11 @@ impl LanguageService {
         }
     }
 
-    /// The time until [`LanguageService::advance`] has something to do; `None` if it has nothing until a message or
-    /// until work is done.
+    /// The time until [`LanguageService::advance`] has something to do; `None` until a message or finished work.
     pub fn due(&self, now: Duration) -> Option<Duration> {
         self.server.as_ref()?.waiting.iter().map(|hover| hover.left(now)).min()
     }
 
-    /// The next message for the client.
     pub fn next_message(&mut self) -> Option<Message> {
         self.outbox.1.try_recv().ok()
     }
@@ -90,9 +85,9 @@ impl LanguageService {
                 return None;
             }
             Message::Request(Request { id, method, .. }) if method == "initialize" => {
-                RequestError::InitializeParameters.answer(id)
+                wording::initialize_parameters().answer(id)
             }
-            Message::Request(Request { id, method, .. }) => RequestError::NotInitialized { method }.answer(id),
+            Message::Request(Request { id, method, .. }) => wording::not_initialized(&method).answer(id),
             Message::Notification(told) if told.method == "exit" => return Some(ServerEnd::Abandoned),
             Message::Notification(_) | Message::Response(_) => return None,
         };
@@ -106,12 +101,10 @@ fn welcome(client: &Client) -> InitializeResult {
     InitializeResult { capabilities: capabilities(client.encoding), server_info: Some(name) }
 }
 
-/// The service of a client that has greeted it.
 pub(super) struct Server {
     outbox: Sender<Message>,
     pub(super) shell: Arc<dyn LanguageShell>,
     pub(super) now: Duration,
-    /// Whether the client asked it to shut down.
     is_shut: bool,
     pub(super) world: SharedWorld,
     pub(super) session: Session,
@@ -122,7 +115,6 @@ pub(super) struct Server {
     pub(super) abilities: Abilities,
     /// Whether lenses or hints lack figures that are being compiled.
     pub(super) is_outdated: bool,
-    /// The number of requests to the client.
     asked: i32,
     pub(super) compiler: Compiler,
     pub(super) waiting: Vec<WaitingHover>,
@@ -131,7 +123,6 @@ pub(super) struct Server {
     published: BTreeMap<String, (Arc<Checked>, BTreeSet<String>)>,
 }
 
-/// An answer, or the reason for a refusal.
 pub(super) type Reply<R> = Result<<R as lsp::Request>::Result, RequestError>;
 
 impl Server {
@@ -172,17 +163,16 @@ impl Server {
         }
     }
 
-    /// Handles a message. Returns how the server ends, if this was the last message.
     fn message(&mut self, message: Message) -> Option<ServerEnd> {
         match message {
             Message::Notification(told) if told.method == "exit" => {
                 return Some(if self.is_shut { ServerEnd::Orderly } else { ServerEnd::Abandoned });
             }
             Message::Request(Request { id, method, .. }) if self.is_shut => {
-                self.send(RequestError::ShutDown { method }.answer(id).into());
+                self.send(wording::shut_down(&method).answer(id).into());
             }
             Message::Request(Request { id, method, .. }) if method == "initialize" => {
-                self.send(RequestError::Initialized { method }.answer(id).into());
+                self.send(wording::initialized(&method).answer(id).into());
             }
             Message::Request(Request { id, method, .. }) if method == "shutdown" => {
                 self.is_shut = true;
@@ -210,7 +200,6 @@ impl Server {
         }
     }
 
-    /// Asks the client to request lenses and hints again, which contain figures, as far as it supports this.
     fn refresh_figures(&mut self) {
         if self.abilities.refreshes_lenses {
             self.ask::<CodeLensRefreshRequest>(());
@@ -220,7 +209,6 @@ impl Server {
         }
     }
 
-    /// Asks the client to request again all that it shows of open texts, as far as it supports this.
     fn refresh(&mut self) {
         self.refresh_figures();
         if self.abilities.refreshes_tokens {
@@ -228,14 +216,13 @@ impl Server {
         }
     }
 
-    /// Sends a request to the client. Its answer is ignored.
+    /// The answer is ignored.
     pub(super) fn ask<R: lsp::Request>(&mut self, parameters: R::Params) {
         self.asked += 1;
         let method = R::METHOD.to_string();
         self.send(Message::Request(Request::new(self.asked.into(), method, parameters)));
     }
 
-    /// Asks the client to watch the files that sources are read from.
     fn watch(&mut self) {
         if !self.abilities.watches_files {
             return;
@@ -250,7 +237,6 @@ impl Server {
         });
     }
 
-    /// Sends a message.
     pub(super) fn send(&self, message: Message) {
         let _ = self.outbox.send(message);
     }
@@ -320,7 +306,6 @@ impl Server {
         }
     }
 
-    /// Publishes the diagnostics of the texts whose results have changed.
     fn publish(&mut self) {
         let open: Vec<_> = self.buffers.iter().map(|buffer| (buffer.path.clone(), buffer.version)).collect();
         for (path, version) in open {
@@ -346,7 +331,7 @@ impl Server {
         self.compiler.cancel_stale();
     }
 
-    /// The checked text with a URI; `None` if it is not open.
+    /// `None` if the text is not open.
     pub(super) fn checked(&mut self, uri: &Uri) -> Option<Arc<Checked>> {
         let path = self.buffers.get(uri)?.path.clone();
         Some(self.session.checked(&path))
@@ -363,7 +348,7 @@ impl Server {
     }
 }
 
-/// The revision of a version; editors count up from any number.
+/// Editors count up from any number.
 fn revision(version: i32) -> u64 {
     u64::try_from(version).unwrap_or_default()
 }
@@ -378,7 +363,7 @@ mod tests {
     use super::*;
     use crate::shell::LanguageWork;
 
-    /// A shell in memory. Work waits until the test does it.
+    /// Work waits until the test does it.
     #[derive(Default)]
     struct Bare {
         work: Mutex<Vec<LanguageWork>>,
@@ -426,7 +411,6 @@ mod tests {
 
     const TEXT: &str = "circuit invert(a) -> (q) {\n    q = not a\n}\n";
 
-    /// A service with an open text, and what it has said.
     fn opened() -> (Arc<Bare>, LanguageService, Vec<Value>) {
         let shell = Arc::new(Bare::default());
         let mut service = LanguageService::new(shell.clone());

@@ -2,23 +2,18 @@
 
 use serde_json::Value;
 
-/// The settings, as initialization options or as the configuration `nbc`.
+/// Given as initialization options or as the configuration `nbc`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Settings {
-    /// Pictures in hovers.
     pub(super) pictures: bool,
     pub(super) code_lenses: bool,
     pub(super) inlay_hints: HintSettings,
 }
 
-/// The kinds of inlay hints.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct HintSettings {
-    /// The widths of nets that do not declare one.
     pub(super) widths: bool,
-    /// The names of ports in calls.
     pub(super) parameters: bool,
-    /// The robots of each circuit.
     pub(super) robots: bool,
 }
 
@@ -34,12 +29,11 @@ impl Default for HintSettings {
     }
 }
 
-/// Clients that show the source of Markdown, in which a picture would be pages of digits. Some versions of them do not
-/// give their name.
+/// Clients that show the source of Markdown, in which a picture would be pages of digits. Some versions do not give
+/// their name.
 const WITHOUT_PICTURES: [&str; 5] = ["neovim", "vim", "helix", "emacs", "kate"];
 
 impl Settings {
-    /// The settings of a client, from the parameters of its initialization.
     pub(super) fn of_client(parameters: &Value) -> Self {
         let client = parameters.pointer("/clientInfo/name").and_then(Value::as_str).map(str::to_ascii_lowercase);
         let pictures = client.is_some_and(|client| !WITHOUT_PICTURES.iter().any(|name| client.contains(name)));
@@ -47,7 +41,7 @@ impl Settings {
         default.with(parameters.get("initializationOptions").unwrap_or(&Value::Null))
     }
 
-    /// The settings after a change. Settings that it does not contain stay, and unknown ones are ignored.
+    /// Missing settings stay as they are, and unknown ones are ignored.
     pub(super) fn with(self, change: &Value) -> Self {
         let known = |path: &str, before: bool| change.pointer(path).and_then(Value::as_bool).unwrap_or(before);
         let hints = self.inlay_hints;

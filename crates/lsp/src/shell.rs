@@ -2,25 +2,22 @@
 
 use nbc_base::source::SharedWorld;
 
-/// Work that may take long.
 pub type LanguageWork = Box<dyn FnOnce() + Send>;
 
-/// What is around a language service.
 pub trait LanguageShell: Send + Sync {
     /// The files that the client sees.
     fn world(&self) -> SharedWorld;
 
-    /// The source files of folders and below them, in order.
+    /// In order, also below the folders.
     fn source_files(&self, folders: &[&str]) -> Vec<String>;
 
-    /// Does work after all that was given before it. Whoever calls this does not wait for it. After it, the service is
-    /// advanced.
+    /// Does work after all that was queued before it, without waiting for it. Then the service is advanced.
     fn queue(&self, work: LanguageWork);
 
-    /// Does work beside all other. After it, and after [`LanguageShell::wake`], the service is advanced.
+    /// Does work in parallel. After it, and after [`LanguageShell::wake`], the service is advanced.
     fn start(&self, work: LanguageWork);
 
-    /// Has the service advanced soon. Work calls this when it has progress to report.
+    /// Work calls this to have its progress reported.
     fn wake(&self);
 
     /// Writes a text of the program to a file that the client can open. Returns its path; `None` if it cannot be
@@ -30,6 +27,15 @@ pub trait LanguageShell: Send + Sync {
     /// Whether the client sees the files of [`LanguageShell::write_result`].
     fn shows_results(&self) -> bool;
 
-    /// Writes a result of a command, into a folder for those of one source. Returns its path.
+    /// `folder` is for the results of one source. Returns the path.
     fn write_result(&self, folder: &str, name: &str, text: &str) -> Result<String, String>;
+}
+
+/// How serving a client ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ServerEnd {
+    /// The client asked the server to shut down, or vanished.
+    Orderly,
+    /// The client ended the server without a request to shut down, which is a failure by the protocol.
+    Abandoned,
 }

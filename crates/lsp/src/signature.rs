@@ -9,16 +9,14 @@ use crate::spot::Spot;
 use crate::tokens::tokens;
 use nbc_lang::syntax::{Token, TokenKind};
 
-/// A call that is being written.
 struct Call<'t> {
     circuit: &'t str,
-    /// Whether the place is among its parameters, in brackets, rather than among its operands.
+    /// In brackets are parameters, else operands.
     in_brackets: bool,
     /// The commas before the place.
     at: usize,
 }
 
-/// The signature of the call around a place.
 pub(super) fn help(spot: &Spot<'_>) -> Option<SignatureHelp> {
     let text = spot.text();
     let tokens = tokens(text);
@@ -46,7 +44,6 @@ pub(super) fn help(spot: &Spot<'_>) -> Option<SignatureHelp> {
     })
 }
 
-/// The innermost call whose bracket is open at a byte.
 fn call<'t>(text: &'t str, tokens: &[Token], offset: usize) -> Option<Call<'t>> {
     let word = |token: &Token| &text[token.range.clone()];
     let before = tokens.partition_point(|token| token.range.end <= offset);

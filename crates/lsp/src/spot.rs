@@ -7,7 +7,6 @@ use nbc_base::source::{FileId, Span};
 use nbc_lang::check::NameUse;
 use nbc_lang::syntax::tree::Declaration;
 
-/// A byte of a file of a checked source.
 #[derive(Clone, Copy)]
 pub(super) struct Spot<'a> {
     pub(super) files: Files<'a>,
@@ -16,23 +15,19 @@ pub(super) struct Spot<'a> {
 }
 
 impl<'a> Spot<'a> {
-    /// A position in the source itself.
     pub(super) fn of(files: Files<'a>, position: Position) -> Option<Self> {
         let file = files.checked.file?;
         Some(Self { files, file, offset: files.lines(file).offset(position) })
     }
 
-    /// The text of the file.
     pub(super) fn text(&self) -> &'a str {
         &self.files.checked.sources.file(self.file).text
     }
 
-    /// The name at the place, if it has a meaning.
     pub(super) fn name(&self) -> Option<NameUse> {
         self.files.checked.uses.at(self.file, self.offset)
     }
 
-    /// The declaration around the place, if it could be parsed.
     pub(super) fn around(&self) -> Option<&'a Declaration> {
         let declarations = &self.files.checked.tree(self.file)?.declarations;
         declarations.iter().find(|declaration| self.is_in(declaration.span))

@@ -22,7 +22,6 @@ impl Server {
         Ok(self.parsed(&asked.text_document.uri, outline::folds))
     }
 
-    /// Reads the tree of an open text.
     pub(super) fn parsed<T>(&mut self, uri: &Uri, read: impl FnOnce(&Tree, &Lines<'_>) -> T) -> Option<T> {
         let checked = self.checked(uri)?;
         let file = checked.file?;
@@ -37,22 +36,18 @@ impl Server {
     }
 
     pub(super) fn tokens(&mut self, asked: lsp::SemanticTokensParams) -> Reply<SemanticTokensRequest> {
-        let checked = self.checked(&asked.text_document.uri);
-        let found = checked.and_then(|checked| {
+        Ok(self.checked(&asked.text_document.uri).and_then(|checked| {
             let file = checked.file?;
             let whole = 0..checked.sources.file(file).text.len();
             Some(semantics::of(&self.files(&checked), file, whole))
-        });
-        Ok(found)
+        }))
     }
 
     pub(super) fn some_tokens(&mut self, asked: lsp::SemanticTokensRangeParams) -> Reply<SemanticTokensRangeRequest> {
-        let checked = self.checked(&asked.text_document.uri);
-        let found = checked.and_then(|checked| {
+        Ok(self.checked(&asked.text_document.uri).and_then(|checked| {
             let (file, files) = (checked.file?, self.files(&checked));
             Some(semantics::of(&files, file, files.lines(file).bytes(asked.range)))
-        });
-        Ok(found)
+        }))
     }
 
     pub(super) fn links(&mut self, asked: lsp::DocumentLinkParams) -> Reply<DocumentLinkRequest> {

@@ -3,7 +3,6 @@
 use nbc_lang::syntax;
 use nbc_lang::syntax::{Token, TokenKind};
 
-/// The tokens of a text, in order.
 pub(super) fn tokens(text: &str) -> Vec<Token> {
     syntax::tokens(text).collect()
 }

@@ -9,14 +9,13 @@ use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_perc
 /// All characters but those that are frequent in paths.
 const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'/').remove(b'-').remove(b'.').remove(b'_').remove(b'~');
 
-/// The path of a file; `None` if the URI is of no file.
+/// `None` unless the URI is of a file.
 pub(super) fn path(uri: &Uri) -> Option<String> {
     let path = uri.as_ref().strip_prefix("file://")?;
     let path = &path[path.find('/')?..];
     Some(percent_decode_str(path).decode_utf8().ok()?.into_owned())
 }
 
-/// The URI of a file of a world.
 pub(super) fn uri(world: &dyn SourceWorld, path: &str) -> Uri {
     let path = absolute(&world.identity(path));
     Uri(format!("file://{}", utf8_percent_encode(&path.to_string_lossy(), ESCAPED)))

@@ -7,7 +7,7 @@ use nbc_base::source::SourceWorld;
 use nbc_circuit::rows::RowFormat;
 use nbc_lang::check::{beside, is_usable};
 
-/// Sources and the files that they use, by identities.
+/// By identities.
 #[derive(Default)]
 pub(super) struct UsedFiles {
     texts: BTreeMap<String, String>,
@@ -16,7 +16,6 @@ pub(super) struct UsedFiles {
 }
 
 impl UsedFiles {
-    /// The sources at these paths, and those that they use.
     pub(super) fn of(world: &dyn SourceWorld, buffers: &Buffers, mut waiting: Vec<String>) -> Self {
         let mut found = Self::default();
         while let Some(path) = waiting.pop() {
@@ -37,18 +36,16 @@ impl UsedFiles {
         found
     }
 
-    /// Whether this is one of the sources.
     pub(super) fn has(&self, source: &str) -> bool {
         self.texts.contains_key(source)
     }
 
-    /// The sources that contain a name.
     pub(super) fn with(&self, name: &str) -> Vec<String> {
         let having = self.texts.iter().filter(|(_, text)| text.contains(name));
         having.map(|(identity, _)| identity.clone()).collect()
     }
 
-    /// These files and all sources that use them, also through others.
+    /// Also through others.
     pub(super) fn users(&self, files: impl IntoIterator<Item = String>) -> BTreeSet<String> {
         let mut waiting: Vec<String> = files.into_iter().collect();
         let mut found = BTreeSet::new();
@@ -74,7 +71,7 @@ mod tests {
 
     use super::*;
 
-    /// A folder, and the paths that were read of it.
+    /// A folder, and the paths that were read from it.
     #[derive(Clone)]
     struct Watched(FolderWorld, Arc<Mutex<Vec<String>>>);
 

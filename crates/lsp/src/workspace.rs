@@ -6,14 +6,12 @@ use serde_json::Value;
 use crate::shell::LanguageShell;
 use crate::uri;
 
-/// The folders that are open.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Workspace {
     folders: Vec<String>,
 }
 
 impl Workspace {
-    /// The folders that the parameters of the initialization name.
     pub(super) fn of(parameters: &Value) -> Self {
         let path = |uri: &Value| uri::path(&Uri(uri.as_str()?.to_owned()));
         let folders = parameters.get("workspaceFolders").and_then(Value::as_array);
@@ -34,8 +32,7 @@ impl Workspace {
         self.folders.retain(|known| Some(known) != path.as_ref());
     }
 
-    /// The paths of its source files, in order. Hidden folders, those of results and packages, links, and folders that
-    /// the client does not see are left out.
+    /// Hidden folders, those of results and packages, links, and folders that the client does not see are left out.
     pub(super) fn files(&self, shell: &dyn LanguageShell) -> Vec<String> {
         shell.source_files(&self.folders.iter().map(String::as_str).collect::<Vec<_>>())
     }

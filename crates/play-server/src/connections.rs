@@ -1,65 +1,93 @@
-//! The connections of a server. Connections without a request are closed. If there are too many, the oldest is closed.
+//! The connections of a server, a thread for each. One without a request is closed after some time; if there are too
+//! many, the oldest is closed.
 
 use std::collections::VecDeque;
-use std::convert::Infallible;
+use std::io::{self, Read, Write};
+use std::net::{Shutdown, TcpListener, TcpStream};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, Weak};
+use std::thread;
 use std::time::Duration;
-
-use axum::Router;
-use hyper::server::conn::http1;
-use hyper_util::rt::{TokioIo, TokioTimer};
-use hyper_util::service::TowerToHyperService;
-use tokio::net::{TcpListener, TcpStream};
-use tokio::task::AbortHandle;
 
 /// The most connections that carry requests. Sockets of pages are counted apart.
 const MOST: usize = 128;
-/// The time by which the head of a request must be complete.
-pub(super) const PATIENCE: Duration = Duration::from_secs(10);
 /// The time between two attempts while the system gives no more connections.
 const BREATH: Duration = Duration::from_millis(50);
 
-/// Accepts connections and answers their requests. Those without one are closed after some time.
-pub(super) async fn serve(listener: TcpListener, router: Router, patience: Duration) -> Infallible {
-    let mut open: VecDeque<AbortHandle> = VecDeque::new();
-    loop {
-        let Ok((stream, _)) = listener.accept().await else {
-            tokio::time::sleep(BREATH).await;
-            continue;
-        };
-        open.retain(|connection| !connection.is_finished());
-        if open.len() == MOST
-            && let Some(oldest) = open.pop_front()
-        {
-            oldest.abort();
-        }
-        open.push_back(tokio::spawn(answer(stream, router.clone(), patience)).abort_handle());
+/// A connection, which several threads may share: each write is done as a whole.
+#[derive(Clone)]
+pub(super) struct SharedStream(Arc<Ends>);
+
+struct Ends {
+    stream: TcpStream,
+    writing: Mutex<()>,
+    /// Whether it is one of those that carry requests.
+    counts: AtomicBool,
+}
+
+impl SharedStream {
+    fn new(stream: TcpStream) -> Self {
+        Self(Arc::new(Ends { stream, writing: Mutex::new(()), counts: AtomicBool::new(true) }))
+    }
+
+    pub(super) fn stream(&self) -> &TcpStream {
+        &self.0.stream
+    }
+
+    /// From now on it is a socket of a page.
+    pub(super) fn becomes_socket(&self) {
+        self.0.counts.store(false, Ordering::Relaxed);
+    }
+
+    /// Ends all reading and writing.
+    pub(super) fn close(&self) {
+        self.0.counts.store(false, Ordering::Relaxed);
+        let _ = self.0.stream.shutdown(Shutdown::Both);
     }
 }
 
-/// Answers the requests of a connection until it is closed, silent for too long, or a socket of a page.
-async fn answer(stream: TcpStream, router: Router, patience: Duration) {
-    let mut server = http1::Builder::new();
-    server.timer(TokioTimer::new()).header_read_timeout(patience);
-    let connection = server.serve_connection(TokioIo::new(stream), TowerToHyperService::new(router));
-    // Whoever breaks the protocol sees that the connection is closed.
-    let _ = connection.with_upgrades().await;
+impl Read for SharedStream {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.stream().read(bytes)
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use std::io::Read;
-    use std::net::TcpStream;
+impl Write for SharedStream {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        let _turn = self.0.writing.lock().unwrap_or_else(PoisonError::into_inner);
+        self.stream().write_all(bytes).map(|()| bytes.len())
+    }
 
-    use super::*;
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
 
-    #[test]
-    fn a_silent_connection_is_closed_in_time() {
-        let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().unwrap();
-        let listener = runtime.block_on(TcpListener::bind("127.0.0.1:0")).unwrap();
-        let address = listener.local_addr().unwrap();
-        std::thread::spawn(move || runtime.block_on(serve(listener, Router::new(), Duration::from_millis(50))));
-        let mut silent = TcpStream::connect(address).unwrap();
-        silent.set_read_timeout(Some(Duration::from_secs(30))).unwrap();
-        assert_eq!(silent.read(&mut [0]).unwrap(), 0);
+/// Calls `answer` for each connection, in a thread of its own, until a connection comes after the stop. Then all are
+/// closed.
+pub(super) fn serve(
+    listener: &TcpListener,
+    is_stopped: &AtomicBool,
+    answer: impl Fn(SharedStream) + Clone + Send + 'static,
+) {
+    let mut open: VecDeque<Weak<Ends>> = VecDeque::new();
+    loop {
+        let Ok((stream, _)) = listener.accept() else {
+            thread::sleep(BREATH);
+            continue;
+        };
+        open.retain(|wire| wire.strong_count() > 0);
+        let wires = open.iter().filter_map(Weak::upgrade).map(SharedStream);
+        if is_stopped.load(Ordering::Relaxed) {
+            return wires.for_each(|wire| wire.close());
+        }
+        let waiting: Vec<SharedStream> = wires.filter(|wire| wire.0.counts.load(Ordering::Relaxed)).collect();
+        if waiting.len() >= MOST {
+            waiting[0].close();
+        }
+        let (wire, answer) = (SharedStream::new(stream), answer.clone());
+        open.push_back(Arc::downgrade(&wire.0));
+        // Without a thread for it, it is closed.
+        let _ = thread::Builder::new().spawn(move || answer(wire));
     }
 }

@@ -3,11 +3,12 @@
 use std::sync::Arc;
 use std::thread;
 
-use axum::extract::ws::{Utf8Bytes, WebSocket};
 use crossbeam_channel::{Receiver, bounded};
 use lsp_server::{Connection, ErrorCode, Message};
 use serde_json::{Value, json};
+use tungstenite::Utf8Bytes;
 
+use crate::connections::SharedStream;
 use crate::post::post;
 use crate::served::Served;
 use crate::socket::{WAITING, pump};
@@ -19,7 +20,7 @@ const READ: usize = 2;
 const ANSWERS: usize = 16;
 
 /// Serves one page until it is gone.
-pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
+pub(super) fn serve(served: &Arc<Served>, wire: SharedStream, rest: Vec<u8>) {
     let (requests, waiting): (_, Receiver<Utf8Bytes>) = bounded(WAITING);
     let (post, outgoing, _) = post();
     let post = Arc::new(post);
@@ -45,7 +46,7 @@ pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
             }
         }
     });
-    pump(socket, requests, outgoing, &served.waiting).await;
+    pump(wire, rest, requests, outgoing, &served.waiting);
 }
 
 /// A message of the page; `None` if it is not for the server. Folders that it names are replaced by the served folder.

@@ -6,17 +6,14 @@ use std::path::{Path, PathBuf};
 
 use nbc_play::{LessonFiles, LessonTexts};
 
-/// Where lessons come from.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum LessonSource {
-    /// Those that come with the program.
     Shipped,
-    /// The files `*.md` of a folder, but for `README.md`.
+    /// The files `*.md` of a folder, except `README.md`.
     Folder(PathBuf),
 }
 
 impl LessonSource {
-    /// The lessons as they are now.
     pub(super) fn texts(&self) -> LessonTexts {
         match self {
             Self::Shipped => LessonTexts::Shipped,
@@ -27,7 +24,6 @@ impl LessonSource {
     }
 }
 
-/// The Markdown files of a folder but for its README, in order.
 fn files(folder: &Path) -> io::Result<Vec<(String, io::Result<String>)>> {
     let entries = fs::read_dir(folder)?.map(|entry| entry.map(|entry| entry.path()));
     let mut files: Vec<_> = entries.collect::<io::Result<_>>()?;
@@ -37,7 +33,7 @@ fn files(folder: &Path) -> io::Result<Vec<(String, io::Result<String>)>> {
     Ok(files.into_iter().map(|file| (file.to_string_lossy().into_owned(), text_of(&file))).collect())
 }
 
-/// The text of a file. Of one that is too large, only the beginning.
+/// The text of a file, or the beginning of one that is too large.
 fn text_of(path: &Path) -> io::Result<String> {
     let mut bytes = Vec::new();
     let most = LessonFiles::MOST_BYTES as u64;

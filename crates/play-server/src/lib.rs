@@ -2,6 +2,7 @@
 
 mod connections;
 mod disk_folder;
+mod http;
 mod language;
 mod lesson_source;
 mod live;
@@ -16,92 +17,77 @@ mod threads;
 mod token;
 mod wording;
 
-use std::io;
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use nbc_base::diag::{Diagnostics, io_words};
+use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_play::{Class, LocalLine, PlaySite, Visit};
 use nbc_session::CompileOptions;
 use nbc_session::store::{FolderWorld, PrivateFile};
-use tokio::net::TcpListener;
-use tokio::runtime::{Builder, Runtime};
-use tokio::sync::Semaphore;
 
 pub use lesson_source::LessonSource;
 pub use token::is_token;
-pub use wording::PlayError;
 
 use disk_folder::DiskFolder;
 use page::Page;
 use served::{Served, Taught};
 use threads::Threads;
 use token::random_token;
+use wording::missing;
 
-/// The time between two checks of the request to stop.
 const LOOK: Duration = Duration::from_millis(100);
 /// The start and the end of the name of the file that a browser opens. With a file, the token is not in the arguments
 /// of the browser, which other users can list.
 const REDIRECT: (&str, &str) = ("open-", ".html");
 
-/// The options of a server.
 #[derive(Clone, Debug, Default)]
 pub struct PlayOptions {
     /// The program to open first. The page can read and write only below the current folder, or the file's folder if
     /// that is elsewhere.
     pub file: Option<PathBuf>,
-    /// How its circuits become swarms.
     pub making: CompileOptions,
-    /// The address to listen at, such as `127.0.0.1`.
+    /// Such as `127.0.0.1`.
     pub host: String,
-    /// The port; 0 is any free one.
+    /// 0 is any free one.
     pub port: u16,
     /// A folder with a page of its own, instead of the built-in one.
     pub page: Option<PathBuf>,
     /// The secret part of the address ([`is_token`]), instead of a random one.
     pub token: Option<String>,
-    /// The lessons of the page, one source after the other; those that come with the program if there is none.
+    /// One source after the other; the lessons of the program if there is none.
     pub lessons: Vec<LessonSource>,
-    /// Whether pages can join a class, which a page of its own shows.
     pub class: bool,
-    /// The address of a page that everybody can open, to which the page makes links.
+    /// The address of a public page, to which the page makes links.
     pub public_page: Option<String>,
-    /// The pages for which there is room, at most [`PlayOptions::MOST_PAGES`]; 16 if it is not said.
+    /// At most [`PlayOptions::MOST_PAGES`]; 16 by default.
     pub pages: Option<usize>,
 }
 
 impl PlayOptions {
-    /// The most pages for which there can be room.
     pub const MOST_PAGES: usize = served::MOST_PAGES;
 }
 
 /// A server that has its address, and serves nothing until [`PlayServer::serve`].
 pub struct PlayServer {
-    runtime: Runtime,
     listener: TcpListener,
     served: Arc<Served>,
 }
 
 impl PlayServer {
-    /// Listens at the address.
-    pub fn bind(options: &PlayOptions) -> Result<Self, PlayError> {
-        let runtime = Builder::new_current_thread().enable_all().build().map_err(system)?;
+    pub fn bind(options: &PlayOptions) -> Result<Self, Diagnostic> {
         let (folder, file) = place(options.file.as_deref())?;
         let token = options.token.clone().map_or_else(random_token, Ok)?;
-        let page = Page::of(options.page.as_deref()).map_err(|error| {
-            let folder = options.page.clone().unwrap_or_default();
-            missing(&folder, &error)
-        })?;
-        let refused = |error: io::Error| PlayError::Address {
-            host: options.host.clone(),
-            port: options.port,
-            reason: io_words(&error),
-        };
-        let bound = runtime.block_on(TcpListener::bind((options.host.as_str(), options.port)));
-        let listener = bound.map_err(refused)?;
-        let port = listener.local_addr().map_err(system)?.port();
+        let folder_of_page = options.page.as_deref();
+        let page =
+            Page::of(folder_of_page).map_err(|error| missing(folder_of_page.unwrap_or(Path::new("")), &error))?;
+        let (host, port) = (options.host.clone(), options.port);
+        let bound = TcpListener::bind((host.as_str(), port));
+        let listener = bound.map_err(|error| wording::cannot_listen(&host, port, &error))?;
+        let port = listener.local_addr().map_err(|error| wording::system(&io_words(&error)))?.port();
         let threads = Arc::new(Threads::new(&options.lessons));
         let mut site = PlaySite {
             folder: Arc::new(DiskFolder::new(folder.clone())),
@@ -119,13 +105,11 @@ impl PlayServer {
             taught = Some(Taught { class, token: random_token()? });
         }
         let pages = options.pages.unwrap_or(served::PAGES).clamp(1, PlayOptions::MOST_PAGES);
-        let sockets = Arc::new(Semaphore::new(pages * served::SOCKETS_OF_PAGE));
-        let host = options.host.clone();
-        let served = Served { page, host, port, taught, sockets, ..Served::new(folder, site, threads, token) };
-        Ok(Self { runtime, listener, served: Arc::new(served) })
+        let most_sockets = pages * served::SOCKETS_OF_PAGE;
+        let served = Served { page, host, port, taught, most_sockets, ..Served::new(folder, site, threads, token) };
+        Ok(Self { listener, served: Arc::new(served) })
     }
 
-    /// The address of the page, for a browser on this computer.
     pub fn address(&self) -> String {
         self.served.address()
     }
@@ -135,45 +119,50 @@ impl PlayServer {
         self.served.address_elsewhere()
     }
 
-    /// The address of the teacher's page, if there is a class.
     pub fn address_of_teacher(&self) -> Option<String> {
         self.served.address_of_teacher()
     }
 
-    /// What is wrong with the lessons of an author. A page shows it, too.
     pub fn faults_of_lessons(&self) -> Diagnostics {
         let site = &self.served.site;
         nbc_play::faults_of_lessons(site.shell.lessons(), &site.folder.world())
     }
 
-    /// Opens the page in a browser, through a file that must stay until the browser has read it; `None` if no browser
-    /// could be opened.
+    /// Opens the page in a browser, through a file that must stay until the browser has read it.
     pub fn open_browser(&self) -> Option<PrivateFile> {
         let file = PrivateFile::create(REDIRECT.0, REDIRECT.1, &redirect(&self.address())).ok()?;
         open::that_detached(file.path()).ok().map(|()| file)
     }
 
-    /// Serves until `is_stopped`.
     pub fn serve(self, is_stopped: impl Fn() -> bool) {
-        let Self { runtime, listener, served } = self;
-        let stopped = async {
+        let Self { listener, served } = self;
+        let stop = AtomicBool::new(false);
+        thread::scope(|scope| {
+            scope.spawn(|| connections::serve(&listener, &stop, move |wire| server::answer(&served, wire)));
             while !is_stopped() {
-                tokio::time::sleep(LOOK).await;
+                thread::sleep(LOOK);
             }
-        };
-        runtime.block_on(async {
-            tokio::select! {
-                never = connections::serve(listener, server::router(served), connections::PATIENCE) => match never {},
-                () = stopped => {}
-            }
+            stop.store(true, Ordering::Relaxed);
+            // A last connection ends the wait for one.
+            let _ = listener.local_addr().and_then(|address| TcpStream::connect(reachable(address)));
         });
     }
+}
+
+/// The address at which this computer reaches one of its own.
+fn reachable(address: SocketAddr) -> SocketAddr {
+    let ip = match address.ip() {
+        IpAddr::V4(ip) if ip.is_unspecified() => Ipv4Addr::LOCALHOST.into(),
+        IpAddr::V6(ip) if ip.is_unspecified() => Ipv6Addr::LOCALHOST.into(),
+        ip => ip,
+    };
+    SocketAddr::new(ip, address.port())
 }
 
 /// Serves a page that sends these texts, each of which should be a request, and waits for each answer. The fuzzer calls
 /// this, because it needs no socket.
 pub fn serve_texts(folder: &Path, texts: &[&str]) {
-    /// The time for a long request. What is left of it is stopped.
+    /// The time for a long request, after which it is stopped.
     const PATIENCE: Duration = Duration::from_millis(250);
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let site = PlaySite {
@@ -198,15 +187,6 @@ pub fn serve_texts(folder: &Path, texts: &[&str]) {
     }
 }
 
-fn system(error: io::Error) -> PlayError {
-    PlayError::System { reason: io_words(&error) }
-}
-
-fn missing(path: &Path, error: &io::Error) -> PlayError {
-    PlayError::File { path: path.display().to_string(), reason: io_words(error) }
-}
-
-/// A page that leads to another one.
 fn redirect(address: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
@@ -216,8 +196,7 @@ fn redirect(address: &str) -> String {
     )
 }
 
-/// The folder to serve, and the file in it.
-fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), PlayError> {
+fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), Diagnostic> {
     let open = |folder: &Path| FolderWorld::new(folder).map_err(|error| missing(folder, &error));
     let here = open(Path::new("."))?;
     let Some(file) = file else { return Ok((here, None)) };

@@ -3,21 +3,22 @@
 use std::sync::Arc;
 use std::thread;
 
-use axum::extract::ws::{Utf8Bytes, WebSocket};
 use crossbeam_channel::{Receiver, bounded, select};
+use tungstenite::Utf8Bytes;
 
+use crate::connections::SharedStream;
 use crate::post::{Post, post};
 use crate::served::Served;
 use crate::socket::{WAITING, pump};
 use nbc_play::Visit;
 
 /// Serves one page until it is gone.
-pub(super) async fn serve(served: Arc<Served>, socket: WebSocket) {
+pub(super) fn serve(served: &Arc<Served>, wire: SharedStream, rest: Vec<u8>) {
     let (requests, waiting) = bounded(WAITING);
     let (line, outgoing, woken) = post();
     let visited = served.clone();
     thread::spawn(move || visit(&visited, Arc::new(line), &waiting, &woken));
-    pump(socket, requests, outgoing, &served.waiting).await;
+    pump(wire, rest, requests, outgoing, &served.waiting);
 }
 
 fn visit(served: &Served, line: Arc<Post>, requests: &Receiver<Utf8Bytes>, woken: &Receiver<()>) {

@@ -1,10 +1,10 @@
 //! The messages to send to a page. Texts wait in a queue, which is bounded.
 
-use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
-use axum::extract::ws::{Message, Utf8Bytes};
 use crossbeam_channel::{Receiver, Sender, bounded};
-use tokio::sync::{Notify, mpsc};
+use tungstenite::Message;
 
 use nbc_play::Line;
 
@@ -15,82 +15,77 @@ const MOST_BYTES: usize = 4 << 20;
 
 /// The end that takes messages.
 pub(super) struct Post {
-    texts: mpsc::Sender<Utf8Bytes>,
-    load: Arc<Load>,
-    frame: Arc<FrameSlot>,
+    queue: Arc<Queue>,
     wake: Sender<()>,
 }
 
 /// The end from which a socket reads messages.
-pub(super) struct Outgoing {
-    texts: mpsc::Receiver<Utf8Bytes>,
-    load: Arc<Load>,
-    frame: Arc<FrameSlot>,
+pub(super) struct Outgoing(Arc<Queue>);
+
+#[derive(Default)]
+struct Queue {
+    waiting: Mutex<Waiting>,
+    changed: Condvar,
 }
 
 #[derive(Default)]
-struct FrameSlot {
-    frame: Mutex<Option<Vec<u8>>>,
-    filled: Notify,
+struct Waiting {
+    texts: VecDeque<String>,
+    bytes: usize,
+    frame: Option<Vec<u8>>,
+    /// Whether no more messages come, or nobody reads them.
+    is_ended: bool,
 }
 
-impl FrameSlot {
-    fn with<T>(&self, work: impl FnOnce(&mut Option<Vec<u8>>) -> T) -> T {
-        work(&mut self.frame.lock().unwrap_or_else(PoisonError::into_inner))
-    }
-}
-
-/// The bytes of the texts that wait; `None` after the page has left, when threads do not wait.
-struct Load {
-    bytes: Mutex<Option<usize>>,
-    less: Condvar,
-}
-
-impl Load {
-    /// Adds a text as soon as there is room.
-    fn add(&self, size: usize) {
-        let bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
-        let is_full = |bytes: &mut Option<usize>| bytes.is_some_and(|bytes| bytes > 0 && bytes + size > MOST_BYTES);
-        let mut bytes = self.less.wait_while(bytes, is_full).unwrap_or_else(PoisonError::into_inner);
-        *bytes = bytes.map(|bytes| bytes + size);
+impl Queue {
+    fn lock(&self) -> MutexGuard<'_, Waiting> {
+        self.waiting.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Removes one text of that size, or all texts because the page has left.
-    fn take(&self, size: Option<usize>) {
-        let mut bytes = self.bytes.lock().unwrap_or_else(PoisonError::into_inner);
-        *bytes = bytes.zip(size).map(|(bytes, size)| bytes.saturating_sub(size));
-        self.less.notify_all();
+    /// Waits as long as a condition holds.
+    fn wait(&self, is_early: impl Fn(&Waiting) -> bool) -> MutexGuard<'_, Waiting> {
+        let is_early = |waiting: &mut Waiting| is_early(waiting);
+        self.changed.wait_while(self.lock(), is_early).unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn end(&self) {
+        self.lock().is_ended = true;
+        self.changed.notify_all();
     }
 }
 
 /// The two ends of a new queue, and what arrives when its page is woken.
 pub(super) fn post() -> (Post, Outgoing, Receiver<()>) {
-    let (texts, incoming) = mpsc::channel(ROOM);
-    let load = Arc::new(Load { bytes: Mutex::new(Some(0)), less: Condvar::new() });
-    let frame = Arc::new(FrameSlot::default());
+    let queue = Arc::new(Queue::default());
     // Several calls before the visit is advanced are one.
     let (wake, woken) = bounded(1);
-    let post = Post { texts, load: load.clone(), frame: frame.clone(), wake };
-    (post, Outgoing { texts: incoming, load, frame }, woken)
+    (Post { queue: queue.clone(), wake }, Outgoing(queue), woken)
 }
 
 impl Line for Post {
     fn text(&self, text: String) {
-        self.load.add(text.len());
-        let _ = self.texts.blocking_send(text.into());
+        let size = text.len();
+        let is_full = |waiting: &Waiting| {
+            let has_room = waiting.texts.len() < ROOM && waiting.bytes + size <= MOST_BYTES;
+            !(has_room || waiting.texts.is_empty() || waiting.is_ended)
+        };
+        let mut waiting = self.queue.wait(is_full);
+        waiting.bytes += size;
+        waiting.texts.push_back(text);
+        self.queue.changed.notify_all();
     }
 
     fn frame(&self, frame: Vec<u8>) {
-        self.frame.with(|slot| *slot = Some(frame));
-        self.frame.filled.notify_one();
+        self.queue.lock().frame = Some(frame);
+        self.queue.changed.notify_all();
     }
 
     fn has_room(&self) -> bool {
-        self.frame.with(|frame| frame.is_none())
+        self.queue.lock().frame.is_none()
     }
 
     fn remove_frame(&self) -> bool {
-        self.frame.with(|slot| slot.take().is_some())
+        self.queue.lock().frame.take().is_some()
     }
 
     fn wake(&self) {
@@ -98,30 +93,27 @@ impl Line for Post {
     }
 }
 
+impl Drop for Post {
+    fn drop(&mut self) {
+        self.queue.end();
+    }
+}
+
 impl Outgoing {
-    /// The next message, texts first; `None` when the other end is closed. If this future is dropped, no message is
-    /// lost.
-    pub(super) async fn next(&mut self) -> Option<Message> {
-        loop {
-            tokio::select! {
-                biased;
-                text = self.texts.recv() => {
-                    self.load.take(text.as_ref().map(|text| text.len()));
-                    return text.map(Message::Text);
-                }
-                () = self.frame.filled.notified() => {
-                    if let Some(frame) = self.frame.with(Option::take) {
-                        return Some(Message::Binary(frame.into()));
-                    }
-                }
-            }
-        }
+    /// Waits for the next message, texts first; `None` after the last one.
+    pub(super) fn next(&self) -> Option<Message> {
+        let is_empty = |waiting: &Waiting| waiting.texts.is_empty() && waiting.frame.is_none() && !waiting.is_ended;
+        let mut waiting = self.0.wait(is_empty);
+        let Some(text) = waiting.texts.pop_front() else { return waiting.frame.take().map(Message::binary) };
+        waiting.bytes -= text.len();
+        self.0.changed.notify_all();
+        Some(Message::text(text))
     }
 }
 
 impl Drop for Outgoing {
     fn drop(&mut self) {
-        self.load.take(None);
+        self.0.end();
     }
 }
 
@@ -129,28 +121,24 @@ impl Drop for Outgoing {
 mod tests {
     use super::*;
 
-    fn take(outgoing: &mut Outgoing) -> Message {
-        tokio::runtime::Builder::new_current_thread().build().unwrap().block_on(outgoing.next()).unwrap()
-    }
-
     #[test]
     fn texts_keep_their_order_and_go_before_the_newest_frame() {
-        let (post, mut outgoing, _) = post();
+        let (post, outgoing, _) = post();
         post.frame(vec![1]);
         assert!(!post.has_room());
         post.frame(vec![2]);
         post.text("a".to_owned());
         post.text("b".to_owned());
-        for text in ["a", "b"] {
-            assert_eq!(take(&mut outgoing), Message::Text(text.into()));
-        }
-        assert_eq!(take(&mut outgoing), Message::Binary(vec![2].into()));
+        let expected = [Message::text("a"), Message::text("b"), Message::binary(vec![2])];
+        assert_eq!([(); 3].map(|()| outgoing.next().unwrap()), expected);
         assert!(post.has_room() && !post.remove_frame());
+        drop(post);
+        assert_eq!(outgoing.next(), None);
     }
 
     #[test]
     fn texts_wait_for_room_until_the_page_is_gone() {
-        let (post, mut outgoing, _) = post();
+        let (post, outgoing, _) = post();
         let large = "x".repeat(MOST_BYTES - 1);
         // One alone may be as large as it likes.
         post.text("x".repeat(2 * MOST_BYTES));
@@ -163,7 +151,7 @@ mod tests {
         });
         let pause = std::time::Duration::from_millis(50);
         assert!(tells.recv_timeout(pause).is_err());
-        take(&mut outgoing);
+        outgoing.next();
         tells.recv().unwrap();
         assert!(tells.recv_timeout(pause).is_err());
         drop(outgoing);

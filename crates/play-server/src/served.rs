@@ -2,52 +2,44 @@
 
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, UdpSocket};
 use std::sync::Arc;
-use std::sync::atomic::AtomicUsize;
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use axum::http::{HeaderMap, header};
-use tokio::sync::Semaphore;
+use tungstenite::http::{HeaderMap, header};
 
 use crate::page::Page;
 use crate::threads::Threads;
 use nbc_play::{Class, PlaySite};
 use nbc_session::store::FolderWorld;
 
-/// The pages for which there is room, unless the user says how many, and the most that may be said.
+/// The default and the largest number of pages for which there is room.
 pub(super) const PAGES: usize = 16;
 pub(super) const MOST_PAGES: usize = 64;
-/// The sockets of a page.
 pub(super) const SOCKETS_OF_PAGE: usize = 2;
 
-/// The state that all pages of a server share.
 pub(super) struct Served {
     pub(super) site: Arc<PlaySite>,
     pub(super) threads: Arc<Threads>,
-    /// The files of the language server.
     pub(super) world: FolderWorld,
-    /// The secret in the address.
     pub(super) token: String,
-    /// The address at which the server listens, as the user gave it, and the port.
     pub(super) host: String,
     pub(super) port: u16,
     pub(super) page: Page,
-    /// The teacher's page, if there is a class.
     pub(super) taught: Option<Taught>,
-    pub(super) sockets: Arc<Semaphore>,
+    /// The sockets for which there is room, and those that are open.
+    pub(super) most_sockets: usize,
+    pub(super) sockets: AtomicUsize,
     /// The bytes of all messages that wait to be handled.
     pub(super) waiting: AtomicUsize,
     pub(super) begun: Instant,
 }
 
-/// A class and its teacher's page.
 pub(super) struct Taught {
     pub(super) class: Arc<Class>,
-    /// The secret in the address of the teacher's page.
     pub(super) token: String,
 }
 
 impl Served {
-    /// A folder, with these options of pages and at no address yet.
     pub(super) fn new(world: FolderWorld, site: PlaySite, threads: Arc<Threads>, token: String) -> Self {
         Self {
             site: Arc::new(site),
@@ -58,23 +50,21 @@ impl Served {
             port: 0,
             page: Page::default(),
             taught: None,
-            sockets: Arc::new(Semaphore::new(PAGES * SOCKETS_OF_PAGE)),
+            most_sockets: PAGES * SOCKETS_OF_PAGE,
+            sockets: AtomicUsize::new(0),
             waiting: AtomicUsize::new(0),
             begun: Instant::now(),
         }
     }
 
-    /// The time of the visits.
     pub(super) fn now(&self) -> Duration {
         self.begun.elapsed()
     }
 
-    /// The address of the page, for a browser on this computer.
     pub(super) fn address(&self) -> String {
         self.local_address(&self.token)
     }
 
-    /// The address of the teacher's page, for a browser on this computer.
     pub(super) fn address_of_teacher(&self) -> Option<String> {
         self.taught.as_ref().map(|taught| self.local_address(&taught.token))
     }
@@ -87,8 +77,7 @@ impl Served {
         }
     }
 
-    /// The address of the page for other computers, if the server listens at all addresses of this one and it has one
-    /// in a network.
+    /// The address for other computers, if the server listens at all addresses of this one and it has one in a network.
     pub(super) fn address_elsewhere(&self) -> Option<String> {
         // Nothing is sent: the system only chooses the address that it would send from. The target is one of those that
         // are kept for documents.
@@ -112,24 +101,31 @@ impl Served {
         self.host.parse().ok().filter(IpAddr::is_unspecified)
     }
 
-    /// Whether there is no room for the sockets of another page.
     pub(super) fn is_full(&self) -> bool {
-        self.sockets.available_permits() < SOCKETS_OF_PAGE
+        self.sockets.load(Ordering::Relaxed) + SOCKETS_OF_PAGE > self.most_sockets
     }
 
-    /// Whether a path begins with the token.
+    /// Serves a socket, unless there are too many.
+    pub(super) fn with_place(&self, serve: impl FnOnce()) -> bool {
+        let has_place = self.sockets.fetch_add(1, Ordering::Relaxed) < self.most_sockets;
+        if has_place {
+            serve();
+        }
+        self.sockets.fetch_sub(1, Ordering::Relaxed);
+        has_place
+    }
+
     pub(super) fn knows(&self, token: &str) -> bool {
         is_same(token, &self.token)
     }
 
-    /// The class, if a path begins with the token of the teacher's page.
     pub(super) fn taught(&self, token: &str) -> Option<&Class> {
         self.taught.as_ref().filter(|taught| is_same(token, &taught.token)).map(|taught| &*taught.class)
     }
 
     /// Whether a request comes from this server's own page: its `Host` is an address of this server, which the name of
-    /// another site that points to this computer is not, and its `Origin`, if it has one, is the same.
-    /// Neither is there twice.
+    /// another site that points to this computer is not, and its `Origin`, if it has one, is the same. Neither is there
+    /// twice.
     pub(super) fn trusts(&self, headers: &HeaderMap) -> bool {
         let all = |name| headers.get_all(name).iter().map(|value| value.to_str().unwrap_or("")).collect::<Vec<_>>();
         // Of several values, a program before this one may have looked at another.
@@ -139,7 +135,6 @@ impl Served {
         self.is_own(host) && origins.len() <= 1 && origins.iter().all(is_same)
     }
 
-    /// Whether this is an address of this server.
     pub(super) fn is_own(&self, host: &str) -> bool {
         let port = format!(":{}", self.port);
         let Some(name) = host.strip_suffix(&port) else { return false };
@@ -151,7 +146,7 @@ impl Served {
     }
 }
 
-/// Whether two tokens are the same. Takes the same time for any wrong one.
+/// Takes the same time for any wrong token.
 fn is_same(token: &str, secret: &str) -> bool {
     let differ = token.bytes().zip(secret.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
     token.len() == secret.len() && differ == 0

@@ -1,18 +1,15 @@
-//! The routes of the server: the page, its two web sockets, and its downloads.
+//! What the server answers: the page, its two web sockets, and its downloads. Every address begins with the token.
 
 use std::sync::Arc;
 
-use axum::Router;
-use axum::extract::ws::{WebSocket, WebSocketUpgrade};
-use axum::extract::{Path, Request, State};
-use axum::http::{HeaderMap, HeaderValue, StatusCode, header};
-use axum::middleware::{self, Next};
-use axum::response::{Html, IntoResponse, Response};
-use axum::routing::{any, get};
+use percent_encoding::percent_decode_str;
+use tungstenite::handshake::server::{Request, create_response, write_response};
+use tungstenite::http::{HeaderMap, HeaderValue, StatusCode, header};
 
+use crate::connections::SharedStream;
+use crate::http::{self, HttpAnswer, PATIENCE, content, status};
 use crate::served::Served;
 use crate::{language, live, teacher};
-use nbc_base::budget::Limit;
 
 /// The content security policy: a page may load and connect to this server only.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: \
@@ -26,91 +23,92 @@ const FULL: &str = "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\"
                     <h1>This server has no room for another page</h1>\n\
                     <p>Close a page of it that nobody uses. This one tries again every five seconds.</p>\n";
 
-/// The routes. Every address begins with the token.
-pub(super) fn router(served: Arc<Served>) -> Router {
-    Router::new()
-        .route("/{token}/", get(document))
-        .route("/{token}/{name}", get(part))
-        .route("/{token}/live", any(live_socket))
-        .route("/{token}/language", any(language_socket))
-        .route("/{token}/take/{number}/{name}", get(take))
-        .layer(middleware::from_fn_with_state(served.clone(), guard))
-        .with_state(served)
-}
-
-async fn document(State(served): State<Arc<Served>>, headers: HeaderMap) -> Response {
-    if served.is_full() {
-        return (StatusCode::SERVICE_UNAVAILABLE, Html(FULL)).into_response();
-    }
-    served.page.document(&headers)
-}
-
-async fn part(
-    State(served): State<Arc<Served>>,
-    Path((_, name)): Path<(String, String)>,
-    headers: HeaderMap,
-) -> Response {
-    served.page.part(&name, &headers).unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
-}
-
-/// Refuses requests without the token, or from another host or origin, and adds security headers to answers.
-async fn guard(State(served): State<Arc<Served>>, request: Request, next: Next) -> Response {
-    let token = request.uri().path().split('/').nth(1).unwrap_or_default();
-    let (known, taught) = (served.knows(token), served.taught(token));
+/// Answers the request of a connection; serves it to its end if it becomes a socket of a page.
+pub(super) fn answer(served: &Arc<Served>, wire: SharedStream) {
+    // Small messages go out at once.
+    let _ = wire.stream().set_nodelay(true);
+    let (request, rest) = match http::read(&wire, PATIENCE) {
+        Ok(read) => read,
+        Err(Some(refusal)) => return http::write(wire, secured(status(refusal))),
+        Err(None) => return,
+    };
+    let path = request.uri().path().split('/').skip(1).collect::<Vec<_>>();
+    let (known, taught) = (served.knows(path[0]), served.taught(path[0]));
     // A target may name a host, too.
     let is_here = request.uri().authority().is_none_or(|host| served.is_own(host.as_str()));
-    let mut response = match (known || taught.is_some(), is_here && served.trusts(request.headers())) {
-        (true, true) => match taught {
-            Some(class) => teacher::answer(&served, class, &request),
-            None => next.run(request).await,
+    let answer = match (known || taught.is_some(), is_here && served.trusts(request.headers())) {
+        (true, true) => match (taught, &path[1..]) {
+            (Some(class), _) => teacher::answer(served, class, &request),
+            (None, ["live"]) => return socket(served, &request, wire, rest, live::serve),
+            (None, ["language"]) => return socket(served, &request, wire, rest, language::serve),
+            (None, path) => resource(served, path, request.headers()),
         },
-        (false, _) => StatusCode::NOT_FOUND.into_response(),
-        (true, false) => StatusCode::FORBIDDEN.into_response(),
+        (false, _) => status(StatusCode::NOT_FOUND),
+        (true, false) => status(StatusCode::FORBIDDEN),
     };
-    let headers = [
+    http::write(wire, secured(answer));
+}
+
+fn resource(served: &Served, path: &[&str], headers: &HeaderMap) -> HttpAnswer {
+    let found = match path {
+        [""] if served.is_full() => {
+            let mut full = content("text/html; charset=utf-8", FULL);
+            *full.status_mut() = StatusCode::SERVICE_UNAVAILABLE;
+            Some(full)
+        }
+        [""] => Some(served.page.own.html.answer(headers)),
+        ["take", number, name] => take(served, number, name),
+        [name] => Some(served.page.own.part(name, headers)),
+        _ => None,
+    };
+    found.unwrap_or_else(|| status(StatusCode::NOT_FOUND))
+}
+
+fn take(served: &Served, number: &str, name: &str) -> Option<HttpAnswer> {
+    let name = percent_decode_str(name).decode_utf8().ok()?;
+    let take = served.threads.takes.fetch(number.parse().ok()?, &name)?;
+    let mut answer = content(take.kind, take.bytes);
+    answer.headers_mut().insert(header::CONTENT_DISPOSITION, HeaderValue::from_static("attachment"));
+    Some(answer)
+}
+
+/// An answer with the headers that keep a page safe.
+fn secured(mut answer: HttpAnswer) -> HttpAnswer {
+    let headers = answer.headers_mut();
+    for (name, value) in [
         (header::CONTENT_SECURITY_POLICY, POLICY),
         (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
         (header::REFERRER_POLICY, "no-referrer"),
-    ];
-    for (name, value) in headers {
-        response.headers_mut().insert(name, HeaderValue::from_static(value));
+    ] {
+        headers.insert(name, HeaderValue::from_static(value));
     }
     // What may be kept says so itself.
-    response.headers_mut().entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
+    headers.entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static("no-store"));
     for name in ["cross-origin-opener-policy", "cross-origin-resource-policy"] {
-        response.headers_mut().insert(name, HeaderValue::from_static("same-origin"));
+        headers.insert(name, HeaderValue::from_static("same-origin"));
     }
-    response
+    answer
 }
 
-async fn live_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUpgrade) -> Response {
-    accept(served, upgrade, live::serve)
-}
-
-async fn language_socket(State(served): State<Arc<Served>>, upgrade: WebSocketUpgrade) -> Response {
-    accept(served, upgrade, language::serve)
-}
-
-/// Opens a web socket, unless there are too many.
-fn accept<F: Future<Output = ()> + Send + 'static>(
-    served: Arc<Served>,
-    upgrade: WebSocketUpgrade,
-    serve: impl FnOnce(Arc<Served>, WebSocket) -> F + Send + 'static,
-) -> Response {
-    let Ok(place) = served.sockets.clone().try_acquire_owned() else {
-        return StatusCode::SERVICE_UNAVAILABLE.into_response();
+/// Opens a web socket, unless there are too many, and serves it.
+fn socket(
+    served: &Arc<Served>,
+    request: &Request,
+    mut wire: SharedStream,
+    rest: Vec<u8>,
+    serve: impl FnOnce(&Arc<Served>, SharedStream, Vec<u8>),
+) {
+    let Ok(accepted) = create_response(request) else {
+        return http::write(wire, secured(status(StatusCode::BAD_REQUEST)));
     };
-    let most = Limit::PageMessage.most() as usize;
-    upgrade.max_message_size(most).max_frame_size(most).on_upgrade(async move |socket| {
-        serve(served, socket).await;
-        drop(place);
-    })
-}
-
-async fn take(State(served): State<Arc<Served>>, Path((_, number, name)): Path<(String, u64, String)>) -> Response {
-    let Some(take) = served.threads.takes.fetch(number, &name) else { return StatusCode::NOT_FOUND.into_response() };
-    let mut headers = HeaderMap::new();
-    headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(take.kind));
-    headers.insert(header::CONTENT_DISPOSITION, HeaderValue::from_static("attachment"));
-    (headers, take.bytes).into_response()
+    let opened = wire.clone();
+    let is_served = served.with_place(|| {
+        opened.becomes_socket();
+        if write_response(&mut wire, &accepted).is_ok() {
+            serve(served, wire.clone(), rest);
+        }
+    });
+    if !is_served {
+        http::write(opened, secured(status(StatusCode::SERVICE_UNAVAILABLE)));
+    }
 }

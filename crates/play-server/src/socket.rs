@@ -2,13 +2,17 @@
 
 use std::collections::VecDeque;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::{scope, sleep};
 use std::time::{Duration, Instant};
 
-use axum::extract::ws::{CloseFrame, Message, Utf8Bytes, WebSocket, close_code};
 use crossbeam_channel::Sender;
-use tokio::time::{sleep, timeout};
+use tungstenite::protocol::frame::coding::CloseCode;
+use tungstenite::protocol::{CloseFrame, Role, WebSocketConfig};
+use tungstenite::{Message, Utf8Bytes, WebSocket};
 
+use crate::connections::SharedStream;
 use crate::post::Outgoing;
+use nbc_base::budget::Limit;
 
 /// A page that does not read for this time is disconnected.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -16,21 +20,17 @@ const PATIENCE: Duration = Duration::from_secs(30);
 const RATE: f64 = 200.0;
 const BURST: f64 = 2000.0;
 
-/// Messages of a page that may wait for the one before.
 pub(super) const WAITING: usize = 64;
 /// The bytes of messages that may wait for one page, and for all together. One message of a page may always wait.
 const MOST_BYTES: usize = 4 << 20;
 const MOST_IN_ALL: usize = 32 << 20;
-/// The time between two checks for room.
 const LOOK: Duration = Duration::from_millis(20);
 
 /// The messages of a page that wait to be handled. While there are too many, the socket is not read, so further
 /// messages stay on the page's computer.
 struct Backlog<'a> {
-    /// The oldest first.
     sizes: VecDeque<usize>,
     bytes: usize,
-    /// The bytes of all pages.
     all: &'a AtomicUsize,
 }
 
@@ -45,7 +45,6 @@ impl<'a> Backlog<'a> {
         self.all.fetch_add(size, Ordering::Relaxed);
     }
 
-    /// Removes the oldest messages, so that this many are left.
     fn settle(&mut self, waiting: usize) {
         while self.sizes.len() > waiting
             && let Some(size) = self.sizes.pop_front()
@@ -66,34 +65,52 @@ impl Drop for Backlog<'_> {
     }
 }
 
-/// Passes texts of a page to `requests` and sends it the messages of `outgoing`, until it is gone.
-pub(super) async fn pump(
-    mut socket: WebSocket,
+/// Passes texts of a page to `requests` and sends it the messages of `outgoing`, until it is gone. `rest` is what came
+/// after its request.
+pub(super) fn pump(
+    wire: SharedStream,
+    rest: Vec<u8>,
     requests: Sender<Utf8Bytes>,
-    mut outgoing: Outgoing,
+    outgoing: Outgoing,
     all: &AtomicUsize,
 ) {
+    let most = Some(Limit::PageMessage.most() as usize);
+    let config = Some(WebSocketConfig::default().max_message_size(most).max_frame_size(most));
+    // Two views of one socket: what one of them writes is never within what the other does.
+    let mut writer = WebSocket::from_raw_socket(wire.clone(), Role::Server, config);
+    let mut reader = WebSocket::from_partially_read(wire.clone(), rest, Role::Server, config);
+    if wire.stream().set_read_timeout(None).is_err() || wire.stream().set_write_timeout(Some(PATIENCE)).is_err() {
+        return;
+    }
+    let closed = wire.clone();
+    scope(|scope| {
+        scope.spawn(move || {
+            while let Some(message) = outgoing.next()
+                && writer.send(message).is_ok()
+            {}
+            closed.close();
+        });
+        read(&mut reader, &requests, all);
+        // Their receiver ends the messages that go out.
+        drop(requests);
+        wire.close();
+    });
+}
+
+/// Reads texts until the page is gone. While too many wait, the others stay on the page's computer.
+fn read(socket: &mut WebSocket<SharedStream>, requests: &Sender<Utf8Bytes>, all: &AtomicUsize) {
     let mut allowance = Allowance::new(Instant::now());
     let mut backlog = Backlog::new(all);
-    loop {
+    while let Some(text) = receive(socket, &mut allowance) {
+        let size = text.len();
+        if requests.send(text).is_err() {
+            return;
+        }
+        backlog.push(size);
         backlog.settle(requests.len());
-        // Meanwhile answers still go out, for which their maker may wait.
-        let has_room = !requests.is_full() && backlog.has_room();
-        tokio::select! {
-            text = receive(&mut socket, &mut allowance), if has_room => {
-                let Some(text) = text else { return };
-                let size = text.len();
-                // Nobody else sends here.
-                if requests.try_send(text).is_err() {
-                    return;
-                }
-                backlog.push(size);
-            }
-            message = outgoing.next() => match message {
-                Some(message) => if !send(&mut socket, message).await { return },
-                None => return,
-            },
-            () = sleep(LOOK), if !has_room => {}
+        while !backlog.has_room() {
+            sleep(LOOK);
+            backlog.settle(requests.len());
         }
     }
 }
@@ -109,7 +126,6 @@ impl Allowance {
         Self { left: BURST, at: now }
     }
 
-    /// Takes one message, if there is one left.
     fn take(&mut self, now: Instant) -> bool {
         let earned = now.saturating_duration_since(self.at).as_secs_f64() * RATE;
         self.left = (self.left + earned).min(BURST) - 1.0;
@@ -119,25 +135,22 @@ impl Allowance {
 }
 
 /// The text of the next message; `None` when the page is gone, broke the protocol, or sends too much.
-async fn receive(socket: &mut WebSocket, allowance: &mut Allowance) -> Option<Utf8Bytes> {
+fn receive(socket: &mut WebSocket<SharedStream>, allowance: &mut Allowance) -> Option<Utf8Bytes> {
     loop {
-        let message = socket.recv().await?.ok()?;
+        let message = socket.read().ok()?;
         if !allowance.take(Instant::now()) {
-            let frame = CloseFrame { code: close_code::POLICY, reason: "too many messages".into() };
-            let _ = timeout(PATIENCE, socket.send(Message::Close(Some(frame)))).await;
+            let _ = socket.close(Some(CloseFrame { code: CloseCode::Policy, reason: "too many messages".into() }));
             return None;
         }
         match message {
             Message::Text(text) => return Some(text),
-            Message::Close(_) => return None,
-            Message::Binary(_) | Message::Ping(_) | Message::Pong(_) => {}
+            Message::Close(_) => {
+                let _ = socket.flush();
+                return None;
+            }
+            _ => {}
         }
     }
-}
-
-/// Sends a message; false when the page is gone or does not read.
-async fn send(socket: &mut WebSocket, message: Message) -> bool {
-    matches!(timeout(PATIENCE, socket.send(message)).await, Ok(Ok(())))
 }
 
 #[cfg(test)]

@@ -10,7 +10,6 @@ const MOST: usize = 8;
 #[derive(Default)]
 pub(super) struct Takes(Mutex<(u64, VecDeque<Take>)>);
 
-/// A file.
 pub(super) struct Take {
     number: u64,
     pub(super) name: String,
@@ -19,7 +18,7 @@ pub(super) struct Take {
 }
 
 impl Takes {
-    /// Keeps a file, and returns its address relative to the page.
+    /// Returns the address relative to the page.
     pub(super) fn keep(&self, name: &str, kind: &'static str, bytes: Vec<u8>) -> String {
         let mut takes = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let (number, files) = &mut *takes;
@@ -31,7 +30,6 @@ impl Takes {
         format!("take/{number}/{name}")
     }
 
-    /// Hands out a file.
     pub(super) fn fetch(&self, number: u64, name: &str) -> Option<Take> {
         let mut takes = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         let place = takes.1.iter().position(|take| take.number == number && take.name == name)?;

@@ -1,32 +1,23 @@
 //! The teacher's page: its own address, from which nothing but the members of the class and the lessons can be had.
 
-use axum::extract::Request;
-use axum::http::{Method, StatusCode, header};
-use axum::response::{IntoResponse, Response};
-
 use serde::Serialize;
+use tungstenite::handshake::server::Request;
+use tungstenite::http::StatusCode;
 
+use crate::http::{HttpAnswer, content, status};
 use crate::served::Served;
 use nbc_play::{Class, course};
 
-/// Answers a request to the address of the teacher's page.
-pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> Response {
-    if request.method() != Method::GET {
-        return StatusCode::METHOD_NOT_ALLOWED.into_response();
-    }
+pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> HttpAnswer {
     match request.uri().path().split('/').nth(2) {
-        Some("") => served.page.teacher(request.headers()),
+        Some("") => served.page.teacher.html.answer(request.headers()),
         Some("members") => json(&class.roll(served.now())),
         Some("lessons") => json(&course(served.site.shell.lessons())),
-        Some(name) => {
-            let part = served.page.part_of_teacher(name, request.headers());
-            part.unwrap_or_else(|| StatusCode::NOT_FOUND.into_response())
-        }
-        None => StatusCode::NOT_FOUND.into_response(),
+        Some(name) => served.page.teacher.part(name, request.headers()),
+        None => status(StatusCode::NOT_FOUND),
     }
 }
 
-fn json(value: &impl Serialize) -> Response {
-    let text = serde_json::to_string(value).expect("messages are data");
-    ([(header::CONTENT_TYPE, "application/json")], text).into_response()
+fn json(value: &impl Serialize) -> HttpAnswer {
+    content("application/json", serde_json::to_vec(value).expect("messages are data"))
 }

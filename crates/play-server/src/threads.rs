@@ -9,7 +9,6 @@ use crate::lesson_source::LessonSource;
 use crate::takes::Takes;
 use nbc_play::{LessonTexts, Portion, Portions, Shell, WorkKind};
 
-/// The shell of all pages of a server.
 pub(super) struct Threads {
     lessons: Vec<LessonSource>,
     pub(super) takes: Takes,
@@ -24,7 +23,6 @@ struct Pools {
 }
 
 impl Threads {
-    /// With lessons from these sources; with those that come with the program if there is none.
     pub(super) fn new(lessons: &[LessonSource]) -> Self {
         let lessons = if lessons.is_empty() { vec![LessonSource::Shipped] } else { lessons.to_vec() };
         let cores = thread::available_parallelism().map_or(1, std::num::NonZero::get);
@@ -35,7 +33,6 @@ impl Threads {
 }
 
 impl Pools {
-    /// Does a portion of work in its place.
     fn portion(&self, kind: WorkKind, portions: &mut Portions) -> Portion {
         match kind {
             WorkKind::Check | WorkKind::Program => portions(),

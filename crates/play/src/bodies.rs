@@ -20,14 +20,10 @@ use nbc_session::{Checked, CompileOptions, Session};
 use nbc_swarm::evolve;
 use nbc_swarm::{Recorded, measure, sketch, walk};
 
-/// The largest side of a body that is simulated for a page.
 const MOST_SIDE: usize = 20;
-/// The most cycles of a gait.
 const MOST_CYCLES: u32 = 20;
-/// The folder of robot files that a page writes.
 const FOLDER: &str = "robots";
 
-/// The built-in robots, and those of the libraries that a program declares.
 pub(super) fn robots(session: &Session, checked: Option<&Checked>) -> Result<RobotCards, Refused> {
     let painted = Palette::three();
     let mut all: Vec<(Robot, bool)> = session.shipped().robots.iter().map(|robot| (robot.clone(), true)).collect();
@@ -68,7 +64,6 @@ fn card(robot: &Robot, shipped: bool, looks: &Looks, painted: &Palette) -> Robot
     }
 }
 
-/// The materials that a page can paint with.
 fn palette(looks: &Looks, painted: &Palette) -> Vec<PaletteEntry> {
     let materials = (1..).zip(painted.materials());
     let one = |(code, material): (u8, &Material)| PaletteEntry {
@@ -80,7 +75,7 @@ fn palette(looks: &Looks, painted: &Palette) -> Vec<PaletteEntry> {
     materials.map(one).collect()
 }
 
-/// A body that can be simulated: of the paper's materials, or of those with a third stimulus if it uses one of them.
+/// Parses a body of the paper's materials, or of those with a third stimulus if it uses one of them.
 pub(super) fn body(rows: &[String]) -> Result<Body, Refused> {
     let body = Body::parse(rows, &Palette::paper()).or_else(|_| Body::parse(rows, &Palette::three()));
     let body = body.map_err(|error| Refused::Body(error.to_string()))?;
@@ -96,7 +91,6 @@ fn stage(body: &Body, pattern: Pattern, cycles: u32) -> Stage {
     Stage::of_trial(&Setting::default(), body, &schedule, CYCLE_STEPS / FRAMES)
 }
 
-/// Simulates a body under each pattern, and measures it as a gate.
 pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> JobEnd {
     let body = body(rows)?;
     let cycles = cycles.clamp(1, MOST_CYCLES);
@@ -118,7 +112,7 @@ pub(super) fn probe(rows: &[String], cycles: u32, is_whole: bool, job: &Job) -> 
     })))
 }
 
-/// Displacements and behavior of a body; if `is_whole`, also a rough measurement of its character, which takes longer.
+/// If `is_whole`, this also measures a rough character, which takes longer.
 fn measured(body: &Body, is_whole: bool, job: &Job) -> Result<(Displacements, Behavior, Option<Character>), Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let simulator = job.simulator();
@@ -139,7 +133,7 @@ fn character(character: &Character) -> CharacterSketch {
     }
 }
 
-/// Measures a body and writes its robot file, into a folder beside the program that is to use it. Where a class shares
+/// Measures a body and writes its robot file into a folder beside the program that is to use it. Where a class shares
 /// the folder, no robot is replaced.
 pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, job: &Job) -> JobEnd {
     if !is_word(&request.name) {
@@ -155,7 +149,7 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, jo
         let free = free.expect("there are more numbers than files");
         return Err(Refused::RobotExists { path, free, is_replaceable: !is_shared });
     }
-    // What can fail at once does so before the body is measured, which takes long.
+    // Fail early: measuring the body takes long.
     files.may_write(&folder)?;
     let text = robot_file(&request.name, body, job)?;
     files.make_folder(&folder)?;
@@ -163,7 +157,6 @@ pub(super) fn keep(request: &KeepRequest, files: &PageFiles, is_shared: bool, jo
     Ok(Some(RequestResult::Keep(KeptRobot { path, declaration: format!("library own {{ from: \"{FOLDER}\" }}") })))
 }
 
-/// The text of a robot file.
 fn robot_file(name: &str, body: Body, job: &Job) -> Result<String, Refused> {
     let stopped = |fault: Fault| job.check().err().unwrap_or_else(|| Refused::fault(fault));
     let measured = measure(&job.simulator(), &body).map_err(stopped)?;

@@ -1,6 +1,5 @@
 //! The class of a server: learners who have joined it with a name, and where they are. It is in memory only. A learner
-//! is away without the page's connection, and keeps the name until they leave: only who has its key can join with it
-//! again.
+//! without a connection is away, and keeps the name until they leave: joining with it again needs its key.
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, MutexGuard};
@@ -12,15 +11,12 @@ use crate::message::{ClassMember, ClassPlace, ClassRoll};
 use crate::refusal::Refused;
 use nbc_base::diag::is_hidden;
 
-/// The most members.
 const MOST: usize = 60;
-/// The most names that are taken, those of learners who are away included.
+/// The most names that are taken, including those of learners who are away.
 const MOST_NAMES: usize = 600;
-/// The most letters of a name, and bytes of the name of a lesson.
 const LONGEST: usize = 24;
 const LESSON: usize = 64;
 
-/// The members of a class.
 #[derive(Debug)]
 pub struct Class {
     /// Gives a key that nobody can guess; `None` if the system has no random numbers.
@@ -30,10 +26,9 @@ pub struct Class {
 
 #[derive(Debug, Default)]
 struct Members {
-    /// The number of the last member.
     last: u64,
     joined: BTreeMap<u64, Member>,
-    /// The keys of the names that are taken, by the ends of their files in small letters.
+    /// The keys of the taken names, by their lower-case endings.
     keys: BTreeMap<String, String>,
 }
 
@@ -42,24 +37,19 @@ struct Member {
     name: String,
     place: Option<ClassPlace>,
     finished: u32,
-    /// When the place has changed.
     since: Duration,
 }
 
-/// The place of a learner in the class, who is away when it is dropped.
+/// A learner's place in the class. Dropping it marks the learner as away.
 #[derive(Debug)]
 pub(super) struct Membership {
     class: Arc<Class>,
     number: u64,
-    /// The end of the names of their files.
     ending: String,
-    /// What shows that the name is theirs.
     key: String,
 }
 
 impl Class {
-    /// A class without members. `new_key` gives a key that nobody can guess, or `None` if the system has no random
-    /// numbers.
     pub fn new(new_key: fn() -> Option<String>) -> Self {
         Self { new_key, members: Mutex::default() }
     }
@@ -68,7 +58,7 @@ impl Class {
         lock(&self.members)
     }
 
-    /// Takes a learner into the class. Who has the key of a name takes it over from another page.
+    /// The key of a name takes it over from another page.
     pub(super) fn join(self: &Arc<Self>, name: &str, key: Option<&str>, now: Duration) -> Result<Membership, Refused> {
         let name = name.trim();
         if name.is_empty() || name.chars().count() > LONGEST || name.contains(|c| c == '\n' || is_hidden(c)) {
@@ -95,7 +85,6 @@ impl Class {
         Ok(Membership { class: self.clone(), number, ending, key })
     }
 
-    /// The members, for the teacher, at a time of the visits' clock.
     pub fn roll(&self, now: Duration) -> ClassRoll {
         let seen = |member: &Member| ClassMember {
             name: member.name.clone(),
@@ -109,19 +98,18 @@ impl Class {
     }
 }
 
-/// What the names of a learner's files end in, before `.nb`: no two learners have the same.
+/// The ending of the names of a learner's files, before `.nb`; no two learners have the same.
 fn ending(name: &str) -> String {
     let letters = name.chars().map(|c| if c.is_alphanumeric() { c } else { '_' });
     format!(".{}", letters.collect::<String>())
 }
 
 impl Membership {
-    /// What shows that the name is the learner's.
     pub(super) fn key(&self) -> &str {
         &self.key
     }
 
-    /// Gives up the name, which others can then have, unless another page has taken it over.
+    /// Gives up the name, unless another page has taken it over.
     pub(super) fn leave(self) {
         let mut members = self.class.lock();
         if members.joined.contains_key(&self.number) {
@@ -129,14 +117,13 @@ impl Membership {
         }
     }
 
-    /// The path at which the learner saves what is at `path`. The class shares a folder, in which each learner has
-    /// files of their own.
+    /// Where the learner saves what is at `path`: in the folder of a class, each learner has files of their own.
     pub(super) fn own_path(&self, path: &str) -> String {
         let stem = path.strip_suffix(".nb").unwrap_or(path);
         format!("{}{}.nb", stem.strip_suffix(&self.ending).unwrap_or(stem), self.ending)
     }
 
-    /// Notes where the learner is. A lesson with a name that no lesson can have is none.
+    /// Notes where the learner is. A name that no lesson can have counts as no lesson.
     pub(super) fn progress(&self, place: Option<ClassPlace>, finished: u32, now: Duration) {
         let is_name = |name: &str| name.len() <= LESSON && !name.contains(is_hidden);
         let place = place.filter(|place| is_name(&place.lesson));

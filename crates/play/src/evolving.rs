@@ -14,30 +14,26 @@ use nbc_session::report::axis_word;
 use nbc_session::{BodySearch, Observer};
 use nbc_swarm::evolve::{Elite, NicheKey, Scores};
 
-/// The largest and the smallest side of a box, and the most generations.
 const SIDES: std::ops::RangeInclusive<usize> = 2..=10;
 const MOST_GENERATIONS: u32 = 1000;
 
-/// The fewest bodies that are worth the way to others and back.
+/// The fewest bodies that are worth sending to workers.
 const LEAST_BODIES: usize = 2;
 
-/// A search whose bodies others may try, too.
 pub(super) struct SharedSearch {
     search: BodySearch,
     shell: Arc<dyn Shell>,
-    /// A generation of which others still try bodies.
+    /// A generation of which workers still try bodies.
     begun: Option<BegunGeneration>,
 }
 
 struct BegunGeneration {
     bodies: Vec<Body>,
-    /// The first bodies, which were tried here.
     own: Vec<Option<Scores>>,
     others: Arc<GivenParts>,
 }
 
 impl SharedSearch {
-    /// A search that begins.
     pub(super) fn begin(request: &EvolveRequest, shell: Arc<dyn Shell>) -> Result<Self, Refused> {
         let start = request.body.as_deref().map(bodies::body).transpose()?;
         let [width, height] = start.as_ref().map_or(request.bounds, |body| [body.width(), body.height()]);
@@ -63,14 +59,14 @@ impl SharedSearch {
             return Ok(PortionEnd::More);
         }
         job.check()?;
-        let end = EvolutionEnd { generations, evaluations: search.evaluations() };
+        let end = EvolutionEnd { generations, evaluations: search.counts().evaluations };
         Ok(PortionEnd::Done(Some(RequestResult::Evolve(end))))
     }
 
-    /// The bodies of a generation, and what was found of them; `None` while others still try some.
+    /// The bodies of a generation and their scores; `None` while workers still try some.
     fn generation(&mut self, job: &Job) -> Option<(Vec<Body>, Vec<Option<Scores>>)> {
         let size = self.shell.crew().map_or(0, Crew::size);
-        // What was given to others who have gone will not come.
+        // Results of workers that have left will not come.
         if let Some(begun) = self.begun.take_if(|_| size > 0) {
             let Some(others) = begun.others.take() else {
                 self.begun = Some(begun);
@@ -107,11 +103,13 @@ fn change(search: &BodySearch, id: u64, changed: &[NicheKey]) -> ArchiveChange {
         letters: elite.behavior.to_string(),
         function: elite.behavior.function().name(),
     };
+    // A niche of this search has one elite.
+    let niches = search.archive().niches().map(|(key, elites)| (key, &elites[0]));
     ArchiveChange {
         id,
         generation: search.generation(),
         axes: evolution.descriptors.iter().map(axis).collect(),
-        niches: search.best().filter(|(key, _)| changed.contains(key)).map(niche).collect(),
-        evaluations: search.evaluations(),
+        niches: niches.filter(|(key, _)| changed.contains(key)).map(niche).collect(),
+        evaluations: search.counts().evaluations,
     }
 }

@@ -2,31 +2,24 @@
 
 use crate::history::{LoggedCycle, Poses};
 
-/// The swarm at a moment.
 pub(super) struct SwarmFrame<'a, L> {
-    /// The number of the swarm.
     pub(super) number: u32,
-    /// Poses in a cycle.
     pub(super) frames: u32,
     /// Cycles done at this moment, the earliest to go back to, and the last of the log.
     pub(super) now: u32,
     pub(super) first: u32,
     pub(super) last: u32,
-    /// Cycles a second.
     pub(super) pace: f32,
     pub(super) runs: bool,
     /// The cycles that the page does not know yet, and the number of the first.
     pub(super) logged: (u32, L),
     /// The robots' centers of mass and leftmost points at the start, in voxels of the world.
     pub(super) starts: &'a [[f64; 2]],
-    /// The poses of robots, in order of their places.
     pub(super) poses: &'a [Poses],
-    /// The robots whose poses are sent.
     pub(super) view: &'a [usize],
 }
 
 impl<'a, L: ExactSizeIterator<Item = &'a LoggedCycle>> SwarmFrame<'a, L> {
-    /// The message.
     pub(super) fn encode(self) -> Vec<u8> {
         let (first_logged, log) = self.logged;
         let mut bytes = vec![1, self.frames as u8];

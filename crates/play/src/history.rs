@@ -5,17 +5,14 @@ use std::collections::VecDeque;
 use nbc_base::model::CYCLE_STEPS;
 use nbc_swarm::{LiveSwarm, SwarmSnapshot};
 
-/// Cycles that can be gone back.
 pub(super) const MEMORY: u32 = 1000;
 /// The most bytes of snapshots. A swarm with larger ones keeps one every few cycles.
 const ROOM: usize = 64 << 20;
 /// The least bytes of a point in a snapshot: position and velocity.
 const POINT: usize = 32;
 
-/// The recorded state of a cycle.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct LoggedCycle {
-    /// The bits of the inputs, of the robots and of the outputs.
     pub(super) inputs: Vec<bool>,
     pub(super) bits: Vec<bool>,
     pub(super) outputs: Vec<bool>,
@@ -24,10 +21,6 @@ pub(super) struct LoggedCycle {
 }
 
 impl LoggedCycle {
-    /// The last cycle of a swarm.
-    ///
-    /// # Panics
-    /// When it has none.
     pub(super) fn last_of(swarm: &LiveSwarm) -> Self {
         let trace = swarm.trace();
         let cycle = trace.cycles.last().expect("the swarm has done a cycle");
@@ -40,27 +33,21 @@ impl LoggedCycle {
     }
 }
 
-/// The last cycles with snapshots between them.
 pub(super) struct SwarmHistory {
     /// Snapshots with their cycles, the earliest first. There is always one.
     marks: VecDeque<(u32, SwarmSnapshot)>,
-    /// The cycles after the first snapshot.
     log: VecDeque<LoggedCycle>,
-    /// Cycles from snapshot to snapshot.
     spacing: u32,
-    /// Cycles that can be gone back.
     memory: u32,
 }
 
 impl SwarmHistory {
-    /// The history of a swarm at its start. It keeps at least `memory` cycles.
     pub(super) fn new(start: &LiveSwarm, memory: u32) -> Self {
         let points: usize = start.trace().recording.robots.iter().map(|robot| robot.points).sum();
         let all = (memory as usize * points * POINT).div_ceil(ROOM);
         Self { marks: [(0, start.snapshot())].into(), log: VecDeque::new(), spacing: all.max(1) as u32, memory }
     }
 
-    /// The cycle of the first snapshot.
     fn first(&self) -> u32 {
         self.marks[0].0
     }
@@ -70,12 +57,10 @@ impl SwarmHistory {
         if self.first() == 0 { 0 } else { self.first() + 1 }
     }
 
-    /// The last cycle.
     pub(super) fn last(&self) -> u32 {
         self.first() + self.log.len() as u32
     }
 
-    /// The recorded cycles after `cycle`, and the number of the first of them.
     pub(super) fn after(&self, cycle: u32) -> (u32, impl ExactSizeIterator<Item = &LoggedCycle>) {
         let skipped = cycle.clamp(self.first(), self.last()) - self.first();
         (self.first() + skipped + 1, self.log.range(skipped as usize..))
@@ -111,10 +96,8 @@ impl SwarmHistory {
     }
 }
 
-/// Poses of a robot in the last cycle, or at the start.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Poses {
-    /// The number of points.
     pub(super) points: usize,
     /// The origin of the numbers, in voxels of the world.
     pub(super) origin: f64,
@@ -141,7 +124,6 @@ impl Poses {
     }
 }
 
-/// Poses in one cycle of a live swarm.
 pub(super) const FRAMES: u32 = CYCLE_STEPS / 7;
 
 #[cfg(test)]

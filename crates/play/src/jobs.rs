@@ -17,22 +17,18 @@ use nbc_circuit::CancelFlag;
 use nbc_session::{CompileOptions, Observer};
 use nbc_sim::{Monitor, Simulator};
 
-/// The time after which a request is stopped.
 const TIME: Duration = Duration::from_secs(Limit::PageSeconds.most());
 
-/// The requests of a page that run.
 pub(super) struct Jobs {
     running: Arc<Mutex<BTreeMap<u64, Running>>>,
     making: CompileOptions,
     outbox: Outbox,
 }
 
-/// The handle to stop a request that runs.
 struct Running {
     kind: WorkKind,
     stop: CancelFlag,
     monitor: Arc<Monitor>,
-    /// When it has taken too long.
     end: Duration,
     is_late: Arc<AtomicBool>,
 }
@@ -42,14 +38,8 @@ impl Running {
         self.stop.raise();
         self.monitor.stop();
     }
-
-    fn stop_late(&self) {
-        self.is_late.store(true, Ordering::Relaxed);
-        self.stop();
-    }
 }
 
-/// A request that runs, as its own work sees it.
 pub(super) struct Job {
     pub(super) id: u64,
     pub(super) outbox: Outbox,
@@ -57,27 +47,22 @@ pub(super) struct Job {
     making: CompileOptions,
     monitor: Arc<Monitor>,
     is_late: Arc<AtomicBool>,
-    /// The percentage that was reported last.
-    told: u64,
+    percent: u64,
 }
 
-/// The end of a portion of work.
 pub(super) enum PortionEnd {
-    /// There is more to do.
     More,
-    /// There will be when others have done their parts.
+    /// There will be more to do when workers have finished their parts.
     Waits,
-    /// It is done. There is no answer if somebody else will give it.
+    /// There is no answer if somebody else will give it.
     Done(Option<RequestResult>),
 }
 
-/// The answer of a request whose work is one portion.
 pub(super) type JobEnd = Result<Option<RequestResult>, Refused>;
 
-/// The work of a long request: does a portion of it.
+/// Does a portion of a long request.
 pub(super) type JobWork = Box<dyn FnMut(&mut Job) -> Result<PortionEnd, Refused> + Send>;
 
-/// Work of one portion.
 pub(super) fn once(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> JobWork {
     let mut work = Some(work);
     Box::new(move |job| {
@@ -87,12 +72,11 @@ pub(super) fn once(work: impl FnOnce(&mut Job) -> JobEnd + Send + 'static) -> Jo
 }
 
 impl Jobs {
-    /// No requests. Those that come make swarms with these options.
     pub(super) fn new(outbox: Outbox, making: CompileOptions) -> Self {
         Self { running: Arc::default(), making, outbox }
     }
 
-    /// Starts a request; the flag that stops it, if it could be started.
+    /// Returns the flag that stops the request, if it could be started.
     pub(super) fn start(
         &self,
         shell: &dyn Shell,
@@ -108,20 +92,18 @@ impl Jobs {
             let is_check = |kind: WorkKind| kind == WorkKind::Check;
             // Checks have room of their own.
             let same = running.values().filter(|one| is_check(one.kind) == is_check(kind)).count() as u64;
-            // Otherwise it could not be cancelled, and the end of one would count as that of the other.
-            let refused = match running.contains_key(&id) {
-                true => Some(Refused::NumberInUse { id }),
-                false => Limit::PageJobs.permit(same + 1).err().map(|_| Refused::Busy { most: same as usize }),
-            };
-            if let Some(refused) = refused {
-                self.outbox.answer(id, Err(refused));
+            // Two requests of one number could not be told apart when one is cancelled or ends.
+            let is_in_use = running.contains_key(&id);
+            if is_in_use || Limit::PageJobs.permit(same + 1).is_err() {
+                let busy = Refused::Busy { most: same as usize };
+                self.outbox.answer(id, Err(if is_in_use { Refused::NumberInUse { id } } else { busy }));
                 return None;
             }
             let (stop, monitor, is_late) = (stop.clone(), monitor.clone(), is_late.clone());
             running.insert(id, Running { kind, stop, monitor, end: now + TIME, is_late });
         }
         let (running, outbox) = (self.running.clone(), self.outbox.clone());
-        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, is_late, told: 0 };
+        let mut job = Job { id, outbox, stop: stop.clone(), making: self.making.clone(), monitor, is_late, percent: 0 };
         let portion = move || {
             let ended = catch_unwind(AssertUnwindSafe(|| work(&mut job)));
             let ended = ended.unwrap_or(Err(Refused::Internal));
@@ -142,36 +124,33 @@ impl Jobs {
         Some(stop)
     }
 
-    /// Stops a request.
     pub(super) fn cancel(&self, id: u64) {
         lock(&self.running).get(&id).into_iter().for_each(Running::stop);
     }
 
-    /// Whether none runs.
     pub(super) fn are_done(&self) -> bool {
         lock(&self.running).is_empty()
     }
 
-    /// Stops the requests that take too long.
     pub(super) fn end_late(&self, now: Duration) {
-        lock(&self.running).values().filter(|one| one.end < now).for_each(Running::stop_late);
+        for late in lock(&self.running).values().filter(|one| one.end < now) {
+            late.is_late.store(true, Ordering::Relaxed);
+            late.stop();
+        }
     }
 }
 
 impl Drop for Jobs {
-    /// Stops the requests, because the page has left.
     fn drop(&mut self) {
         lock(&self.running).values().for_each(Running::stop);
     }
 }
 
 impl Job {
-    /// A simulator whose simulations end when it is stopped.
     pub(super) fn simulator(&self) -> Simulator {
         Simulator::monitored(self.monitor.clone())
     }
 
-    /// How circuits are compiled; that ends early when the request is stopped.
     pub(super) fn options(&self) -> CompileOptions {
         CompileOptions { cancel: self.stop.clone(), ..self.making.clone() }
     }
@@ -181,7 +160,7 @@ impl Job {
         if self.stop.is_raised() { Err(self.reason(Refused::Cancelled)) } else { Ok(()) }
     }
 
-    /// The reason for a refusal; that of work which was stopped because it took too long is [`Refused::TimedOut`].
+    /// The reason for a refusal, or [`Refused::TimedOut`] for work that was stopped because it took too long.
     fn reason(&self, refused: Refused) -> Refused {
         match refused {
             Refused::Cancelled if self.is_late.load(Ordering::Relaxed) => Refused::TimedOut { seconds: TIME.as_secs() },
@@ -192,9 +171,9 @@ impl Job {
 
 impl Observer for Job {
     fn progress(&mut self, done: u64, all: u64) {
-        let percentage = done * 100 / all.max(1);
-        if percentage > self.told {
-            self.told = percentage;
+        let percent = done * 100 / all.max(1);
+        if percent > self.percent {
+            self.percent = percent;
             self.outbox.progress(self.id, [done, all]);
         }
     }

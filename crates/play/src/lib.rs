@@ -1,6 +1,6 @@
 //! The live page, without sockets, threads, clocks and disk: a [`Visit`] takes the requests of a page and the time, and
 //! sends answers, events and frames to its [`Line`] (docs/play-protocol.md). A shell, such as a server, turns sockets
-//! and clocks into these calls, and does what takes long where it chooses ([`Shell`]).
+//! and clocks into these calls, and chooses where long work runs ([`Shell`]).
 
 mod bodies;
 mod class;
@@ -48,4 +48,3 @@ pub use outbox::Line;
 pub use shell::{CancelSource, Crew, PageFolder, Portion, Portions, Shell, WorkKind};
 pub use site::{PUBLIC_PAGE, PlaySite};
 pub use visit::Visit;
-pub use wording::ExportError;

@@ -17,16 +17,13 @@ use nbc_session::{Checked, Choice, CompileOptions, Session};
 
 /// The page without sources; empty if the program was built without it.
 const TEMPLATE: &str = include_str!(concat!(env!("OUT_DIR"), "/live.html"));
-/// Where the sources belong, and the title.
 const SOURCES: &str = "<script type=\"application/json\" id=\"sources\">";
 const TITLE: &str = "<title>nbc";
 
-/// The page without sources that live pages are made of, if the program was built with it.
 pub fn live_template() -> Option<&'static str> {
     Some(TEMPLATE).filter(|template| !template.is_empty())
 }
 
-/// What a live page begins with.
 #[derive(Serialize)]
 struct LiveSources<'a> {
     first: &'a str,
@@ -35,8 +32,7 @@ struct LiveSources<'a> {
     files: Vec<(&'a str, &'a str)>,
 }
 
-/// Makes a live page of a circuit of a program: `template` with all files that the circuit is made of. The warnings of
-/// its swarm come with it.
+/// `template` with all files that the circuit is made of. The warnings of its swarm come with it.
 pub fn live_page(
     template: &str,
     world: SharedWorld,
@@ -48,7 +44,7 @@ pub fn live_page(
     for file in checked.sources.iter() {
         over.insert(&file.name, file.text.clone());
     }
-    // Whatever is read to compile it is needed.
+    // The page needs every file that is read to compile the circuit.
     let noted = Arc::new(NotingWorld { over, read: Mutex::default() });
     let mut session = Session::new(noted.clone());
     let again = session.open(&checked.path)?;
@@ -62,7 +58,7 @@ pub fn live_page(
         swarm: choice.swarm.as_deref(),
         files: read.iter().map(|(path, text)| (within(folder, path), text.as_str())).collect(),
     };
-    // No text may end the element that it is in.
+    // No text may end its element.
     let data = to_string(&sources).expect("texts can be written as JSON").replace('<', "\\u003c");
     let html = template.replacen(TITLE, &format!("<title>{circuit} – nbc"), 1);
     let html = html.replacen(SOURCES, &format!("{SOURCES}{data}"), 1);
@@ -76,7 +72,6 @@ fn within<'a>(folder: &str, path: &'a str) -> &'a str {
     inside.and_then(|rest| rest.strip_prefix('/')).unwrap_or(path)
 }
 
-/// A world that notes the texts that are read.
 struct NotingWorld {
     over: OverlayWorld<SharedWorld>,
     read: Mutex<BTreeMap<String, String>>,

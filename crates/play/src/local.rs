@@ -1,4 +1,4 @@
-//! A site in memory, whose work is done by whoever has it: what a page needs where there are no threads and no disk.
+//! A site in memory, whose owner does its work: for a page without threads and without a disk.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::{Arc, Mutex};
@@ -22,29 +22,26 @@ pub struct MemoryFolder {
 #[derive(Default)]
 struct Files {
     world: MemoryWorld,
-    /// The sizes in bytes of the files and the hashes of their texts, of which stamps are made: a page that
-    /// returns later finds out from its stamp whether a file is still what it was.
+    /// The sizes in bytes of the files and the hashes of their texts, which make their stamps: a page that returns
+    /// later can tell from a stamp whether its file has changed.
     known: BTreeMap<String, (usize, u64)>,
-    /// The paths that were written since they were taken.
     written: Vec<String>,
 }
 
 impl MemoryFolder {
-    /// Adds a file, or replaces it.
     pub fn insert(&self, path: &str, text: &str) {
         let mut files = lock(&self.files);
         files.known.insert(path.to_owned(), (text.len(), Fnv::of(text)));
         files.world.insert(identity(path), text);
     }
 
-    /// Deletes a file.
     pub fn remove(&self, path: &str) {
         let mut files = lock(&self.files);
         files.known.remove(path);
         files.world.remove(&identity(path));
     }
 
-    /// A file that a page has written since it was asked last, and its text.
+    /// A file that a page has written since the last call, and its text.
     pub fn take_written(&self) -> Option<(String, String)> {
         let mut files = lock(&self.files);
         let path = files.written.pop()?;
@@ -82,7 +79,7 @@ impl PageFolder for MemoryFolder {
     }
 
     fn may_write(&self, path: &str) -> Result<(), FileError> {
-        // A name of a file is no way out: there is nothing but this folder.
+        // No name of a file leads out: there is nothing but this folder.
         let is_part = |part: &str| !matches!(part, "" | "." | "..");
         let is_folder = path.is_empty() || path.split('/').all(is_part);
         if is_folder { Ok(()) } else { Err(FileError::NotFound) }
@@ -99,7 +96,6 @@ impl PageFolder for MemoryFolder {
     }
 }
 
-/// The files of a folder as they are when they are read.
 struct MemoryFiles {
     folder: MemoryFolder,
     cancel: CancelSource,
@@ -131,7 +127,7 @@ impl SourceWorld for MemoryFiles {
     }
 }
 
-/// The path of a file from the root, which is the folder: what leads outside ends there.
+/// The path of a file from the root, which is the folder. A path cannot lead out of it.
 fn identity(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();
     for part in path.split('/') {
@@ -144,16 +140,12 @@ fn identity(path: &str) -> String {
     format!("/{}", parts.join("/"))
 }
 
-/// A message for a page.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PageMessage {
-    /// JSON.
     Text(String),
-    /// A frame of the swarm.
     Frame(Vec<u8>),
 }
 
-/// Messages for a page that wait to be taken.
 #[derive(Default)]
 pub struct LocalLine {
     waiting: Mutex<(VecDeque<String>, Option<Vec<u8>>)>,
@@ -188,26 +180,20 @@ impl Line for LocalLine {
     fn wake(&self) {}
 }
 
-/// A file for a page to fetch, and its address.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct KeptFile {
-    /// Where the page looks for it.
     pub address: String,
-    /// Its media type.
     pub media_type: &'static str,
-    /// Its contents.
     pub bytes: Vec<u8>,
 }
 
-/// Work that takes turns.
 #[derive(Default)]
 struct LocalWork {
     queue: VecDeque<Portions>,
-    /// How many at the end of the queue wait for others, one after the other.
+    /// How many pieces of work at the end of the queue wait for workers.
     waiting: usize,
 }
 
-/// Work and files that wait for each other in one thread.
 #[derive(Default)]
 pub struct LocalShell {
     work: Mutex<LocalWork>,
@@ -217,18 +203,17 @@ pub struct LocalShell {
 }
 
 impl LocalShell {
-    /// Whether there is work to do. Work that waits for the crew is not counted until something new has come.
+    /// Work that waits for workers does not count until [`LocalShell::wake`].
     pub fn has_work(&self) -> bool {
         let work = lock(&self.work);
         work.queue.len() > work.waiting
     }
 
-    /// Notes that there is something new for work that waits.
     pub fn wake(&self) {
         lock(&self.work).waiting = 0;
     }
 
-    /// Does a portion of one work. Several take turns.
+    /// Does a portion of one piece of work. Several take turns.
     pub fn advance(&self) {
         let next = lock(&self.work).queue.pop_front();
         let Some(mut portions) = next else { return };
@@ -240,12 +225,10 @@ impl LocalShell {
         }
     }
 
-    /// Sets the page that live pages are made of.
     pub fn set_template(&self, text: &str) {
         *lock(&self.template) = Some(text.into());
     }
 
-    /// Who else simulates.
     pub fn local_crew(&self) -> &LocalCrew {
         &self.crew
     }

@@ -1,5 +1,4 @@
-//! Others that do parts of simulations, as whoever has a [`LocalShell`](crate::LocalShell) sees them: parts to be taken
-//! to them, and what they bring back.
+//! Workers that simulate parts for a [`LocalShell`](crate::LocalShell).
 
 use std::collections::VecDeque;
 use std::sync::{Arc, Mutex, Weak};
@@ -8,7 +7,6 @@ use crate::crew_part::{CrewPart, CrewResult, GivenParts};
 use crate::lock::lock;
 use crate::shell::Crew;
 
-/// None at first.
 #[derive(Default)]
 pub struct LocalCrew {
     state: Mutex<State>,
@@ -17,16 +15,14 @@ pub struct LocalCrew {
 #[derive(Default)]
 struct State {
     size: usize,
-    /// The number of the next part.
     next: usize,
-    /// Parts that nobody has yet, with their numbers.
     waiting: VecDeque<(usize, CrewPart)>,
-    /// Parts whose results are awaited, with the number of the first and how many there are.
+    /// Parts with awaited results: the number of the first, and how many there are.
     given: Vec<(usize, usize, Weak<GivenParts>)>,
 }
 
 impl State {
-    /// Those whose results are awaited, among which a part is, and its place there.
+    /// Where the result of a part is awaited, and its place there.
     fn home(&self, number: usize) -> Option<(Arc<GivenParts>, usize)> {
         let around = |(first, count, _): &&(usize, usize, _)| (*first..first + count).contains(&number);
         let (first, _, given) = self.given.iter().find(around)?;
@@ -35,12 +31,12 @@ impl State {
 }
 
 impl LocalCrew {
-    /// Sets how many there are. What is not there when there are none will not come.
+    /// Sets the number of workers. With none, missing results will not come.
     pub fn set_size(&self, size: usize) {
         lock(&self.state).size = size;
     }
 
-    /// The next part that nobody has yet, with its number.
+    /// The next unassigned part, with its number.
     pub fn next_part(&self) -> Option<(usize, CrewPart)> {
         let state = &mut *lock(&self.state);
         loop {
@@ -51,7 +47,7 @@ impl LocalCrew {
         }
     }
 
-    /// Takes what became of a part, if anybody still waits for it.
+    /// Takes a finished part.
     pub fn receive(&self, number: usize, result: CrewResult) {
         let state = &mut *lock(&self.state);
         if let Some((given, place)) = state.home(number) {

@@ -5,16 +5,13 @@ use std::sync::Arc;
 use crate::message::{Nothing, PlayEvent, RequestResult, ServerMessage};
 use crate::refusal::Refused;
 
-/// The way to one page. Of the frames of its swarm only the newest is kept, so that a slow page does not slow down the
-/// swarm.
+/// The way to one page. Only the newest frame of its swarm is kept, so that a slow page does not slow down the swarm.
 pub trait Line: Send + Sync {
-    /// Sends a text after those before it. Nobody reads it when the page is gone.
     fn text(&self, text: String);
 
-    /// Sends a frame, instead of the one that still waits.
+    /// Sends a frame, replacing one that still waits.
     fn frame(&self, frame: Vec<u8>);
 
-    /// Whether no frame is waiting.
     fn has_room(&self) -> bool;
 
     /// Removes the frame that waits. Returns whether there was one.
@@ -24,7 +21,6 @@ pub trait Line: Send + Sync {
     fn wake(&self);
 }
 
-/// The end that takes messages. Clones share one line.
 #[derive(Clone)]
 pub(super) struct Outbox(Arc<dyn Line>);
 
@@ -33,7 +29,6 @@ impl Outbox {
         Self(line)
     }
 
-    /// The line itself.
     pub(super) fn line(&self) -> &dyn Line {
         &*self.0
     }
@@ -42,17 +37,14 @@ impl Outbox {
         self.0.text(serde_json::to_string(message).expect("messages are data"));
     }
 
-    /// Sends an event.
     pub(super) fn event(&self, event: PlayEvent) {
         self.tell(&ServerMessage::Event(event));
     }
 
-    /// Reports how much of the request `id` is done, and how much there is to do.
     pub(super) fn progress(&self, id: u64, progress: [u64; 2]) {
         self.tell(&ServerMessage::Progress { id, progress });
     }
 
-    /// Answers the request `id`.
     pub(super) fn answer(&self, id: u64, result: Result<RequestResult, Refused>) {
         self.tell(&match result {
             Ok(result) => ServerMessage::Result { id, result },
@@ -60,7 +52,6 @@ impl Outbox {
         });
     }
 
-    /// Answers the request `id`, which has no result.
     pub(super) fn done(&self, id: u64, done: Result<(), Refused>) {
         match done {
             Ok(()) => self.tell(&ServerMessage::Done { id, ok: Nothing {} }),

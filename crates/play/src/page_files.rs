@@ -32,13 +32,12 @@ impl PageFiles {
         Self { folder, known: BTreeMap::new() }
     }
 
-    /// The programs below the folder, and the circuit files that programs can use.
     pub(super) fn list(&self) -> Vec<FileEntry> {
         let files = self.folder.files(&|path| path.ends_with(".nb") || is_circuit(path));
         files.into_iter().map(|(path, size)| FileEntry { path, size }).collect()
     }
 
-    /// The text of a file. From now on, changes of the file are reported.
+    /// From now on, changes of the file are reported.
     pub(super) fn read(&mut self, path: String) -> Result<FileText, Refused> {
         let stamp = self.folder.stamp(&path);
         let text =
@@ -47,7 +46,7 @@ impl PageFiles {
         Ok(FileText { path, text, stamp })
     }
 
-    /// Saves a program, if nobody else has changed it since the page last knew it.
+    /// Saves a program, unless somebody else has changed it since the page last knew it.
     pub(super) fn save(&mut self, path: String, text: &str, known: Option<&str>) -> Result<FileStamp, Refused> {
         if !path.ends_with(".nb") {
             return Err(Refused::Ending { path, expected: ".nb" });
@@ -64,30 +63,25 @@ impl PageFiles {
         Ok(FileStamp { stamp })
     }
 
-    /// Whether there is a file of that path.
     pub(super) fn has(&self, path: &str) -> bool {
         self.folder.stamp(path).is_some()
     }
 
-    /// Writes a file below the folder.
     pub(super) fn write(&self, path: &str, text: &str) -> Result<(), Refused> {
         self.may_write(path)?;
         let written = self.folder.write(path, text);
         written.map_err(|reason| Refused::Unwritable { path: path.to_owned(), reason })
     }
 
-    /// Makes a folder, unless it is there.
     pub(super) fn make_folder(&self, path: &str) -> Result<(), Refused> {
         let made = self.folder.make_folder(path);
         made.map_err(|reason| Refused::Unwritable { path: path.to_owned(), reason })
     }
 
-    /// Whether a file or a folder can be made.
     pub(super) fn may_write(&self, path: &str) -> Result<(), Refused> {
         self.folder.may_write(path).map_err(|error| Refused::Unreadable { path: path.to_owned(), error })
     }
 
-    /// The files that have changed since the page read them, as events.
     pub(super) fn changes(&mut self) -> Vec<(String, PlayEvent)> {
         let stamps: Vec<_> = self.known.keys().map(|path| (path.clone(), self.folder.stamp(path))).collect();
         let mut changed = Vec::new();
@@ -102,12 +96,12 @@ impl PageFiles {
     }
 }
 
-/// Whether a page reads that file as a program that uses it.
+/// Whether the page makes a program of that file.
 pub(super) fn is_circuit(path: &str) -> bool {
     CircuitSource::of_path(path).is_some()
 }
 
-/// A program beside a circuit file of another tool, which makes a swarm of each of its circuits. It has no file yet.
+/// A program beside a circuit file of another tool, with a swarm for each of its circuits. It has no file yet.
 pub(super) fn program_around(files: &dyn PageFolder, session: &mut Session, path: &str) -> Result<FileText, Refused> {
     let (folder, name) = path.rsplit_once('/').map_or(("", path), |(folder, name)| (folder, name));
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
@@ -125,7 +119,6 @@ pub(super) fn program_around(files: &dyn PageFolder, session: &mut Session, path
     Ok(FileText { path: free, text: text + &swarms.collect::<String>(), stamp: None })
 }
 
-/// The examples: their names and descriptions.
 pub(super) fn examples() -> Vec<ExampleEntry> {
     let mut files: Vec<_> =
         EXAMPLES.files().filter(|file| file.path().extension().is_some_and(|e| e == "nb")).collect();
@@ -141,7 +134,6 @@ pub(super) fn examples() -> Vec<ExampleEntry> {
     files.into_iter().map(one).collect()
 }
 
-/// An example, in the form of [`PageFiles::read`].
 pub(super) fn example(name: &str) -> Result<FileText, Refused> {
     let text = EXAMPLES.get_file(name).and_then(File::contents_utf8);
     let text = text.ok_or_else(|| Refused::NoExample(name.to_owned()))?;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
-use crate::message::finding::findings;
 use crate::message::{
     CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
-    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WrittenProgram, listed, looks,
+    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WaveRegister, WrittenProgram, findings,
+    listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};
@@ -27,8 +27,6 @@ use nbc_session::report::{self, Looks};
 use nbc_session::{Checked, Choice, ClaimReport, CompileOptions, Compiled, Session, TestOptions};
 use nbc_swarm::{Assembly, Level, LiveSwarm, Recorded, StimulusSource, SwarmTrace};
 
-/// The description of a checked program: its diagnostics, its circuits, with those of other files that its swarms are
-/// of, and its tests.
 pub(super) fn program(checked: &Checked) -> ProgramReport {
     let own = checked.program.circuits.iter().filter_map(|circuit| {
         let swarms = checked.program.swarms.iter().filter(|swarm| swarm.circuit.circuit == circuit.name);
@@ -88,7 +86,6 @@ fn row(test: &CircuitTest, row: &TestRow) -> TestRowEntry {
     }
 }
 
-/// The circuit of that name, and the options to compile it with.
 pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(Instance, CompileOptions), Refused> {
     let circuit = checked.circuit(choice)?;
     let first = || checked.swarms(&circuit).first().map(|swarm| swarm.name.clone());
@@ -97,7 +94,7 @@ pub(super) fn chosen(checked: &Checked, choice: &Choice, job: &Job) -> Result<(I
     Ok((circuit, options))
 }
 
-/// A compiled circuit as a swarm that is run through the cycles before it is shown.
+/// A compiled circuit as a swarm that runs through some cycles before it is shown.
 pub(super) fn loading(
     (session, checked): (&Session, &Checked),
     compiled: Compiled,
@@ -117,7 +114,6 @@ pub(super) fn loading(
     Ok(LoadingSwarm::new(running, script.before, (job.id, answer)))
 }
 
-/// What a page is told about a swarm.
 pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swarm: &LiveSwarm) -> ShownSwarm {
     let (assembly, trace, netlist) = (&compiled.assembly, swarm.trace(), &compiled.mapping.netlist);
     // A swarm has its robots in the order of the cells.
@@ -151,7 +147,7 @@ pub(super) fn describe(number: u32, checked: &Checked, compiled: &Compiled, swar
         frames: FRAMES,
         waves: compiled.mapping.waves.as_ref().map(|machine| {
             let registers = state::wave_registers(&compiled.mapping, machine);
-            ShownWaves { registers, ..waves(machine, &trace.recording.robots) }
+            waves(machine, &trace.recording.robots, registers)
         }),
         script: None,
     }
@@ -163,7 +159,7 @@ fn columns(ground: &GroundProfile) -> Vec<Vec<u8>> {
     (0..ground.columns().len()).map(|column| ends(column).collect()).collect()
 }
 
-fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
+fn waves(machine: &WaveMachine, robots: &[Recorded], registers: Vec<WaveRegister>) -> ShownWaves {
     // A swarm has its robots in the order of the cells.
     let phases: Vec<i64> = machine.netlist.cells().map(|(cell, _)| machine.phase[&cell]).collect();
     ShownWaves {
@@ -173,7 +169,7 @@ fn waves(machine: &WaveMachine, robots: &[Recorded]) -> ShownWaves {
         phases: robots.iter().map(|recorded| phases[recorded.robot]).collect(),
         begins: machine.beginning() * i64::from(machine.beat),
         clock: machine.clock.map(|(bit, _)| bit),
-        registers: Vec::new(),
+        registers,
     }
 }
 
@@ -209,7 +205,6 @@ fn robot(
     }
 }
 
-/// The work of running a test of the program that `open` opens.
 pub(super) fn testing(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,
@@ -235,7 +230,6 @@ pub(super) fn testing(
     })
 }
 
-/// The work of deciding a claim of the program that `open` opens.
 pub(super) fn proving(
     session: Session,
     open: impl FnOnce(&Job) -> Result<Arc<Checked>, Refused> + Send + 'static,

@@ -4,78 +4,45 @@ use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
-use crate::message::finding::{Finding, findings};
-use crate::wording::ExportError;
+use crate::message::{Finding, findings};
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words, visible};
 use nbc_base::model::Fault;
 use nbc_base::source::FileError;
 
-/// The reason for which a request is refused.
 #[derive(Clone, Debug)]
 pub(super) enum Refused {
-    /// A message that is no request.
     Message(String),
-    /// There is no swarm yet.
     NoSwarm,
-    /// The inputs have another number of bits.
     Bits { expected: usize },
-    /// A cycle that the log does not have.
     Cycle { first: u32, last: u32 },
-    /// A test or a row that the program does not have.
     NoTest,
-    /// A claim that the program does not have.
     NoClaim,
-    /// A circuit with more robots than one page may simulate.
     TooManyRobots { robots: usize, most: usize },
-    /// A request whose number a running one has.
     NumberInUse { id: u64 },
-    /// A robot file that is there already, and whether the page may replace it.
     RobotExists { path: String, free: String, is_replaceable: bool },
-    /// Work of this page that already runs.
     Busy { most: usize },
-    /// The work was stopped by the page.
     Cancelled,
-    /// The work took too long.
     TimedOut { seconds: u64 },
-    /// A file that cannot be read.
     Unreadable { path: String, error: FileError },
-    /// A file that cannot be written.
     Unwritable { path: String, reason: String },
-    /// A file that was changed by someone else.
     Changed { path: String },
-    /// A path that does not end as a program's or a robot's must.
     Ending { path: String, expected: &'static str },
-    /// A path with characters that cannot be seen.
     HiddenInPath { path: String },
-    /// A file in the folder of a class, which this learner shares with others.
     NotOwn { path: String, own: String },
-    /// A file in the folder of a class, which the page has not joined.
     NotJoined,
-    /// An example of another name.
     NoExample(String),
-    /// A name that cannot be that of a robot.
     Name(String),
-    /// A body that cannot be simulated.
     Body(String),
-    /// There is no class, or the page has not joined it.
     NoClass,
-    /// The class is full.
     ClassFull { most: usize },
-    /// A name that cannot be that of a learner.
     ClassName { most: usize },
-    /// A name that another learner has.
     ClassNameTaken { name: String },
-    /// A fault of the program.
     Internal,
-    /// A circuit that cannot be exported.
-    Export(ExportError),
-    /// A live page, where nothing is there to make it of.
+    Export(Box<Diagnostic>),
     NoLivePages,
-    /// Errors in the source.
     Source(Diagnostics),
 }
 
-/// The answer to a refused request.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct Refusal {
@@ -89,12 +56,10 @@ pub(super) struct Refusal {
 }
 
 impl Refused {
-    /// A file that cannot be written.
     pub(super) fn unwritable(path: &str, error: &std::io::Error) -> Self {
         Self::Unwritable { path: path.to_owned(), reason: io_words(error) }
     }
 
-    /// A body whose simulation fails.
     pub(super) fn fault(fault: Fault) -> Self {
         Self::Body(format!("its simulation {} in env step {}", fault.kind, fault.env_step))
     }
@@ -125,7 +90,7 @@ impl Refused {
             Self::NoExample(name) => format!("there is no example `{name}`"),
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
-            Self::Export(error) => Diagnostic::from(error.clone()).message,
+            Self::Export(found) => found.message.clone(),
             Self::NoLivePages => "this nbc has nothing to make live pages of".to_owned(),
             Self::NoClass => "this page is in no class".to_owned(),
             Self::ClassFull { most } => format!("the class has {most} members, and no room for another one"),
@@ -150,7 +115,7 @@ impl Refused {
             Self::ClassNameTaken { .. } => Some("choose another name".to_owned()),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
-            Self::Export(error) => Diagnostic::from(error.clone()).help,
+            Self::Export(found) => found.help.clone(),
             Self::NoLivePages => Some("take a recorded page".to_owned()),
             Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
             _ => None,
@@ -180,12 +145,6 @@ impl From<Refused> for Refusal {
         let (message, help, code) = (refused.message(), refused.help(), refused.code());
         let instead = if let Refused::NotOwn { own, .. } = refused { Some(own) } else { None };
         Self { message, help, code, instead, diagnostics }
-    }
-}
-
-impl From<ExportError> for Refused {
-    fn from(error: ExportError) -> Self {
-        Self::Export(error)
     }
 }
 

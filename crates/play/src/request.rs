@@ -1,6 +1,6 @@
 //! The requests of a page; docs/play-protocol.md describes them.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 #[cfg(test)]
 use ts_rs::TS;
 
@@ -8,7 +8,6 @@ use crate::message::ClassPlace;
 use crate::runner::Change;
 use nbc_swarm::Level;
 
-/// A request with its number.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct Request {
@@ -17,7 +16,6 @@ pub(super) struct Request {
     pub(super) verb: Verb,
 }
 
-/// What is requested.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "do", rename_all = "lowercase")]
@@ -102,12 +100,12 @@ pub(super) enum Verb {
         path: String,
         circuit: String,
         swarm: Option<String>,
-        /// Whether the page has the whole program in it, or else a recording.
+        /// Whether the page gets the whole program, or else a recording.
         live: bool,
     },
     Join {
         name: String,
-        // That of the name, if this browser has had it before.
+        // The key of the name, if this browser has had it before.
         #[cfg_attr(test, ts(optional))]
         key: Option<String>,
     },
@@ -130,8 +128,7 @@ pub(super) enum ChosenTest {
     Shown(String),
 }
 
-/// A level of a test.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum TestLevel {
@@ -139,7 +136,6 @@ pub(super) enum TestLevel {
     Physics,
 }
 
-/// A body to keep as a robot.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct KeepRequest {
@@ -147,12 +143,10 @@ pub(super) struct KeepRequest {
     pub(super) path: Option<String>,
     pub(super) name: String,
     pub(super) body: Vec<String>,
-    /// Whether a robot of that name is replaced.
     #[cfg_attr(test, ts(optional))]
     pub(super) replace: Option<bool>,
 }
 
-/// A search for bodies.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct EvolveRequest {
@@ -165,7 +159,6 @@ pub(super) struct EvolveRequest {
     pub(super) seed: u64,
 }
 
-/// Files that a page can take away.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
@@ -178,15 +171,6 @@ pub(super) enum TakeKind {
     Csv,
 }
 
-impl From<Level> for TestLevel {
-    fn from(level: Level) -> Self {
-        match level {
-            Level::Logic => Self::Logic,
-            Level::Physics => Self::Physics,
-        }
-    }
-}
-
 impl From<TestLevel> for Level {
     fn from(level: TestLevel) -> Self {
         match level {
@@ -197,7 +181,6 @@ impl From<TestLevel> for Level {
 }
 
 impl Verb {
-    /// The change of the swarm that is requested, if it is one; or the request itself.
     pub(super) fn change(self) -> Result<Change, Self> {
         Ok(match self {
             Self::Inputs { bits } => Change::Inputs(bits.bytes().map(|digit| digit == b'1').collect()),
@@ -210,22 +193,5 @@ impl Verb {
             Self::View { robots } => Change::View { robots },
             other => return Err(other),
         })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn requests_are_read_and_changes_of_the_swarm_told_apart() {
-        let read = |text: &str| serde_json::from_str::<Request>(text);
-        let step = read(r#"{ "id": 3, "do": "step", "cycles": 2 }"#).unwrap();
-        assert_eq!((step.id, step.verb.change()), (3, Ok(Change::Step { cycles: 2 })));
-        let inputs = read(r#"{ "id": 4, "do": "inputs", "bits": "01" }"#).unwrap();
-        assert_eq!(inputs.verb.change(), Ok(Change::Inputs(vec![false, true])));
-        let compile = read(r#"{ "id": 5, "do": "compile", "path": "a.nb", "circuit": "a", "swarm": null }"#).unwrap();
-        assert!(compile.verb.change().is_err());
-        assert!(read(r#"{ "id": 6, "do": "fly" }"#).is_err() && read("[]").is_err());
     }
 }

@@ -19,32 +19,27 @@ use nbc_swarm::{LiveSwarm, RobotFault, RobotTrace, SwarmSnapshot};
 
 /// The least time between two frames: screens show no more.
 const FRAME_TIME: Duration = Duration::from_millis(15);
-/// A swarm that is late by more than this does not catch up.
+/// A swarm that is later than this does not catch up.
 const LATE: Duration = Duration::from_millis(250);
-/// Voxels of ground that are left when a swarm is stopped.
+/// A swarm stops when this many voxels of ground are left.
 const GROUND_LEFT: f64 = 64.0;
-/// The most cycles whose times are averaged for the pace.
 const PACE_CYCLES: usize = 64;
-/// Cycles of a portion of work.
 const PORTION: usize = 8;
 
-/// A swarm that is run through the first cycles of its script before it is shown.
+/// A swarm that runs through the first cycles of its script before it is shown.
 pub(super) struct LoadingSwarm {
     running: RunningSwarm,
     cycles: u32,
-    /// Why it cannot go on.
     fault: Option<String>,
     request: u64,
     answer: RequestResult,
 }
 
 impl LoadingSwarm {
-    /// A swarm at its start, the cycles to simulate, and the request to answer then.
     pub(super) fn new(running: RunningSwarm, cycles: usize, (request, answer): (u64, RequestResult)) -> Self {
         Self { running, cycles: cycles as u32, fault: None, request, answer }
     }
 
-    /// Simulates some cycles. The page learns of the end when the swarm is shown.
     pub(super) fn advance(&mut self, job: &mut Job) -> Result<PortionEnd, Refused> {
         for _ in 0..PORTION {
             job.check()?;
@@ -61,7 +56,6 @@ impl LoadingSwarm {
     }
 }
 
-/// A change of a swarm or of its pace.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Change {
     Inputs(Vec<bool>),
@@ -74,67 +68,56 @@ pub(super) enum Change {
     View { robots: Vec<usize> },
 }
 
-/// What a page sees of a swarm, if it has one.
 pub(super) struct Runner {
     outbox: Outbox,
     shown: Option<RunningSwarm>,
 }
 
-/// The speed of a running swarm.
 struct Pace {
-    /// Cycles a second; none for as many as can be.
+    /// Cycles a second; none for as many as possible.
     speed: Option<f64>,
     /// Cycles after which it pauses.
     left: Option<u32>,
-    /// The time of the next cycle.
     next: Duration,
 }
 
-/// A swarm with its history.
 pub(super) struct RunningSwarm {
     number: u32,
     compiled: Compiled,
     swarm: LiveSwarm,
     history: SwarmHistory,
     start: SwarmSnapshot,
-    /// The input bits of the next cycle.
     inputs: Vec<bool>,
-    /// The input bits of the first cycles, in their place, until somebody sets inputs.
+    /// The input bits of the first cycles, until somebody sets inputs.
     script: Vec<Vec<bool>>,
     /// An input bit that changes by itself, the cycles from change to change, and the cycle of the last one.
     clock: Option<(usize, u32, u32)>,
     pace: Option<Pace>,
-    /// Who simulates the next cycle.
     cycles: SharedCycles,
     shell: Arc<dyn Shell>,
-    /// When the last cycles were done.
     times: VecDeque<Duration>,
     starts: Vec<[f64; 2]>,
     poses: Vec<Poses>,
     view: Vec<usize>,
-    /// The last cycle that the page knows.
     sent: u32,
-    /// The last one that it knew before the newest frame.
+    /// The last cycle that the page knew before the newest frame.
     sent_before: u32,
-    /// Whether the page does not know the current state.
     is_new: bool,
     last_frame: Option<Duration>,
-    /// The width of its world, in voxels.
+    /// In voxels.
     world: f64,
 }
 
 impl Runner {
-    /// No swarm.
     pub(super) fn new(outbox: Outbox) -> Self {
         Self { outbox, shown: None }
     }
 
-    /// The time until there is something to do; `None` if there is nothing until a request, or a part of a cycle.
+    /// The time until there is something to do; `None` until a request or a part of a cycle comes.
     pub(super) fn due(&self, now: Duration) -> Option<Duration> {
         self.shown.as_ref().and_then(|shown| shown.due(now))
     }
 
-    /// Simulates the next cycle if it is time for it, and sends a frame if there is something new.
     pub(super) fn advance(&mut self, now: Duration) {
         let Some(shown) = &mut self.shown else { return };
         if shown.is_due(now)
@@ -145,9 +128,8 @@ impl Runner {
         shown.show(&self.outbox, now);
     }
 
-    /// Changes the swarm or its pace, and answers the request.
     pub(super) fn change(&mut self, id: u64, change: Change, now: Duration) {
-        // A frame of before would come after the answer, and the page would take it for what follows.
+        // An older frame would come after the answer, and the page would take it for a newer one.
         if let Some(shown) = self.shown.as_mut().filter(|_| self.outbox.line().remove_frame()) {
             shown.take_back();
         }
@@ -155,12 +137,10 @@ impl Runner {
         self.outbox.done(id, done);
     }
 
-    /// The last cycles up to now, to be simulated again.
     pub(super) fn excerpt(&self, cycles: u32) -> Result<Excerpt, Refused> {
         self.shown.as_ref().map(|shown| shown.excerpt(cycles)).ok_or(Refused::NoSwarm)
     }
 
-    /// Shows a swarm that has been run through its inputs, and answers its request.
     pub(super) fn show(&mut self, loaded: LoadingSwarm) {
         // A frame of the swarm before would come after the answer.
         self.outbox.line().remove_frame();
@@ -173,7 +153,6 @@ impl Runner {
 }
 
 impl RunningSwarm {
-    /// A swarm at its start, with the input bits of its first cycles.
     pub(super) fn new(
         number: u32,
         compiled: Compiled,
@@ -223,7 +202,7 @@ impl RunningSwarm {
         self.pace.as_ref().is_some_and(|pace| pace.next <= now)
     }
 
-    /// Simulates the next cycle, and sets the time of the one after it, unless others still simulate. Returns the
+    /// Simulates the next cycle, and sets the time of the one after it, unless workers still simulate. Returns the
     /// reason if the swarm cannot continue.
     fn go_on(&mut self, now: Duration) -> Option<String> {
         let Poll::Ready(fault) = self.cycle() else { return None };
@@ -247,8 +226,7 @@ impl RunningSwarm {
         None
     }
 
-    /// Simulates a cycle with the inputs, or a part of it. Returns the reason if a robot failed, so that there is no
-    /// such cycle.
+    /// Simulates a cycle, or a part of it. Returns the reason if a robot failed, so that there is no such cycle.
     fn cycle(&mut self) -> Poll<Option<String>> {
         if !self.cycles.waits() {
             self.set_next_inputs();
@@ -257,7 +235,7 @@ impl RunningSwarm {
         step.map(|step| self.note(step.err()))
     }
 
-    /// Sets the inputs of the next cycle that nobody sets: those of the script, and the one that changes by itself.
+    /// Sets the inputs that nobody sets: those of the script, and the one that changes by itself.
     fn set_next_inputs(&mut self) {
         let now = self.now();
         if let Some(bits) = self.script.get(now as usize) {
@@ -271,7 +249,7 @@ impl RunningSwarm {
         }
     }
 
-    /// Notes a cycle that was simulated, or returns the reason why there is no such cycle.
+    /// Notes a simulated cycle, or returns the reason why there is no such cycle.
     fn note(&mut self, fault: Option<RobotFault>) -> Option<String> {
         self.is_new = true;
         if let Some(fault) = fault {
@@ -295,7 +273,7 @@ impl RunningSwarm {
     }
 
     fn change(&mut self, change: Change, now: Duration) -> Result<(), Refused> {
-        // A cycle that others still simulate has not been seen: it is simulated again, with what is changed.
+        // Nobody has seen a cycle that workers still simulate: it is simulated again, with the change.
         self.cycles = SharedCycles::new(self.shell.clone());
         match change {
             Change::Inputs(bits) if bits.len() != self.inputs.len() => {
@@ -330,7 +308,7 @@ impl RunningSwarm {
         Ok(())
     }
 
-    /// Sets the inputs, but for one that changes by itself.
+    /// Sets the inputs, except one that changes by itself.
     fn set_inputs(&mut self, bits: Vec<bool>) {
         let kept = self.clock.map(|(bit, ..)| (bit, self.inputs[bit]));
         self.inputs = bits;
@@ -351,7 +329,6 @@ impl RunningSwarm {
         self.is_new = true;
     }
 
-    /// Sets the swarm to its start.
     fn reset(&mut self) {
         self.set_paused();
         self.swarm.restore(&self.start);
@@ -361,7 +338,6 @@ impl RunningSwarm {
         self.sent = 0;
     }
 
-    /// Shows the swarm as it was after a cycle.
     fn seek(&mut self, cycle: u32) -> Result<(), Refused> {
         let (first, last) = (self.history.earliest(), self.history.last());
         if !(first..=last).contains(&cycle) {
@@ -401,7 +377,6 @@ impl RunningSwarm {
         self.is_new = true;
     }
 
-    /// Sends a frame if there is something new and the page can receive it.
     fn show(&mut self, outbox: &Outbox, now: Duration) {
         let too_soon = self.last_frame.is_some_and(|last| now.saturating_sub(last) < FRAME_TIME);
         if !self.is_new || too_soon || !outbox.line().has_room() {
@@ -427,7 +402,6 @@ impl RunningSwarm {
         self.last_frame = Some(now);
     }
 
-    /// Cycles a second over the last cycles.
     fn measured(&self) -> f32 {
         let (Some(first), Some(last), true) = (self.times.front(), self.times.back(), self.pace.is_some()) else {
             return 0.0;

@@ -9,19 +9,16 @@ use nbc_swarm::Level;
 /// The most rows that a swarm is given beyond those before it is shown.
 const MOST_ROWS: usize = 4096;
 
-/// The inputs of a live swarm's first cycles.
 #[derive(Default)]
 pub(super) struct GivenInputs {
-    /// The input bits of each cycle.
     pub(super) inputs: Vec<Vec<bool>>,
     /// The cycles that are simulated before the swarm is shown.
     pub(super) before: usize,
-    /// What the page is told of it.
     pub(super) shown: Option<ShownScript>,
 }
 
-/// What a page asks for: a test by its index, or the last one, in a swarm and a world, up to the end of a row. Rows
-/// count from 1, and 0 is the start.
+/// A test by its index, or the last one, in a swarm and a world, up to the end of a row. Rows count from 1, and 0 is
+/// the start.
 pub(super) struct TestMoment<'a> {
     pub(super) test: Option<usize>,
     pub(super) swarm: Option<&'a str>,
@@ -29,7 +26,6 @@ pub(super) struct TestMoment<'a> {
     pub(super) row: usize,
 }
 
-/// The circuit of a test, with the test as its script.
 pub(super) fn begin(
     session: &Session,
     checked: &Checked,
@@ -61,7 +57,7 @@ pub(super) fn begin(
     Ok((driven.compiled, GivenInputs { inputs: driven.inputs, before, shown: Some(shown) }))
 }
 
-/// An environment whose rows begin after so many cycles.
+/// `begins` are the cycles before each row.
 fn shown(run: EnvironmentRun, begins: &[usize]) -> ShownEnvironment {
     let rows = || run.rows.iter().zip(begins.iter().copied());
     let printed = |(row, begin): (&EnvironmentRow, usize)| Some((begin, row.printed?.to_string()));

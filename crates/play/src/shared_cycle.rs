@@ -1,4 +1,4 @@
-//! A cycle of a swarm of which others simulate parts.
+//! A cycle of a swarm of which workers simulate parts.
 
 use core::task::Poll;
 use std::ops::Range;
@@ -10,10 +10,9 @@ use nbc_session::CycleRunner;
 use nbc_sim::Simulator;
 use nbc_swarm::{Assembly, BegunCycle, LiveSwarm, PartStates, RobotFault};
 
-/// The fewest robots that are worth the way to others and back.
+/// The fewest robots that are worth sending to workers.
 const LEAST_ROBOTS: usize = 4;
 
-/// A cycle of which one part has been simulated here.
 pub(super) struct SharedCycle {
     begun: BegunCycle,
     own: PartStates,
@@ -21,7 +20,6 @@ pub(super) struct SharedCycle {
 }
 
 impl SharedCycle {
-    /// Whether a crew can take a part of so many robots.
     pub(super) fn is_worth_it(crew: &dyn Crew, robots: usize) -> bool {
         parts(crew.size(), robots) > 1
     }
@@ -42,8 +40,8 @@ impl SharedCycle {
         Ok(Self { own: own.simulate(&Simulator::default()), begun, others })
     }
 
-    /// Ends the cycle with what the others have simulated; gives it back if they have not yet. The error is that of a
-    /// robot that has failed in it.
+    /// Ends the cycle with the results of the workers; gives it back if some are missing. The error is that of a robot
+    /// that has failed in it.
     pub(super) fn end(self, swarm: &mut LiveSwarm) -> Result<Result<(), RobotFault>, Self> {
         let Some(others) = self.others.take() else { return Err(self) };
         let mut parts = vec![self.own];
@@ -55,17 +53,14 @@ impl SharedCycle {
 /// Simulates the cycles of a swarm, together with a crew if there is one and it is worth it.
 pub(super) struct SharedCycles {
     shell: Arc<dyn Shell>,
-    /// The present cycle, if others still simulate parts of it.
     present: Option<SharedCycle>,
 }
 
 impl SharedCycles {
-    /// No cycle yet.
     pub(super) fn new(shell: Arc<dyn Shell>) -> Self {
         Self { shell, present: None }
     }
 
-    /// Whether others still simulate parts of a cycle.
     pub(super) fn waits(&self) -> bool {
         self.present.is_some()
     }
@@ -99,7 +94,6 @@ impl CycleRunner for SharedCycles {
     }
 }
 
-/// The number of parts for a crew of this size and oneself.
 fn parts(crew: usize, robots: usize) -> usize {
     (robots / LEAST_ROBOTS).clamp(1, crew + 1)
 }

@@ -10,57 +10,48 @@ use nbc_circuit::CancelFlag;
 /// The kinds of long work. A shell can give each its own place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WorkKind {
-    /// A check of a text, which the page asks for while its user types.
+    /// A check of a text while its user types.
     Check,
-    /// Work on a program, its circuits and its swarms.
     Program,
     /// The measurement of a body that the user has just painted.
     Probe,
-    /// A search, or a measurement that takes as long.
     Search,
 }
 
-/// What there is after a portion of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Portion {
-    /// It is done.
     Done,
-    /// There is more to do.
     More,
-    /// There will be when the [`Crew`] brings something. It does no harm to call it before.
+    /// There will be more to do when the [`Crew`] brings something. Calling it earlier does no harm.
     Waits,
 }
 
-/// Does a portion of the work.
 pub type Portions = Box<dyn FnMut() -> Portion + Send>;
 
-/// What is around the pages of a site.
 pub trait Shell: Send + Sync {
-    /// Does work that may take long, by calling the portions until one is the last. Whoever calls this does not wait
-    /// for it.
+    /// Starts work that may take long, and returns at once. The shell calls the portions until one is the last.
     fn start(&self, kind: WorkKind, portions: Portions);
 
     /// Keeps a file that a page will fetch once. Returns its address, relative to the page.
     fn keep(&self, name: &str, media_type: &'static str, bytes: Vec<u8>) -> String;
 
-    /// The page without sources that live pages are made of, if there is one.
+    /// The page without sources that live pages are made of.
     fn template(&self) -> Option<Arc<str>>;
 
-    /// The lessons of the page, as their files are now.
     fn lessons(&self) -> Vec<LessonTexts>;
 
-    /// Who does parts of simulations while the page does another, if there is anybody.
+    /// The workers that simulate parts while the page does another.
     fn crew(&self) -> Option<&dyn Crew> {
         None
     }
 }
 
-/// Others that do parts of simulations.
+/// Workers that simulate parts for a page.
 pub trait Crew: Send + Sync {
-    /// How many parts they do at the same time. When there are none, what was given to them will not come.
+    /// How many parts they simulate at the same time. With none, missing results will not come.
     fn size(&self) -> usize;
 
-    /// Gives them parts. They are dropped with the handle.
+    /// Hands parts to the workers. Dropping the handle drops them.
     fn give(&self, parts: Vec<CrewPart>) -> Arc<GivenParts>;
 }
 
@@ -69,7 +60,6 @@ pub type CancelSource = Arc<dyn Fn() -> CancelFlag + Send + Sync>;
 
 /// The files that a page may read and write. Paths are relative to the folder.
 pub trait PageFolder: Send + Sync {
-    /// The name of the folder, for people.
     fn name(&self) -> String;
 
     /// The URI of the folder, for the language server.
@@ -90,7 +80,6 @@ pub trait PageFolder: Send + Sync {
     /// Whether a file or folder may be made or replaced at `path`.
     fn may_write(&self, path: &str) -> Result<(), FileError>;
 
-    /// Writes a file.
     fn write(&self, path: &str, text: &str) -> Result<(), String>;
 
     /// Makes a folder, unless it is there.

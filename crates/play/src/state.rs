@@ -9,7 +9,7 @@ use nbc_circuit::{BlockId, NetId, Netlist};
 use nbc_session::report::SwarmTiming;
 use nbc_session::{Checked, Mapping};
 
-/// The clocks of a swarm. What is reached by the slowest path has settled before the clock has changed twice.
+/// A change has passed the slowest path before the clock has changed twice.
 pub(super) fn clocks(timing: &SwarmTiming, inputs: &[Column]) -> Vec<ShownClock> {
     let bits: Vec<String> = inputs.iter().flat_map(Column::bits).collect();
     let clocks = timing.phases.clocks.iter().filter_map(|clock| {
@@ -21,14 +21,14 @@ pub(super) fn clocks(timing: &SwarmTiming, inputs: &[Column]) -> Vec<ShownClock>
 }
 
 /// The registers of a swarm's netlist, whose cells are its robots in order, with the names of their nets in the source.
-/// Those whose bits were merged or left out are not among them.
+/// Registers whose bits were merged or left out are missing.
 pub(super) fn registers(netlist: &Netlist) -> Vec<ShownRegister> {
     let bits = netlist.cells().enumerate().map(|(robot, (id, _))| (id, robot));
     named(netlist, bits).into_iter().map(|(name, robots)| ShownRegister { name, robots }).collect()
 }
 
 /// The registers of a wave machine with the names of their nets in the source. Its cells are the swarm's robots in
-/// order. Those of which a bit is on an input that no robot reads are not among them.
+/// order. Registers with a bit on an input that no robot reads are missing.
 pub(super) fn wave_registers(mapping: &Mapping, machine: &WaveMachine) -> Vec<WaveRegister> {
     let source = &mapping.source;
     let shows: BTreeMap<String, NetId> = source.cells().map(|(id, _)| (source.net_name(id), id)).collect();
@@ -51,7 +51,7 @@ pub(super) fn wave_registers(mapping: &Mapping, machine: &WaveMachine) -> Vec<Wa
     named(source, bits).into_iter().map(|(name, bits)| WaveRegister { name, bits }).collect()
 }
 
-/// Bits of registers, by their cells, as registers with names; the most significant bit comes first.
+/// Bits by their cells as registers with names; the most significant bit comes first.
 fn named<T>(netlist: &Netlist, bits: impl Iterator<Item = (NetId, T)>) -> Vec<(String, Vec<T>)> {
     let blocks = netlist.blocks();
     let mut found: BTreeMap<(BlockId, &str), BTreeMap<usize, T>> = BTreeMap::new();
@@ -86,7 +86,7 @@ fn place(netlist: &Netlist, id: NetId) -> Option<(&str, usize)> {
     }
 }
 
-/// The first table of a circuit over one of its outputs: the program of a machine, or the transitions of one.
+/// The first table of a circuit over one of its outputs: the program of a machine, or its transitions.
 pub(super) fn listing(checked: &Checked, circuit: &Circuit, outputs: &[Column]) -> Option<ShownListing> {
     let over = |kind: &ExpressionKind| {
         let ExpressionKind::Table { inputs, table, .. } = kind else { return None };
@@ -125,7 +125,6 @@ mod tests {
 
     const COMPUTER: &str = include_str!("../circuits/computer.nb");
 
-    /// The checked program, and its circuit of that name as a swarm.
     fn compiled(text: &str, circuit: &str) -> (Arc<Checked>, Compiled) {
         let mut session = Session::new(MemoryWorld::default());
         session.update("a.nb", 1, text);

@@ -13,20 +13,16 @@ use nbc_base::model::CYCLE_STEPS;
 use nbc_session::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
 use nbc_session::{Checked, Choice, Excerpt, RunEnd, Session, SimulationRun, run_page};
 
-/// The media type of pages.
 pub(super) const HTML: &str = "text/html; charset=utf-8";
-/// The most cycles that a file covers.
 const MOST_CYCLES: u32 = 200;
-/// The most cycles of a film.
 const MOST_FILMED: u32 = 60;
 
 impl TakeKind {
-    /// The most cycles that such a file covers.
     pub(super) fn most(self) -> u32 {
         if self == Self::Gif { MOST_FILMED } else { MOST_CYCLES }
     }
 
-    /// How its name ends, and its media type.
+    /// The ending of its name, and its media type.
     pub(super) fn ending(self) -> (&'static str, &'static str) {
         match self {
             Self::Page => ("html", HTML),
@@ -39,7 +35,6 @@ impl TakeKind {
     }
 }
 
-/// Makes a file.
 pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &mut Job) -> Result<Vec<u8>, Refused> {
     let run = session.replay(excerpt, job);
     if run.end == RunEnd::Cancelled {
@@ -59,7 +54,6 @@ pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &m
     })
 }
 
-/// A circuit as one HTML file, with the name of the file.
 pub(super) fn exported(
     session: &Session,
     checked: &Checked,
@@ -69,11 +63,10 @@ pub(super) fn exported(
     let (circuit, options) = programs::chosen(checked, choice, job)?;
     let compiled = session.compile(checked, &circuit, &options)?;
     job.check()?;
-    let page = export(session, checked, &compiled)?;
+    let page = export(session, checked, &compiled).map_err(|found| Refused::Export(found.into()))?;
     Ok((format!("{}.html", compiled.plan.circuit.circuit), page.html.into_bytes()))
 }
 
-/// A circuit as one HTML file with the whole program, with the name of the file.
 pub(super) fn live(
     site: &PlaySite,
     checked: &Checked,
@@ -96,7 +89,7 @@ fn film(excerpt: &Excerpt, run: &SimulationRun) -> io::Result<Vec<u8>> {
         scheme: SCHEME,
         largest: sides.max().unwrap_or(1),
         stimuli: 2,
-        ground: stage.ground(),
+        ground: stage.ground,
     };
     let mut bytes = Vec::new();
     report::write_gif(&film, stage, &mut bytes, &mut |_| {})?;

@@ -13,15 +13,14 @@ use nbc_session::{Checked, Session};
 /// The texts of a page and what is known of them. Checks are parts of requests, and end with these.
 pub(super) struct TextChecker {
     session: Mutex<Session>,
-    /// What has changed since the last check, by path; so a change never waits for a check.
+    /// What has changed since the last check, by path, so that a change never waits for a check.
     changes: Mutex<Changes>,
-    /// The flag of the request that checks now.
     cancel: Arc<Mutex<CancelFlag>>,
 }
 
 #[derive(Default)]
 struct Changes {
-    /// The new text of a file, or that of the folder again.
+    /// The new text of a file; `None` for that of the folder again.
     texts: BTreeMap<String, Option<String>>,
     /// Counts the texts of the page, so that each has a later revision than the one before.
     revision: u64,
@@ -40,12 +39,10 @@ impl TextChecker {
         lock(&self.changes).texts.insert(path, Some(text));
     }
 
-    /// Forgets the text of the source at `path`: that of the folder counts again.
     pub(super) fn close(&self, path: String) {
         lock(&self.changes).texts.insert(path, None);
     }
 
-    /// The source at `path` as it is now, parsed and checked.
     pub(super) fn checked(&self, path: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
         self.with(job, |session| session.checked(path))
     }
@@ -70,7 +67,6 @@ impl TextChecker {
         Ok(done)
     }
 
-    /// The source at `path` without errors.
     pub(super) fn open(&self, path: &str, job: &Job) -> Result<Arc<Checked>, Refused> {
         let checked = self.checked(path, job)?;
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone()).into()) } else { Ok(checked) }

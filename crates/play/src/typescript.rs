@@ -16,7 +16,6 @@ const HEAD: &str = "\
 // docs/play-protocol.md describes them.
 ";
 
-/// The declarations of types by their names.
 struct Declared {
     config: Config,
     seen: BTreeSet<TypeId>,

@@ -11,8 +11,7 @@ use crate::class::Membership;
 use crate::evolving::SharedSearch;
 use crate::history::MEMORY;
 use crate::jobs::{Job, JobEnd, JobWork, Jobs, PortionEnd, once};
-use crate::message::finding::findings;
-use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile};
+use crate::message::{ClassName, Greeting, LessonList, PlayLimits, RequestResult, SwarmAnswer, TakenFile, findings};
 use crate::outbox::{Line, Outbox};
 use crate::page_files::{PageFiles, example, examples, is_circuit, program_around};
 use crate::refusal::Refused;
@@ -28,31 +27,27 @@ use nbc_circuit::CancelFlag;
 use nbc_session::{Checked, Choice, Compiled, Excerpt, Session};
 use nbc_swarm::Room;
 
-/// The time between two checks of the files that the page has read.
 const LOOK: Duration = Duration::from_millis(500);
 
-/// A page that is connected. It knows no clock: `now` is always the time since any moment, the same for all visits of
-/// a site, and never goes back.
+/// A page that is connected. It knows no clock: `now` is the time since any moment, the same for all visits of a site,
+/// and never goes back.
 pub struct Visit {
     site: Arc<PlaySite>,
     checker: Arc<TextChecker>,
-    /// The path of the last text that was to be checked, and the flag that ends its check.
+    /// The path of the last text to check, and the flag that ends its check.
     checking: Option<(String, CancelFlag)>,
     files: PageFiles,
     jobs: Jobs,
     runner: Runner,
     outbox: Outbox,
     swarms: u32,
-    /// Swarms that work has made, to be shown.
     loaded: (Sender<Box<LoadingSwarm>>, Receiver<Box<LoadingSwarm>>),
     now: Duration,
-    /// When the files were checked.
     looked: Duration,
     membership: Option<Membership>,
 }
 
 impl Visit {
-    /// A page that has connected.
     pub fn new(site: Arc<PlaySite>, line: Arc<dyn Line>, now: Duration) -> Self {
         let (folder, outbox) = (site.folder.clone(), Outbox::new(line));
         Self {
@@ -71,7 +66,6 @@ impl Visit {
         }
     }
 
-    /// Whether no long request runs.
     pub fn is_idle(&self) -> bool {
         self.jobs.are_done()
     }
@@ -106,7 +100,6 @@ impl Visit {
         }
     }
 
-    /// Reports files that have changed.
     fn look(&mut self) {
         self.looked = self.now;
         for (path, event) in self.files.changes() {
@@ -149,7 +142,7 @@ impl Visit {
         self.outbox.answer(id, answer);
     }
 
-    /// Joins the class. A page that has joined it takes another name, and gives up the one before.
+    /// Joins the class. A page that has joined takes another name, and gives up the one before.
     fn join(&mut self, name: &str, key: Option<String>) -> Result<ClassName, Refused> {
         let class = self.site.class.as_ref().ok_or(Refused::NoClass)?;
         let key = key.or_else(|| self.membership.as_ref().map(|own| own.key().to_owned()));
@@ -161,7 +154,7 @@ impl Visit {
         Ok(ClassName { key })
     }
 
-    /// Whether the page may save at a path: learners of a class only have files of their own.
+    /// Learners of a class may only save files of their own.
     fn may_save(&self, path: &str) -> Result<(), Refused> {
         if self.site.class.is_none() {
             return Ok(());
@@ -170,7 +163,7 @@ impl Visit {
         if own == path { Ok(()) } else { Err(Refused::NotOwn { path: path.to_owned(), own }) }
     }
 
-    /// Starts the check of a text. That of an older text at the same path ends.
+    /// Starts the check of a text, and ends that of an older text at the same path.
     fn check(&mut self, id: u64, path: String, text: String) {
         let older = self.checking.take().filter(|(older, _)| *older == path);
         older.into_iter().for_each(|(_, stop)| stop.raise());
@@ -185,7 +178,6 @@ impl Visit {
         self.jobs.start(&*self.site.shell, id, kind, work, self.now)
     }
 
-    /// Starts a long request.
     fn start(&mut self, id: u64, verb: Verb) {
         let mut kind = WorkKind::Program;
         let site = self.site.clone();
@@ -210,7 +202,7 @@ impl Visit {
             Verb::Read { path: Some(path), .. } => {
                 let checker = self.checker.clone();
                 once(move |job| {
-                    // Its text is not one of the page's, but it waits for its turn to be translated.
+                    // Its text is not one of the page's, but its translation waits for its turn.
                     let stop = job.stop.clone();
                     let mut apart = Session::new(site.folder.guarded(Arc::new(move || stop.clone())));
                     let read = checker.with(job, |_| program_around(&*site.folder, &mut apart, &path))??;
@@ -298,8 +290,8 @@ impl Visit {
         }
     }
 
-    /// Compiles a circuit of a program, perhaps with one test more, runs its swarm through cycles of its script, and
-    /// hands it over to be shown, which is the answer.
+    /// Compiles a circuit of a program, perhaps with one test more, and runs its swarm through cycles of its script.
+    /// Showing the swarm is the answer.
     fn swarm(
         &mut self,
         path: String,
@@ -338,7 +330,6 @@ impl Visit {
         })
     }
 
-    /// Work on a program without errors.
     fn with_program(
         &self,
         path: String,
@@ -354,7 +345,6 @@ impl Visit {
     }
 }
 
-/// Makes a file of the last cycles of a swarm.
 fn taken(site: &PlaySite, session: &Session, excerpt: &Excerpt, what: TakeKind, job: &mut Job) -> JobEnd {
     let bytes = taking::make(session, excerpt, what, job)?;
     let (ending, media_type) = what.ending();

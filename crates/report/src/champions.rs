@@ -8,24 +8,20 @@ use crate::svg::Svg;
 use nbc_base::model::{Behavior, CYCLE_STEPS, Trajectory};
 
 const COLUMNS: usize = 8;
-/// The most points of one path.
 const MAX_POINTS: usize = 400;
 
-/// The champions of one behavior.
 #[derive(Clone, Debug)]
 pub struct Champions {
-    /// The behavior of all these robots.
     pub behavior: Behavior,
-    /// Each champion's path, and its body's columns.
+    /// Each champion's path, and the columns of its body.
     pub paths: Vec<(Trajectory, usize)>,
 }
 
-/// Draws the champions; `changes` are the cycles at which the stimuli change.
+/// `changes` are the cycles at which the stimuli change.
 pub fn draw_champions(title: &str, champions: &[Champions], changes: &[f64]) -> Svg {
     let columns = COLUMNS.min(champions.len().max(1));
     let (width, pitch) = (columns as f64 * 132.0 + 70.0, 256.0);
-    let mut svg = Svg::new(width.max(320.0), 72.0 + pitch * champions.len().div_ceil(columns) as f64, title);
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let mut svg = Svg::titled(width.max(320.0), 72.0 + pitch * champions.len().div_ceil(columns) as f64, title);
     let note = "in brackets: body lengths gone, quarter by quarter, on the mean";
     svg.text((14.0, 45.0), note, Type::new(10.0).colored(Color::GRAY));
     for (i, group) in champions.iter().enumerate() {

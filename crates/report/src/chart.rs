@@ -4,7 +4,6 @@ use crate::Color;
 use crate::element::{Anchor, Paint, Point, Type};
 use crate::svg::Svg;
 
-/// A linear map from values to pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Scale {
     low: f64,
@@ -14,15 +13,13 @@ pub struct Scale {
 }
 
 impl Scale {
-    /// The scale that takes `low` to the pixel `from` and `high` to `to`; an empty or senseless range becomes one of
-    /// length 1.
+    /// Takes `low` to the pixel `from` and `high` to `to`; an empty or senseless range becomes one of length 1.
     pub fn new((low, high): (f64, f64), (from, to): (f64, f64)) -> Self {
         let sound = low.is_finite() && high.is_finite() && high - low > f64::EPSILON * high.abs().max(low.abs());
         let (low, high) = if sound { (low, high) } else { (finite(low) - 0.5, finite(low) + 0.5) };
         Self { low, high, from, to }
     }
 
-    /// The pixel of a value.
     pub fn at(&self, value: f64) -> f64 {
         self.from + (value - self.low) / (self.high - self.low) * (self.to - self.from)
     }
@@ -59,7 +56,6 @@ pub fn tick_label(value: f64, ticks: &[f64]) -> String {
     with_minus(&text)
 }
 
-/// The text of a number with a true minus, as all pictures have it.
 pub fn with_minus(number: &str) -> String {
     number.replace('-', "\u{2212}")
 }
@@ -75,25 +71,17 @@ pub fn range_of(values: impl IntoIterator<Item = f64>, margin: f64) -> (f64, f64
     (low - spare, high + spare)
 }
 
-/// A rectangle in which values are drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Panel {
-    /// Values to pixels, left to right.
     pub x: Scale,
-    /// Values to pixels along the height.
     pub y: Scale,
-    /// The rectangle's left edge.
     pub left: f64,
-    /// The rectangle's upper edge.
     pub top: f64,
-    /// The right edge of the rectangle.
     pub right: f64,
-    /// The rectangle's lower edge.
     pub bottom: f64,
 }
 
 impl Panel {
-    /// A panel with values increasing to the right and upwards.
     pub fn new((left, top): Point, width: f64, height: f64, x: (f64, f64), y: (f64, f64)) -> Self {
         let (right, bottom) = (left + width, top + height);
         Self { x: Scale::new(x, (left, right)), y: Scale::new(y, (bottom, top)), left, top, right, bottom }
@@ -105,18 +93,15 @@ impl Panel {
         Self { y, ..self }
     }
 
-    /// The pixel of a pair of values.
     pub fn at(&self, (x, y): Point) -> Point {
         (self.x.at(x), self.y.at(y))
     }
 
-    /// The frame around the panel.
     pub fn frame(&self, svg: &mut Svg) {
         let (width, height) = (self.right - self.left, self.bottom - self.top);
         svg.rect((self.left, self.top), width, height, Paint::stroke(Color::GRAY, 1.0));
     }
 
-    /// Ticks with their values below the panel, and pale lines through it.
     pub fn x_axis(&self, svg: &mut Svg, count: usize) {
         let ticks = self.x.ticks(count);
         for &tick in &ticks {
@@ -147,19 +132,16 @@ impl Panel {
         svg.text((self.left - beside, (self.top + self.bottom) / 2.0), label, set);
     }
 
-    /// The title of the first axis, below its values.
     pub fn x_label(&self, svg: &mut Svg, label: &str) {
         let middle = (self.left + self.right) / 2.0;
         svg.text((middle, self.bottom + 31.0), label, Type::new(11.0).anchored(Anchor::Middle));
     }
 
-    /// A title above the panel.
     pub fn title(&self, svg: &mut Svg, title: &str) {
         let middle = (self.left + self.right) / 2.0;
         svg.text((middle, self.top - 8.0), title, Type::new(12.0).bold().anchored(Anchor::Middle));
     }
 
-    /// A line through values.
     pub fn curve(&self, svg: &mut Svg, values: impl IntoIterator<Item = Point>, paint: Paint) {
         let points: Vec<Point> = values.into_iter().map(|value| self.at(value)).collect();
         svg.polyline(&points, paint);

@@ -1,5 +1,5 @@
 //! Performances by group of behaviors (paper, figure 4): every run as a dot, a cross at the mean, gaps where groups of
-//! another difficulty differ, and below a table of all pairs.
+//! another difficulty differ, and below a table of all pairs. Accuracies of bodies are drawn alike.
 
 use crate::Color;
 use crate::chart::{Panel, range_of, with_minus};
@@ -8,20 +8,16 @@ use crate::groups::{BehaviorGroup, GroupComparison, describe_method, mark};
 use crate::svg::Svg;
 use nbc_base::diag::counted;
 
-/// Groups with an adjusted p below this differ significantly.
 const SIGNIFICANT: f64 = 0.05;
 const TOP: f64 = 52.0;
 const HEIGHT: f64 = 260.0;
-/// Room for the names of the groups and their numbers of runs.
 const NAMES: f64 = 56.0;
-/// From group to group.
 const PITCH: f64 = 74.0;
-/// The table of pairs: where its cells begin, their size, and the room for its two lines of legend.
 const CELLS: f64 = 64.0;
 const CELL: (f64, f64) = (84.0, 30.0);
 const LEGEND: f64 = 52.0;
 
-/// Draws the groups side by side with all pairwise comparisons; `unit` is the measured quantity.
+/// `unit` is the measured quantity.
 pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> Svg {
     let slots: Vec<f64> = (0..groups.len())
         .scan(-0.4, |slot, place| {
@@ -31,18 +27,20 @@ pub fn draw_comparison(title: &str, unit: &str, groups: &[BehaviorGroup], compar
         .collect();
     let last = slots.last().copied().unwrap_or(0.0) + 0.6;
     let table = TOP + HEIGHT + NAMES;
-    let mut svg = Svg::new(
+    let mut svg = Svg::titled(
         (last * PITCH + 84.0).max(CELLS + groups.len() as f64 * CELL.0).max(520.0),
         table + LEGEND + groups.len() as f64 * CELL.1,
         title,
     );
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
     let high = range_of(groups.iter().flat_map(|group| group.values.iter().copied()), 0.08).1;
     let panel = Panel::new((64.0, TOP), last * PITCH, HEIGHT, (0.0, last), (0.0, high));
     panel.y_axis(&mut svg, 5, unit);
     panel.frame(&mut svg);
     for (group, &slot) in groups.iter().zip(&slots) {
-        svg.group(&format!("group-{}", group.name), group.name, |svg| draw_group(svg, &panel, group, slot));
+        let color = [4, 5, 2].map(Color::series)[group.stimuli.min(2)];
+        svg.group(&format!("group-{}", group.name), group.name, |svg| {
+            draw_values(svg, &panel, slot, (group.name, "run"), &group.values, color);
+        });
     }
     draw_table(&mut svg, table, groups, comparisons);
     svg
@@ -63,13 +61,8 @@ fn is_set_apart(groups: &[BehaviorGroup], comparisons: &[GroupComparison], place
         && across.all(|pair| pair.p_adjusted < SIGNIFICANT && pair.a12 > 0.5)
 }
 
-fn draw_group(svg: &mut Svg, panel: &Panel, group: &BehaviorGroup, slot: f64) {
-    let color = [Color::series(4), Color::series(5), Color::series(2)][group.stimuli.min(2)];
-    draw_values(svg, panel, slot, (group.name, "run"), &group.values, color);
-}
-
-/// Draws values above a slot: a dot for each, next to each other, a cross at their mean, and below the panel the name
-/// and how many there are of what.
+/// Draws values above a slot: a dot for each, a cross at their mean, and below the panel the name and the number of
+/// values.
 pub(super) fn draw_values(
     svg: &mut Svg,
     panel: &Panel,
@@ -88,10 +81,8 @@ pub(super) fn draw_values(
     let small = Type::new(9.5).colored(Color::GRAY).anchored(Anchor::Middle);
     svg.text((x, panel.bottom + 30.0), &counted(count, what), small);
     if count > 0 {
-        let (x, y) = panel.at((slot, values.iter().sum::<f64>() / count as f64));
-        let paint = Paint::stroke(Color::BLACK, 2.0);
-        svg.line((x - 5.0, y - 5.0), (x + 5.0, y + 5.0), paint);
-        svg.line((x - 5.0, y + 5.0), (x + 5.0, y - 5.0), paint);
+        let mean = values.iter().sum::<f64>() / count as f64;
+        svg.cross(panel.at((slot, mean)), Paint::stroke(Color::BLACK, 2.0));
     }
 }
 
@@ -131,4 +122,25 @@ fn draw_table(svg: &mut Svg, top: f64, groups: &[BehaviorGroup], comparisons: &[
 
 fn p_value(p: f64) -> String {
     if p < 0.001 { with_minus(&format!("{p:.1e}")) } else { format!("{p:.3}") }
+}
+
+/// Draws the shares, from 0 to 1, of each evolution side by side: a dot for each body, a cross at the mean.
+pub fn draw_accuracies(title: &str, groups: &[(&str, Vec<f64>)]) -> Svg {
+    let (height, pitch) = (220.0, 100.0);
+    let percent: Vec<Vec<f64>> =
+        groups.iter().map(|(_, shares)| shares.iter().map(|share| 100.0 * share).collect()).collect();
+    let least = percent.iter().flatten().copied().fold(100.0, f64::min);
+    let width = (groups.len() as f64 * pitch).max(200.0);
+    let mut svg = Svg::titled(width + 84.0, TOP + height + 46.0, title);
+    let low = (10.0 * libm::floor(least / 10.0)).min(90.0);
+    let panel = Panel::new((64.0, TOP), width, height, (-0.5, groups.len() as f64 - 0.5), (low, 101.0));
+    panel.y_axis(&mut svg, 5, "told apart, %");
+    panel.frame(&mut svg);
+    for (place, ((name, _), values)) in groups.iter().zip(&percent).enumerate() {
+        let color = Color::series(place);
+        svg.group(&format!("evolution-{name}"), name, |svg| {
+            draw_values(svg, &panel, place as f64, (name, "body"), values, color);
+        });
+    }
+    svg
 }

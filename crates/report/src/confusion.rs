@@ -9,10 +9,8 @@ use crate::element::{Anchor, Paint, Type};
 use crate::svg::Svg;
 use crate::table::{Align, TextTable};
 
-/// The most values of a table.
 const MOST_VALUES: usize = 16;
 
-/// The side of a cell, and the room left of the cells and above them.
 const CELL: f64 = 40.0;
 const LEFT: f64 = 74.0;
 const TOP: f64 = 96.0;
@@ -20,19 +18,15 @@ const TOP: f64 = 96.0;
 /// For each value of an output, how often each value came in its place.
 #[derive(Clone, Debug, Serialize)]
 pub struct Confusion {
-    /// The output.
     pub output: String,
-    /// Whether the rows are those that were held out.
     pub held_out: bool,
-    /// The values, in ascending order.
     pub values: Vec<u64>,
-    /// A row for each value that is wanted, with a number for each that came.
+    /// A row for each wanted value, with a number for each value found.
     pub counts: Vec<Vec<usize>>,
 }
 
 impl Confusion {
-    /// Counts pairs of the value that is wanted and the one that came; `None` if there are no pairs, or more than 16
-    /// values.
+    /// Counts pairs of the wanted and the found value; `None` without pairs, or with more than 16 values.
     pub fn of(output: &str, held_out: bool, pairs: &[(u64, u64)]) -> Option<Self> {
         let values: BTreeSet<u64> = pairs.iter().flat_map(|&(wanted, found)| [wanted, found]).collect();
         if !(1..=MOST_VALUES).contains(&values.len()) {
@@ -45,7 +39,6 @@ impl Confusion {
         Some(Self { output: output.to_owned(), held_out, values, counts })
     }
 
-    /// The table in lines.
     pub fn text(&self) -> String {
         let names: Vec<String> = self.values.iter().map(u64::to_string).collect();
         let columns: Vec<(&str, Align)> = [(self.output.as_str(), Align::Right)]
@@ -60,8 +53,7 @@ impl Confusion {
         format!("the {}, by the value wanted (left) and the value found (top):\n{table}", self.rows())
     }
 
-    /// The table as a picture. What is right is on the diagonal, and blue. A cell is darker the larger its share is of
-    /// the rows in which the value on the left is wanted.
+    /// Right answers are on the diagonal, in blue. A cell is darker the larger its share of its row.
     pub fn draw(&self, title: &str) -> Svg {
         let count = self.values.len() as f64;
         let rows: usize = self.counts.iter().flatten().sum();
@@ -70,8 +62,7 @@ impl Confusion {
         let subtitle = format!("{right} of {rows} {} ({share:.1} %)", self.rows());
         let longest = (title.chars().count() as f64 * 9.5).max(subtitle.chars().count() as f64 * 7.0);
         let width = (LEFT + count * CELL).max(14.0 + longest) + 24.0;
-        let mut svg = Svg::new(width, TOP + count * CELL + 24.0, title);
-        svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+        let mut svg = Svg::titled(width, TOP + count * CELL + 24.0, title);
         svg.text((14.0, 48.0), &subtitle, Type::new(12.0));
         let middle = Type::new(12.0).anchored(Anchor::Middle);
         svg.text((LEFT + count * CELL / 2.0, TOP - 26.0), &format!("{} found", self.output), middle);

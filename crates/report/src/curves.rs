@@ -2,8 +2,8 @@
 
 use crate::Color;
 use crate::chart::Panel;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
-use crate::scheme::Scheme;
 use crate::svg::Svg;
 use nbc_base::model::{CYCLE_STEPS, Material, MaterialKind, Palette, Pattern, Schedule, Spell};
 use nbc_sim::{Constants, Signals};
@@ -11,10 +11,8 @@ use nbc_sim::{Constants, Signals};
 const WIDTH: f64 = 420.0;
 const LEFT: f64 = 52.0;
 const TOP: f64 = 30.0;
-/// The height of a material's panel, and of the track of a stimulus.
 const PANEL: f64 = 110.0;
 const TRACK: f64 = 34.0;
-/// Samples of a curve.
 const SAMPLES: u32 = 240;
 
 /// Draws the width of a material over time: two periods of an actuator, or a stimulus that appears and disappears.
@@ -63,14 +61,12 @@ fn appearance(signals: &Signals, stimulus: usize) -> Vec<Point> {
     (0..3).flat_map(ends).collect()
 }
 
-/// The cycle in which the stimulus is present.
 fn mark_present(svg: &mut Svg, panel: &Panel) {
     let (left, right) = (panel.at((1.0, 0.0)).0, panel.at((2.0, 0.0)).0);
     svg.rect((left, panel.top), right - left, PANEL, Paint::fill(Color::PALE));
     svg.text((left + 4.0, panel.top + 12.0), "present", Type::new(10.0).colored(Color::GRAY));
 }
 
-/// Draws the stimuli of a schedule, each with its number and its name, on a track of its own.
 pub fn draw_schedule(title: &str, schedule: &Schedule, stimuli: &[(usize, &str)]) -> Svg {
     let height = TRACK * stimuli.len().max(1) as f64;
     let mut svg = Svg::new(WIDTH, TOP + height + 40.0, title);

@@ -3,30 +3,27 @@
 use crate::Color;
 use crate::chart::Panel;
 use crate::element::{Anchor, Paint, Type};
+use crate::progress::median;
 use crate::svg::Svg;
 use nbc_base::diag::counted;
 use nbc_base::model::Behavior;
 
 const TOP: f64 = 56.0;
 const ROW: f64 = 22.0;
-/// Room for the names of the behaviors on the left, and for the numbers on the right.
 const SIDES: [f64; 2] = [130.0, 170.0];
 const WIDTH: f64 = 520.0;
 
-/// The generations in which the seeds that found a behavior found it first.
+/// The generations in which seeds first found a behavior, one for each seed that did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Discovery {
-    /// The behavior.
     pub behavior: Behavior,
-    /// One for each seed that found it.
     pub generations: Vec<u32>,
 }
 
-/// Draws a row for each behavior; `runs` is the number of seeds, `until` the last generation of any.
+/// `runs` is the number of seeds, `until` the last generation of any.
 pub fn draw_discovery(title: &str, discoveries: &[Discovery], runs: usize, until: u32) -> Svg {
     let height = ROW * discoveries.len() as f64;
-    let mut svg = Svg::new(SIDES[0] + WIDTH + SIDES[1], TOP + height + 52.0, title);
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let mut svg = Svg::titled(SIDES[0] + WIDTH + SIDES[1], TOP + height + 52.0, title);
     let (times, rows) = ((-0.05, place(until) + 0.05), (0.0, discoveries.len() as f64));
     let panel = Panel::new((SIDES[0], TOP), WIDTH, height, times, rows).downwards();
     draw_generations(&mut svg, &panel, until);
@@ -39,12 +36,10 @@ pub fn draw_discovery(title: &str, discoveries: &[Discovery], runs: usize, until
     svg
 }
 
-/// Generations are drawn by their logarithms.
 fn place(generation: u32) -> f64 {
     libm::log10(f64::from(generation.max(1)))
 }
 
-/// Lines and labels at 1, 2, 5, 10, ...
 fn draw_generations(svg: &mut Svg, panel: &Panel, until: u32) {
     let powers = (0..).map(|power| 10u32.pow(power)).take_while(|power| *power <= until);
     for tick in powers.flat_map(|power| [1, 2, 5].map(|k| k * power)).filter(|tick| *tick <= until) {
@@ -65,36 +60,21 @@ fn draw_row(svg: &mut Svg, panel: &Panel, row: usize, discovery: &Discovery, run
     for &generation in generations {
         svg.circle(panel.at((place(generation), row as f64 + 0.5)), 3.6, Paint::fill(color).with_opacity(0.6));
     }
-    let told = match median(generations) {
-        Some(median) => {
-            let (x, _) = panel.at((libm::log10(median.max(1.0)), 0.0));
-            svg.line((x, y - 0.4 * ROW), (x, y + 0.4 * ROW), Paint::stroke(Color::BLACK, 2.0));
-            format!("in {} of {}, median {median}", generations.len(), counted(runs, "seed"))
-        }
-        None => format!("in 0 of {}", counted(runs, "seed")),
-    };
-    svg.text((panel.right + 10.0, y + 3.5), &told, gray);
-}
-
-fn median(generations: &[u32]) -> Option<f64> {
-    let mut sorted = generations.to_vec();
-    sorted.sort_unstable();
-    let middle = sorted.len() / 2;
-    let (&high, &low) = (sorted.get(middle)?, sorted.get(middle.saturating_sub(1))?);
-    Some(if sorted.len() % 2 == 1 { f64::from(high) } else { f64::midpoint(f64::from(low), f64::from(high)) })
+    let mut text = format!("in {} of {}", generations.len(), counted(runs, "seed"));
+    if !generations.is_empty() {
+        let mut sorted: Vec<f64> = generations.iter().map(|&generation| generation.into()).collect();
+        sorted.sort_by(f64::total_cmp);
+        let median = median(&sorted);
+        let (x, _) = panel.at((libm::log10(median.max(1.0)), 0.0));
+        svg.line((x, y - 0.4 * ROW), (x, y + 0.4 * ROW), Paint::stroke(Color::BLACK, 2.0));
+        text += &format!(", median {median}");
+    }
+    svg.text((panel.right + 10.0, y + 3.5), &text, gray);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn medians() {
-        assert_eq!(median(&[]), None);
-        assert_eq!(median(&[7]), Some(7.0));
-        assert_eq!(median(&[9, 1, 4]), Some(4.0));
-        assert_eq!(median(&[10, 1, 4, 5]), Some(4.5));
-    }
 
     #[test]
     fn each_seed_is_a_dot_and_a_behavior_that_nobody_found_has_none() {

@@ -4,17 +4,14 @@ use serde::Serialize;
 
 macro_rules! schemas {
     ($($name:ident = $word:literal, $version:literal: $meaning:literal;)*) => {
-        /// The kind of a JSON output; `docs/schema` describes each.
         #[derive(Clone, Copy, Debug, PartialEq, Eq)]
         pub enum Schema {
             $(#[doc = $meaning] $name,)*
         }
 
         impl Schema {
-            /// All of them, in alphabetical order of their words.
             pub const ALL: &[Self] = &[$(Self::$name,)*];
 
-            /// Its word, which is the name of its file.
             pub fn word(self) -> &'static str {
                 match self {
                     $(Self::$name => $word,)*
@@ -49,7 +46,6 @@ schemas! {
     Player = "player", 1: "A circuit that was written as a page of its own.";
     Prove = "prove", 1: "Properties that were proved, refuted, or neither.";
     Radii = "radii", 1: "How far worlds may differ before robots make errors.";
-    Rewritten = "rewritten", 1: "Robot files in the newest format.";
     Robot = "robot", 1: "One robot in full.";
     Robots = "robots", 1: "The robots of a library in full.";
     Robustness = "robustness", 1: "Tests in many worlds.";
@@ -62,7 +58,6 @@ schemas! {
     Workers = "workers", 1: "The workers at a NATS server.";
 }
 
-/// A value for programs with its schema.
 #[derive(Clone, Debug, Serialize)]
 pub struct Document<T> {
     schema: &'static str,
@@ -71,7 +66,7 @@ pub struct Document<T> {
 }
 
 impl<T: Serialize> Document<T> {
-    /// A document of that schema; `content` is an object.
+    /// `content` must be an object.
     pub fn new(schema: Schema, content: T) -> Self {
         Self { schema: schema.id(), content }
     }

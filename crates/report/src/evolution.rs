@@ -13,28 +13,21 @@ use nbc_swarm::evolve::{ArchiveStats, Counts, Search};
 /// A run after a generation, as a line of `progress.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct EvolutionLine {
-    /// Generations done.
     pub generation: u32,
-    /// Counts of the results.
     #[serde(flatten)]
     pub counts: Counts,
-    /// Filled niches.
     pub filled: usize,
-    /// The share of filled niches.
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
-    /// Behaviors found.
     pub behaviors: usize,
-    /// The two fitnesses of the best of each behavior.
+    /// The fitnesses of the best of each behavior.
     pub best: BTreeMap<String, [f64; 2]>,
-    /// Env steps simulated, and left out because they could not have mattered.
     #[serde(flatten)]
     pub work: Work,
 }
 
 impl EvolutionLine {
-    /// The line for the current state of a search.
     pub fn of(search: &Search, work: Work) -> Self {
         let ArchiveStats { filled, coverage, qd_score, champions, .. } = search.archive().stats();
         Self {
@@ -50,7 +43,6 @@ impl EvolutionLine {
     }
 }
 
-/// The table at the end of a run: the best of each behavior, then the totals of the run.
 pub fn evolution_table(search: &Search, work: Work) -> String {
     let stats = search.archive().stats();
     let [first, second] = search.evolution().objective.columns();

@@ -7,13 +7,13 @@ use std::collections::BTreeMap;
 use serde_json::{Value, json};
 
 use crate::chart::range_of;
+use crate::color::Scheme;
 use crate::evolution_results::{EvolutionResults, axis_word};
 use crate::heatmap::{heat, share};
 use crate::html::{Html, base64, controls, escape, picture};
 use crate::listing::walked;
 use crate::looks::Looks;
 use crate::page_bodies::{look_data, materials, voxel_data};
-use crate::scheme::Scheme;
 use crate::stage::Stage;
 use crate::svg::Svg;
 use nbc_base::diag::counted;
@@ -22,25 +22,20 @@ use nbc_swarm::evolve::{Elite, NicheKey};
 use nbc_swarm::{Recorded, Room};
 
 const SCRIPT: &str = include_str!("../page/evolution.js");
-/// Cycles of a gait under each pattern, or before each image.
 const GAIT_CYCLES: u32 = 2;
 
-/// A drawing of the page with its heading.
 pub struct PageFigure {
-    /// The line above the drawing.
     pub heading: String,
-    /// The plot or picture, as vectors.
     pub drawing: Svg,
 }
 
-/// The best elite of a niche on the page, with its seed.
 struct Entry<'a> {
     key: &'a NicheKey,
     seed: u64,
     elite: &'a Elite,
 }
 
-/// The page for the runs of one declaration. The gaits are simulated here.
+/// The gaits are simulated here.
 pub fn draw_evolution_page(results: &EvolutionResults, figures: &[PageFigure], scheme: Scheme) -> String {
     let entries = ranked(results);
     let looks = Looks::of(entries.iter().map(|entry| &entry.elite.body), scheme);

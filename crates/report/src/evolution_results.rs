@@ -11,29 +11,21 @@ use crate::progress::{Course, Series};
 use nbc_base::model::{Axis, Behavior, CYCLE_STEPS, Count, Function, Image, Pattern, Schedule, SearchObjective, Spell};
 use nbc_swarm::evolve::{Champion, Elite, NicheKey};
 
-/// Runs of one declaration.
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvolutionResults {
-    /// The declaration's name.
     pub name: String,
-    /// The archive's axes.
     pub axes: Vec<Axis>,
-    /// The stimuli of their bodies.
     pub stimuli: usize,
-    /// The first image of each set that their bodies were shown; none of other objectives.
+    /// The first image of each set that their bodies saw; empty for other objectives.
     pub images: Vec<Arc<Image>>,
-    /// What fitness meant in these runs.
     pub objective: SearchObjective,
     /// The runs by their seeds: a seed is one run, however often it was read.
     pub runs: BTreeMap<u64, SeedRun>,
 }
 
-/// The run of one seed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SeedRun {
-    /// Filled niches and their elites.
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
-    /// The run after each generation.
     pub progress: Vec<ProgressLine>,
 }
 
@@ -44,7 +36,6 @@ impl SeedRun {
         fittest(own)
     }
 
-    /// The champions of all behaviors, as statistics of an archive.
     pub fn champions(&self) -> Vec<Champion> {
         let champion = |behavior| {
             let fitness = self.champion(behavior)?.fitness;
@@ -55,7 +46,6 @@ impl SeedRun {
         self.behaviors().into_iter().filter_map(champion).collect()
     }
 
-    /// The behaviors of its elites, in order of their functions.
     fn behaviors(&self) -> BTreeSet<Behavior> {
         self.niches.iter().flat_map(|(_, elites)| elites).map(|elite| elite.behavior).collect()
     }
@@ -69,7 +59,6 @@ fn fittest<'a>(elites: impl Iterator<Item = &'a Elite>) -> Option<&'a Elite> {
 }
 
 impl EvolutionResults {
-    /// The fittest elite of each niche over all seeds, with its seed.
     pub fn best(&self) -> BTreeMap<&NicheKey, (u64, &Elite)> {
         let mut best: BTreeMap<&NicheKey, (u64, &Elite)> = BTreeMap::new();
         for (&seed, run) in &self.runs {
@@ -84,7 +73,6 @@ impl EvolutionResults {
         best
     }
 
-    /// The fittest elite of a behavior over all seeds.
     pub fn champion(&self, behavior: Behavior) -> Option<&Elite> {
         fittest(self.runs.values().filter_map(|run| run.champion(behavior)))
     }
@@ -103,12 +91,10 @@ impl EvolutionResults {
         Schedule { spells }
     }
 
-    /// The number of niches.
     pub fn niche_count(&self) -> usize {
         self.axes.iter().map(|axis| axis.bins(self.stimuli)).product()
     }
 
-    /// The behaviors of its elites over all seeds, in order of their functions.
     pub fn behaviors(&self) -> BTreeSet<Behavior> {
         self.runs.values().flat_map(SeedRun::behaviors).collect()
     }
@@ -140,8 +126,8 @@ impl EvolutionResults {
         courses
     }
 
-    /// When each seed first found each behavior, in order of the paper's groups; of three stimuli, each that one found,
-    /// in order of the inputs that matter and of classes.
+    /// When each seed first found each behavior. Two stimuli: in order of the paper's groups. Three: only those that
+    /// were found, in order of the inputs that matter and of classes.
     pub fn discoveries(&self) -> Vec<Discovery> {
         let first = |run: &SeedRun, behavior| {
             run.progress.iter().find(|line| line.best.contains_key(&behavior)).map(|line| line.generation)
@@ -161,13 +147,11 @@ impl EvolutionResults {
         discoveries
     }
 
-    /// The meaning of the first fitness.
     pub fn unit(&self) -> &'static str {
         self.objective.meaning()
     }
 }
 
-/// The word of an axis in the language.
 pub fn axis_word(axis: Axis) -> &'static str {
     match axis {
         Axis::Count { of: Count::Voxels, .. } => "voxels",

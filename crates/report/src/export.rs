@@ -10,7 +10,6 @@ use nbc_base::model::{
 };
 use nbc_swarm::evolve::{Elite, NicheKey};
 
-/// The archives of a declaration's runs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Elites<'a> {
     run: &'a str,
@@ -21,14 +20,12 @@ pub struct Elites<'a> {
     elites: Vec<EliteData<'a>>,
 }
 
-/// An axis of an archive.
 #[derive(Clone, Debug, Serialize)]
 struct AxisData {
     name: &'static str,
     bins: usize,
 }
 
-/// An elite.
 #[derive(Clone, Debug, Serialize)]
 struct EliteData<'a> {
     seed: u64,
@@ -44,7 +41,6 @@ struct EliteData<'a> {
     evaluations: u64,
 }
 
-/// A body with its counts of voxels.
 #[derive(Clone, Debug, Serialize)]
 struct BodyData<'a> {
     width: usize,
@@ -53,7 +49,6 @@ struct BodyData<'a> {
     actuators: usize,
     sensors: usize,
     body: Vec<String>,
-    /// The materials of the codes from 1 on, unless they are the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
     materials: Option<&'a [Material]>,
 }
@@ -87,7 +82,6 @@ impl<'a> BodyData<'a> {
 }
 
 impl<'a> Elites<'a> {
-    /// All elites of some runs, seed by seed and niche by niche.
     pub fn of(results: &'a EvolutionResults) -> Self {
         let axis = |axis: &Axis| AxisData { name: axis_word(*axis), bins: axis.bins(results.stimuli) };
         let elites = results.runs.iter().flat_map(|(&seed, run)| {
@@ -105,7 +99,6 @@ impl<'a> Elites<'a> {
         }
     }
 
-    /// The table of the elites.
     pub fn csv(&self) -> String {
         let own = ["run", "seed", "behavior", "function", "fitness_1", "fitness_2"].map(str::to_owned);
         let niche = self.axes.iter().enumerate().map(|(place, axis)| self.axis_column(place, axis));
@@ -116,7 +109,7 @@ impl<'a> Elites<'a> {
         std::iter::once(line(head)).chain(rows).collect()
     }
 
-    /// The column of an axis; a word that several axes have gets their places.
+    /// An axis whose word occurs twice gets its place, too.
     fn axis_column(&self, place: usize, axis: &AxisData) -> String {
         let alone = self.axes.iter().filter(|other| other.name == axis.name).count() == 1;
         if alone { format!("niche_{}", axis.name) } else { format!("niche_{}_{}", axis.name, place + 1) }
@@ -149,7 +142,6 @@ impl<'a> EliteData<'a> {
     }
 }
 
-/// The table of a library's robots.
 pub fn robots_csv(library: &Library) -> String {
     const CHARACTER: [&str; 6] = ["clock", "switches", "error_rate", "glitch_rate", "margin", "topples"];
     const RADIUS: [&str; 3] = ["radius", "radius_vary", "radius_error_rate"];
@@ -197,7 +189,6 @@ fn robot_cells(robot: &Robot, stimuli: &[usize]) -> Vec<String> {
     cells
 }
 
-/// The switches between different patterns of these numbers of stimuli.
 fn switches(stimuli: &[usize]) -> impl Iterator<Item = (usize, Pattern, Pattern)> {
     let of = |count: usize| {
         let pairs = Pattern::all(count).flat_map(move |from| Pattern::all(count).map(move |to| (count, from, to)));

@@ -6,38 +6,31 @@ use std::io::{self, Write};
 use tiny_skia::{self, FillRule, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::element::{Anchor, Paint, Type};
 use crate::image::{ink, pixel_side};
 use crate::looks::{Look, Looks, draw_mark};
-use crate::raster::{rasterize, solid};
-use crate::scheme::Scheme;
+use crate::raster::{ink as ink_path, line, rasterize, solid};
 use crate::sprite::Pose;
 use crate::stage::{Moment, Stage};
 use crate::svg::{Svg, shorten};
 use crate::swatches::{Swatches, UNCHANGED};
 use nbc_base::model::{GroundProfile, Image, ImageSize, Pattern};
 
-/// Frames for each cycle, where nothing else is asked for.
 pub const FRAMES_PER_CYCLE: u32 = 12;
 /// Hundredths of a second for which a frame is shown: with twelve frames, a cycle takes about half a second, which is
 /// half the robots' own pace.
 const DELAY: u16 = 4;
 
-/// The most robots that are shown large.
 const LARGE: usize = 32;
 const HEAD: f64 = 34.0;
 const FOOT: f64 = 14.0;
-/// The depth of the ground below its upper face.
 const GROUND: f64 = 9.0;
 
-/// How a film looks.
 #[derive(Clone, Debug)]
 pub struct Film {
-    /// The text above the moving robots.
     pub title: String,
-    /// The label of each robot, beside its lane.
     pub lanes: Vec<String>,
-    /// The colors of the materials.
     pub scheme: Scheme,
     /// Rows and columns of the largest body.
     pub largest: usize,
@@ -47,14 +40,11 @@ pub struct Film {
     pub ground: GroundProfile,
 }
 
-/// A film being drawn.
 struct Painter<'a> {
     film: &'a Film,
-    /// The fixed part of the picture: title, names, ground.
     backdrop: Pixmap,
     looks: Looks,
     swatches: Swatches,
-    /// Whether the robots sense images.
     sees: bool,
     /// The world's x at the middle of each lane.
     cameras: Vec<f64>,
@@ -62,7 +52,6 @@ struct Painter<'a> {
     indexed: Vec<u8>,
 }
 
-/// The part of a frame that is new: its place, its size, and its pixels as color numbers.
 struct Patch {
     left: u32,
     top: u32,
@@ -73,9 +62,9 @@ struct Patch {
 
 impl<'a> Painter<'a> {
     fn new(film: &'a Film, stage: &Stage) -> Self {
-        let sees = stage.palettes().iter().any(|palette| palette.image().is_some());
+        let sees = stage.palettes.iter().any(|palette| palette.image().is_some());
         let backdrop = rasterize(&film.backdrop(sees), 1.0);
-        let looks = Looks::of_palettes(stage.palettes(), film.scheme);
+        let looks = Looks::of_palettes(&stage.palettes, film.scheme);
         let swatches = Swatches::new(&looks, film.scheme, film.stimuli);
         let frame = backdrop.clone();
         Self { film, backdrop, looks, swatches, sees, cameras: Vec::new(), frame, indexed: Vec::new() }
@@ -85,7 +74,6 @@ impl<'a> Painter<'a> {
         (self.backdrop.width(), self.backdrop.height())
     }
 
-    /// Draws a moment and returns the changes from the previous one.
     fn paint(&mut self, moment: &Moment, share: f64) -> Patch {
         self.frame.data_mut().copy_from_slice(self.backdrop.data());
         self.follow(moment);
@@ -161,7 +149,6 @@ impl<'a> Painter<'a> {
 }
 
 impl Painter<'_> {
-    /// A square for each stimulus, filled if it is present.
     fn paint_stimuli(&mut self, pattern: Pattern, (left, bottom): (f64, f64)) {
         let side = self.film.lamp();
         for (i, color) in Color::STIMULI.into_iter().take(self.film.stimuli).enumerate() {
@@ -187,7 +174,6 @@ impl Painter<'_> {
 }
 
 impl Film {
-    /// Whether there are so many robots that each is small.
     fn is_dense(&self) -> bool {
         self.lanes.len() > LARGE
     }
@@ -201,12 +187,10 @@ impl Film {
         self.lanes.len().div_ceil(self.max_rows()).max(1)
     }
 
-    /// Lanes one below the other; the columns are as even as can be.
     fn rows(&self) -> usize {
         self.lanes.len().div_ceil(self.columns())
     }
 
-    /// The width of a lane with its name.
     fn lane_width(&self) -> f64 {
         match self.columns() {
             1 => 560.0,
@@ -215,27 +199,22 @@ impl Film {
         }
     }
 
-    /// The width of the part of a lane that has its robot's name and stimuli.
     fn labels(&self) -> f64 {
         if self.is_dense() { 60.0 } else { 108.0 }
     }
 
-    /// The side of a square that shows a stimulus.
     fn lamp(&self) -> f64 {
         if self.is_dense() { 8.0 } else { 16.0 }
     }
 
-    /// The height of what shows the stimuli, or the image.
     fn shown(&self, sees: bool) -> f64 {
         if sees { self.lamp() * 4.0 } else { self.lamp() }
     }
 
-    /// The width of the part of a lane in which its robot walks.
     fn span(&self) -> f64 {
         self.lane_width() - self.labels()
     }
 
-    /// Pixels for each voxel.
     fn scale(&self) -> f64 {
         let most = match (self.lanes.len(), self.columns()) {
             (1, _) => 16.0,
@@ -252,17 +231,14 @@ impl Film {
         ((self.largest as f64 * 1.25 + 0.5 + high) * self.scale()).round() + 26.0
     }
 
-    /// The left edge of a lane.
     fn left(&self, lane: usize) -> f64 {
         (lane / self.rows()) as f64 * self.lane_width()
     }
 
-    /// The face of the ground in a lane.
     fn ground(&self, lane: usize) -> f64 {
         HEAD + ((lane % self.rows()) as f64 + 1.0) * self.lane_height() - 16.0
     }
 
-    /// The upper edge of a lane's sky.
     fn top(&self, lane: usize) -> f64 {
         self.ground(lane) - self.lane_height() + 16.0
     }
@@ -324,19 +300,10 @@ fn paint_pose(
         frame.stroke_path(&path, &edge, &Stroke { width: 0.8, ..Stroke::default() }, Transform::identity(), None);
         let Some(mark) = mark else { continue };
         for (corners, _) in pose.voxels.iter().filter(|(_, own)| *own == code) {
-            draw_mark(&mark, &corners.map(&to_pixel), |polygon, ink| fill_polygon(frame, polygon, ink));
+            draw_mark(&mark, &corners.map(&to_pixel), |polygon, color| {
+                ink_path(frame, line(polygon, true), &Paint::fill(color), Transform::identity());
+            });
         }
-    }
-}
-
-fn fill_polygon(frame: &mut Pixmap, points: &[(f64, f64)], color: Color) {
-    let mut path = PathBuilder::new();
-    for (i, &(x, y)) in points.iter().enumerate() {
-        if i == 0 { path.move_to(x as f32, y as f32) } else { path.line_to(x as f32, y as f32) }
-    }
-    path.close();
-    if let Some(path) = path.finish() {
-        frame.fill_path(&path, &solid(color, 1.0), FillRule::Winding, Transform::identity(), None);
     }
 }
 
@@ -368,7 +335,6 @@ fn changed(old: &[u8], fresh: &[u8], row: usize) -> Option<[usize; 4]> {
     })
 }
 
-/// Writes an endless GIF of the robots on a stage, calling `observe` with the number of frames done after each.
 pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
     let mut painter = Painter::new(film, &stage);
     let (width, height) = painter.size();
@@ -395,7 +361,6 @@ pub fn write_gif(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut d
     Ok(())
 }
 
-/// Writes an endless APNG of the robots on a stage, calling `observe` with the number of frames done after each.
 pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut dyn FnMut(usize)) -> io::Result<()> {
     let mut painter = Painter::new(film, &stage);
     let (width, height) = painter.size();
@@ -405,19 +370,19 @@ pub fn write_apng(film: &Film, stage: Stage, out: &mut dyn Write, observe: &mut 
     encoder.set_palette(painter.swatches.bytes());
     encoder.set_trns((0..=UNCHANGED).map(|color| if color == UNCHANGED { 0 } else { 255 }).collect::<Vec<u8>>());
     encoder.set_compression(png::Compression::Fast);
-    encoder.set_animated(moments as u32, 0).map_err(io::Error::other)?;
-    encoder.set_blend_op(png::BlendOp::Over).map_err(io::Error::other)?;
-    encoder.set_frame_delay(DELAY, 100).map_err(io::Error::other)?;
-    let mut writer = encoder.write_header().map_err(io::Error::other)?;
+    encoder.set_animated(moments as u32, 0)?;
+    encoder.set_blend_op(png::BlendOp::Over)?;
+    encoder.set_frame_delay(DELAY, 100)?;
+    let mut writer = encoder.write_header()?;
     for (i, moment) in stage.enumerate() {
         let patch = painter.paint(&moment, i as f64 / moments.saturating_sub(1).max(1) as f64);
-        writer.reset_frame_position().map_err(io::Error::other)?;
-        writer.set_frame_dimension(patch.width, patch.height).map_err(io::Error::other)?;
-        writer.set_frame_position(patch.left, patch.top).map_err(io::Error::other)?;
-        writer.write_image_data(&patch.pixels).map_err(io::Error::other)?;
+        writer.reset_frame_position()?;
+        writer.set_frame_dimension(patch.width, patch.height)?;
+        writer.set_frame_position(patch.left, patch.top)?;
+        writer.write_image_data(&patch.pixels)?;
         observe(i + 1);
     }
-    writer.finish().map_err(io::Error::other)
+    Ok(writer.finish()?)
 }
 
 fn io_error(error: gif::EncodingError) -> io::Error {

@@ -8,9 +8,7 @@ const BOLD: &[u8] = include_bytes!("../assets/DejaVuSans-Bold-subset.ttf");
 
 /// A line of text as a shape, with its start at the origin of the base line and y downwards.
 pub(super) struct Outline {
-    /// `None` for a text without ink.
     pub path: Option<Path>,
-    /// The distance from the start to the end of the text, in pixels.
     pub width: f32,
 }
 
@@ -31,10 +29,8 @@ impl Outline {
     }
 }
 
-/// Draws letter after letter in the units of the font.
 struct Pen {
     path: PathBuilder,
-    /// The start of the current letter.
     x: f32,
 }
 

@@ -14,27 +14,21 @@ use nbc_swarm::evolve::Champion;
 /// Thresholds of significance and their marks; the paper's is the last.
 const THRESHOLDS: [(f64, &str); 3] = [(0.05, "*"), (0.01, "**"), (0.001, "***")];
 
-/// A behavior and its mirror image.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BehaviorGroup {
     /// Such as `XXYY` for LLRR and RRLL.
     pub name: &'static str,
-    /// The number of stimuli that its robots depend on.
     pub stimuli: usize,
-    /// The place in the paper's order of difficulty, from 0 for the easiest to 3.
     pub difficulty: usize,
-    /// For each run that found any, the mean distance in voxels of its champions, one for each behavior found.
+    /// The mean distance in voxels of the champions of each run that found any, one for each behavior found.
     pub values: Vec<f64>,
 }
 
-/// Two groups compared.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct GroupComparison {
-    /// The groups, by their places.
     pub groups: [usize; 2],
     /// The probability, by the exact two-sided test, that values this far apart come from the same distribution.
     pub p: f64,
-    /// The same after Holm's correction for all pairs.
     pub p_adjusted: f64,
     /// The smallest adjusted value that is possible with so few runs.
     pub p_least: f64,
@@ -44,7 +38,6 @@ pub struct GroupComparison {
     pub is_approximate: bool,
 }
 
-/// The groups by name, with their stimuli and difficulty, in the paper's order.
 const GROUPS: [(&str, usize, usize); 8] = [
     ("XXXX", 0, 0),
     ("XXYY", 1, 1),
@@ -56,10 +49,8 @@ const GROUPS: [(&str, usize, usize); 8] = [
     ("XYYX", 2, 3),
 ];
 
-/// The paper's difficulties, by the stimuli that behaviors follow.
 pub(super) const DIFFICULTIES: [&str; 4] = ["none", "one", "both", "XOR and XNOR"];
 
-/// The place of the group of a behavior of two stimuli.
 pub(super) fn group_of(behavior: Behavior) -> usize {
     let first = behavior.direction(Pattern::PAIRS[0]);
     let letter = |pattern| if behavior.direction(pattern) == first { 'X' } else { 'Y' };
@@ -67,7 +58,6 @@ pub(super) fn group_of(behavior: Behavior) -> usize {
     GROUPS.iter().position(|&(name, ..)| is_own(name)).expect("there are eight such names")
 }
 
-/// The place of a behavior of two stimuli in the paper's order of difficulty, from 0 for the easiest to 3.
 pub fn difficulty_of(behavior: Behavior) -> usize {
     let (_, _, difficulty) = GROUPS[group_of(behavior)];
     difficulty
@@ -82,7 +72,6 @@ pub fn behavior_groups(runs: &BTreeMap<u64, Vec<Champion>>) -> Vec<BehaviorGroup
         .collect()
 }
 
-/// For each run that found a behavior of this group, the mean distance of their champions in voxels.
 fn values(runs: &BTreeMap<u64, Vec<Champion>>, group: usize) -> Vec<f64> {
     let mean = |run: &Vec<Champion>| {
         let champions =
@@ -93,7 +82,6 @@ fn values(runs: &BTreeMap<u64, Vec<Champion>>, group: usize) -> Vec<f64> {
     runs.values().filter_map(mean).collect()
 }
 
-/// Every two groups compared, in order; pairs without values are left out.
 pub fn compare_groups(groups: &[BehaviorGroup]) -> Vec<GroupComparison> {
     let pairs = (0..groups.len()).flat_map(|a| (a + 1..groups.len()).map(move |b| [a, b]));
     let mut comparisons: Vec<GroupComparison> = pairs.filter_map(|pair| compare(groups, pair)).collect();
@@ -134,7 +122,7 @@ fn approximate_p(u: f64, a: &[f64], b: &[f64]) -> f64 {
     let ties = values.chunk_by(|one, other| one == other).map(|equal| equal.len() as f64);
     let tied: f64 = ties.map(|equal| equal * equal * equal - equal).sum();
     let variance = pairs / 12.0 * (all + 1.0 - tied / (all * (all - 1.0)));
-    // Equal values throughout have no variance, and differ as little as can be.
+    // Equal values throughout have no variance, and do not differ.
     if variance <= 0.0 {
         return 1.0;
     }
@@ -178,22 +166,18 @@ fn holm(p: &[f64]) -> Vec<f64> {
     adjusted
 }
 
-/// The number of ways to choose `k` of `n`.
 fn choices(n: usize, k: usize) -> f64 {
     (0..k).map(|i| (n - i) as f64 / (i + 1) as f64).product()
 }
 
-/// The mark of an adjusted probability.
 pub(super) fn mark(p_adjusted: f64) -> &'static str {
     THRESHOLDS.iter().rfind(|threshold| p_adjusted < threshold.0).map_or("", |threshold| threshold.1)
 }
 
-/// What was done to which pairs.
 pub(super) fn describe_method(comparisons: &[GroupComparison]) -> String {
     format!("exact two-sided Mann-Whitney U, adjusted by Holm for {} pairs", comparisons.len())
 }
 
-/// The groups and their comparisons in words.
 pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]) -> String {
     use Align::{Left, Right};
     let mut table = TextTable::new(&[
@@ -233,11 +217,11 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
     if comparisons.iter().any(|pair| pair.is_approximate) {
         text.push_str("~ approximate, because there are ties\n");
     }
-    let mut told = 0;
+    let mut before = 0;
     for (threshold, _) in THRESHOLDS {
         let beyond = comparisons.iter().filter(|comparison| comparison.p_least > threshold).count();
         // A comparison that cannot reach one threshold cannot reach a lower one either.
-        if beyond > told {
+        if beyond > before {
             // Writing to a string cannot fail.
             let _ = writeln!(
                 text,
@@ -245,7 +229,7 @@ pub fn describe_groups(groups: &[BehaviorGroup], comparisons: &[GroupComparison]
                 comparisons.len()
             );
         }
-        told = beyond;
+        before = beyond;
     }
     text
 }
@@ -263,7 +247,6 @@ mod tests {
         distances.iter().map(champion).collect()
     }
 
-    /// Runs of the seeds 1, 2, …
     fn seeds(runs: impl IntoIterator<Item = Vec<Champion>>) -> BTreeMap<u64, Vec<Champion>> {
         (1..).zip(runs).collect()
     }

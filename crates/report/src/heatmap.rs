@@ -12,12 +12,9 @@ use nbc_swarm::evolve::NicheKey;
 
 const CELL: f64 = 26.0;
 const COLUMNS: usize = 8;
-/// Left of the maps and above them.
 const LEFT: f64 = 46.0;
 const TOP: f64 = 66.0;
-/// From map to map.
 const GAP: (f64, f64) = (28.0, 52.0);
-/// Width of the key to the right of the maps, and height of its colors.
 const KEY: f64 = 80.0;
 const KEY_HEIGHT: f64 = 150.0;
 
@@ -30,26 +27,17 @@ const MAP: [Color; 5] = [
     Color::new(253, 231, 37),
 ];
 
-/// The contents of a map: the best first fitness of each pair of bins.
 type Cells = BTreeMap<(u16, u16), f64>;
 
-/// An archive as a map shows it.
 pub struct ArchiveMap<'a> {
-    /// The meaning of the first fitness, with its unit.
     pub unit: &'a str,
-    /// The archive's axes.
     pub axes: &'a [Axis],
-    /// The stimuli of its bodies.
     pub stimuli: usize,
-    /// The best first fitness of each filled niche.
     pub niches: &'a [(&'a NicheKey, f64)],
 }
 
 /// Draws an archive over two of its axes, given by index. Unless one of them is the axis of behaviors or of classes,
 /// there is a small map for each of those; of three stimuli, for each that has an elite.
-///
-/// # Panics
-/// When an axis is not there.
 pub fn draw_heatmap(title: &str, archive_map: &ArchiveMap<'_>, x: usize, y: usize) -> Svg {
     let axes = [x, y].map(|axis| Columns::of(archive_map, axis));
     let split = archive_map.axes.iter().position(|axis| !matches!(axis, Axis::Count { .. }));
@@ -62,8 +50,7 @@ pub fn draw_heatmap(title: &str, archive_map: &ArchiveMap<'_>, x: usize, y: usiz
     let pitch = (axes[0].bins.len() as f64 * CELL + GAP.0, axes[1].bins.len() as f64 * CELL + GAP.1);
     let width = (LEFT + columns as f64 * pitch.0 + KEY).max(title.chars().count() as f64 * 10.0 + 30.0);
     let height = (TOP + shown.len().div_ceil(columns) as f64 * pitch.1).max(TOP + KEY_HEIGHT + 30.0);
-    let mut svg = Svg::new(width, height, title);
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let mut svg = Svg::titled(width, height, title);
     let empty = Cells::new();
     for (i, behavior) in shown.iter().enumerate() {
         let place = (i % columns, i / columns);
@@ -101,7 +88,6 @@ fn axis_label(axis: Axis) -> &'static str {
     }
 }
 
-/// An axis with the bins that are drawn.
 struct Columns {
     axis: Axis,
     bins: Vec<u16>,
@@ -129,7 +115,6 @@ impl Columns {
     }
 }
 
-/// The color of a share from 0 to 1.
 pub fn heat(share: f64) -> Color {
     let place = share.clamp(0.0, 1.0) * (MAP.len() - 1) as f64;
     let below = (place as usize).min(MAP.len() - 2);
@@ -141,14 +126,11 @@ pub fn share((low, high): (f64, f64), value: f64) -> f64 {
     if high > low { (value - low) / (high - low) } else { 1.0 }
 }
 
-/// One map.
 struct Map<'a> {
     cells: &'a Cells,
     axes: &'a [Columns; 2],
     range: (f64, f64),
-    /// Whether the map is labeled with the second axis.
     leftmost: bool,
-    /// Whether the first axis is named below it.
     lowest: bool,
 }
 

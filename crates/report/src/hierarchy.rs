@@ -7,32 +7,24 @@ use nbc_circuit::{BlockId, NetId, Netlist, Node};
 
 use crate::net_names::{NetNames, Word, call_name, distinct_names, written};
 
-/// A part with at most so many cells has no parts in it.
+/// A part with at most this many cells has no parts in it.
 const FLAT: usize = 25;
 /// A call with at most so many cells is no part of its own; one with `SMALL` only if there is no room for its cells.
 const FEW: usize = 2;
 const SMALL: usize = 8;
 /// The cells and parts up to which there is room for those of small calls.
 const ROOM: usize = 30;
-/// The most cells and parts that are shown at once.
 const MOST: usize = 40;
-/// How many of them there are in a division of a larger part.
+/// Cells and parts in a division of a larger part.
 const DIVISION: usize = 24;
 
-/// A part of a circuit.
 #[derive(Clone, Debug, Default)]
 pub struct CircuitPart {
-    /// The name of the call, or a description of the division.
     pub name: String,
-    /// The circuit that is called, if it is a call.
     pub circuit: Option<String>,
-    /// The part around it; none for the whole circuit.
     pub outer: Option<usize>,
-    /// The cells and wires that are in no part inside.
     pub cells: Vec<NetId>,
-    /// The parts inside.
     pub inner: Vec<usize>,
-    /// The number of cells, including those of the parts inside.
     pub size: usize,
 }
 
@@ -41,11 +33,9 @@ pub struct CircuitPart {
 pub struct Hierarchy {
     /// The parts, each after the one around it.
     pub parts: Vec<CircuitPart>,
-    /// The part in which each cell or wire is shown.
     pub home: BTreeMap<NetId, usize>,
 }
 
-/// What is shown of a part: a cell or a part inside.
 #[derive(Clone, Copy, Debug)]
 enum Item {
     Cell(NetId),
@@ -62,7 +52,6 @@ impl Item {
 }
 
 impl Hierarchy {
-    /// The parts of a netlist.
     pub fn of(netlist: &Netlist) -> Self {
         let mut tree = Tree::of(netlist);
         tree.dissolve_small();
@@ -75,8 +64,8 @@ impl Hierarchy {
         path_of(&self.parts, part)
     }
 
-    /// What readers call a part, and what else is said of it: the circuit that is called and the name of the call, the
-    /// circuit first where no other part beside it is a call of the same, and it is no register.
+    /// The title of a part, and more about it: its circuit and the name of its call. The circuit comes first unless
+    /// another part beside it calls the same, or it is a register.
     pub fn titles(&self, part: usize) -> (&str, Option<&str>) {
         let CircuitPart { name, circuit, outer, .. } = &self.parts[part];
         let Some(circuit) = circuit.as_deref() else { return (name, None) };
@@ -110,7 +99,6 @@ struct Tree {
 }
 
 impl Tree {
-    /// A part for each call that has cells.
     fn of(netlist: &Netlist) -> Self {
         let mut tree = Self { parts: vec![CircuitPart { name: netlist.name.clone(), ..CircuitPart::default() }] };
         let mut known = BTreeMap::from([(BlockId::TOP, 0)]);
@@ -143,7 +131,6 @@ impl Tree {
         at
     }
 
-    /// What is shown of a part.
     fn items(&self, part: usize) -> usize {
         self.parts[part].cells.len() + self.parts[part].inner.len()
     }
@@ -177,7 +164,6 @@ impl Tree {
         }
     }
 
-    /// The first rank of the cells of each part.
     fn first_ranks(&self, ranks: &BTreeMap<NetId, usize>) -> Vec<usize> {
         let own = |part: &CircuitPart| part.cells.iter().map(|cell| ranks[cell]).min().unwrap_or(usize::MAX);
         let mut first: Vec<usize> = self.parts.iter().map(own).collect();
@@ -251,7 +237,6 @@ impl Tree {
         words
     }
 
-    /// The parts that are left, each after the one around it.
     fn finish(mut self) -> Hierarchy {
         let mut order = vec![0];
         let mut at = 0;
@@ -275,12 +260,10 @@ impl Tree {
     }
 }
 
-/// Whether a node is in a part: it is no port and no constant.
 fn is_shown(netlist: &Netlist, id: NetId) -> bool {
     matches!(netlist.node(id), Node::Cell(_) | Node::Wire { .. })
 }
 
-/// The parts around a part and itself, without the whole circuit.
 fn path_of(parts: &[CircuitPart], part: usize) -> Vec<usize> {
     let mut path: Vec<usize> = std::iter::successors(Some(part), |&at| parts[at].outer).collect();
     path.pop();
@@ -312,7 +295,6 @@ mod tests {
     use super::*;
     use nbc_base::model::Function;
 
-    /// `count` calls of a chain of inverters of that length, each after the other.
     fn chains(count: usize, length: usize) -> Netlist {
         let mut netlist = Netlist::new("chains");
         let mut net = netlist.add_input("a");
@@ -374,7 +356,6 @@ mod tests {
         assert_eq!(names, ["c[0], c[1]", "carry[37..14]", "carry[59..38]"]);
     }
 
-    /// A call of each of these names and circuits, with three inverters in each, among many others.
     fn calls(called: &[(&str, &str)]) -> Hierarchy {
         let mut netlist = chains(0, 0);
         let mut net = netlist.inputs()[0];

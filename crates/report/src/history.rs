@@ -7,16 +7,11 @@ use serde::{Deserialize, Deserializer};
 use crate::groups::difficulty_of;
 use nbc_base::model::Behavior;
 
-/// The fields read from a line of `progress.jsonl`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 pub struct ProgressLine {
-    /// Generations done.
     pub generation: u32,
-    /// The share of filled niches.
     pub coverage: f64,
-    /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
-    /// The behaviors found so far, each with the fitnesses of its champion.
     #[serde(default, deserialize_with = "best")]
     pub best: BTreeMap<Behavior, [f64; 2]>,
 }
@@ -31,7 +26,6 @@ impl ProgressLine {
     }
 }
 
-/// The entries of an object whose names are behaviors.
 fn best<'de, D: Deserializer<'de>>(deserializer: D) -> Result<BTreeMap<Behavior, [f64; 2]>, D::Error> {
     let best: BTreeMap<String, [f64; 2]> = Deserialize::deserialize(deserializer)?;
     Ok(best.into_iter().filter_map(|(word, fitness)| Some((word.parse().ok()?, fitness))).collect())
@@ -58,12 +52,10 @@ impl<'a> History<'a> {
         Self { lines, generations }
     }
 
-    /// The valid lines.
     pub fn lines(&self) -> impl Iterator<Item = ProgressLine> {
         self.lines.values().map(|(line, _)| line.clone())
     }
 
-    /// The lines as the text of a file.
     pub fn print(&self) -> String {
         self.lines.values().flat_map(|(_, text)| [*text, "\n"]).collect()
     }

@@ -10,25 +10,17 @@ use serde_json::Value;
 
 use crate::svg::Svg;
 
-/// The style and the scripts of all pages come from `web/`.
 const STYLE: &str = include_str!("../page/report.css");
 
-/// A page under construction.
 pub struct Html<'a> {
-    /// The heading, as plain text.
     pub heading: &'a str,
-    /// Whether the verdict is good.
     pub passed: bool,
-    /// The verdict at the top, as plain text.
     pub verdict: String,
-    /// The body, as HTML.
     pub body: String,
-    /// The script, if the page has one, and its data.
     pub script: Option<(&'static str, Value)>,
 }
 
 impl Html<'_> {
-    /// The page as a file.
     pub fn finish(self) -> String {
         let (heading, verdict, version) = (escape(self.heading), escape(&self.verdict), nbc_base::VERSION);
         let class = if self.passed { "pass" } else { "fail" };
@@ -52,7 +44,6 @@ impl Html<'_> {
     }
 }
 
-/// The buttons of a player, which starts at that many cycles a second.
 pub fn controls(speed: &str) -> String {
     let option = |value: &str| {
         let chosen = if value == speed { " selected" } else { "" };
@@ -67,8 +58,7 @@ pub fn controls(speed: &str) -> String {
     )
 }
 
-/// A drawing in a page, in a frame that scrolls if the page is too narrow. Identifiers are removed, because several
-/// drawings may use the same ones.
+/// Identities are removed, because several drawings may use the same ones.
 pub fn picture(svg: &Svg, label: &str) -> String {
     let svg = embedded(svg);
     format!(
@@ -77,17 +67,14 @@ pub fn picture(svg: &Svg, label: &str) -> String {
     )
 }
 
-/// A drawing for a page that has several of them: the identities of its groups need not be unique there.
 pub fn embedded(svg: &Svg) -> String {
     svg.finish().replace("<g id=\"", "<g data-id=\"")
 }
 
-/// Text for an element or an attribute.
 pub fn escape(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Numbers of 16 bits, lower byte first, as base64 (RFC 4648, section 4).
 pub fn base64(numbers: &[i16]) -> String {
     STANDARD.encode(numbers.iter().flat_map(|number| number.to_le_bytes()).collect::<Vec<u8>>())
 }

@@ -5,23 +5,20 @@ use crate::element::{Paint, Point};
 use crate::svg::Svg;
 use nbc_base::model::{Image, ImageSize};
 
-/// The color of a value from 0 to 1.
 pub fn ink(value: f64) -> Color {
     Color::WHITE.mix(Color::BLACK, value)
 }
 
-/// Draws an image whose longer side has that length, below and to the right of a corner.
+/// Draws an image whose longer side has that length.
 pub fn draw_image(svg: &mut Svg, corner: Point, side: f64, image: &Image) {
     draw_pixels(svg, corner, pixel_side(image, side), image.size(), |at| ink(image.pixels()[at]));
 }
 
-/// The side of a pixel of an image whose longer side has that length.
 pub fn pixel_side(image: &Image, side: f64) -> f64 {
     let size = image.size();
     side / size.rows.max(size.columns) as f64
 }
 
-/// Draws a square of that side for each pixel of an image of that size.
 pub fn draw_pixels(
     svg: &mut Svg,
     (left, top): Point,

@@ -1,7 +1,5 @@
 //! Reports: results as text, pictures and data. Everything here returns text or bytes; the layers above write them.
 
-mod accuracy;
-mod answer;
 mod champions;
 mod chart;
 mod color;
@@ -9,7 +7,6 @@ mod comparison;
 mod confusion;
 mod csv;
 mod curves;
-mod cycles;
 mod discovery;
 mod document;
 mod element;
@@ -23,20 +20,17 @@ mod film;
 mod font;
 mod groups;
 mod heatmap;
-mod heights;
 mod hierarchy;
 mod history;
 mod html;
 mod image;
 mod layers;
 mod listing;
-mod logic_page;
 mod looks;
 mod net_names;
 mod occlusion;
 mod page_bodies;
 mod phases;
-mod portraits;
 mod pose;
 mod progress;
 #[cfg(feature = "pictures")]
@@ -45,8 +39,6 @@ mod result;
 mod robustness;
 mod run_page;
 mod schematic;
-mod schematic_page;
-mod scheme;
 #[cfg(feature = "pictures")]
 mod shades;
 mod sheet;
@@ -65,14 +57,12 @@ mod verdict;
 mod waves;
 mod wires;
 
-pub use accuracy::draw_accuracies;
-pub use answer::{Answer, Outcome};
 pub use champions::{Champions, draw_champions};
-pub use color::Color;
-pub use comparison::draw_comparison;
+pub use color::{Color, Scheme};
+pub use comparison::{draw_accuracies, draw_comparison};
 pub use confusion::Confusion;
+pub use csv::cycle_table;
 pub use curves::{draw_response, draw_schedule};
-pub use cycles::cycle_table;
 pub use discovery::{Discovery, draw_discovery};
 pub use document::{Document, Schema};
 pub use element::{Anchor, Paint, Point, Type};
@@ -86,26 +76,21 @@ pub use groups::{BehaviorGroup, GroupComparison, behavior_groups, compare_groups
 pub use heatmap::{ArchiveMap, draw_heatmap, heat};
 pub use history::{History, ProgressLine};
 pub use html::base64;
-pub use listing::{Listing, describe_robot};
-pub use logic_page::draw_logic_page;
+pub use listing::{Answer, Listing, Outcome, describe_robot};
 pub use looks::{Look, Looks, Mark, describe_material};
 pub use occlusion::{OcclusionMap, draw_occlusion};
 pub use page_bodies::{about_robot, voxel_data};
 pub use phases::PhaseTiming;
-pub use portraits::{Portrait, draw_portraits};
 pub use pose::draw_pose;
 pub use progress::{Course, Series, draw_progress};
 #[cfg(feature = "pictures")]
 pub use raster::png;
 pub use result::{RobotResult, RunResult, SwarmResult};
 pub use robustness::{YieldCurve, describe_robustness, draw_yields};
-pub use run_page::{PageSwarm, SwarmOutcome, draw_run_page};
-
-pub use schematic::{Schematic, SchematicPages, SheetPage};
-pub use schematic_page::draw_schematic_page;
-pub use scheme::Scheme;
+pub use run_page::{PageSwarm, SwarmOutcome, draw_logic_page, draw_run_page};
+pub use schematic::{Schematic, SchematicPages, SheetPage, draw_schematic_page};
 pub use spacetime::{Spells, Strip, Track, draw_chosen, draw_robot, draw_swarm};
-pub use sprite::{Pose, draw_body, draw_portrait, draw_sprite};
+pub use sprite::{Portrait, Pose, draw_body, draw_portrait, draw_portraits, draw_sprite};
 pub use stage::{Moment, Stage};
 pub use strip::draw_strip;
 pub use svg::Svg;

@@ -1,5 +1,7 @@
-//! Robots of a library as a table, as one page, and as data.
+//! Robots of a library as a table, as one page, and as data, and the result of `library add` for a behavior: a robot, or
+//! the reason why there is none.
 
+use std::fmt;
 use std::sync::Arc;
 
 use serde::Serialize;
@@ -7,45 +9,36 @@ use serde::Serialize;
 use crate::looks::material_words;
 use crate::{Align, TextTable};
 use nbc_base::diag::counted;
-use nbc_base::model::{Displacements, Library, Palette, Pattern, Robot, SafeRadius, Transition};
+use nbc_base::model::{Behavior, Displacements, Library, Palette, Pattern, Robot, SafeRadius, Transition};
+use nbc_swarm::Selected;
 
-/// The data of a robot in a list, for programs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Listing {
-    /// The robot's name in its library.
     pub name: String,
-    /// Its four letters.
     pub behavior: String,
-    /// The function that it computes as a gate.
     pub function: &'static str,
-    /// Its bounding box, columns by rows, such as `5x5`.
     #[serde(rename = "box")]
     pub bounds: String,
-    /// Its clock in cycles.
     pub clock: u32,
-    /// The longest of its settle times in cycles; none if they were not measured.
+    /// The longest settle time in cycles; none if it was not measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settle: Option<u32>,
-    /// Its smallest displacement in voxels per cycle.
+    /// The smallest displacement in voxels per cycle.
     pub margin: f64,
-    /// How far worlds may differ, if that was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<SafeRadius>,
     /// The share of random switches with a wrong output.
     pub error_rate: f64,
-    /// Random switches over which they were counted.
     pub switches: u32,
     /// The share of wrong cycles in which the output should not change.
     pub glitch_rate: f64,
-    /// Its rows of codes, top row first.
     pub body: Vec<String>,
-    /// The materials of the codes, in their order, if they are not the paper's.
+    /// The materials of the codes, if they are not the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub materials: Option<Arc<Palette>>,
 }
 
 impl Listing {
-    /// The entry for one robot.
     pub fn of(robot: &Robot) -> Self {
         let character = &robot.character;
         Self {
@@ -65,12 +58,10 @@ impl Listing {
         }
     }
 
-    /// All robots of a library, in its order.
     pub fn all(library: &Library) -> Vec<Self> {
         library.robots.iter().map(Self::of).collect()
     }
 
-    /// A list as a table for people.
     pub fn table(list: &[Self]) -> TextTable {
         use Align::{Left, Right};
         let mut table = TextTable::new(&[
@@ -107,14 +98,12 @@ fn percent(share: f64) -> String {
     if share == 0.0 { "0".to_owned() } else { format!("{:.2} %", share * 100.0) }
 }
 
-/// Displacements under each pattern.
 pub(super) fn walked(displacement: &Displacements) -> String {
     let behavior = displacement.behavior();
     let one = |(pattern, voxels): (Pattern, &f64)| format!("{} {voxels:+.2}", pattern.digits(behavior.stimuli()));
     behavior.patterns().zip(displacement.iter()).map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// A robot on one page: its body, its materials, its character and its provenance.
 pub fn describe_robot(robot: &Robot) -> String {
     let (character, provenance) = (&robot.character, &robot.provenance);
     let drawing = robot.body.rows().join("\n    ").replace('0', ".");
@@ -141,7 +130,7 @@ pub fn describe_robot(robot: &Robot) -> String {
         width = robot.body.width(),
         height = robot.body.height(),
         topples = if character.topples { ", topples" } else { "" },
-        legend = legend(robot),
+        legend = material_words(&robot.body).join("  "),
         displacement = walked(&robot.displacement),
         settles = settles(robot),
         worlds = worlds(robot),
@@ -154,12 +143,6 @@ pub fn describe_robot(robot: &Robot) -> String {
     )
 }
 
-/// The materials that the body has, by code.
-fn legend(robot: &Robot) -> String {
-    material_words(&robot.body).join("  ")
-}
-
-/// How far worlds may differ, and the errors at radius 1.
 fn worlds(robot: &Robot) -> String {
     let Some(SafeRadius { vary, worlds, radius, error_rate, .. }) = &robot.character.radius else {
         return "not measured".to_owned();
@@ -181,4 +164,75 @@ fn settles(robot: &Robot) -> String {
         format!("in {cycles}: {}", words.join(" "))
     };
     if times.is_empty() { "not measured".to_owned() } else { times.iter().map(of_time).collect::<Vec<_>>().join("; ") }
+}
+
+#[derive(Clone, Debug, Serialize)]
+pub struct Answer {
+    /// Its four letters.
+    pub behavior: String,
+    pub function: &'static str,
+    pub outcome: Outcome,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub reason: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub robot: Option<Listing>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Outcome {
+    Added,
+    LeftOut,
+    Missing,
+}
+
+impl Answer {
+    pub fn of(behavior: Behavior, selected: &Selected, max_error: f64) -> Self {
+        let listing = |robot: &Robot| Some(Listing::of(robot));
+        let (outcome, reason, robot) = match selected {
+            Selected::Robot(robot) => (Outcome::Added, None, listing(robot)),
+            Selected::Erring(robot) => (Outcome::LeftOut, Some(errors(robot, max_error)), listing(robot)),
+            Selected::Other(other) => {
+                let reason = format!("its best elite walks {other} when it is measured");
+                (Outcome::LeftOut, Some(reason), None)
+            }
+            Selected::Faulty(fault) => {
+                let reason = format!("its best elite {} in env step {}", fault.kind, fault.env_step);
+                (Outcome::LeftOut, Some(reason), None)
+            }
+            Selected::Missing => (Outcome::Missing, Some("no elite of this behavior".to_owned()), None),
+        };
+        Self { behavior: behavior.to_string(), function: behavior.function().name(), outcome, reason, robot }
+    }
+
+    pub fn is_added(&self) -> bool {
+        self.outcome == Outcome::Added
+    }
+}
+
+fn errors(robot: &Robot, max_error: f64) -> String {
+    let character = &robot.character;
+    let wrong = (character.error_rate * f64::from(character.switches)).round();
+    let (rate, most) = (100.0 * character.error_rate, 100.0 * max_error);
+    format!("{wrong} of {} switches wrong ({rate:.2} %), at most {most} % accepted", character.switches)
+}
+
+impl fmt::Display for Answer {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}  {:<10}  ", self.behavior, self.function)?;
+        match (self.outcome, &self.robot) {
+            (Outcome::Added, Some(Listing { name, clock, margin, error_rate, .. })) => {
+                write!(f, "added     {name}, clock {clock}, margin {margin:.3}")?;
+                if *error_rate > 0.0 {
+                    write!(f, ", {:.2} % of the switches wrong", 100.0 * error_rate)?;
+                }
+            }
+            (Outcome::Missing, _) => f.write_str("none")?,
+            _ => f.write_str("left out")?,
+        }
+        match &self.reason {
+            Some(reason) => writeln!(f, ": {reason}"),
+            None => writeln!(f),
+        }
+    }
 }

@@ -4,38 +4,31 @@
 use std::sync::Arc;
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::element::{Paint, Point};
-use crate::scheme::Scheme;
 use crate::svg::Svg;
 use nbc_base::model::{Body, Drive, Material, MaterialKind, Palette, Response};
 
-/// The appearance of a material.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Look {
-    /// The color of its voxels.
     pub color: Color,
-    /// The sign on its voxels, for those who do not tell the colors apart.
     pub mark: Option<Mark>,
 }
 
-/// A sign on a voxel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Mark {
-    /// The color of the mark, which contrasts with the voxel's.
     pub ink: Color,
     /// Polygons in the unit square of a voxel: x to the right, y down.
     pub polygons: &'static [&'static [Point]],
 }
 
-/// The looks of the materials in one picture. Materials of one name and the same numbers look alike in all bodies of
-/// the picture.
+/// The looks of the materials in one picture. Equal materials look alike in all bodies of the picture.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Looks {
     palettes: Vec<Arc<Palette>>,
     materials: Vec<(Material, Look)>,
 }
 
-/// Base colors of materials beyond the paper's.
 const HUES: [Color; 12] = [
     Color::new(148, 103, 189),
     Color::new(140, 86, 75),
@@ -51,7 +44,6 @@ const HUES: [Color; 12] = [
     Color::new(90, 140, 110),
 ];
 
-/// The shapes of marks: a dot, bars, diagonals, crosses, double bars, triangles, a frame's corners.
 const SHAPES: [&[&[Point]]; 12] = [
     &[&[(0.34, 0.34), (0.66, 0.34), (0.66, 0.66), (0.34, 0.66)]],
     &[&[(0.15, 0.4), (0.85, 0.4), (0.85, 0.6), (0.15, 0.6)]],
@@ -96,12 +88,10 @@ impl Look {
 }
 
 impl Looks {
-    /// The looks of all materials of these bodies.
     pub fn of<'a>(bodies: impl IntoIterator<Item = &'a Body>, scheme: Scheme) -> Self {
         Self::of_palettes(bodies.into_iter().map(Body::palette), scheme)
     }
 
-    /// The looks of all materials of these palettes.
     pub fn of_palettes<'a>(palettes: impl IntoIterator<Item = &'a Arc<Palette>>, scheme: Scheme) -> Self {
         let mut looks = Self { palettes: Vec::new(), materials: Vec::new() };
         for palette in palettes {
@@ -112,7 +102,8 @@ impl Looks {
             for material in palette.materials() {
                 if looks.materials.iter().all(|(known, _)| known != material) {
                     let own = looks.materials.iter().filter(|(_, look)| look.mark.is_some()).count();
-                    let look = paper_look(material, scheme).unwrap_or_else(|| Look::beyond(own));
+                    let paper = |code| Look { color: scheme.color(code), mark: None };
+                    let look = material.paper_code().map_or_else(|| Look::beyond(own), paper);
                     looks.materials.push((material.clone(), look));
                 }
             }
@@ -120,24 +111,16 @@ impl Looks {
         looks
     }
 
-    /// The look of a code of a palette.
-    ///
-    /// # Panics
-    /// When the code is empty, or the palette is none of the picture's.
+    /// Panics when the code is empty, or the palette is not one of the picture's.
     pub fn look(&self, palette: &Palette, code: u8) -> Look {
         self.materials[self.index(palette, code)].1
     }
 
-    /// The place of a code's look among [`Looks::all`].
-    ///
-    /// # Panics
-    /// As [`Looks::look`].
     pub fn index(&self, palette: &Palette, code: u8) -> usize {
         let material = palette.material(code).expect("voxels are not empty");
         self.materials.iter().position(|(known, _)| known == material).expect("the picture knows its palettes")
     }
 
-    /// All materials with their looks.
     pub fn all(&self) -> impl Iterator<Item = (&Material, Look)> {
         self.materials.iter().map(|(material, look)| (material, *look))
     }
@@ -161,15 +144,8 @@ impl Looks {
     }
 }
 
-/// The character of a code.
 fn code_digit(code: u8) -> char {
     char::from_digit(code.into(), 36).unwrap_or('?')
-}
-
-/// The look of a material of the paper.
-fn paper_look(material: &Material, scheme: Scheme) -> Option<Look> {
-    let code = material.paper_code()?;
-    Some(Look { color: scheme.color(code), mark: None })
 }
 
 /// A material's name, with its numbers if it is not one of the paper's.
@@ -193,7 +169,6 @@ pub fn describe_material(material: &Material) -> String {
     }
 }
 
-/// The materials that occur in a body, each with its code.
 pub fn material_words(body: &Body) -> Vec<String> {
     body.materials().map(|(code, material)| format!("{} {}", code_digit(code), describe_material(material))).collect()
 }
@@ -212,7 +187,6 @@ pub fn draw_mark(mark: &Mark, corners: &[Point; 4], mut pen: impl FnMut(&[Point]
     }
 }
 
-/// A square that looks like a voxel, for legends.
 pub fn draw_swatch(svg: &mut Svg, (left, top): Point, side: f64, look: &Look) {
     svg.rect((left, top), side, side, Paint::fill(look.color));
     if let Some(mark) = &look.mark {

@@ -6,7 +6,6 @@ use std::collections::{BTreeMap, VecDeque};
 
 use nbc_circuit::{NetId, Netlist};
 
-/// The most letters of two names of a division, so that both are read in its box.
 const LETTERS: usize = 16;
 
 /// The name of a circuit as the source has it: one of the prelude has another if the source declares the same.
@@ -14,14 +13,13 @@ pub fn written(circuit: &str) -> &str {
     circuit.strip_prefix("prelude.").unwrap_or(circuit)
 }
 
-/// The name of a call. One without a name in the source is called as its circuit; elaboration numbers those.
+/// The name of a call. A call without a name in the source gets a numbered one, and is called as its circuit.
 pub fn call_name<'a>(name: &'a str, circuit: &'a str) -> &'a str {
     let number = name.strip_prefix(circuit).and_then(|rest| rest.strip_prefix('_'));
     let is_numbered = number.is_some_and(|number| !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()));
     if is_numbered { written(circuit) } else { name }
 }
 
-/// The names of a circuit's nets.
 pub struct NetNames<'a> {
     netlist: &'a Netlist,
     /// The names that the source gives to nets of cells, or the outputs that show them.
@@ -31,7 +29,6 @@ pub struct NetNames<'a> {
 }
 
 impl<'a> NetNames<'a> {
-    /// Those of a netlist.
     pub fn of(netlist: &'a Netlist) -> Self {
         let shown = netlist.outputs().iter().flat_map(|&output| {
             let name = netlist.net_name(output);
@@ -52,8 +49,8 @@ impl<'a> NetNames<'a> {
         Self { netlist, named, reached }
     }
 
-    /// What a cell within these calls is of, and its place in that: its bus; the call inside these in which it is; the
-    /// bus to which it leads; or else its function.
+    /// The group of a cell within these calls, and its place in it: its bus; the call around it; the bus to which it
+    /// leads; or its function.
     pub fn within(&self, cell: NetId, calls: &[&str]) -> (String, Option<usize>) {
         let bus = |name: &str| name.split(['[', '/', '.']).next().unwrap_or(name).to_owned();
         if let Some(name) = self.named.get(&cell) {
@@ -75,22 +72,18 @@ impl<'a> NetNames<'a> {
     }
 }
 
-/// What robots of a division are of.
 #[derive(Clone, Debug)]
 pub struct Word {
     name: String,
     robots: usize,
-    /// The least and the greatest place in the bus.
     places: Option<(usize, usize)>,
 }
 
 impl Word {
-    /// One of no robots yet.
     pub fn new(name: String) -> Self {
         Self { name, robots: 0, places: None }
     }
 
-    /// Adds robots, with their place in the bus.
     pub fn count(&mut self, robots: usize, place: Option<usize>) {
         self.robots += robots;
         let (least, greatest) = self.places.unwrap_or((usize::MAX, 0));
@@ -102,7 +95,6 @@ impl Word {
         (self.name.starts_with("to "), Reverse(self.robots))
     }
 
-    /// With the places in the bus, as the source selects them.
     fn with_places(&self) -> String {
         match self.places {
             Some((least, greatest)) if least < greatest => format!("{}[{greatest}..{least}]", self.name),

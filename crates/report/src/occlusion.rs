@@ -1,35 +1,28 @@
 //! What a body needs of images: a map of how much less far it walks when each pixel is covered.
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
 use crate::image::{draw_pixels, ink};
 use crate::looks::Looks;
-use crate::scheme::Scheme;
 use crate::sprite::{draw_body, draw_legend, legend_size};
 use crate::svg::Svg;
 use nbc_base::model::{Body, ImageSize};
 
-/// The side of a voxel, and the room around pictures.
 const VOXEL: f64 = 24.0;
 const GAP: f64 = 28.0;
 const TOP: f64 = 78.0;
 
-/// A body and what it needs of the images of some sets.
 pub struct OcclusionMap<'a> {
-    /// What is drawn.
     pub title: &'a str,
-    /// The body.
     pub body: &'a Body,
-    /// The size of the images.
     pub size: ImageSize,
     /// For each pixel how much less far the body walks the right way when it is covered, in voxels; none where no voxel
     /// senses it.
     pub losses: &'a [Option<f64>],
-    /// The sets, each with the mean of its images.
     pub sets: &'a [(String, Vec<f64>)],
 }
 
-/// Draws the body, the map beside it, and the mean image of each set.
 pub fn draw_occlusion(map: &OcclusionMap<'_>, scheme: Scheme) -> Svg {
     let OcclusionMap { title, body, size, losses, sets } = *map;
     let looks = Looks::of([body], scheme);
@@ -71,7 +64,6 @@ fn loss_color(loss: f64, most: f64) -> Color {
     Color::WHITE.mix(end, share)
 }
 
-/// The colors of the map with the losses that they stand for, in voxels.
 fn draw_key(svg: &mut Svg, (left, top): Point, width: f64, most: f64) {
     const STEPS: usize = 21;
     for step in 0..STEPS {

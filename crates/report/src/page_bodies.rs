@@ -7,7 +7,6 @@ use nbc_base::diag::counted;
 use nbc_base::model::{Body, Material};
 use nbc_swarm::{Assembly, Member, Recorded, StimulusSource};
 
-/// The appearance of materials, for the page's script.
 pub fn look_data(looks: &Looks) -> Vec<Value> {
     let data = |(material, Look { color, mark }): (&Material, Look)| {
         let mut data = json!({ "name": material.name, "color": color.to_string() });
@@ -26,12 +25,11 @@ pub fn voxel_data(recorded: &Recorded, body: &Body, looks: &Looks) -> Vec<[usize
     recorded.voxels.iter().map(voxel).collect()
 }
 
-/// The materials that occur in a body.
 pub fn materials(body: &Body) -> String {
     material_words(body).join("; ")
 }
 
-/// The description of a robot of a swarm for a page: pairs of a word and a text. `called` is what a source is called.
+/// Pairs of a word and a text. `called` names a source.
 pub fn about_robot(assembly: &Assembly, number: usize, called: &dyn Fn(StimulusSource) -> String) -> Vec<[String; 2]> {
     let member = &assembly.members[number];
     let (robot, body, character) = (&member.robot, &member.robot.body, &member.robot.character);
@@ -56,7 +54,6 @@ pub fn about_robot(assembly: &Assembly, number: usize, called: &dyn Fn(StimulusS
     pairs
 }
 
-/// The robots of a swarm for the page's schematic: what they are, and the nets that they read.
 pub fn cell_data(assembly: &Assembly) -> Vec<Value> {
     let data = |(number, member): (usize, &Member)| {
         let wired = member.senses.iter().filter(|source| !matches!(source, StimulusSource::Constant(_)));

@@ -2,20 +2,19 @@
 
 use crate::Color;
 use crate::chart::with_minus;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
 use crate::image::draw_image;
 use crate::looks::Looks;
-use crate::scheme::Scheme;
 use crate::sprite::{Pose, draw_legend, legend_size};
 use crate::stage::{Moment, Stage};
 use crate::svg::Svg;
 use nbc_base::model::{Body, CYCLE_STEPS, Schedule, Setting};
 
 const VOXEL: f64 = 30.0;
-/// The side of an image.
 const IMAGE: f64 = 64.0;
 
-/// Draws a body after an env step of a schedule; after its end or after a fault, this is the last pose.
+/// After the end of the schedule or after a fault, this draws the last pose.
 pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, scheme: Scheme) -> Svg {
     let moment = moment_at(body, schedule, step);
     let (width, height) = (body.width() as f64, body.height() as f64);
@@ -58,7 +57,6 @@ pub fn draw_pose(title: &str, body: &Body, schedule: &Schedule, step: u32, schem
     svg
 }
 
-/// The last moment that is not later than `step`.
 fn moment_at(body: &Body, schedule: &Schedule, step: u32) -> Moment {
     let mut spells = schedule.spells.clone();
     let mut left = step;
@@ -72,7 +70,6 @@ fn moment_at(body: &Body, schedule: &Schedule, step: u32) -> Moment {
     Stage::of_trial(&Setting::default(), body, &cut, stride).last().expect("a stage has its start")
 }
 
-/// The center of mass of a body at the start.
 fn start_of(body: &Body) -> f64 {
     let stage = &mut Stage::of_trial(&Setting::default(), body, &Schedule::default(), 1);
     stage.next().map_or(0.0, |moment| moment.centers[0][0])
@@ -87,7 +84,6 @@ fn draw_ground(svg: &mut Svg, span: f64, ground: f64, camera: f64) {
     }
 }
 
-/// The outlines of the voxels at rest, with the middle of the body at its current center of mass.
 fn draw_rest(svg: &mut Svg, body: &Body, camera: f64, to_pixel: impl Fn(Point) -> Point) {
     let left = camera - body.width() as f64 / 2.0;
     for (corners, _) in Pose::at_rest(body).voxels {

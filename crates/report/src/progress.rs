@@ -5,28 +5,22 @@ use crate::chart::{Panel, range_of};
 use crate::element::{Paint, Point, Type};
 use crate::svg::Svg;
 
-/// A panel: a quantity over time, or several that are compared.
 #[derive(Clone, Debug)]
 pub struct Course {
-    /// The title of the panel.
     pub title: String,
-    /// The vertical axis, with its unit.
     pub unit: String,
     /// What is drawn: one quantity with a line for each seed, or several, each with its median and its band.
     pub series: Vec<Series>,
 }
 
-/// A quantity over time, for several seeds.
 #[derive(Clone, Debug)]
 pub struct Series {
-    /// Its name beside others.
     pub name: String,
-    /// For each seed, pairs of time and value in order of time.
+    /// For each seed, times and values in order of time.
     pub runs: Vec<Vec<Point>>,
 }
 
 impl Course {
-    /// A panel of one quantity.
     pub fn of(title: impl Into<String>, unit: impl Into<String>, runs: Vec<Vec<Point>>) -> Self {
         Self { title: title.into(), unit: unit.into(), series: vec![Series { name: String::new(), runs }] }
     }
@@ -36,10 +30,9 @@ impl Course {
     }
 }
 
-/// Draws quantities one below the other over one axis of time. Those of one unit have one scale, so that they compare.
+/// Draws quantities one below the other over one axis of time. Those of one unit share a scale.
 pub fn draw_progress(title: &str, time: &str, courses: &[Course]) -> Svg {
-    let mut svg = Svg::new(640.0, 40.0 + 240.0 * courses.len() as f64, title);
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let mut svg = Svg::titled(640.0, 40.0 + 240.0 * courses.len() as f64, title);
     let until = range_of(courses.iter().flat_map(|course| course.points().map(|at| at.0)), 0.0).1;
     for (i, course) in courses.iter().enumerate() {
         let alike = courses.iter().filter(|other| other.unit == course.unit);
@@ -76,7 +69,6 @@ fn draw_course(svg: &mut Svg, panel: &Panel, course: &Course) {
     panel.frame(svg);
 }
 
-/// The area between the least and the largest value.
 fn draw_band(svg: &mut Svg, panel: &Panel, runs: &[Vec<Point>], color: Color) {
     if runs.len() > 1 {
         let times = times(runs);
@@ -112,7 +104,7 @@ fn values_at(runs: &[Vec<Point>], time: f64) -> Vec<f64> {
     values
 }
 
-fn median(sorted: &[f64]) -> f64 {
+pub(super) fn median(sorted: &[f64]) -> f64 {
     let middle = sorted.len() / 2;
     if sorted.len() % 2 == 1 { sorted[middle] } else { (sorted[middle - 1] + sorted[middle]) / 2.0 }
 }

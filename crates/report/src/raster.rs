@@ -7,12 +7,11 @@ use crate::font::Outline;
 use crate::shades::Shades;
 use crate::{Color, Svg};
 
-/// The most pixels along one side of a picture.
 const MAX_SIDE: f64 = 16_000.0;
 /// The most pixels of a picture; four bytes each are in memory at once.
 const MAX_PIXELS: f64 = 16e6;
 
-/// The drawing as pixels, `scale` of them for each of its own; less for a drawing that would be too large.
+/// `scale` pixels for each of the drawing's own; fewer for a drawing that would be too large.
 pub fn rasterize(svg: &Svg, scale: f64) -> Pixmap {
     let scale =
         scale.min(MAX_SIDE / svg.width().max(svg.height())).min((MAX_PIXELS / (svg.width() * svg.height())).sqrt());
@@ -55,7 +54,7 @@ fn circle((x, y): Point, radius: f64) -> Option<Path> {
     PathBuilder::from_circle(pixel(x), pixel(y), pixel(radius))
 }
 
-fn line(points: &[Point], closed: bool) -> Option<Path> {
+pub(super) fn line(points: &[Point], closed: bool) -> Option<Path> {
     let mut path = PathBuilder::new();
     for (i, &(x, y)) in points.iter().enumerate() {
         if i == 0 { path.move_to(pixel(x), pixel(y)) } else { path.line_to(pixel(x), pixel(y)) }
@@ -66,8 +65,8 @@ fn line(points: &[Point], closed: bool) -> Option<Path> {
     path.finish()
 }
 
-/// Fills and outlines a path. One that is empty or too small has no ink.
-fn ink(pixmap: &mut Pixmap, path: Option<Path>, paint: &Paint, transform: Transform) {
+/// A path that is empty or too small leaves no ink.
+pub(super) fn ink(pixmap: &mut Pixmap, path: Option<Path>, paint: &Paint, transform: Transform) {
     let Some(path) = path else { return };
     let opacity = paint.opacity.unwrap_or(1.0);
     if let Some(color) = paint.fill {
@@ -92,17 +91,12 @@ fn write(pixmap: &mut Pixmap, (x, y): Point, text: &str, set: &Type, transform: 
     ink(pixmap, outline.path, &Paint::fill(set.color), turned.pre_translate(start, 0.0));
 }
 
-/// The paint of a color; `opacity` 0 is invisible, 1 opaque.
 pub(super) fn solid(color: Color, opacity: f64) -> tiny_skia::Paint<'static> {
     let mut paint = tiny_skia::Paint { anti_alias: true, ..tiny_skia::Paint::default() };
     paint.set_color_rgba8(color.r, color.g, color.b, (opacity.clamp(0.0, 1.0) * 255.0).round() as u8);
     paint
 }
 
-/// The drawing as a PNG file of twice its size, for sharp print.
-///
-/// # Panics
-/// Never: pixels in memory can be encoded.
 pub fn png(svg: &Svg) -> Vec<u8> {
     let pixmap = rasterize(svg, 2.0);
     let (width, height) = (pixmap.width(), pixmap.height());

@@ -11,10 +11,8 @@ use nbc_base::diag::counted;
 use nbc_base::model::{PhysicsWorld, WorldFactors, WorldNoise};
 use nbc_swarm::{Proportion, RobotMargin, Robustness};
 
-/// The most robots that are listed as failing first.
 const MOST_FAILING: usize = 5;
 
-/// The yield of a test, the robots that fail first, and the smallest margin.
 pub fn describe_robustness(found: &Robustness) -> String {
     let swarm = found.swarm.as_ref().map_or(String::new(), |swarm| format!(" as {swarm}"));
     let title = if found.title.is_empty() { String::new() } else { format!(" \"{}\"", found.title) };
@@ -84,20 +82,15 @@ fn declaration(world: &PhysicsWorld) -> String {
     if is_of_file { format!("{record}, and the ground of its file") } else { record }
 }
 
-/// The yield of a test for several sizes of change.
 #[derive(Clone, Debug)]
 pub struct YieldCurve {
-    /// The legend of the curve.
     pub label: String,
-    /// The size of the change and the yield, in order of size.
     pub points: Vec<(f64, Proportion)>,
 }
 
-/// Draws yields against the size of the change, with their 95 % intervals.
 pub fn draw_yields(title: &str, change: &str, curves: &[YieldCurve]) -> Svg {
     let legend = 20.0 * curves.len() as f64;
-    let mut svg = Svg::new(640.0, 380.0 + legend, title);
-    svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+    let mut svg = Svg::titled(640.0, 380.0 + legend, title);
     let most = curves.iter().flat_map(|curve| &curve.points).map(|point| point.0).fold(0.0, f64::max);
     let panel = Panel::new((64.0, 52.0), 550.0, 270.0, (0.0, most * 1.04), (0.0, 104.0));
     panel.x_axis(&mut svg, 8);

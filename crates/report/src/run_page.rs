@@ -1,48 +1,37 @@
 //! The report of a run as one self-contained HTML page: the verdict, the schematic, and a player in step with the
-//! waveform.
+//! waveform; of tests at the level of logic, their truth tables.
 
 use serde_json::{Value as Json, json};
 
+use crate::color::Scheme;
 use crate::html::{Html, base64, controls, escape, picture};
 use crate::looks::Looks;
 use crate::page_bodies::{cell_data, look_data, voxel_data};
 use crate::schematic::SchematicPages;
-use crate::schematic_page::explorer;
-use crate::scheme::Scheme;
+use crate::schematic::explorer;
 use crate::svg::Svg;
-use crate::verdict::{in_world, named_world};
+use crate::verdict::{describe_test, in_world, named_world};
 use nbc_base::diag::counted;
 use nbc_base::model::{CYCLE_STEPS, Column, Value};
 use nbc_swarm::{Assembly, Recorded, RowActivity, RowVerdict, SimulationResult, SwarmTrace, TestVerdict};
 
 const SCRIPT: &str = include_str!("../page/run.js");
 
-/// The result of a test or a simulation.
 #[derive(Clone, Copy)]
 pub enum SwarmOutcome<'a> {
-    /// Of a test.
     Test(&'a TestVerdict),
-    /// Of a simulation.
     Simulation(&'a SimulationResult),
 }
 
-/// One swarm on the page, tested or simulated.
 pub struct PageSwarm<'a> {
-    /// The verdict.
     pub outcome: SwarmOutcome<'a>,
-    /// The trace of the swarm, with the recording for the player.
     pub trace: &'a SwarmTrace,
-    /// The swarm's robots.
     pub assembly: &'a Assembly,
-    /// The circuit.
     pub schematic: &'a SchematicPages,
-    /// The swarm in space and time.
     pub spacetime: &'a Svg,
-    /// Its static timing, as text.
     pub timing: String,
 }
 
-/// The page of a run of the source file with that name.
 pub fn draw_run_page(source: &str, swarms: &[PageSwarm<'_>], scheme: Scheme) -> String {
     let members = swarms.iter().flat_map(|swarm| &swarm.assembly.members);
     let looks = Looks::of(members.map(|member| &member.robot.body), scheme);
@@ -81,7 +70,6 @@ fn heading(tests: &[SwarmOutcome<'_>], simulations: &[SwarmOutcome<'_>]) -> Stri
 }
 
 impl SwarmOutcome<'_> {
-    /// Whether a test passed, or every robot of a simulation could be simulated.
     fn passed(self) -> bool {
         match self {
             Self::Test(verdict) => verdict.passed,
@@ -165,7 +153,6 @@ fn truth_row(row: &RowVerdict) -> String {
     )
 }
 
-/// The activity of a simulation's outputs.
 fn activity_table(result: &SimulationResult) -> String {
     let (inputs, outputs) = (result.inputs.len(), result.outputs.len());
     let row = |row: &RowActivity| {
@@ -185,7 +172,6 @@ fn activity_table(result: &SimulationResult) -> String {
     )
 }
 
-/// The heading of a group of columns; a circuit without inputs has none.
 fn group_head(columns: usize, name: &str) -> String {
     if columns == 0 { String::new() } else { format!("<th colspan=\"{columns}\">{name}</th>") }
 }
@@ -198,7 +184,6 @@ fn cells(values: &[impl ToString]) -> String {
     values.iter().map(|value| format!("<td>{}</td>", escape(&value.to_string()))).collect()
 }
 
-/// The data of one swarm for the player.
 fn swarm_data(swarm: &PageSwarm<'_>, looks: &Looks) -> Json {
     let trace = swarm.trace;
     let pairs = trace.cycles.windows(2).enumerate();
@@ -231,7 +216,6 @@ fn packed(bits: impl Iterator<Item = bool>) -> String {
     bits.chunks(4).map(digit).collect()
 }
 
-/// A bit in each cycle, as digits.
 fn digits(bits: impl Iterator<Item = bool>) -> String {
     bits.map(|bit| if bit { '1' } else { '0' }).collect()
 }
@@ -271,7 +255,25 @@ fn port_waves(trace: &SwarmTrace) -> [Vec<Json>; 2] {
     [trace.inputs.iter().enumerate().map(input).collect(), trace.outputs.iter().enumerate().map(output).collect()]
 }
 
-/// A row of the waveform, whose values apply `shift` cycles later.
 fn row(name: &str, color: &str, shift: usize, values: Json) -> Json {
     json!({ "name": name, "color": color, "shift": shift, "values": values })
+}
+
+pub fn draw_logic_page(source: &str, verdicts: &[&TestVerdict]) -> String {
+    let passed = verdicts.iter().filter(|verdict| verdict.passed).count();
+    let all = verdicts.len();
+    let word = if passed == all { "pass" } else { "FAIL" };
+    Html {
+        heading: source,
+        passed: passed == all,
+        verdict: format!("{word}: {passed} of {} passed", counted(all, "test")),
+        body: verdicts.iter().map(|verdict| logic_section(verdict)).collect(),
+        script: None,
+    }
+    .finish()
+}
+
+fn logic_section(verdict: &TestVerdict) -> String {
+    let (circuit, title) = (escape(&verdict.circuit), escape(&verdict.title));
+    format!("<section>\n<h2>{circuit} {title}</h2>\n<pre>{}</pre>\n</section>\n", escape(&describe_test(verdict)))
 }

@@ -1,13 +1,16 @@
-//! Schematics: a circuit in sheets, each of them a part of it in layers, and each cell with the robot that plays it.
+//! Schematics: a circuit in sheets, each of them a part of it in layers, and each cell with the robot that plays it; and
+//! the page that shows a sheet at a time.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
+use serde_json::json;
 
+use crate::color::Scheme;
 use crate::hierarchy::{CircuitPart, Hierarchy};
-use crate::html::embedded;
+use crate::html::{Html, embedded};
 use crate::looks::Looks;
-use crate::scheme::Scheme;
+use crate::page_bodies::cell_data;
 use crate::sheet::{Sheet, SheetItem};
 use crate::sprite::draw_body;
 use crate::svg::Svg;
@@ -16,23 +19,19 @@ use crate::wires::{SheetPlan, draw_net};
 use nbc_base::diag::counted;
 use nbc_base::model::Robot;
 use nbc_circuit::{NetId, Netlist};
+use nbc_swarm::Assembly;
 
-/// The schematic of a circuit. Each of its parts is a sheet, the first of them the whole.
 pub struct Schematic<'a> {
     circuit: &'a Netlist,
     hierarchy: Hierarchy,
-    /// The robots of the cells in order, or none.
     robots: Vec<&'a Robot>,
-    /// The place of each cell among the cells.
     numbers: BTreeMap<NetId, usize>,
     critical: Vec<NetId>,
     looks: Looks,
 }
 
-/// A schematic for a page, which shows a sheet at a time.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct SchematicPages {
-    /// The sheets, each after the one around it.
     pub sheets: Vec<SheetPage>,
     /// The bodies of the robots, as SVG. A group `body-K` of a sheet is the place of body `K`.
     pub bodies: Vec<String>,
@@ -40,14 +39,11 @@ pub struct SchematicPages {
     pub homes: Vec<usize>,
 }
 
-/// A sheet for a page.
 #[derive(Clone, Debug, Serialize)]
 pub struct SheetPage {
-    /// Its name in the sheet around it.
     pub name: String,
-    /// What else it is, such as `adder, 37 robots`.
+    /// More about it, such as `adder, 37 robots`.
     pub about: String,
-    /// The sheet around it.
     pub outer: Option<usize>,
     /// The drawing: a group `cell-N` is robot `N`, `part-N` the box of sheet `N`, `net-NAME` the wires of a net, and
     /// `nets-N` those of several.
@@ -70,12 +66,10 @@ impl<'a> Schematic<'a> {
         }
     }
 
-    /// The drawing of the whole, in which large parts are boxes.
     pub fn top(&self) -> Svg {
         self.draw(0, &self.bodies()).0
     }
 
-    /// All sheets.
     pub fn pages(&self) -> SchematicPages {
         let bodies = self.bodies();
         let page = |(number, part): (usize, &CircuitPart)| {
@@ -96,13 +90,11 @@ impl<'a> Schematic<'a> {
         }
     }
 
-    /// The different robots.
     fn bodies(&self) -> Vec<&'a Robot> {
         let mut seen = BTreeSet::new();
         self.robots.iter().copied().filter(|robot| seen.insert(robot.name.as_str())).collect()
     }
 
-    /// A part's drawing, and the nets of each group of several.
     fn draw(&self, part: usize, bodies: &[&Robot]) -> (Svg, Vec<Vec<String>>) {
         let sheet = Sheet::of(self.circuit, &self.hierarchy, part);
         let plan = SheetPlan::of(&sheet.netlist);
@@ -179,7 +171,6 @@ impl<'a> Schematic<'a> {
         format!("{} = {function}({}){robot}", self.circuit.net_name(cell), pins.join(", "))
     }
 
-    /// The wires of the slowest path on a sheet.
     fn critical_wires(&self, sheet: &Sheet) -> BTreeSet<(NetId, NetId)> {
         let nodes: Vec<Option<NetId>> = self.critical.iter().map(|&net| sheet.node_of(net)).collect();
         let pair = |pair: &[Option<NetId>]| Some((pair[0]?, pair[1]?)).filter(|(from, to)| from != to);
@@ -187,7 +178,42 @@ impl<'a> Schematic<'a> {
     }
 }
 
-/// The scale at which a robot fits its place.
 fn scale(robot: &Robot) -> f64 {
     SIDE / robot.body.width().max(robot.body.height()) as f64
+}
+
+const SCRIPT: &str = include_str!("../page/sheets.js");
+
+pub fn draw_schematic_page(assembly: &Assembly, schematic: &SchematicPages) -> String {
+    let (robots, sheets) = (counted(assembly.members.len(), "robot"), counted(schematic.sheets.len(), "sheet"));
+    Html {
+        heading: &assembly.circuit,
+        passed: true,
+        verdict: format!("{robots} on {sheets}"),
+        body: explorer(),
+        script: Some((SCRIPT, json!({ "schematic": schematic, "cells": cell_data(assembly) }))),
+    }
+    .finish()
+}
+
+/// The frame of a schematic, which the script fills.
+pub fn explorer() -> String {
+    let buttons: String = [("nearer", "Zoom in", "+"), ("farther", "Zoom out", "−"), ("whole", "Show all", "all")]
+        .map(|(class, label, sign)| {
+            format!(
+                "<button type=\"button\" class=\"{class}\" title=\"{label}\" aria-label=\"{label}\">{sign}</button>"
+            )
+        })
+        .concat();
+    format!(
+        "<div class=\"beside\"><div class=\"schematic\"><nav class=\"crumbs\" aria-label=\"sheet\"></nav>\n\
+         <div class=\"bar\"><input type=\"search\" class=\"search\" placeholder=\"Find a part, a robot or a net\" \
+         aria-label=\"find a part, a robot or a net\"><label>mark <select class=\"reach\"><option value=\"wires\">its \
+         wires</option><option value=\"before\">what it depends on</option><option value=\"after\">what depends on \
+         it</option></select></label>{buttons}<ul class=\"results\"></ul></div>\n<div class=\"frame-of-sheet\"><div \
+         class=\"sheet picture\" tabindex=\"0\" role=\"group\" aria-label=\"schematic\"></div><div \
+         class=\"map-of-sheet picture\" aria-hidden=\"true\"></div></div>\n<p class=\"explained\"><span><i \
+         class=\"box\"></i>a part: opens</span><span><i class=\"slow\"></i>slowest path</span><span><i \
+         class=\"lit\"></i>chosen and marked</span></p></div><div class=\"robot\" aria-live=\"polite\"></div></div>\n"
+    )
 }

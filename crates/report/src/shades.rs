@@ -4,22 +4,16 @@
 use std::cmp::Reverse;
 use std::collections::BTreeMap;
 
-/// The most colors of a palette.
 const MOST: usize = 256;
 
-/// Red, green, blue and opacity.
 pub(super) type Shade = [u8; 4];
 
-/// A picture with a palette.
 pub(super) struct Shades {
-    /// The palette.
     pub(super) palette: Vec<Shade>,
-    /// The place of each pixel's color in the palette.
     pub(super) indexed: Vec<u8>,
 }
 
 impl Shades {
-    /// The colors of these pixels, exact if a palette has room for all.
     pub(super) fn of(pixels: &[Shade]) -> Self {
         let mut counts: BTreeMap<Shade, usize> = BTreeMap::new();
         for run in pixels.chunk_by(|a, b| a == b) {
@@ -71,7 +65,6 @@ fn distinct(shades: &[Shade], least: u16) -> Option<Vec<Shade>> {
     Some(palette)
 }
 
-/// The largest difference of a channel.
 fn difference(a: Shade, b: Shade) -> u16 {
     a.into_iter().zip(b).map(|(a, b)| u16::from(a.abs_diff(b))).max().unwrap_or(0)
 }

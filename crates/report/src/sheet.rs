@@ -8,42 +8,32 @@ use nbc_circuit::{Cell, NetId, Netlist, Node};
 use crate::hierarchy::Hierarchy;
 use nbc_base::model::Function;
 
-/// The most ports of one direction that show a bit each; more of them show buses.
+/// The most ports of one direction that show a bit each; beyond that they show buses.
 const MOST_BITS: usize = 12;
-/// The most ports of one direction.
 const MOST_PORTS: usize = 40;
 
-/// What a node of a sheet shows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SheetItem {
-    /// A cell.
     Cell(NetId),
     /// A wire of a circuit that is not mapped yet.
     Wire,
-    /// A part inside, by its number.
     Part(usize),
-    /// A port of the circuit or of the part.
     Port,
-    /// A constant.
     Constant,
 }
 
-/// A sheet.
 #[derive(Clone, Debug)]
 pub struct Sheet {
     /// Its nodes and what they are wired to. A part is a cell with a pin for each node that it listens to.
     pub netlist: Netlist,
-    /// What each node shows.
     pub shown: BTreeMap<NetId, SheetItem>,
     /// The nets of the circuit that each node drives here.
     pub nets: BTreeMap<NetId, Vec<NetId>>,
-    /// The nets of the circuit that each port shows.
     pub ports: BTreeMap<NetId, Vec<NetId>>,
     /// The node of each cell and wire of the part and of those inside it, and of each port of the circuit.
     nodes: BTreeMap<NetId, NetId>,
 }
 
-/// The node that a net of the circuit comes from, or goes to.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Place {
     Node(NetId),
@@ -59,7 +49,6 @@ struct Builder<'a> {
     part: usize,
     /// The cells and wires of the part, each with the part inside in which it is.
     inside: BTreeMap<NetId, Option<usize>>,
-    /// Those and their neighbors.
     near: BTreeSet<NetId>,
     sources: PortNames,
     sinks: PortNames,
@@ -68,7 +57,6 @@ struct Builder<'a> {
 }
 
 impl Sheet {
-    /// The sheet of a part of a circuit.
     pub fn of(circuit: &Netlist, hierarchy: &Hierarchy, part: usize) -> Self {
         let netlist = Netlist::new(&circuit.name);
         let (shown, nets, ports, nodes) = Default::default();
@@ -88,7 +76,6 @@ impl Sheet {
         builder.sheet
     }
 
-    /// The node that shows a net of the circuit, alone or in a part.
     pub fn node_of(&self, net: NetId) -> Option<NetId> {
         self.nodes.get(&net).copied()
     }
@@ -103,7 +90,6 @@ impl Builder<'_> {
         matches!(self.circuit.node(id), Node::Output(_))
     }
 
-    /// Decides which ports there are.
     fn name_ports(&mut self) {
         let (mut from, mut to) = (BTreeSet::new(), BTreeSet::new());
         if self.part == 0 {
@@ -133,7 +119,6 @@ impl Builder<'_> {
         PortNames::of(nets.iter().map(|&id| (id, self.circuit.net_label(id), unnamed(id))).collect())
     }
 
-    /// Adds a node for everything that is shown, in order of the circuit.
     fn add_nodes(&mut self) {
         for id in self.near.clone() {
             match self.circuit.node(id) {
@@ -162,19 +147,16 @@ impl Builder<'_> {
         }
     }
 
-    /// The node of a port that shows a net, as [`Builder::node`].
     fn port(&mut self, place: Place, shown: NetId, id: Option<NetId>) {
         self.node(place.clone(), id);
         self.sheet.ports.entry(self.made[&place]).or_default().push(shown);
     }
 
-    /// Whether anything on the sheet reads a constant.
     fn is_read(&self, constant: NetId) -> bool {
         let reads = |id: NetId| self.is_inside(id) || self.part == 0 && self.is_output(id);
         self.circuit.fanout(constant).iter().any(|&(listener, _)| reads(listener))
     }
 
-    /// The place of a net's driver.
     fn source(&self, id: NetId) -> Place {
         match (self.circuit.node(id), self.inside.get(&id)) {
             (Node::Constant(value), _) => Place::Constant(*value),
@@ -187,7 +169,6 @@ impl Builder<'_> {
         Place::To(self.sinks.0[&id].clone())
     }
 
-    /// The node of a place, made when it is first needed. It drives the net `id`.
     fn node(&mut self, place: Place, id: Option<NetId>) {
         let Self { circuit, hierarchy, made, sheet, .. } = self;
         let netlist = &mut sheet.netlist;
@@ -257,12 +238,11 @@ impl Builder<'_> {
     }
 }
 
-/// The name of the port at which each net is shown.
 #[derive(Clone, Debug, Default)]
 struct PortNames(BTreeMap<NetId, String>);
 
 impl PortNames {
-    /// Those of nets with what they are called, and, if they have no name, with what they are together with others.
+    /// Each net comes with its name and, if the source does not name it, with the name that it shares with others.
     fn of(nets: Vec<(NetId, String, Option<String>)>) -> Self {
         let is_few = nets.len() <= MOST_BITS;
         let mut known = BTreeSet::new();
@@ -287,7 +267,6 @@ mod tests {
     use super::*;
     use nbc_circuit::BlockId;
 
-    /// A call of inverters for each of two buses of 30 bits, the second after the first.
     fn buses() -> Netlist {
         let mut netlist = Netlist::new("buses");
         let inputs: Vec<NetId> = (0..30).map(|bit| netlist.add_input(format!("a[{bit}]"))).collect();

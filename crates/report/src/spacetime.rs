@@ -11,11 +11,9 @@ use nbc_base::model::{CYCLE_STEPS, Column, Fault, Schedule, Trajectory, Trial};
 use nbc_swarm::{RobotTrace, StimulusSource, SwarmTrace};
 
 const PANEL_WIDTH: f64 = 150.0;
-/// The width of a letter of a heading, at most, by the look of pictures.
 const LETTER_WIDTH: f64 = 7.0;
-/// The width of a picture of one robot beside its panel.
 const BESIDE_PANEL: f64 = 130.0;
-/// The most spells of which a heading tells how far the robot walked in them.
+/// The most spells whose distances a heading tells.
 const MOST_WALKED: usize = 12;
 const STRIP_WIDTH: f64 = 13.0;
 const STRIP_GAP: f64 = 4.0;
@@ -23,58 +21,42 @@ const MARGIN: f64 = 56.0;
 const HEADING: f64 = 74.0;
 const FOOT: f64 = 46.0;
 const MAX_COLUMNS: usize = 6;
-/// The most robots, and the most outputs, in the default diagram of a swarm.
 const MAX_PANELS: usize = 36;
 /// The most points of one path: more than its panel has pixels from top to bottom.
 const MAX_POINTS: usize = 800;
 
-/// A path over time with the bits beside it: the contents of a panel.
 #[derive(Clone, Debug)]
 pub struct Track {
-    /// The panel's title.
     pub title: String,
-    /// A word below the title.
     pub subtitle: String,
     /// Positions in voxels, evenly spaced over the cycles, both ends included.
     pub path: Vec<f64>,
-    /// The length of the path in cycles.
     pub cycles: f64,
-    /// Bits left of the path.
     pub sensed: Vec<Strip>,
-    /// The bits to the right of the path.
     pub output: Option<Strip>,
-    /// When the simulation was given up, in cycles.
     pub fault: Option<f64>,
 }
 
-/// A bit or a bus over time.
 #[derive(Clone, Debug)]
 pub struct Strip {
-    /// The label beside the track.
     pub name: String,
-    /// The color of its line.
     pub color: Color,
-    /// Its text.
     pub spells: Spells,
 }
 
 /// Spells of one value: the end of each in cycles, and the value.
 #[derive(Clone, Debug)]
 pub enum Spells {
-    /// Of a bit.
     Bits(Vec<(f64, bool)>),
-    /// Of a bus.
     Values(Vec<(f64, String)>),
 }
 
 impl Strip {
-    /// The strip of a bit for each cycle.
     pub fn of_cycles(name: impl Into<String>, color: Color, bits: impl IntoIterator<Item = bool>) -> Self {
         let spells = bits.into_iter().enumerate().map(|(cycle, bit)| ((cycle + 1) as f64, bit)).collect();
         Self { name: name.into(), color, spells: Spells::Bits(spells) }
     }
 
-    /// The strip of a port of a swarm: a bus is one strip.
     fn of_input(trace: &SwarmTrace, port: usize, color: Color) -> Self {
         let Column { name, width, .. } = &trace.inputs[port];
         let values = (0..trace.cycles.len()).map(|cycle| trace.input_values(cycle).swap_remove(port));
@@ -86,7 +68,6 @@ impl Strip {
     }
 }
 
-/// The diagram of one robot under a schedule.
 pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
     let (schedule, palette) = (&trial.schedule, trial.body.palette());
     // An image has no strip: it is not one bit.
@@ -119,7 +100,7 @@ pub fn draw_robot(name: &str, trial: &Trial, trajectory: &Trajectory) -> Svg {
     let heading = format!("voxels walked: {}", walked(schedule, stimuli, trajectory));
     // The heading needs more width than the path if there are many patterns.
     let panel = (heading.chars().count() as f64 * LETTER_WIDTH - BESIDE_PANEL).max(2.0 * PANEL_WIDTH);
-    let rows = [Row { heading: Some(heading), tracks: vec![track], changes: &ends, panel }];
+    let rows = [Row { heading: Some(heading), tracks: &[track], changes: &ends, panel }];
     draw_rows(&format!("{name} in space and time"), cycles_of(schedule.steps()), &rows)
 }
 
@@ -156,47 +137,23 @@ pub fn draw_swarm(trace: &SwarmTrace) -> Svg {
             chosen.len()
         ),
     };
-    let mut rows = vec![];
-    for (i, tracks) in robots.chunks(MAX_COLUMNS).enumerate() {
-        rows.push(Row {
-            heading: (i == 0).then(|| heading.clone()),
-            tracks: tracks.to_vec(),
-            changes: &changes,
-            panel: PANEL_WIDTH,
-        });
-    }
-    for (i, tracks) in outputs.chunks(MAX_COLUMNS).enumerate() {
-        let heading = (i == 0).then(|| "outputs against the inputs of the swarm".to_owned());
-        rows.push(Row { heading, tracks: tracks.to_vec(), changes: &changes, panel: PANEL_WIDTH });
-    }
+    let mut rows = rows(&heading, &robots, &changes);
+    rows.extend(self::rows("outputs against the inputs of the swarm", &outputs, &changes));
     draw_rows(&format!("{} in space and time", trace.circuit), length(trace), &rows)
 }
 
-/// The diagram of some of a swarm's robots, each with the inputs of the swarm (paper, figure 5).
 pub fn draw_chosen(trace: &SwarmTrace, robots: &[usize]) -> Svg {
     let changes = input_changes(trace);
-    let track = |&k: &usize| {
-        let robot = &trace.robots[k];
-        Track {
-            title: format!("{} = {}", robot.net, robot.function),
-            subtitle: robot.robot.clone(),
-            sensed: input_strips(trace),
-            output: Some(Strip::of_cycles(&robot.net, Color::OUTPUT, trace.cycles.iter().map(|cycle| cycle.bits[k]))),
-            ..bare_track(trace, robot)
-        }
-    };
-    let tracks: Vec<Track> = robots.iter().map(track).collect();
-    let rows: Vec<Row<'_>> = tracks
-        .chunks(MAX_COLUMNS)
-        .enumerate()
-        .map(|(i, tracks)| Row {
-            heading: (i == 0).then(|| "robots against the inputs of the swarm".to_owned()),
-            tracks: tracks.to_vec(),
-            changes: &changes,
-            panel: PANEL_WIDTH,
-        })
-        .collect();
+    let tracks: Vec<Track> =
+        robots.iter().map(|&k| Track { sensed: input_strips(trace), ..robot_track(trace, k) }).collect();
+    let rows = rows("robots against the inputs of the swarm", &tracks, &changes);
     draw_rows(&format!("{} in space and time", trace.circuit), length(trace), &rows)
+}
+
+fn rows<'a>(heading: &str, tracks: &'a [Track], changes: &'a [f64]) -> Vec<Row<'a>> {
+    let mut heading = Some(heading.to_owned());
+    let row = |tracks| Row { heading: heading.take(), tracks, changes, panel: PANEL_WIDTH };
+    tracks.chunks(MAX_COLUMNS).map(row).collect()
 }
 
 /// The cycles of a swarm, with that in which a robot failed, so that its fault is in the picture.
@@ -204,7 +161,6 @@ fn length(trace: &SwarmTrace) -> f64 {
     (trace.cycles.len() + usize::from(trace.fault().is_some())) as f64
 }
 
-/// The cycles at which an input changes.
 fn input_changes(trace: &SwarmTrace) -> Vec<f64> {
     let pairs = trace.cycles.windows(2).enumerate();
     pairs.filter(|(_, pair)| pair[0].inputs != pair[1].inputs).map(|(cycle, _)| (cycle + 1) as f64).collect()
@@ -242,7 +198,6 @@ fn output_track(trace: &SwarmTrace, output: usize) -> Option<Track> {
     })
 }
 
-/// The inputs of the swarm, as many as fit.
 fn input_strips(trace: &SwarmTrace) -> Vec<Strip> {
     (0..trace.inputs.len().min(8)).map(|port| Strip::of_input(trace, port, Color::input(port))).collect()
 }
@@ -268,24 +223,19 @@ fn bare_track(trace: &SwarmTrace, robot: &RobotTrace) -> Track {
     }
 }
 
-/// Panels side by side with one heading.
 struct Row<'a> {
     heading: Option<String>,
-    tracks: Vec<Track>,
-    /// Cycles at which a dotted line runs across the panels.
+    tracks: &'a [Track],
     changes: &'a [f64],
-    /// Width of each panel without its bits.
     panel: f64,
 }
 
 impl Row<'_> {
-    /// Width of the bits to the left of the paths: that of the widest panel.
     fn strips(&self) -> f64 {
         let most = self.tracks.iter().map(|track| track.sensed.len()).max().unwrap_or(0);
         most as f64 * (STRIP_WIDTH + STRIP_GAP)
     }
 
-    /// Width of a panel with its bits.
     fn pitch(&self) -> f64 {
         self.strips() + self.panel + STRIP_WIDTH + STRIP_GAP + 26.0
     }
@@ -328,7 +278,6 @@ fn draw_row(svg: &mut Svg, row: &Row<'_>, top: f64, cycles: f64, height: f64) {
     }
 }
 
-/// The axis of time, left of the leftmost bits.
 fn draw_time_axis(svg: &mut Svg, panel: &Panel, strips: f64) {
     let outside = Panel { left: panel.left - strips, ..*panel };
     outside.y_axis(svg, 8, "time (cycles)");
@@ -352,7 +301,6 @@ fn draw_track(svg: &mut Svg, track: &Track, panel: &Panel, changes: &[f64]) {
     draw_path(svg, track, panel);
 }
 
-/// Title, subtitle, and the names of the bits in their colors.
 fn draw_heading(svg: &mut Svg, track: &Track, panel: &Panel) {
     let left = panel.left - track.sensed.len() as f64 * (STRIP_WIDTH + STRIP_GAP);
     let line =
@@ -381,7 +329,6 @@ fn draw_strip(svg: &mut Svg, strip: &Strip, panel: &Panel, left: f64) {
     }
 }
 
-/// A bus as a box for each value, with the value in it if it fits.
 fn draw_values(svg: &mut Svg, color: Color, spells: &[(f64, String)], panel: &Panel, left: f64) {
     let mut from = panel.y.at(0.0);
     for run in spells.chunk_by(|one, next| one.1 == next.1) {
@@ -396,7 +343,6 @@ fn draw_values(svg: &mut Svg, color: Color, spells: &[(f64, String)], panel: &Pa
     }
 }
 
-/// A bit as a step line: 0 at the left, 1 at the right, filled while it is 1.
 fn draw_bits(svg: &mut Svg, color: Color, spells: &[(f64, bool)], panel: &Panel, left: f64) {
     let x = |bit: bool| if bit { left + STRIP_WIDTH - 1.0 } else { left + 1.0 };
     let mut from = panel.y.at(0.0);
@@ -413,7 +359,6 @@ fn draw_bits(svg: &mut Svg, color: Color, spells: &[(f64, bool)], panel: &Panel,
     svg.polyline(&steps, Paint::stroke(color, 1.6));
 }
 
-/// The path itself, and a cross at a fault.
 fn draw_path(svg: &mut Svg, track: &Track, panel: &Panel) {
     let Some(&start) = track.path.first() else { return };
     let last = track.path.len() - 1;
@@ -424,9 +369,7 @@ fn draw_path(svg: &mut Svg, track: &Track, panel: &Panel) {
     if let Some(when) = track.fault {
         let nearest = ((when / track.cycles.max(f64::MIN_POSITIVE)) * last as f64).clamp(0.0, last as f64) as usize;
         let (x, y) = panel.at((track.path[nearest] - start, when));
-        let paint = Paint::stroke(Color::FAULT, 2.5);
-        svg.line((x - 5.0, y - 5.0), (x + 5.0, y + 5.0), paint);
-        svg.line((x - 5.0, y + 5.0), (x + 5.0, y - 5.0), paint);
+        svg.cross((x, y), Paint::stroke(Color::FAULT, 2.5));
         let set = Type::new(10.0).colored(Color::FAULT).bold().anchored(Anchor::Middle);
         let middle = (panel.left + panel.right) / 2.0;
         svg.text((middle, (y + 18.0).min(panel.bottom - 6.0)), &format!("unstable in cycle {}", when as u64 + 1), set);

@@ -7,60 +7,46 @@ use nbc_base::model::{Body, CYCLE_STEPS, GroundProfile, Palette, Pattern, Schedu
 use nbc_sim::{Flock, Simulator, Snapshot};
 use nbc_swarm::{Assembly, Recording, SwarmTrace};
 
-/// Robots during their simulation.
 pub struct Stage {
     flock: Box<dyn Flock>,
-    ground: GroundProfile,
+    /// The ground of each robot, as columns that repeat from its left end.
+    pub ground: GroundProfile,
     /// The materials of each robot's codes.
-    palettes: Vec<Arc<Palette>>,
+    pub(super) palettes: Vec<Arc<Palette>>,
     /// Consecutive spells: env steps, and each robot's spell of that length.
     spells: Vec<(u32, Vec<Spell>)>,
-    /// The current spell, and its remaining env steps.
     spell: usize,
     left: u32,
-    /// Env steps from frame to frame.
     stride: u32,
     step: u32,
     started: bool,
 }
 
-/// The robots at one moment.
 #[derive(Clone, Debug)]
 pub struct Moment {
-    /// The env step, 0 at the start.
     pub step: u32,
-    /// Each robot's voxels, in voxels of the world.
     pub poses: Vec<Pose>,
-    /// Each robot's center of mass, in voxels.
     pub centers: Vec<[f64; 2]>,
-    /// The spell of each robot, with its stimuli or its image.
     pub spells: Vec<Spell>,
-    /// Whether each robot's simulation has been given up.
     pub faults: Vec<bool>,
 }
 
 impl Stage {
-    /// One body under a schedule.
     pub fn of_trial(setting: &Setting, body: &Body, schedule: &Schedule, stride: u32) -> Self {
         Self::of_trials(setting, std::slice::from_ref(body), schedule, stride)
     }
 
-    /// Several bodies under one schedule.
     pub fn of_trials(setting: &Setting, bodies: &[Body], schedule: &Schedule, stride: u32) -> Self {
         let spells = schedule.spells.iter().map(|spell| (spell.steps, vec![spell.clone(); bodies.len()])).collect();
         let palettes = bodies.iter().map(|body| Arc::clone(body.palette())).collect();
         Self::new((Simulator::default().flock(setting, bodies), setting.ground), palettes, spells, stride)
     }
 
-    /// A swarm in its setting, with the stimuli that its robots sensed.
     pub fn of_swarm(assembly: &Assembly, trace: &SwarmTrace, stride: u32) -> Self {
         Self::in_world(assembly, trace, trace.cycles.len(), stride)
     }
 
-    /// A swarm as [`Stage::of_swarm`], with these states of its robots at the start, in a world for that many cycles.
-    ///
-    /// # Panics
-    /// When there is not a state for each robot.
+    /// A swarm that begins with these states of its robots, in a world for that many cycles.
     pub fn of_running_swarm(
         assembly: &Assembly,
         trace: &SwarmTrace,
@@ -94,17 +80,10 @@ impl Stage {
         Self { flock, ground, palettes, spells, spell: 0, left, stride, step: 0, started: false }
     }
 
-    /// The ground of each robot, as columns that repeat from its left end.
-    pub fn ground(&self) -> GroundProfile {
-        self.ground
-    }
-
-    /// The number of robots.
     pub fn robots(&self) -> usize {
         self.flock.len()
     }
 
-    /// The whole length in env steps.
     pub fn steps(&self) -> u32 {
         self.spells.iter().map(|spell| spell.0).sum()
     }
@@ -114,17 +93,10 @@ impl Stage {
         (self.steps() / self.stride) as usize + 1
     }
 
-    /// The materials of each robot's codes.
-    pub fn palettes(&self) -> &[Arc<Palette>] {
-        &self.palettes
-    }
-
-    /// The number of points of robot `i`.
     pub fn points(&self, i: usize) -> usize {
         self.flock.lattice(i).points().len()
     }
 
-    /// Runs to the end and records the first robots.
     pub fn record(mut self, robots: usize) -> Recording {
         let mut recording = Recording::new(&*self.flock, 0..robots.min(self.robots()), self.stride);
         while self.turn() {

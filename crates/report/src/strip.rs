@@ -3,24 +3,20 @@
 
 use crate::Color;
 use crate::chart::with_minus;
+use crate::color::Scheme;
 use crate::element::{Paint, Point, Type};
 use crate::image::draw_image;
 use crate::looks::Looks;
-use crate::scheme::Scheme;
 use crate::stage::{Moment, Stage};
 use crate::svg::Svg;
 use nbc_base::model::{Body, CYCLE_STEPS, Schedule, Setting, Spell};
 
-/// Snapshots in a row.
 const SHOTS: usize = 7;
-/// Env steps from snapshot to snapshot.
 const STRIDE: u32 = CYCLE_STEPS / SHOTS as u32;
 const GHOSTS: usize = 2;
 const MAX_ROWS: usize = 40;
-/// The side of an image.
 const IMAGE: f64 = 40.0;
 
-/// Draws the strip of a body under a schedule.
 pub fn draw_strip(title: &str, body: &Body, schedule: &Schedule, scheme: Scheme) -> Svg {
     let setting = Setting::default();
     let rows = snapshots(&setting, body, schedule);
@@ -61,7 +57,6 @@ fn tallest(rows: &[WalkedSpell<'_>]) -> f64 {
     heights.filter(|height| height.is_finite()).fold(1.0, f64::max)
 }
 
-/// A spell of the schedule as it was walked.
 struct WalkedSpell<'a> {
     spell: &'a Spell,
     /// Voxels walked in it, up to the last of its moments.

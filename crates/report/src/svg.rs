@@ -41,27 +41,33 @@ impl Svg {
         svg
     }
 
+    /// A drawing on white with its title as a heading.
+    pub(super) fn titled(width: f64, height: f64, title: &str) -> Self {
+        let mut svg = Self::new(width, height, title);
+        svg.text((14.0, 28.0), title, Type::new(16.0).bold());
+        svg
+    }
+
     /// An empty drawing on a transparent background, to be placed on other drawings.
     pub fn transparent(width: f64, height: f64, title: &str) -> Self {
         Self { width, height, title: title.to_owned(), elements: Vec::new() }
     }
 
-    /// The drawing's width in pixels.
+    /// In pixels.
     pub fn width(&self) -> f64 {
         self.width
     }
 
-    /// The drawing's height in pixels.
+    /// In pixels.
     pub fn height(&self) -> f64 {
         self.height
     }
 
-    /// A rectangle by its upper left corner.
+    /// By its upper left corner.
     pub fn rect(&mut self, corner: Point, width: f64, height: f64, paint: Paint) {
         self.elements.push(Element::Rect(corner, width, height, paint));
     }
 
-    /// A straight line.
     pub fn line(&mut self, from: Point, to: Point, paint: Paint) {
         self.elements.push(Element::Line(from, to, paint));
     }
@@ -71,17 +77,20 @@ impl Svg {
         self.elements.push(Element::Polyline(points.to_vec(), paint));
     }
 
-    /// A closed shape.
     pub fn polygon(&mut self, points: &[Point], paint: Paint) {
         self.elements.push(Element::Polygon(points.to_vec(), paint));
     }
 
-    /// A disk or circle.
     pub fn circle(&mut self, middle: Point, radius: f64, paint: Paint) {
         self.elements.push(Element::Circle(middle, radius, paint));
     }
 
     /// A line of text on its base line.
+    pub(super) fn cross(&mut self, (x, y): Point, paint: Paint) {
+        self.line((x - 5.0, y - 5.0), (x + 5.0, y + 5.0), paint);
+        self.line((x - 5.0, y + 5.0), (x + 5.0, y - 5.0), paint);
+    }
+
     pub fn text(&mut self, at: Point, text: &str, set: Type) {
         self.elements.push(Element::Text(at, text.to_owned(), set));
     }
@@ -104,7 +113,6 @@ impl Svg {
         Self { elements: emptied(&self.elements, prefix), ..self.clone() }
     }
 
-    /// What is drawn, in the order in which they are drawn.
     #[cfg(feature = "pictures")]
     pub(super) fn elements(&self) -> &[Element] {
         &self.elements
@@ -132,7 +140,6 @@ fn emptied(elements: &[Element], prefix: &str) -> Vec<Element> {
     elements.iter().map(element).collect()
 }
 
-/// Each element on a line.
 struct Lines<'a>(&'a [Element]);
 
 impl Display for Lines<'_> {
@@ -195,7 +202,7 @@ pub fn shorten(text: &str, most: usize) -> String {
     }
 }
 
-/// The last characters of a text that has more than `most`: the end of a path tells it from others.
+/// The last characters of a text that has more than `most`: paths differ at their ends.
 pub fn shorten_start(text: &str, most: usize) -> String {
     match text.chars().count().checked_sub(most) {
         Some(over @ 1..) => ['…'].into_iter().chain(text.chars().skip(over + 1)).collect(),

@@ -3,13 +3,12 @@
 use std::collections::BTreeSet;
 
 use crate::Color;
+use crate::color::Scheme;
 use crate::looks::{Look, Looks};
-use crate::scheme::Scheme;
 
 /// The index that is not a color: the pixel is the same as in the previous frame.
 pub const UNCHANGED: u8 = 255;
 
-/// The colors of a film, at most 255 of them, and the nearest of them for any color.
 pub struct Swatches {
     colors: Vec<Color>,
     /// Numbers of the nearest colors, by the five high bits of red, green and blue.
@@ -62,7 +61,6 @@ impl Swatches {
         Self { colors, nearest }
     }
 
-    /// The number of the color nearest to this one.
     pub fn index(&self, [r, g, b]: [u8; 3]) -> u8 {
         self.nearest[key(r, g, b)]
     }
@@ -74,12 +72,10 @@ impl Swatches {
     }
 }
 
-/// The five high bits of each component as one number.
 fn key(r: u8, g: u8, b: u8) -> usize {
     usize::from(r >> 3) << 10 | usize::from(g >> 3) << 5 | usize::from(b >> 3)
 }
 
-/// Five bits as eight.
 fn wide(bits: usize) -> u8 {
     let five = (bits & 31) as u8;
     five << 3 | five >> 2

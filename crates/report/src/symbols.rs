@@ -8,15 +8,12 @@ use crate::wires::{MOST_LETTERS, SheetPlan, wire};
 use nbc_base::model::Robot;
 use nbc_circuit::{NetId, Netlist};
 
-/// The side of the square in which a robot is drawn.
 pub const SIDE: f64 = 52.0;
 /// The most letters in a cell: of its function and its net, and of its robot.
 const LETTERS: (usize, usize) = (18, 22);
 
-/// Draws the symbols of a sheet.
 pub struct Symbols<'a> {
     pub svg: &'a mut Svg,
-    /// The sheet.
     pub netlist: &'a Netlist,
     pub plan: &'a SheetPlan,
 }
@@ -26,13 +23,11 @@ impl Symbols<'_> {
         self.plan.corners[&(self.plan.layers.layer_of(id), Slot::Node(id))]
     }
 
-    /// The heading.
     pub fn draw_title(&mut self, title: &str) {
         let letters = (self.plan.width / 11.0) as usize;
         self.svg.text((14.0, 28.0), &shorten_start(title, letters.max(2)), Type::new(17.0).bold());
     }
 
-    /// A cell with its number, title and net, and with the number, the robot and the drawing of its body.
     pub fn draw_cell(
         &mut self,
         id: NetId,
@@ -56,7 +51,6 @@ impl Symbols<'_> {
         });
     }
 
-    /// A part as a box with its name and a line about it, which opens sheet `number`.
     pub fn draw_part(&mut self, id: NetId, number: usize, (name, about): (&str, &str)) {
         let (corner, (width, height)) = (self.corner(id), self.plan.size(self.netlist, id));
         self.svg.group(&format!("part-{number}"), &format!("{name}: {about}"), |svg| {
@@ -70,8 +64,7 @@ impl Symbols<'_> {
         });
     }
 
-    /// A port of the circuit or of the part, with its direction and name.
-    /// `key` is what the port is known by: its net where it has one alone.
+    /// `key` is the port's net if it has only one.
     pub fn draw_port(&mut self, id: NetId, key: &str) {
         let name = self.netlist.net_name(id);
         let direction = if self.netlist.inputs().contains(&id) { "input" } else { "output" };
@@ -79,13 +72,11 @@ impl Symbols<'_> {
         self.svg.group(&format!("{direction}-{key}"), &name, |svg| draw_label(svg, corner, size, &name));
     }
 
-    /// A constant or a wire.
     pub fn draw_box(&mut self, id: NetId) {
         let (corner, size) = (self.corner(id), self.plan.size(self.netlist, id));
         draw_label(self.svg, corner, size, &self.netlist.net_name(id));
     }
 
-    /// What the lines and boxes are that need an explanation.
     pub fn draw_legend(&mut self, has_critical_path: bool, has_parts: bool) {
         let y = self.plan.height - 12.0;
         let gray = Type::new(11.0).colored(Color::GRAY);
@@ -100,13 +91,11 @@ impl Symbols<'_> {
     }
 }
 
-/// A box with a second edge, so that it is known from a cell without colors too.
 fn draw_part_box(svg: &mut Svg, (x, y): Point, (width, height): Point) {
     svg.rect((x, y), width, height, Paint::fill(Color::PALE).with_stroke(Color::BLACK, 1.4));
     svg.rect((x + 3.0, y + 3.0), width - 6.0, height - 6.0, Paint::stroke(Color::GRAY, 1.0));
 }
 
-/// A box with a name, whose end is shown if it is too long.
 fn draw_label(svg: &mut Svg, (x, y): Point, (width, height): Point, name: &str) {
     svg.rect((x, y), width, height, Paint::fill(Color::PALE).with_stroke(Color::GRAY, 1.0));
     let set = Type::new(11.0).bold().anchored(Anchor::Middle);

@@ -2,12 +2,9 @@
 
 use std::fmt;
 
-/// The alignment of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Align {
-    /// To the left, for words.
     Left,
-    /// To the right, for numbers.
     Right,
 }
 
@@ -19,15 +16,11 @@ pub struct TextTable {
 }
 
 impl TextTable {
-    /// An empty table.
     pub fn new(columns: &[(&str, Align)]) -> Self {
         Self { columns: columns.iter().map(|&(name, align)| (name.to_owned(), align)).collect(), rows: Vec::new() }
     }
 
-    /// Adds a row.
-    ///
-    /// # Panics
-    /// When the row has not a cell for each column.
+    /// Panics unless the row has a cell for each column.
     pub fn push(&mut self, row: Vec<String>) {
         assert_eq!(row.len(), self.columns.len(), "a cell for each column");
         self.rows.push(row);

@@ -21,61 +21,47 @@ pub struct SwarmTiming {
     pub critical_path: Vec<PathStep>,
     /// The nets of rings of inverters, which keep changing.
     pub rings: Vec<String>,
-    /// The robots in order.
     pub robots: Vec<RobotTiming>,
-    /// The timing requirements of the memory elements.
     pub memory: Vec<MemoryTimes>,
-    /// The registers and clocks.
     pub phases: PhaseTiming,
-    /// The steps and phases, if it is a wave machine.
+    /// The steps and phases of a wave machine.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waves: Option<WaveTiming>,
 }
 
-/// A net of the slowest path.
 #[derive(Clone, Debug, Serialize)]
 pub struct PathStep {
     pub net: String,
     /// The robot that drives it; none for an input.
     pub robot: Option<String>,
-    /// Cycles that it takes.
     pub cycles: u32,
 }
 
-/// The timing of a robot.
 #[derive(Clone, Debug, Serialize)]
 pub struct RobotTiming {
-    /// The net that it drives.
     pub net: String,
-    /// Its name in the library.
     pub robot: String,
-    /// Cycles that it takes itself.
     pub clock: u32,
-    /// Cycles after which it is correct and stays correct.
     pub arrival: u32,
     /// Cycles after which it must be correct so that the hold suffices.
     pub required: u32,
-    /// The difference of the two.
     pub slack: u32,
     /// The number of stimuli and output ports that it drives.
     pub fan_out: usize,
 }
 
-/// The times of a memory element.
 #[derive(Clone, Debug, Serialize)]
 pub struct MemoryTimes {
-    /// The nets of the element.
     pub nets: Vec<String>,
     /// The length of the pulse that sets it, in cycles.
     pub pulse: u32,
-    /// Cycles for which its inputs must have been at rest before it closes.
+    /// Cycles for which its inputs must be at rest before it closes.
     pub setup: u32,
     /// Cycles for which they must stay at rest afterwards.
     pub hold: u32,
 }
 
 impl SwarmTiming {
-    /// The timing of a mapped netlist, of the robots that play it and of its registers.
     pub fn of(mapped: &Netlist, timing: &Timing, assembly: &Assembly, phases: PhaseTiming) -> Self {
         let players: BTreeMap<NetId, &Member> = mapped.cells().map(|(id, _)| id).zip(&assembly.members).collect();
         let clock = |id: NetId| players.get(&id).map_or(0, |member| member.robot.character.clock);
@@ -122,7 +108,6 @@ impl SwarmTiming {
         format!("timing   hold each row for {cycles} or longer; `nbc build --emit timing` shows why\n")
     }
 
-    /// The timing as lines for people.
     pub fn describe(&self) -> String {
         let step = |step: &PathStep| match &step.robot {
             Some(robot) => format!("{} ({robot}, {})", step.net, counted(step.cycles as usize, "cycle")),
@@ -140,7 +125,6 @@ impl SwarmTiming {
 }
 
 impl MemoryTimes {
-    /// The times of every memory element of a timed netlist, whose cells take `clock` cycles.
     pub fn all(mapped: &Netlist, timing: &Timing, clock: impl Fn(NetId) -> u32) -> Vec<Self> {
         let times = |Memory { nets, pulse, setup, hold }| Self {
             nets: nets.into_iter().map(|net| mapped.net_name(net)).collect(),
@@ -151,7 +135,6 @@ impl MemoryTimes {
         Memory::all(mapped, timing, clock).into_iter().map(times).collect()
     }
 
-    /// The times as a line for people.
     pub fn describe(&self) -> String {
         let Self { nets, pulse, setup, hold } = self;
         let hold = counted(*hold as usize, "cycle");
@@ -187,7 +170,6 @@ pub fn describe_path(path: &[String]) -> String {
     shown.join(" -> ") + &again
 }
 
-/// The net that drives most stimuli and outputs, as a line for people; empty without nets.
 pub fn describe_fan_out(nets: impl Iterator<Item = (String, usize)>) -> String {
     let busiest = nets.max_by_key(|(net, fan_out)| (*fan_out, std::cmp::Reverse(net.clone())));
     busiest.map_or(String::new(), |(net, fan_out)| format!("fan-out  {fan_out} at most, of {net}\n"))
@@ -202,13 +184,5 @@ mod tests {
         let path = |nets: &str| describe_path(&nets.split(' ').map(str::to_owned).collect::<Vec<_>>());
         assert_eq!(path("a b q"), "a -> b -> q");
         assert_eq!(path("d n q nq q nq"), "d -> n -> q -> nq, and once more round the loop from q");
-    }
-
-    #[test]
-    fn a_ring_never_settles() {
-        let names = |nets: &[&str]| nets.iter().map(|net| (*net).to_owned()).collect::<Vec<_>>();
-        let text = describe_settling(6, &names(&["n1", "q"]), &names(&["n1", "q"]));
-        assert_eq!(text, "timing   never settles, because these inverters form a ring: n1 q\n");
-        assert_eq!(describe_settling(1, &names(&["a", "q"]), &[]), "timing   settles within 1 cycle: a -> q\n");
     }
 }

@@ -2,12 +2,11 @@
 //! stimuli and places.
 //!
 //! The text is written here, not with the `vcd` crate: its writer takes one change at a time and returns an error for
-//! each, while a trace is text in memory.
+//! each, while a trace is text in memory. So the tests read dumps with the crate, which knows nothing of this file.
 
 use std::collections::BTreeSet;
-use std::fmt::Write;
 
-use nbc_base::model::Column;
+use nbc_base::model::{Column, Value};
 use nbc_swarm::SwarmTrace;
 
 /// Microseconds of one actuation cycle: 84 env steps of 3 ms (docs/physics.md 1 and 10).
@@ -16,16 +15,33 @@ const CYCLE: u64 = 252_000;
 /// One signal over time.
 struct Wave {
     name: String,
-    values: Values,
+    /// Its type and width, such as `wire 1`.
+    kind: String,
+    /// The range of a bus, such as ` [3:0]`.
+    range: String,
+    /// Start times, and values as they stand before the code of the signal.
+    values: Vec<(u64, String)>,
 }
 
-enum Values {
-    /// Values of this many bits, as digits, with their start times.
-    Bits(usize, Vec<(u64, String)>),
-    /// Numbers with their start times.
-    Reals(Vec<(u64, f64)>),
-    /// Words with their start times: an extension that GTKWave, Surfer and others read.
-    Words(Vec<(u64, String)>),
+impl Wave {
+    /// A signal with a value for each cycle, which it takes `delay` cycles later.
+    fn new(name: impl Into<String>, kind: &str, delay: u64, values: impl Iterator<Item = String>) -> Self {
+        let values = (delay..).map(|cycle| cycle * CYCLE).zip(values).collect();
+        Self { name: name.into(), kind: kind.to_owned(), range: String::new(), values }
+    }
+
+    /// A signal of bits, which is unknown before its first value.
+    fn bits(name: impl Into<String>, width: usize, delay: u64, digits: impl Iterator<Item = String>) -> Self {
+        let text = |digits: String| if width == 1 { digits } else { format!("b{digits} ") };
+        let mut wave = Self::new(name, &format!("wire {width}"), delay, digits.map(text));
+        if wave.values.first().is_none_or(|(time, _)| *time > 0) {
+            wave.values.insert(0, (0, text("x".to_owned())));
+        }
+        if width > 1 {
+            wave.range = format!(" [{}:0]", width - 1);
+        }
+        wave
+    }
 }
 
 /// Signals with one name in front, in a part of the circuit.
@@ -42,73 +58,61 @@ pub fn vcd(trace: &SwarmTrace) -> String {
     let scopes = scopes(trace);
     let mut text = String::from("$version nbc $end\n$timescale 1 us $end\n");
     declare(&mut text, &identifier(&trace.circuit), &scopes);
-    let mut changes: Vec<(u64, usize, String)> = Vec::new();
-    for (number, wave) in scopes.iter().flat_map(|scope| &scope.waves).enumerate() {
-        changes.extend(changes_of(wave, number));
+    let mut changes: Vec<(u64, String)> = Vec::new();
+    for (number, wave) in scopes.into_iter().flat_map(|scope| scope.waves).enumerate() {
+        let (mut values, code) = (wave.values, code(number));
+        values.dedup_by(|next, value| next.1 == value.1);
+        changes.extend(values.into_iter().map(|(time, value)| (time, value + &code)));
     }
-    changes.sort_by_key(|&(time, number, _)| (time, number));
-    let mut now = None;
-    for (time, _, change) in changes {
-        if now != Some(time) {
-            writeln!(text, "#{time}").expect("text can be written to a string");
-            now = Some(time);
-        }
-        text.push_str(&change);
-        text.push('\n');
+    changes.sort_by_key(|(time, _)| *time);
+    for same in changes.chunk_by(|one, next| one.0 == next.0) {
+        text += &format!("#{}\n", same[0].0);
+        text.extend(same.iter().flat_map(|(_, change)| [change, "\n"]));
     }
-    writeln!(text, "#{}", trace.cycles.len() as u64 * CYCLE).expect("text can be written to a string");
-    text
+    text + &format!("#{}\n", trace.cycles.len() as u64 * CYCLE)
 }
 
 fn scopes(trace: &SwarmTrace) -> Vec<Scope> {
-    let digit = |bit: bool| u8::from(bit).to_string();
     let cycles = 0..trace.cycles.len();
-    let values = |width: usize, delay: u64, digits: &dyn Fn(usize) -> String| {
-        Values::Bits(width, cycles.clone().map(|c| ((c as u64 + delay) * CYCLE, digits(c))).collect())
-    };
-    let input = |(i, port): (usize, &Column)| Wave {
-        name: port.name.clone(),
-        values: values(port.width, 0, &|c| trace.input_values(c)[i].digits()),
-    };
-    let output = |(o, port): (usize, &Column)| Wave {
-        name: port.name.clone(),
-        values: values(port.width, 1, &|c| trace.output_values(c)[o].digits()),
-    };
-    // The members of enumerations have their names beside the bits.
-    let named = |port: &Column, delay: u64, text: &dyn Fn(usize) -> String| {
-        let words = cycles.clone().map(|c| ((c as u64 + delay) * CYCLE, text(c)));
-        port.members
-            .as_ref()
-            .map(|_| Wave { name: format!("{}_name", port.name), values: Values::Words(words.collect()) })
-    };
-    let named_input = |(i, port): (usize, &Column)| named(port, 0, &|c| trace.input_values(c)[i].to_string());
-    let named_output = |(o, port): (usize, &Column)| named(port, 1, &|c| trace.output_values(c)[o].to_string());
-    let inputs = trace.inputs.iter().enumerate();
-    let outputs = trace.outputs.iter().enumerate();
-    let input_waves = inputs.clone().map(input).chain(inputs.filter_map(named_input)).collect();
-    let output_waves = outputs.clone().map(output).chain(outputs.filter_map(named_output)).collect();
+    let inputs: Vec<Vec<Value>> = cycles.clone().map(|cycle| trace.input_values(cycle)).collect();
+    let outputs: Vec<Vec<Value>> = cycles.map(|cycle| trace.output_values(cycle)).collect();
+    let ports = |name: &str, waves| Scope { part: Vec::new(), name: name.to_owned(), waves };
     let mut scopes = vec![
-        Scope { part: Vec::new(), name: "inputs".to_owned(), waves: input_waves },
-        Scope { part: Vec::new(), name: "outputs".to_owned(), waves: output_waves },
+        ports("inputs", port_waves(&trace.inputs, &inputs, 0)),
+        ports("outputs", port_waves(&trace.outputs, &outputs, 1)),
     ];
     let mut robots: Vec<_> = trace.robots.iter().enumerate().collect();
     robots.sort_by(|(_, a), (_, b)| a.block.cmp(&b.block));
+    let digit = |bit: bool| u8::from(bit).to_string();
     for (k, robot) in robots {
-        let wave = |name: &str, values| Wave { name: name.to_owned(), values };
-        let ends = robot.com_x.iter().step_by(trace.samples_per_cycle.max(1)).enumerate();
-        let places = ends.map(|(cycle, &x)| (cycle as u64 * CYCLE, (x * 100.0).round() / 100.0));
-        let stimulus = |i: usize| {
-            let bits = values(1, 0, &|c| digit(trace.cycles[c].sensed[k].has(i)));
-            wave(&format!("stimulus_{}", i + 1), bits)
-        };
-        let mut waves = vec![wave("bit", values(1, 1, &|c| digit(trace.cycles[c].bits[k])))];
-        waves.extend((0..robot.senses.len()).map(stimulus));
-        waves.push(wave("x", Values::Reals(places.collect())));
+        let mut waves = vec![Wave::bits("bit", 1, 1, trace.cycles.iter().map(|cycle| digit(cycle.bits[k])))];
+        waves.extend((0..robot.senses.len()).map(|i| {
+            let bits = trace.cycles.iter().map(|cycle| digit(cycle.sensed[k].has(i)));
+            Wave::bits(format!("stimulus_{}", i + 1), 1, 0, bits)
+        }));
+        let ends = robot.com_x.iter().step_by(trace.samples_per_cycle.max(1));
+        waves.push(Wave::new("x", "real 64", 0, ends.map(|x| format!("r{} ", (x * 100.0).round() / 100.0))));
         let path = robot.block.join("/") + "/";
         let net = robot.net.strip_prefix(&path).unwrap_or(&robot.net);
         scopes.push(Scope { part: robot.block.clone(), name: format!("robot_{net}"), waves });
     }
     scopes
+}
+
+/// The waves of ports, with the values of all in each cycle.
+fn port_waves(ports: &[Column], values: &[Vec<Value>], delay: u64) -> Vec<Wave> {
+    let of = |at: usize| values.iter().map(move |all| &all[at]);
+    let mut waves: Vec<Wave> = Vec::new();
+    for (at, port) in ports.iter().enumerate() {
+        waves.push(Wave::bits(&port.name, port.width, delay, of(at).map(Value::digits)));
+    }
+    // Members of enumerations have their names beside the bits, as words: an extension that GTKWave, Surfer and others
+    // read.
+    for (at, port) in ports.iter().enumerate().filter(|(_, port)| port.members.is_some()) {
+        let words = of(at).map(|value| format!("s{} ", word(&value.to_string())));
+        waves.push(Wave::new(format!("{}_name", port.name), "string 1", delay, words));
+    }
+    waves
 }
 
 fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
@@ -120,12 +124,7 @@ fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
         part = &scope.part;
         text.push_str(&format!("$scope module {name} $end\n"));
         for (wave, name) in scope.waves.iter().zip(identifiers(scope.waves.iter().map(|wave| wave.name.as_str()))) {
-            let (kind, range) = match wave.values {
-                Values::Bits(1, _) => ("wire 1".to_owned(), String::new()),
-                Values::Bits(width, _) => (format!("wire {width}"), format!(" [{}:0]", width - 1)),
-                Values::Reals(_) => ("real 64".to_owned(), String::new()),
-                Values::Words(_) => ("string 1".to_owned(), String::new()),
-            };
+            let Wave { kind, range, .. } = wave;
             text.push_str(&format!("$var {kind} {} {name}{range} $end\n", code(number)));
             number += 1;
         }
@@ -135,34 +134,10 @@ fn declare(text: &mut String, circuit: &str, scopes: &[Scope]) {
     text.push_str("$upscope $end\n$enddefinitions $end\n");
 }
 
-/// Leaves a part of the circuit for another one.
 fn enter(text: &mut String, from: &[String], to: &[String]) {
     let common = from.iter().zip(to).take_while(|(from, to)| from == to).count();
     from[common..].iter().for_each(|_| text.push_str("$upscope $end\n"));
     to[common..].iter().for_each(|part| text.push_str(&format!("$scope module {} $end\n", identifier(part))));
-}
-
-/// The moments at which a signal changes, with their lines; before its first value it is unknown.
-fn changes_of(wave: &Wave, number: usize) -> Vec<(u64, usize, String)> {
-    let code = code(number);
-    match &wave.values {
-        Values::Bits(width, values) => {
-            let line = |digits: &str| if *width == 1 { format!("{digits}{code}") } else { format!("b{digits} {code}") };
-            let unknown = values.first().is_none_or(|&(time, _)| time > 0).then(|| (0, number, line("x")));
-            let changed = values.iter().enumerate().filter(|&(i, value)| i == 0 || values[i - 1].1 != value.1);
-            let told = changed.map(|(_, (time, digits))| (*time, number, line(digits)));
-            unknown.into_iter().chain(told).collect()
-        }
-        Values::Reals(reals) => {
-            let changed =
-                reals.iter().enumerate().filter(|&(i, &(_, x))| i == 0 || reals[i - 1].1.to_bits() != x.to_bits());
-            changed.map(|(_, &(time, x))| (time, number, format!("r{x} {code}"))).collect()
-        }
-        Values::Words(words) => {
-            let changed = words.iter().enumerate().filter(|&(i, value)| i == 0 || words[i - 1].1 != value.1);
-            changed.map(|(_, (time, text))| (*time, number, format!("s{} {code}", word(text)))).collect()
-        }
-    }
 }
 
 /// A word as a value of a signal, which has no blanks.

@@ -5,10 +5,8 @@ use nbc_base::diag::counted;
 use nbc_base::model::{Column, NamedWorld, Value};
 use nbc_swarm::{RowVerdict, SimulationResult, SwarmTrace, TestVerdict, WrongOutput};
 
-/// The most failing rows of a test that are described.
 const MOST_ROWS: usize = 20;
 
-/// A test's truth table with expected and observed outputs for every row, and the failures.
 pub fn describe_test(verdict: &TestVerdict) -> String {
     use Align::{Left, Right};
     let mut table =
@@ -24,9 +22,9 @@ pub fn describe_test(verdict: &TestVerdict) -> String {
             .filter(|other| other.thread.is_some() && other.line == row.line && other.row == row.row);
         let passed = row.passed && same.into_iter().all(|other| other.passed);
         table.push(vec![
-            inputs.values(&row.inputs),
-            expected.values(&row.expected),
-            observed.values(&row.observed),
+            inputs.words(&row.inputs),
+            expected.words(&row.expected),
+            observed.words(&row.observed),
             row.cycles.map_or(String::new(), |cycles| cycles.to_string()),
             pass_word(passed).to_owned(),
         ]);
@@ -81,22 +79,23 @@ fn counted_rows(verdict: &TestVerdict) -> String {
     verdict.at_least().map_or_else(|| rows.clone(), |percent| format!("{} of {rows}, at least {percent} %", passed()))
 }
 
-/// What the environment of a test wrote, line by line.
 fn describe_printed(verdict: &TestVerdict) -> String {
-    let Some(printed) = &verdict.printed else { return String::new() };
-    let lines = printed.lines().map(|line| format!("    > {}\n", line.escape_debug()));
-    lines.collect()
+    verdict
+        .printed
+        .iter()
+        .flat_map(|printed| printed.lines())
+        .map(|line| format!("    > {}\n", line.escape_debug()))
+        .collect()
 }
 
-/// The failures of a test; empty if it passed. First the unreliable robots, then each failing row with its place, the
-/// names of its columns, and the wrong robots.
+/// Empty if the test passed. First the unreliable robots, then each failing row with its place, its columns, and the
+/// wrong robots.
 fn describe_failures(verdict: &TestVerdict) -> String {
     // A test that permits failures passes with some.
     let rows = if verdict.passed { String::new() } else { describe_rows(verdict) };
     describe_weak_robots(verdict) + &rows
 }
 
-/// The outputs of a simulated swarm.
 pub fn describe_simulation(result: &SimulationResult) -> String {
     use Align::{Left, Right};
     let mut table = TextTable::new(&[("inputs", Left), ("cycles", Right), ("at the end", Left), ("changes", Left)]);
@@ -106,7 +105,7 @@ pub fn describe_simulation(result: &SimulationResult) -> String {
     for row in &result.rows {
         let changes: Vec<String> = row.changes.iter().map(usize::to_string).collect();
         let cycles = row.cycles.to_string();
-        table.push(vec![inputs.values(&row.inputs), cycles, observed.values(&row.observed), observed.words(&changes)]);
+        table.push(vec![inputs.words(&row.inputs), cycles, observed.words(&row.observed), observed.words(&changes)]);
     }
     let fault = result.fault.as_ref().map_or(String::new(), |fault| format!("    {fault}\n"));
     let world = in_world(&result.world);
@@ -117,7 +116,6 @@ fn indented(table: &TextTable) -> String {
     table.to_string().lines().map(|line| format!("    {line}\n")).collect()
 }
 
-/// The robots to check first after a test failed.
 fn describe_weak_robots(verdict: &TestVerdict) -> String {
     let weak = verdict.weak_robots.iter().filter(|_| !verdict.passed);
     weak.map(|weak| format!("    robot {} on {}: {}\n", weak.robot, weak.nets.join(", "), weak.complaint())).collect()
@@ -125,7 +123,7 @@ fn describe_weak_robots(verdict: &TestVerdict) -> String {
 
 fn describe_rows(verdict: &TestVerdict) -> String {
     let failed = || verdict.rows.iter().filter(|row| !row.passed);
-    // After the row in which a robot failed there is nothing to say of the others.
+    // After the row in which a robot failed, the others say nothing.
     let told = failed().position(|row| row.fault.is_some()).map_or(usize::MAX, |first| first + 1).min(MOST_ROWS);
     let rows: String = failed().take(told).map(|row| describe_row(verdict, row)).collect();
     match failed().count().saturating_sub(told) {
@@ -156,8 +154,11 @@ fn describe_row(verdict: &TestVerdict, row: &RowVerdict) -> String {
     let given_up = row.given_up.map_or(String::new(), |most| {
         format!(" (repeated {most} {}, as often as its `until` permits)", if most == 1 { "time" } else { "times" })
     });
-    let blame: String = describe_wrong_outputs(row).concat();
-    format!("    {place}: {}{bar}{}{given_up}\n{blame}", inputs.join(" "), wrong.join("; "))
+    let mut text = format!("    {place}: {}{bar}{}{given_up}\n", inputs.join(" "), wrong.join("; "));
+    text.extend(row.wrong_outputs.iter().map(|wrong| describe_wrong_output(wrong, "output")));
+    text.extend(row.late.iter().map(|wrong| describe_wrong_output(wrong, "had not settled yet and output")));
+    text.extend(nearest_fix(row));
+    text
 }
 
 fn differs(expected: &Value, observed: &Value) -> bool {
@@ -186,14 +187,12 @@ fn pass_word(passed: bool) -> &'static str {
     if passed { "pass" } else { "FAIL" }
 }
 
-/// Values below the names of their ports.
 struct PortColumns<'a> {
     ports: &'a [Column],
     widths: Vec<usize>,
 }
 
 impl<'a> PortColumns<'a> {
-    /// Columns that are wide enough for these rows.
     fn of<'v>(ports: &'a [Column], rows: impl Iterator<Item = &'v Vec<Value>>) -> Self {
         let mut widths: Vec<usize> = ports.iter().map(|port| port.name.chars().count()).collect();
         for row in rows {
@@ -208,20 +207,10 @@ impl<'a> PortColumns<'a> {
         self.words(&self.ports.iter().map(|port| &port.name).collect::<Vec<_>>())
     }
 
-    fn values(&self, values: &[Value]) -> String {
-        self.words(values)
-    }
-
     fn words(&self, words: &[impl ToString]) -> String {
         let padded = words.iter().zip(&self.widths).map(|(word, &width)| format!("{:<width$}", word.to_string()));
         padded.collect::<Vec<_>>().join(" ").trim_end().to_owned()
     }
-}
-
-fn describe_wrong_outputs(row: &RowVerdict) -> Vec<String> {
-    let wrong = row.wrong_outputs.iter().map(|wrong| describe_wrong_output(wrong, "output"));
-    let late = row.late.iter().map(|wrong| describe_wrong_output(wrong, "had not settled yet and output"));
-    wrong.chain(late).chain(nearest_fix(row)).collect()
 }
 
 fn describe_wrong_output(wrong: &WrongOutput, did: &str) -> String {
@@ -330,15 +319,6 @@ mod tests {
         verdict.passed = true;
         verdict.rows_from = from(Some(0.0));
         assert_eq!(describe_verdict(&verdict), "pass  latch \"holds\" (0 of 1 row, at least 0 %, physics)\n");
-    }
-
-    #[test]
-    fn a_failure_reports_the_robot() {
-        let text = describe_test(&verdict(false));
-        assert!(text.contains("1 0     1 -       0 0           12  FAIL"), "{text}");
-        assert!(text.contains("    latch.nb:7: row 2: d=1 en=0 | q=0, expected 1\n"), "{text}");
-        assert!(text.contains("    cycle 5: robot nand_1 on net q output 0 on stimuli 1 0\n"), "{text}");
-        assert!(text.ends_with("    nearest fix: a robot other than nand_1 on net q, or a longer hold\n"), "{text}");
     }
 
     #[test]

@@ -7,20 +7,15 @@ use nbc_base::model::CYCLE_SECONDS;
 use nbc_circuit::NetId;
 use nbc_circuit::waves::WaveMachine;
 
-/// When the robots of a wave machine read their nets.
 #[derive(Clone, Debug, Serialize)]
 pub struct WaveTiming {
-    /// Cycles of a step.
     pub step: usize,
     /// Cycles of a beat, for which robots sense the same.
     pub beat: u32,
     /// The number of threads: machines that run at once on the same robots.
     pub threads: u32,
-    /// The number of robots.
     pub robots: usize,
-    /// The number of robots that only delay a net.
     pub buffers: usize,
-    /// Whether no phases of its other robots need fewer of these.
     pub has_fewest_buffers: bool,
     /// The steps that each thread makes in a second of the robots' time.
     pub steps_per_second: f64,
@@ -34,14 +29,12 @@ pub struct WaveTiming {
     pub chains: Vec<Chain>,
 }
 
-/// A net with a beat of a step.
 #[derive(Clone, Debug, Serialize)]
 pub struct NetPhase {
     pub net: String,
     pub phase: i64,
 }
 
-/// A net with the robots that delay it.
 #[derive(Clone, Debug, Serialize)]
 pub struct Chain {
     pub net: String,
@@ -49,7 +42,6 @@ pub struct Chain {
 }
 
 impl WaveTiming {
-    /// The timing of a machine.
     pub fn of(machine: &WaveMachine) -> Self {
         let netlist = &machine.netlist;
         let net = |id: NetId, phase: i64| NetPhase { net: netlist.net_name(id), phase };
@@ -75,7 +67,6 @@ impl WaveTiming {
         }
     }
 
-    /// The step as a line for people.
     pub fn describe_step(&self) -> String {
         format!(
             "step     {}, {} at once, {:.2} steps a second each\n",
@@ -85,7 +76,6 @@ impl WaveTiming {
         )
     }
 
-    /// The timing as lines for people.
     pub fn describe(&self) -> String {
         let mut text = self.describe_step();
         if self.beat > 1 {
@@ -107,7 +97,6 @@ impl WaveTiming {
     }
 }
 
-/// The first of many words in a line.
 fn first_of(words: impl ExactSizeIterator<Item = String>) -> String {
     const MOST: usize = 24;
     let more = words.len().saturating_sub(MOST);

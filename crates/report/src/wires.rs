@@ -4,21 +4,18 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::Color;
 use crate::element::{Paint, Point};
-use crate::heights;
-use crate::layers::{Layers, Slot};
+use crate::layers::{Layers, Slot, straighten};
 use crate::svg::Svg;
 use nbc_circuit::{NetId, Netlist, Node};
 
 const CELL: (f64, f64) = (132.0, 106.0);
 const PORT: (f64, f64) = (54.0, 24.0);
-/// The most letters of a port's name.
 pub const MOST_LETTERS: usize = 20;
 const GAP: f64 = 22.0;
 const PASS: f64 = 12.0;
 const TRACK: f64 = 9.0;
 const TOP: f64 = 52.0;
 
-/// The positions of all nodes.
 pub struct SheetPlan {
     pub layers: Layers,
     /// Upper left corner of each slot.
@@ -35,21 +32,19 @@ pub struct SheetPlan {
     sizes: Sizes,
 }
 
-/// The sizes of nodes.
 #[derive(Clone, Copy, Debug)]
 pub struct Sizes {
     port: Point,
 }
 
 impl Sizes {
-    /// Those in a netlist: ports have room for the longest name, within limits.
+    /// Ports have room for the longest name, within limits.
     pub fn of(netlist: &Netlist) -> Self {
         let ports = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Input(_) | Node::Output(_)));
         let longest = ports.map(|id| netlist.net_name(id).chars().count()).max().unwrap_or(0);
         Self { port: (PORT.0.max(14.0 + 7.5 * longest.min(MOST_LETTERS) as f64), PORT.1) }
     }
 
-    /// The width and height of what a slot shows.
     pub fn of_slot(self, netlist: &Netlist, slot: Slot) -> Point {
         match slot {
             Slot::Pass(_) => (CELL.0, PASS),
@@ -62,7 +57,6 @@ impl Sizes {
 }
 
 impl SheetPlan {
-    /// Places a netlist.
     pub fn of(netlist: &Netlist) -> Self {
         let sizes = Sizes::of(netlist);
         let size = |netlist: &Netlist, slot: Slot| sizes.of_slot(netlist, slot);
@@ -74,7 +68,7 @@ impl SheetPlan {
             let widest = slots.iter().map(|&slot| size(netlist, slot).0).fold(0.0, f64::max);
             lefts.push(lefts[layer] + widest + channel_width(&tracks[layer + 1]));
         }
-        let tops = heights::straighten(&layers, netlist, |slot| size(netlist, slot).1, GAP);
+        let tops = straighten(&layers, netlist, |slot| size(netlist, slot).1, GAP);
         let mut corners = BTreeMap::new();
         let mut bottom = TOP + 60.0;
         for (layer, slots) in layers.layers.iter().enumerate() {
@@ -88,17 +82,14 @@ impl SheetPlan {
         Self { layers, corners, lefts, tracks, lanes, bottom, width, height, sizes }
     }
 
-    /// The nets that drive something.
     pub fn nets(&self, netlist: &Netlist) -> Vec<NetId> {
         netlist.ids().filter(|&id| !netlist.fanout(id).is_empty()).collect()
     }
 
-    /// The width and height of a node.
     pub fn size(&self, netlist: &Netlist, id: NetId) -> Point {
         self.sizes.of_slot(netlist, Slot::Node(id))
     }
 
-    /// The position of a net's vertical track in a channel.
     fn track(&self, channel: usize, net: NetId, back: bool) -> f64 {
         let tracks = &self.tracks[channel];
         let place = tracks.iter().position(|&track| track == (net, back)).expect("a net has a track where it turns");
@@ -110,14 +101,12 @@ impl SheetPlan {
         self.bottom + place as f64 * TRACK + 6.0
     }
 
-    /// The point at which a net leaves its slot in a layer.
     fn exit(&self, netlist: &Netlist, layer: usize, net: NetId) -> Point {
         let slot = self.layers.carrier(net, layer);
         let ((x, y), (width, height)) = (self.corners[&(layer, slot)], self.sizes.of_slot(netlist, slot));
         (x + width, y + height / 2.0)
     }
 
-    /// The point at which a net enters a slot: a pin of a node, or a passage.
     fn entry(&self, netlist: &Netlist, layer: usize, slot: Slot, pin: u8, pins: usize) -> Point {
         let ((x, y), (_, height)) = (self.corners[&(layer, slot)], self.sizes.of_slot(netlist, slot));
         (x, y + height * (f64::from(pin) + 1.0) / (pins as f64 + 1.0))

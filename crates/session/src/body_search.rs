@@ -1,65 +1,66 @@
 //! A search for gates around a body that somebody has painted.
 
-use nbc_base::model::{Body, Evolution};
+use serde::{Deserialize, Serialize};
+
+use nbc_base::model::{Body, Evolution, bodies};
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
-use nbc_swarm::evolve::{CandidateOutcome, NeighborSearch, NicheKey, Scores};
+use nbc_swarm::evolve::{Candidate, CandidateOrigin, CandidateOutcome, Elite, NicheKey, Scores, Search};
 use nbc_swarm::{evaluate_bodies, walk};
 
 use crate::session::Session;
 
-/// Bodies of a generation.
 const BATCH: u32 = 16;
 
-/// A search for gates. It is advanced by a generation at a time, and can be dropped between any two.
 #[derive(Clone, Debug)]
 pub struct BodySearch {
-    search: NeighborSearch,
+    search: Search,
 }
 
-/// Bodies of a search, to be tried anywhere: what a body is found to do depends on it and on the search alone.
-#[derive(Clone, Debug, PartialEq)]
+/// Bodies to be measured anywhere: the result depends on these values alone.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct BodyTrials {
-    /// The search, as declared.
     pub evolution: Evolution,
-    /// The bodies.
+    #[serde(with = "bodies")]
     pub bodies: Vec<Body>,
 }
 
 impl BodySearch {
-    /// A search in a box of columns and rows, or in that of the body to start from.
     pub fn new(start: Option<Body>, [width, height]: [usize; 2], generations: u32, seed: u64) -> Self {
         let mut evolution = declared(width, height, generations);
         if let Some(start) = &start {
             evolution.palette = start.palette().clone();
         }
-        Self { search: NeighborSearch::new(evolution, start, seed) }
+        Self { search: Search::around(&evolution, start, seed) }
     }
 
-    /// The search and its archive.
-    pub fn search(&self) -> &NeighborSearch {
+    pub fn search(&self) -> &Search {
         &self.search
     }
 
-    /// The bodies of the next generation that are `wanted`.
     pub fn ask(&self, wanted: impl Fn(&Body) -> bool) -> BodyTrials {
-        let mut bodies = self.search.ask();
-        bodies.retain(wanted);
+        let asked = self.search.ask().into_iter().map(|candidate| candidate.body);
+        let bodies = asked.filter(wanted).collect();
         BodyTrials { evolution: self.search.evolution().clone(), bodies }
     }
 
-    /// Ends a generation with what was found of each of its bodies, in order. Returns the niches whose best body has
-    /// changed.
+    /// Ends a generation. `found` is in the order of `bodies`. Returns the niches whose best body has changed.
     pub fn tell(&mut self, bodies: Vec<Body>, found: Vec<Option<Scores>>) -> Vec<NicheKey> {
-        let evaluated = bodies.len() as u64;
-        let both = bodies.into_iter().zip(found);
-        self.search.tell(evaluated, both.filter_map(|(body, scores)| Some((body, scores?))).collect())
+        let before = self.search.archive().clone();
+        let told = bodies.into_iter().zip(found).map(|(body, scores)| {
+            let outcome = scores.map_or(CandidateOutcome::Inconsistent, CandidateOutcome::Measured);
+            (Candidate::of_voxels(CandidateOrigin::Random, body), outcome)
+        });
+        let (candidates, outcomes): (Vec<_>, Vec<_>) = told.unzip();
+        self.search.tell(&candidates, &outcomes);
+        let is_new = |(key, elites): &(&NicheKey, &[Elite])| before.elites_of(key) != *elites;
+        self.search.archive().niches().filter(is_new).map(|(key, _)| key.clone()).collect()
     }
 }
 
 impl BodyTrials {
-    /// The scores of each body; none of those that cannot be measured, and of those whose behavior in long simulations
-    /// is not that in the short holds of the search: they would walk in another way than the archive says.
+    /// The scores of each body; `None` if it cannot be measured, or behaves differently in long simulations than in the
+    /// short holds of the search.
     pub fn measure(&self, simulator: &Simulator) -> Vec<Option<Scores>> {
         let outcomes = evaluate_bodies(simulator, &self.evolution, self.bodies.clone());
         let measured = |outcome| if let CandidateOutcome::Measured(scores) = outcome { Some(scores) } else { None };
@@ -72,7 +73,7 @@ impl BodyTrials {
         found
     }
 
-    /// The same bodies in so many parts of almost the same number, in order.
+    /// Splits the bodies into parts of almost equal size, in order.
     pub fn split(&self, parts: usize) -> Vec<Self> {
         let all = self.bodies.len();
         let part = |part: usize| self.bodies[part * all / parts..(part + 1) * all / parts].to_vec();
@@ -80,7 +81,6 @@ impl BodyTrials {
     }
 }
 
-/// The declaration of the search.
 fn declared(width: usize, height: usize, generations: u32) -> Evolution {
     let text = format!(
         "evolution play {{ from: gates, objective: gate, box: {width} x {height}, batch: {BATCH}, \

@@ -4,7 +4,7 @@
 use crate::compile::map_onto;
 use crate::options::RUNS;
 use crate::robots::RobotSources;
-use crate::wording::{ChoiceError, NoRegistersError, for_circuit};
+use crate::wording::{self, for_circuit};
 use crate::{script, start_bodies, waves};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Severity};
@@ -15,11 +15,11 @@ use nbc_circuit::waves::ClockStep;
 use nbc_circuit::{Effort, Loops, MapOptions, elaborate, is_same_instance};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
-/// Circuits of more cells are not made into wave machines to find out whether they can be.
+/// Larger circuits are not made into wave machines during a check.
 const SMALL: usize = 200;
 
-/// The errors of a program that has no others; `files` are the paths of files that replace declared ones. Libraries of
-/// evolutions that have not run yet are not looked at.
+/// Errors of a program without other errors. `files` replace declared files, by name and path. Libraries of evolutions
+/// that have not run yet are skipped.
 pub(super) fn faults(sources: RobotSources<'_>, program: &Program, files: &[(String, String)]) -> Vec<Diagnostic> {
     let mut look = Look { sources, program, faults: Vec::new() };
     for declared in &program.libraries {
@@ -66,12 +66,12 @@ impl Look<'_> {
         }
     }
 
-    /// Options of a search that ends when nobody waits for the check any more.
+    /// Options of a search that stops when the check is cancelled.
     fn options(&self) -> MapOptions {
         MapOptions { cancel: self.sources.world.cancel(), ..MapOptions::default() }
     }
 
-    /// The robots of a library; `None` after an error, and for an evolution that has not run yet.
+    /// `None` after an error, and for an evolution that has not run yet.
     fn library(&mut self, name: &str) -> Option<Library> {
         let declared = self.program.library(name)?;
         if !self.sources.has_run(declared, RUNS) {
@@ -86,7 +86,7 @@ impl Look<'_> {
         }
     }
 
-    /// Whether a library has all that the built-in one of its name has, so that it can make any circuit.
+    /// Whether a library is a complete built-in one, which can make any circuit.
     fn is_whole(&self, library: &str) -> bool {
         let declared = self.program.library(library);
         declared.is_none_or(|declared| {
@@ -95,7 +95,7 @@ impl Look<'_> {
         })
     }
 
-    /// Whether a circuit can be made of the robots of a library; only one that cannot make everything is tried.
+    /// Tries to map a circuit onto a library that cannot make everything.
     fn circuit(&mut self, circuit: &Instance, library: &str, place: Span) {
         if self.is_whole(library) {
             return;
@@ -119,14 +119,13 @@ impl Look<'_> {
                 if Held::is_possible(&nbc_swarm::cells(&robots)) {
                     self.circuit(&swarm.circuit, &swarm.library, swarm.span);
                 } else {
-                    self.note(Err(vec![for_circuit(ChoiceError::NoMultiplexer.into(), swarm.span)]));
+                    self.note(Err(vec![for_circuit(wording::no_multiplexer(), swarm.span)]));
                 }
             }
             RegisterStyle::Waves => self.waves(swarm),
         }
     }
 
-    /// Whether a swarm that says what its registers are made of has any.
     fn registers(&mut self, swarm: &Swarm) {
         // Anything can be a wave machine, and `master_slave` is the default.
         if swarm.registers != RegisterStyle::Mux {
@@ -134,18 +133,18 @@ impl Look<'_> {
         }
         let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
         if Loops::of(&netlist).cores().is_empty() {
-            let (swarm, circuit, span) = (swarm.name.clone(), swarm.circuit.to_string(), swarm.span);
-            self.note(Err(vec![NoRegistersError { swarm, circuit }.at(span)]));
+            let circuit = swarm.circuit.to_string();
+            self.note(Err(vec![wording::no_registers(&swarm.name, &circuit, swarm.span)]));
         }
     }
 
-    /// Whether a swarm has the one clock of a wave machine, and the rows of its tests are its steps.
+    /// A wave machine needs one clock, and each row of its tests must be a step.
     fn waves(&mut self, swarm: &Swarm) {
         let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
         let step = match ClockStep::of(&netlist) {
             Ok(step) => step,
             Err(error) => {
-                return self.note(Err(vec![for_circuit(ChoiceError::NoWaves(error).into(), swarm.span)]));
+                return self.note(Err(vec![for_circuit(wording::no_waves(&error), swarm.span)]));
             }
         };
         // Only a step that may be too short, or a library that may lack a robot, is worth the work.
@@ -174,8 +173,7 @@ impl Look<'_> {
         }
     }
 
-    /// The environment of a test, with the files of its memories. A file that is not there may still come, or another
-    /// may take its place, so a warning is enough.
+    /// A missing file may still appear, so it is only a warning.
     fn environment(&mut self, test: &CircuitTest, files: &[(String, String)]) {
         if let Stimulation::Script(script) = &test.stimulation
             && script.environment.is_some()
@@ -186,7 +184,6 @@ impl Look<'_> {
     }
 }
 
-/// A warning of what is an error only when a test begins: a file that cannot be read.
 fn later(fault: Diagnostic) -> Diagnostic {
     let severity = if fault.code == Code::Unreadable { Severity::Warning } else { fault.severity };
     Diagnostic { severity, ..fault }

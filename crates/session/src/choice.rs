@@ -1,24 +1,22 @@
 //! Finds the circuit, test or simulation that a user names.
 
 use crate::checked::Checked;
-use crate::wording::ChoiceError;
-use nbc_base::diag::{Diagnostic, Diagnostics, Suggestion};
+use crate::wording;
+use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::model::{Circuit, CircuitTest, Instance, Program, Simulation, Swarm};
 use nbc_circuit::is_same_instance;
 
-/// A choice of a circuit. For what is `None`, the source decides.
+/// A choice of a circuit. The source decides what is `None`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Choice {
-    /// A circuit, such as `adder` or `adder[8]`.
+    /// Such as `adder` or `adder[8]`.
     pub circuit: Option<String>,
-    /// A declared swarm.
     pub swarm: Option<String>,
 }
 
 impl Checked {
-    /// The chosen circuit: the one named, else that of the chosen swarm, else the last circuit declared in the source
-    /// itself that is not an environment. If it needs numbers for its parameters, those of its swarm or its test are
-    /// used.
+    /// The chosen circuit, that of the chosen swarm, or else the last circuit of the source that is not an environment.
+    /// Missing parameters come from its swarm or its test.
     pub fn circuit(&self, choice: &Choice) -> Result<Instance, Diagnostics> {
         match (&choice.circuit, &choice.swarm) {
             (Some(circuit), _) => self.named(circuit),
@@ -30,7 +28,7 @@ impl Checked {
         }
     }
 
-    /// The tests of that name: that of their title, their circuit, or one of its swarms.
+    /// Tests by their title, their circuit or one of its swarms.
     pub fn tests<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a CircuitTest> {
         let is_called = move |test: &&CircuitTest| {
             test.title == name
@@ -41,14 +39,13 @@ impl Checked {
         self.program.tests.iter().filter(is_called)
     }
 
-    /// The simulations of that name: that of their swarm or its circuit.
+    /// Simulations by their swarm or its circuit.
     pub fn simulations<'a>(&'a self, name: &'a str) -> impl Iterator<Item = &'a Simulation> {
         let is_called =
             move |simulation: &&Simulation| simulation.swarm == name || simulation.circuit.to_string() == name;
         self.program.simulations.iter().filter(is_called)
     }
 
-    /// The circuit that a text of its own names.
     fn named(&self, circuit: &str) -> Result<Instance, Diagnostics> {
         let mut sources = self.sources.clone();
         let file = sources.add("--circuit", circuit);
@@ -57,31 +54,27 @@ impl Checked {
         named.map_err(|fault| Diagnostics { list: vec![fault], sources })
     }
 
-    /// A circuit, if its choice has numbers for its parameters.
+    /// Fails if a parameter without a default has no number.
     fn with_parameters(&self, named: Instance) -> Result<Instance, Diagnostic> {
         let parameters = self.program.circuit(&named.circuit).map_or(&[][..], |circuit| &circuit.parameters);
         let missing = parameters.iter().skip(named.arguments.len()).find(|parameter| parameter.default.is_none());
         match missing {
             None => Ok(named),
-            Some(parameter) => {
-                let (circuit, all) = (named.circuit, parameters.len());
-                Err(ChoiceError::NoNumber { circuit, parameter: parameter.name.clone(), all }.into())
-            }
+            Some(parameter) => Err(wording::no_number(&named.circuit, &parameter.name, parameters.len())),
         }
     }
 
-    /// The last circuit of the source itself.
     fn last_circuit(&self) -> Result<Instance, Diagnostic> {
         let program = &self.program;
         let is_environment = |at: usize| program.environments.iter().any(|environment| environment.0 as usize == at);
         let own = program.circuits.iter().enumerate().filter(|(_, circuit)| Some(circuit.span.file) == self.file);
         let Some((_, last)) = own.rev().find(|&(at, _)| !is_environment(at)) else {
-            return Err(ChoiceError::NoCircuit.into());
+            return Err(wording::no_circuit());
         };
         self.declared(last).map_or_else(|| self.with_parameters(last.name.as_str().into()), Ok)
     }
 
-    /// A circuit with its defaults, or else with the parameters of its swarm or its test, if it has one.
+    /// With its defaults, or else the parameters of its swarm or its test.
     fn declared(&self, circuit: &Circuit) -> Option<Instance> {
         if circuit.parameters.iter().all(|parameter| parameter.default.is_some()) {
             return Some(circuit.name.as_str().into());
@@ -91,38 +84,30 @@ impl Checked {
         swarms.chain(tests).find(|used| used.circuit == circuit.name).cloned()
     }
 
-    /// A circuit with its defaults, or else with the parameters of its swarm, of its test or of a call of it.
+    /// With its defaults, or else the parameters of its swarm, its test or a call.
     pub fn in_use(&self, circuit: &Circuit) -> Option<Instance> {
         let called = || self.instances.iter().find(|used| used.circuit == circuit.name).cloned();
         self.declared(circuit).or_else(called)
     }
 
-    /// The swarms that are declared for a circuit, in order.
     pub fn swarms(&self, circuit: &Instance) -> Vec<&Swarm> {
         swarms_of(&self.program, circuit)
     }
 }
 
-/// The swarms that are declared for a circuit, in order.
 pub(super) fn swarms_of<'p>(program: &'p Program, circuit: &Instance) -> Vec<&'p Swarm> {
     program.swarms.iter().filter(|swarm| is_same_instance(program, &swarm.circuit, circuit)).collect()
 }
 
-/// Checks that at most one swarm is declared for a circuit, unless `chosen` names one.
+/// Fails if several swarms are declared for a circuit and none is chosen.
 pub fn check_swarm_is_clear(program: &Program, circuit: &Instance, chosen: Option<&str>) -> Result<(), Diagnostic> {
     match (chosen, &swarms_of(program, circuit)[..]) {
-        (None, [first, second, ..]) => {
-            let swarms = [first.name.clone(), second.name.clone()];
-            Err(ChoiceError::SeveralSwarms { circuit: circuit.to_string(), swarms }.into())
-        }
+        (None, [first, second, ..]) => Err(wording::several_swarms(&circuit.to_string(), [&first.name, &second.name])),
         _ => Ok(()),
     }
 }
 
-/// The declared swarm of that name.
 pub(super) fn declared_swarm<'p>(program: &'p Program, name: &str) -> Result<&'p Swarm, Diagnostic> {
-    program.swarm(name).ok_or_else(|| {
-        let meant = Suggestion::of(name, program.swarms.iter().map(|swarm| swarm.name.as_str()));
-        ChoiceError::UnknownSwarm { name: name.to_owned(), meant }.into()
-    })
+    let known = || program.swarms.iter().map(|swarm| swarm.name.as_str());
+    program.swarm(name).ok_or_else(|| wording::unknown("swarm", name, known()))
 }

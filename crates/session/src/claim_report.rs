@@ -17,23 +17,19 @@ use nbc_lang::syntax;
 /// A claim, or the properties of a model.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClaimReport {
-    /// The file.
     file: String,
-    /// The line of the claim.
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<usize>,
-    /// The circuit.
     #[serde(skip_serializing_if = "Option::is_none")]
     circuit: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
     title: Option<String>,
     properties: Vec<PropertyReport>,
-    /// Calls of the solver, and clauses that it learned.
+    /// Calls of the solver plus learned clauses.
     work: u64,
 }
 
 impl ClaimReport {
-    /// What is known of a claim.
     pub fn of(decided: &DecidedClaim) -> Self {
         let DecidedClaim { claim, system, verdicts, empty, tests, work } = decided;
         let known = claim.wanted().zip(verdicts).zip(tests).enumerate();
@@ -53,7 +49,6 @@ impl ClaimReport {
         }
     }
 
-    /// What is known of the properties of a model.
     pub fn of_model(file: &str, model: &AigerModel, search: &PropertySearch) -> Self {
         let verdicts = search.verdicts();
         let known = model.properties.iter().zip(&verdicts).enumerate();
@@ -66,28 +61,24 @@ impl ClaimReport {
         Self { file: file.to_owned(), line, circuit, title, properties: properties.collect(), work: search.work() }
     }
 
-    /// Notes runs in physics of the test that refutes a property.
+    /// Notes whether robots did the same in the test that refutes a property.
     pub fn note_runs(&mut self, property: usize, runs: &[TestRun]) {
         let is_same = runs.iter().all(|run| run.verdict.passed && run.end == RunEnd::Complete);
         self.properties[property].physics = Some(is_same);
     }
 
-    /// What is known of each property, in order.
     pub fn properties(&self) -> &[PropertyReport] {
         &self.properties
     }
 
-    /// The number of properties with this verdict.
     pub fn count(&self, verdict: &str) -> usize {
         self.properties.iter().filter(|property| property.verdict == verdict).count()
     }
 
-    /// The witnesses of a model's properties, one after the other.
     pub fn witnesses(&self) -> String {
         self.properties.iter().filter_map(|property| property.witness.as_deref()).collect()
     }
 
-    /// The report for people.
     pub fn text(&self) -> String {
         let mut text = match (&self.circuit, &self.title) {
             (Some(circuit), Some(title)) => format!("{circuit} \"{title}\"\n"),
@@ -99,7 +90,6 @@ impl ClaimReport {
     }
 }
 
-/// Why the proof of a property says nothing, in words.
 fn why_empty(why: EmptyProof, property: &Property, all: &[Property]) -> String {
     let is_assumed = all.iter().any(|other| other.kind == PropertyKind::Assume);
     let under = if is_assumed { " under the assumptions" } else { "" };
@@ -110,7 +100,6 @@ fn why_empty(why: EmptyProof, property: &Property, all: &[Property]) -> String {
     }
 }
 
-/// A test of rows as text of the language.
 fn text_of_test(test: &CircuitTest) -> String {
     let Stimulation::Rows(rows) = &test.stimulation else { unreachable!("a run has rows") };
     let ports = |columns: &[nbc_base::model::Column]| {
@@ -134,7 +123,7 @@ fn text_of_test(test: &CircuitTest) -> String {
     syntax::format(&sources, file, &parsed.tree)
 }
 
-/// The words of the inputs of a row: `^` where a bit is 0 in its first half.
+/// `^` stands for a bit that is 0 in the first half of its row.
 fn input_words(test: &CircuitTest, row: &TestRow, half: Option<&TestRow>) -> Vec<String> {
     let mut first = 0;
     let values = row.input_values(&test.inputs);

@@ -2,7 +2,7 @@
 
 use crate::observer::Observer;
 use crate::run_rows::RunPorts;
-use crate::wording::{ClaimError, ScriptError};
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitId, CircuitTest, Claim, Program, Property, PropertyKind, Stimulation};
 use nbc_base::source::Span;
@@ -12,7 +12,7 @@ use nbc_circuit::properties::{
 };
 use nbc_circuit::{CancelFlag, Logic, Netlist, elaborate_reference, elaborate_watched};
 
-/// A claim that is being decided. It can be dropped between any two portions.
+/// A search for the verdicts on a claim. It can be dropped between any two portions.
 pub struct ClaimSearch {
     claim: Claim,
     search: PropertySearch,
@@ -21,18 +21,15 @@ pub struct ClaimSearch {
     monitor: Netlist,
 }
 
-/// A claim with what is known of each of its properties, but for the assumptions.
+/// A claim with a verdict on each of its properties except assumptions.
 #[derive(Clone, Debug)]
 pub struct DecidedClaim {
-    /// The claim.
     pub claim: Claim,
-    /// What was searched.
     pub system: TransitionSystem,
-    /// What is known.
     pub verdicts: Vec<PropertyVerdict>,
-    /// Why proofs say nothing.
+    /// Why a proof is vacuous.
     pub empty: Vec<Option<EmptyProof>>,
-    /// For each property that is refuted, a test whose last row shows it. The circuit passes it as it is.
+    /// For each refuted property, a test whose last row shows it. The circuit passes the test.
     pub tests: Vec<Option<CircuitTest>>,
     /// The work, as [`SearchBudget`] counts it.
     pub work: u64,
@@ -46,7 +43,6 @@ impl DecidedClaim {
 }
 
 impl ClaimSearch {
-    /// A search that has done nothing yet.
     pub(super) fn new(
         program: &Program,
         claim: &Claim,
@@ -56,10 +52,7 @@ impl ClaimSearch {
         let inner: Vec<Span> = claim.inner.iter().map(|net| net.declared).collect();
         let circuit = elaborate_watched(program, &claim.circuit, &inner)?;
         let monitor = elaborate_reference(program, &claim.monitor)?;
-        let fault = |why| {
-            let circuit = claim.circuit.to_string();
-            vec![ClaimError::NoSteps { circuit, why }.at(claim.span)]
-        };
+        let fault = |why| vec![wording::no_steps(&claim.circuit.to_string(), &why, claim.span)];
         let environment = claim.environment.map(|place| environment(program, place)).transpose()?;
         let monitored = Monitored::of(&circuit, &monitor, &claim.properties, environment.as_ref(), &cancel);
         let Monitored { system, checks, ports, given, clock } = monitored.map_err(fault)?;
@@ -67,22 +60,18 @@ impl ClaimSearch {
         Ok(Self { claim: claim.clone(), search, ports: RunPorts { ports, given, clock }, circuit, monitor })
     }
 
-    /// The search, to be advanced.
     pub fn search(&mut self) -> &mut PropertySearch {
         &mut self.search
     }
 
-    /// Does a portion of the search, and reports how many properties are decided. Whether there is more to do.
+    /// Searches a portion, and reports how many properties are decided. Whether there is more to do.
     pub fn advance(&mut self, observer: &mut dyn Observer) -> bool {
         self.search.advance();
         observer.progress(self.search.decided() as u64, self.search.system().bad.len() as u64);
         !self.search.is_done()
     }
 
-    /// What is known now.
-    ///
-    /// # Panics
-    /// When the circuit does not do what the search says, which is a fault of the search.
+    /// Panics if the circuit contradicts the search, which is a fault of the search.
     pub fn finish(self) -> DecidedClaim {
         let verdicts = self.search.verdicts();
         let properties: Vec<Property> = self.claim.wanted().cloned().collect();
@@ -96,7 +85,6 @@ impl ClaimSearch {
         DecidedClaim { claim: self.claim, system, verdicts, empty, tests, work }
     }
 
-    /// The test that a run is: its outputs are those of the cells, one time step after the other.
     fn test(&self, property: &Property, run: &SystemRun) -> CircuitTest {
         let Claim { circuit, span, file, line, inputs, outputs, .. } = self.claim.clone();
         let mut watcher = Watcher { logic: Logic::new(&self.monitor), said: Vec::new() };
@@ -118,16 +106,15 @@ impl ClaimSearch {
     }
 }
 
-/// An environment for all that its memories may hold: those that begin with a file may hold anything.
+/// Memories that begin with a file may hold anything.
 fn environment(program: &Program, place: CircuitId) -> Result<EnvironmentStep, Vec<Diagnostic>> {
     let (netlist, memories) = elaborate_environment(program, place)?;
     let circuit = &program.circuits[place.0 as usize];
     let is_empty = circuit.memories.iter().map(|memory| memory.contents.is_none()).collect();
-    let fault = |fault| vec![ScriptError::Environment(fault).at(circuit.span)];
-    EnvironmentStep::new(&netlist, memories, is_empty).map_err(fault)
+    EnvironmentStep::new(&netlist, memories, is_empty)
+        .map_err(|fault| vec![wording::bad_environment(&fault, circuit.span)])
 }
 
-/// What is said of each step, by the cells of the monitor.
 struct Watcher {
     logic: Logic,
     said: Vec<Vec<bool>>,

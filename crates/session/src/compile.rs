@@ -5,39 +5,32 @@ use std::sync::Arc;
 use crate::mapping::Mapping;
 use crate::plan::Plan;
 use crate::waves::map_waves;
-use crate::wording::{ChoiceError, SwarmWarning, for_circuit};
+use crate::wording::{self, for_circuit};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
-use nbc_circuit::passes::sweep;
+use nbc_circuit::passes::{Pass, Sweep};
 use nbc_circuit::{CellLibrary, MapOptions, Netlist, Timing, elaborate_net, map_with, prove};
 use nbc_swarm::{Assembly, WeakRobot};
 
 /// A circuit compiled to a swarm.
 #[derive(Clone, Debug)]
 pub struct Compiled {
-    /// Its plan.
     pub plan: Plan,
-    /// The circuit as cells of its robots.
     pub mapping: Mapping,
-    /// When each net has settled.
     pub timing: Timing,
-    /// The robots and their wiring.
     pub assembly: Assembly,
-    /// The robots with errors or a thin margin.
+    /// Robots with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
-    /// Warnings.
     pub warnings: Vec<Diagnostic>,
 }
 
 impl Compiled {
-    /// The clock of each robot.
     pub(super) fn clocks(&self) -> Vec<u32> {
         self.assembly.members.iter().map(|member| member.robot.character.clock).collect()
     }
 
-    /// The same swarm in another world.
     pub(super) fn in_world(&self, world: NamedWorld) -> Self {
         let mut moved = self.clone();
         for member in &mut moved.assembly.members {
@@ -50,12 +43,9 @@ impl Compiled {
     }
 }
 
-/// Maps a netlist onto a library's cells, and proves that the result is equal to it.
-///
-/// # Panics
-/// When the mapped netlist is not proved equal to its source, which is a fault of the compiler.
+/// Panics if the mapped netlist is not proved equal to its source, which is a fault of the compiler.
 pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOptions) -> Result<Mapping, Diagnostic> {
-    let netlist = map_with(&source, cells, options).map_err(ChoiceError::Unmapped)?;
+    let netlist = map_with(&source, cells, options).map_err(|error| wording::unmapped(&error))?;
     match prove(&source, &netlist) {
         Ok(proof) => {
             let cells = cells.clone();
@@ -65,7 +55,7 @@ pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOpti
     }
 }
 
-/// Maps an elaborated circuit onto cells as requested at `place`. `gates` is what limits it before.
+/// `gates` limits the size of the source.
 pub(super) fn map_onto(
     source: Netlist,
     cells: &CellLibrary,
@@ -77,13 +67,11 @@ pub(super) fn map_onto(
     synthesize(source, cells, options).map_err(|fault| vec![for_circuit(fault, place)])
 }
 
-/// Whether a netlist has no more cells than a limit permits.
 fn permit(netlist: &Netlist, limit: Limit, place: Span) -> Result<(), Vec<Diagnostic>> {
     limit.permit(netlist.cells().count() as u64).map_err(|over| vec![over.at(place)])
 }
 
-/// Maps a planned circuit that was elaborated onto its robots as requested at `place`. `gates` is what limits it
-/// before.
+/// `gates` limits the size of the source.
 pub(super) fn map(
     source: Netlist,
     plan: &Plan,
@@ -94,9 +82,7 @@ pub(super) fn map(
     let map = |source| map_onto(source, &nbc_swarm::cells(&plan.library), options, place, gates);
     match plan.registers {
         RegisterStyle::MasterSlave => map(source),
-        RegisterStyle::Mux => {
-            map(source)?.held().ok_or_else(|| vec![for_circuit(ChoiceError::NoMultiplexer.into(), place)])
-        }
+        RegisterStyle::Mux => map(source)?.held().ok_or_else(|| vec![for_circuit(wording::no_multiplexer(), place)]),
         RegisterStyle::Waves => {
             permit(&source, gates, place)?;
             let mapping = map_waves(source, &plan.library, plan.waves, options);
@@ -116,11 +102,10 @@ pub(super) fn map_net(
     let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options);
     let mut mapping = mapping.map_err(|fault| vec![for_circuit(fault, net)])?;
     // The proof was of all that was elaborated. What is shown is the part of the net.
-    sweep(&mut mapping.source);
+    Sweep.run(&mut mapping.source).expect("sweeping only removes");
     Ok(mapping)
 }
 
-/// Compiles an elaborated circuit of a program without errors to a swarm of its plan's robots, as requested at `place`.
 pub(super) fn compile(
     program: &Program,
     source: Netlist,
@@ -138,14 +123,15 @@ pub(super) fn compile(
             nbc_swarm::assemble_waves(machine, &library)
         }
     };
-    let mut assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world.world);
+    let mut assembly = assembly.in_world(plan.world.world);
     name_values(program, &plan.circuit, &mut assembly);
     let weak_robots = nbc_swarm::weak_robots(&assembly);
-    let warnings = weak_robots.iter().map(|weak| warn_of(weak, &plan, place)).collect();
+    let circuit = plan.circuit.to_string();
+    let warnings = weak_robots.iter().map(|weak| wording::weak_robot(&circuit, weak, place)).collect();
     Ok(Compiled { plan, mapping, timing, assembly, weak_robots, warnings })
 }
 
-/// Gives the ports of a swarm the enumerations that are declared for them.
+/// Gives the ports of a swarm their declared enumerations.
 fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {
     let Some(circuit) = program.circuit(&circuit.circuit) else { return };
     for net in &circuit.nets[..circuit.inputs + circuit.outputs] {
@@ -155,8 +141,4 @@ fn name_values(program: &Program, circuit: &Instance, assembly: &mut Assembly) {
             port.members = Some(Arc::new(members.clone()));
         }
     }
-}
-
-fn warn_of(weak: &WeakRobot, plan: &Plan, place: Span) -> Diagnostic {
-    SwarmWarning::Weak { circuit: plan.circuit.to_string(), robot: weak.clone() }.at(place)
 }

@@ -1,26 +1,20 @@
 //! The first contents of memories: words from the files that a program declares.
 
-use crate::wording::{ScriptError, of_declared_file};
-use nbc_base::diag::{Diagnostic, Suggestion};
+use crate::wording;
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::{MemoryArray, Program};
 use nbc_base::source::{SourceWorld, without_mark};
 use nbc_circuit::elaborate::MemoryPorts;
 
-/// Checks that a file of this name is declared, and that a memory begins with it.
 pub(super) fn declared_file(program: &Program, name: &str) -> Result<(), Diagnostic> {
-    let place = program.files.iter().position(|file| file.name == name).ok_or_else(|| {
-        let meant = Suggestion::of(name, program.files.iter().map(|file| file.name.as_str()));
-        ScriptError::UnknownFile { name: name.to_owned(), meant }.without_place()
-    })?;
+    let Some(place) = program.files.iter().position(|file| file.name == name) else {
+        return Err(wording::unknown_file(name, program.files.iter().map(|file| file.name.as_str())));
+    };
     let mut memories = program.circuits.iter().flat_map(|circuit| &circuit.memories);
-    if memories.any(|memory| memory.contents == Some(place)) {
-        return Ok(());
-    }
-    Err(ScriptError::UnusedFile { name: name.to_owned() }.without_place())
+    if memories.any(|memory| memory.contents == Some(place)) { Ok(()) } else { Err(wording::unused_file(name)) }
 }
 
-/// The first words of a memory; `files` are the paths of files that replace declared ones, by name. A memory without a
-/// file begins with zeros.
+/// The words of a memory at the start; none without a file. `files` replace declared files, by name and path.
 pub(super) fn first_words(
     world: &dyn SourceWorld,
     program: &Program,
@@ -31,35 +25,28 @@ pub(super) fn first_words(
     let Some(declared) = memory.contents.and_then(|place| program.files.get(place)) else { return Ok(Vec::new()) };
     let chosen = files.iter().find(|(name, _)| *name == declared.name).map(|(_, path)| path.as_str());
     let path = chosen.unwrap_or(&declared.path);
-    let fault = |error: ScriptError| match chosen {
-        None => error.at(declared.span),
-        Some(_) => error.without_place(),
-    };
-    let bytes = world.read_bytes(path);
-    let bytes = bytes.map_err(|error| {
+    let bytes = world.read_bytes(path).map_err(|error| {
         let fault = Diagnostic::unreadable_in(world, path, &error);
-        if chosen.is_some() { fault } else { of_declared_file(fault, declared.span) }
+        if chosen.is_some() { fault } else { wording::of_declared_file(fault, declared.span) }
     })?;
-    let words = words(path, &bytes, ports).map_err(|line| fault(ScriptError::Line { path: path.to_owned(), line }))?;
-    match words {
-        Words::All(words) => Ok(words),
-        Words::TooMany(found) => {
-            Err(fault(ScriptError::TooManyWords { path: path.to_owned(), found, room: ports.words }))
-        }
-    }
+    let fault = match words(path, &bytes, ports) {
+        Ok(Words::All(words)) => return Ok(words),
+        Ok(Words::TooMany(found)) => wording::too_many_words(path, found, ports.words),
+        Err(line) => wording::no_word(path, line),
+    };
+    Err(if chosen.is_some() { fault } else { wording::of_words(fault, declared.span) })
 }
 
-/// The words of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 enum Words {
     All(Vec<u128>),
-    /// So many, which the memory does not have.
+    /// More words than the memory has.
     TooMany(usize),
 }
 
 /// The words of a file by its ending: `.bin` has bytes, the lowest of a word first; `.csv` numbers between commas and
 /// ends of lines; any other, such as `.hex`, hexadecimal digits between blanks, with `@` before the place of the next
-/// word.
+/// word. The error is the number of a line.
 fn words(path: &str, bytes: &[u8], memory: &MemoryPorts) -> Result<Words, usize> {
     let width = memory.width;
     if path.ends_with(".bin") {
@@ -102,7 +89,6 @@ fn words(path: &str, bytes: &[u8], memory: &MemoryPorts) -> Result<Words, usize>
 mod tests {
     use super::*;
 
-    /// The words of a file for a memory of five words.
     fn words(path: &str, bytes: &[u8], width: usize) -> Result<Words, usize> {
         super::words(path, bytes, &MemoryPorts { memory: 0, words: 5, width, reads: Vec::new(), writes: Vec::new() })
     }

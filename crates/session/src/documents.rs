@@ -9,26 +9,23 @@ use crate::checked::Checked;
 use crate::robots::{BuiltIn, RobotSources};
 use nbc_base::source::{CancelFlag, FileError, OverlayWorld, SourceWorld, VerilogError, VerilogFiles, VerilogModules};
 
-/// The sources of a session.
 pub(super) struct Documents {
     world: OverlayWorld<Box<dyn SourceWorld + Send + Sync>>,
     built_in: BuiltIn,
-    /// The paths of files that replace those that programs declare, by name.
+    /// Replacements of declared files, by name and path.
     files: Vec<(String, String)>,
-    /// The revisions of the texts that were given, by the identities of their files.
+    /// By the identities of files.
     revisions: BTreeMap<String, u64>,
-    /// The results that are still valid, by path.
     known: BTreeMap<String, Known>,
     readings: Readings,
 }
 
-/// The last readings of Verilog, by the paths of the files.
+/// Results of reading Verilog, by the paths of the files.
 type Readings = BTreeMap<Vec<String>, (VerilogFiles, VerilogModules)>;
 
-/// A checked source with its dependencies.
 struct Known {
     checked: Arc<Checked>,
-    /// The identities of the files and folders that were read.
+    /// Identities of the files and folders that were read.
     asked: BTreeSet<String>,
 }
 
@@ -44,17 +41,14 @@ impl Documents {
         }
     }
 
-    /// Lets these files replace those that programs declare, by name.
     pub(super) fn replace_files(&mut self, files: Vec<(String, String)>) {
         self.files = files;
     }
 
-    /// The robots that come with the program.
     pub(super) fn built_in(&self) -> &BuiltIn {
         &self.built_in
     }
 
-    /// The world that sources and robots are read from.
     pub(super) fn world(&self) -> &dyn SourceWorld {
         &self.world
     }
@@ -101,17 +95,16 @@ impl Documents {
         checked
     }
 
-    /// Whether a result for `path` is valid.
     pub(super) fn is_known(&self, path: &str) -> bool {
         self.known.contains_key(path)
     }
 
-    /// The identities of the files and folders that the result for `path` depends on, including missing ones.
+    /// Identities of the files and folders that the result depends on, including missing ones.
     pub(super) fn asked(&self, path: &str) -> impl Iterator<Item = &str> {
         self.known.get(path).into_iter().flat_map(|known| &known.asked).map(String::as_str)
     }
 
-    /// Drops all results that depend on the file at `path` or on the list of its folder.
+    /// Drops the results that depend on a file or on the listing of its folder.
     fn forget(&mut self, path: &str) {
         let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
         let changed = [path, folder].map(|path| self.world.identity(path));
@@ -124,7 +117,6 @@ struct RecordingWorld<'a> {
     world: &'a dyn SourceWorld,
     asked: RefCell<BTreeSet<String>>,
     readings: RefCell<Readings>,
-    /// Whether a reading was cancelled.
     is_cancelled: Cell<bool>,
 }
 
@@ -222,23 +214,29 @@ mod tests {
         assert_eq!(documents.checked("a.nb").diagnostics, []);
     }
 
-    /// A world with a translator that counts its work.
-    struct CountingTranslator(MemoryWorld, Arc<AtomicUsize>);
+    /// Counts its readings, the first of which may be cancelled.
+    struct Translator {
+        world: MemoryWorld,
+        count: Arc<AtomicUsize>,
+        is_cancelled: bool,
+    }
 
-    impl SourceWorld for CountingTranslator {
+    impl SourceWorld for Translator {
         fn read(&self, path: &str) -> Result<String, FileError> {
-            self.0.read(path)
+            self.world.read(path)
         }
 
         fn read_verilog(&self, _: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
-            self.1.fetch_add(1, Ordering::Relaxed);
+            if self.count.fetch_add(1, Ordering::Relaxed) == 0 && self.is_cancelled {
+                return Err(VerilogError::Cancelled);
+            }
             let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
             let module = VerilogModule { name: "f".to_owned(), blif, ..VerilogModule::default() };
             Ok(VerilogModules { modules: vec![module], ..VerilogModules::default() })
         }
 
         fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-            self.0.list(folder)
+            self.world.list(folder)
         }
     }
 
@@ -248,7 +246,7 @@ mod tests {
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
         let count = Arc::new(AtomicUsize::new(0));
-        let mut documents = Documents::new(Box::new(CountingTranslator(world, count.clone())));
+        let mut documents = Documents::new(Box::new(Translator { world, count: count.clone(), is_cancelled: false }));
         let mut check = |path, text: &str| {
             documents.update(path, 0, text);
             assert_eq!(documents.checked("a.nb").diagnostics, []);
@@ -264,30 +262,12 @@ mod tests {
         assert_eq!(check("a.nb", changed), 4);
     }
 
-    /// A world whose first reading is cancelled.
-    struct CancelledTranslator(CountingTranslator);
-
-    impl SourceWorld for CancelledTranslator {
-        fn read(&self, path: &str) -> Result<String, FileError> {
-            self.0.read(path)
-        }
-
-        fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
-            let modules = self.0.read_verilog(files);
-            if self.0.1.load(Ordering::Relaxed) == 1 { Err(VerilogError::Cancelled) } else { modules }
-        }
-
-        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-            self.0.list(folder)
-        }
-    }
-
     #[test]
     fn a_source_is_checked_again_when_a_reading_was_cancelled() {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
-        let mut documents = Documents::new(Box::new(CancelledTranslator(CountingTranslator(world, Arc::default()))));
+        let mut documents = Documents::new(Box::new(Translator { world, count: Arc::default(), is_cancelled: true }));
         assert!(documents.checked("a.nb").has_errors());
         assert!(!documents.is_known("a.nb"));
         assert_eq!(documents.checked("a.nb").diagnostics, []);

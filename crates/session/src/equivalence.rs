@@ -2,14 +2,13 @@
 
 use crate::property_report::PropertyReport;
 use crate::run_rows::RunPorts;
-use crate::wording::ClaimError;
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, Circuit, CircuitTest, Instance, Program, TestRow};
 use nbc_circuit::properties::{Monitored, PropertySearch, PropertyVerdict, SearchBudget, TransitionSystem};
 use nbc_circuit::{CancelFlag, Netlist, Settled, elaborate_reference};
 use nbc_swarm::RowVerdict;
 
-/// Two circuits that should be equal for ever.
 #[derive(Clone, Debug)]
 pub(super) struct Equivalence {
     system: TransitionSystem,
@@ -20,7 +19,6 @@ pub(super) struct Equivalence {
 }
 
 impl Equivalence {
-    /// The tested circuit and the one that it is tested against.
     pub(super) fn new(
         program: &Program,
         test: &CircuitTest,
@@ -29,29 +27,23 @@ impl Equivalence {
         cancel: CancelFlag,
     ) -> Result<Self, Vec<Diagnostic>> {
         let circuits = [tested, elaborate_reference(program, reference)?];
-        let monitored = Monitored::of_two(circuits.each_ref(), &cancel).map_err(|(at, why)| {
-            let circuit = [&test.circuit, other][at].to_string();
-            vec![ClaimError::NoSteps { circuit, why }.at(test.span)]
-        })?;
+        let monitored = Monitored::of_two(circuits.each_ref(), &cancel)
+            .map_err(|(at, why)| vec![wording::no_steps(&[&test.circuit, other][at].to_string(), &why, test.span)])?;
         let Monitored { system, ports, given, clock, .. } = monitored;
         Ok(Self { system, ports: RunPorts { ports, given, clock }, circuits, cancel })
     }
 
-    /// A search that has done nothing yet.
     pub(super) fn search(&self) -> PropertySearch {
         PropertySearch::new(self.system.clone(), SearchBudget::SHORT, self.cancel.clone())
     }
 
-    /// Whether the search was stopped.
     pub(super) fn is_stopped(&self) -> bool {
         self.cancel.is_raised()
     }
 
-    /// What is known, in words, and whether the circuits are equal. The rows are those of the shortest run in which
-    /// they are not: expected is what the other circuit shows.
-    ///
-    /// # Panics
-    /// When the circuits do not do what the search says, which is a fault of the search.
+    /// The verdict in words, whether the circuits are equal, and the rows of the shortest run in which they differ; the
+    /// other circuit's outputs are expected. Panics if the circuits contradict the search, which is a fault of the
+    /// search.
     pub(super) fn judge(&self, test: &CircuitTest, search: &PropertySearch) -> (String, bool, Vec<RowVerdict>) {
         let verdict = search.verdicts().remove(0);
         let known = PropertyReport::of(&self.system, 0, String::new(), &verdict);

@@ -3,10 +3,8 @@
 use include_dir::{Dir, include_dir};
 use nbc_base::diag::Code;
 
-/// The pages, one for each code.
 const PAGES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/errors");
 
-/// The page that explains a code, as Markdown.
 pub fn error_page(code: Code) -> &'static str {
     let file = PAGES.get_file(format!("{code}.md")).expect("every code has its page");
     file.contents_utf8().expect("pages are text")

@@ -4,12 +4,9 @@ use nbc_base::diag::Diagnostics;
 use nbc_base::source::{SourceWorld, Sources};
 use nbc_lang::{check, syntax};
 
-/// A source in its canonical form.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formatted {
-    /// The text in canonical form.
     pub text: String,
-    /// Whether the source has that form already.
     pub is_canonical: bool,
 }
 

@@ -6,9 +6,9 @@ use std::fmt;
 
 use serde::Serialize;
 
-use crate::wording::HardenError;
+use crate::wording;
 use crate::{Checked, CompileOptions, Session, TestCase, TestOptions, Yields};
-use nbc_base::diag::{Diagnostic, Diagnostics, counted};
+use nbc_base::diag::{Diagnostics, counted};
 use nbc_base::model::{CircuitTest, Instance, Stimulation, Variation};
 use nbc_circuit::is_same_instance;
 use nbc_swarm::{Level, Proportion, Robustness};
@@ -16,45 +16,37 @@ use nbc_swarm::{Level, Proportion, Robustness};
 /// The worlds in which the tests of a circuit should pass.
 #[derive(Clone, Copy, Debug)]
 pub struct Hardening {
-    /// How much the worlds vary.
     pub variation: Variation,
-    /// The number of worlds.
     pub worlds: usize,
-    /// Their seed.
     pub seed: u64,
     /// The share of worlds in which each test must pass.
     pub least_yield: f64,
 }
 
-/// The robots that were left out, and how that was found.
+/// The robots to leave out, and what was tried.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Hardened {
-    /// The names of the robots that are left out.
     pub without: Vec<String>,
-    /// Whether the tests pass in enough worlds.
     pub reached: bool,
-    /// What was tried, in order.
     pub tried: Vec<HardeningStep>,
 }
 
 /// A choice of robots and its yield.
 #[derive(Clone, Debug, Serialize)]
 pub struct HardeningStep {
-    /// The robots that are left out.
     pub without: Vec<String>,
-    /// The number of robots of the largest swarm.
+    /// Of the largest swarm.
     pub robots: usize,
     /// The smallest yield of the tests.
     #[serde(rename = "yield")]
     pub passed: Proportion,
-    /// The robots that fail first in some worlds, those of most worlds first.
+    /// Those of most worlds first.
     pub fails_first: Vec<String>,
 }
 
 impl Session {
-    /// Finds the robots to leave out of the swarm of a circuit. `run` makes the runs of each choice of robots, and
-    /// returns fewer results than experiments if it was stopped; `tell` receives each choice with its yield. `None` if
-    /// it was stopped.
+    /// Finds robots to leave out of the swarm of a circuit. `run` returns fewer results than experiments if it was
+    /// stopped; `tell` receives each choice of robots. `None` if it was stopped.
     pub fn harden<E: From<Diagnostics>>(
         &self,
         checked: &Checked,
@@ -70,8 +62,7 @@ impl Session {
         let tests = tests.filter(|test| !matches!(test.stimulation, Stimulation::Ever { .. }));
         let tests: Vec<&CircuitTest> = tests.collect();
         if tests.is_empty() {
-            let fault = Diagnostic::from(HardenError::NoTest { circuit: circuit.to_string() });
-            return Err(Diagnostics::from(fault).into());
+            return Err(Diagnostics::from(wording::no_test_to_harden(&circuit.to_string())).into());
         }
         let Hardening { variation, worlds, seed, least_yield } = hardening;
         let mut hardened = Hardened::default();
@@ -139,7 +130,6 @@ impl HardeningStep {
     }
 }
 
-/// The choice of robots and its yield in one line.
 impl fmt::Display for HardeningStep {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let robots = counted(self.robots, "robot");
@@ -152,7 +142,6 @@ impl fmt::Display for HardeningStep {
     }
 }
 
-/// What to write in the library.
 impl fmt::Display for Hardened {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.reached {

@@ -1,27 +1,25 @@
 //! The hold of each row of a test, and warnings of rows that end before their robots have settled.
 
 use crate::compile::Compiled;
-use crate::wording::SwarmWarning;
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, Hold, TestRow};
 use nbc_base::source::Span;
 use nbc_circuit::{Netlist, Timing};
 use nbc_swarm::{RowHold, STEADY_CYCLES, Settling, resting_outputs};
 
-/// Cycles for which a row is held after the cycle in which every robot has settled, because outputs are judged over
-/// [`STEADY_CYCLES`].
+/// Outputs are judged over [`STEADY_CYCLES`], so a row lasts longer than its robots need to settle.
 const STEADY_EXTRA: usize = STEADY_CYCLES - 1;
 
-/// The hold of each row: until every robot has settled for any delays, but not longer than static timing requires. Rows
-/// that cannot be shown to settle are held for that time.
+/// Each row is held until every robot has settled for any delays, but at most as long as static timing requires.
 pub(super) fn row_holds(rows: &[TestRow], netlist: &Netlist, compiled: &Compiled) -> Vec<RowHold> {
     let holds = holds(rows, compiled, compiled.plan.hold);
     let row_hold = |([hold, needed], rests): ([usize; 2], Vec<bool>)| RowHold { hold, needed, rests };
     holds.into_iter().zip(resting_outputs(rows, netlist)).map(row_hold).collect()
 }
 
-/// For each row, the cycles for which it is held, and those that its robots need; rows without a hold of their own are
-/// held as `usual` says.
+/// For each row, the cycles for which it is held, and those that its robots need. `usual` applies to rows without a
+/// hold of their own.
 fn holds(rows: &[TestRow], compiled: &Compiled, usual: Hold) -> Vec<[usize; 2]> {
     let window = compiled.plan.window;
     let bound = (compiled.timing.hold + window - 1) as usize;
@@ -54,8 +52,7 @@ pub(super) fn sufficient(rows: &[TestRow], compiled: &Compiled) -> usize {
     }
 }
 
-/// Warnings of rows that end before their robots have settled: one of the swarm's hold, for which `sufficient` cycles
-/// are enough, and one of each row with a hold of its own.
+/// One warning for the swarm's hold, with the `sufficient` one, and one for each row with a hold of its own.
 pub(super) fn warnings(
     test: &CircuitTest,
     rows: &[TestRow],
@@ -65,7 +62,7 @@ pub(super) fn warnings(
 ) -> Vec<Diagnostic> {
     let Compiled { mapping, timing: Timing { critical_path, .. }, .. } = compiled;
     let path: Vec<String> = critical_path.iter().map(|&net| mapping.netlist.net_name(net)).collect();
-    let warning = |hold, needed, place| SwarmWarning::ShortHold { hold, needed, path: path.clone() }.at(place);
+    let warning = |hold, needed, place| wording::short_hold(hold, needed, &path, place);
     let short = || rows.iter().zip(row_holds).filter(|(_, row_hold)| row_hold.hold < row_hold.needed);
     let usual = short().find(|(row, _)| row.hold.is_none());
     let mut own: Vec<(Span, usize, usize)> = Vec::new();

@@ -8,18 +8,15 @@ use nbc_circuit::formats::Design;
 use nbc_circuit::rows::RowFormat;
 use nbc_learn::{Examples, GateGraph, LearnOptions, LearnedCircuit, Learner, Literal};
 
-use crate::wording::LearningError;
+use crate::wording;
 
 /// What a circuit is learned from.
 #[derive(Clone, Debug)]
 pub struct LearningRequest<'a> {
-    /// The name of the circuit.
     pub circuit: &'a str,
-    /// The file of rows.
     pub rows: &'a SourceFile,
-    /// The outputs; by default those that the file says, or its last port.
+    /// By default those that the file names, or its last port.
     pub outputs: &'a [String],
-    /// How it is learned.
     pub options: LearnOptions,
 }
 
@@ -34,8 +31,7 @@ impl LearningRequest<'_> {
     }
 }
 
-/// A circuit that is being learned. Each portion is short; a door decides when it does the next one, and cancels by
-/// dropping the value.
+/// A circuit that is being learned, in short portions. It can be dropped between any two.
 #[derive(Clone, Debug)]
 pub struct Learning {
     circuit: String,
@@ -44,48 +40,41 @@ pub struct Learning {
     learner: Learner,
 }
 
-/// A circuit that was learned.
 #[derive(Clone, Debug)]
 pub struct Learned {
-    /// The circuit.
     pub design: Design,
-    /// Its inputs.
     pub inputs: Vec<Column>,
-    /// Its outputs.
     pub outputs: Vec<Column>,
-    /// Its gates, how they were learned, and the rows.
     pub circuit: LearnedCircuit,
 }
 
 impl Learning {
-    /// Reads rows, and begins to learn.
     pub fn new(request: &LearningRequest<'_>) -> Result<Self, Vec<Diagnostic>> {
         let LearningRequest { circuit, rows, outputs, options } = *request;
-        let one = |fault: Diagnostic| vec![fault];
         if options.group == 0 {
-            return Err(one(LearningError::NoGroup.into()));
+            return Err(vec![wording::empty_group()]);
         }
         if !(0.0..100.0).contains(&options.hold_out) {
-            return Err(one(LearningError::HoldOut { percent: options.hold_out }.into()));
+            return Err(vec![wording::bad_hold_out(options.hold_out)]);
         }
-        let format = RowFormat::of_path(&rows.name);
-        let format = format.ok_or_else(|| one(LearningError::Format { file: rows.name.clone() }.into()))?;
+        let format = RowFormat::of_path(&rows.name).ok_or_else(|| vec![wording::no_row_format(&rows.name)])?;
         let file = format.read(rows)?;
-        let (inputs, outputs) = file.ports(outputs).map_err(one)?;
+        let (inputs, outputs) = file.ports(outputs).map_err(|fault| vec![fault])?;
         let [given, wanted] = [&inputs, &outputs].map(|ports| ports.iter().map(|port| port.width).sum::<usize>());
-        let too_large = |_| one(LearningError::TooLarge { inputs: given, outputs: wanted }.into());
-        Limit::LearnedBits.permit((given as u64).saturating_mul(wanted as u64)).map_err(too_large)?;
+        Limit::LearnedBits
+            .permit((given as u64).saturating_mul(wanted as u64))
+            .map_err(|_| vec![wording::too_large_to_learn(given, wanted)])?;
         let examples = Examples::of(&file.bind(circuit, &inputs, &outputs)?);
         let held_out = options.held_out(examples.rows);
         if held_out >= examples.rows {
-            return Err(one(LearningError::NoTraining { rows: examples.rows, percent: options.hold_out }.into()));
+            return Err(vec![wording::no_training_rows(examples.rows, options.hold_out)]);
         }
         let widths: Vec<usize> = outputs.iter().map(|port| port.width).collect();
         let learner = Learner::new(&examples, &widths, options);
         Ok(Self { circuit: circuit.to_owned(), inputs, outputs, learner })
     }
 
-    /// A circuit with the ports of the one that is learned, to try where it is to be written.
+    /// A circuit with the ports of the learned one, to check whether a format can hold it.
     pub fn outline(&self) -> Design {
         let bits = |ports: &[Column]| ports.iter().flat_map(Column::bits).collect::<Vec<_>>();
         let outputs: Vec<_> = bits(&self.outputs).into_iter().map(|output| (output, Literal::FALSE)).collect();
@@ -93,20 +82,17 @@ impl Learning {
         Design::new(GateGraph::new(inputs.len()).netlist(&self.circuit, &inputs, &outputs), Vec::new())
     }
 
-    /// How much is done, and how much there is.
+    /// Done and total.
     pub fn progress(&self) -> (u64, u64) {
         self.learner.progress()
     }
 
-    /// Does the next portion. Returns false when all is done.
+    /// Returns false when all is done.
     pub fn advance(&mut self) -> bool {
         self.learner.advance()
     }
 
-    /// The circuit.
-    ///
-    /// # Panics
-    /// When there is more to do.
+    /// Panics before the last portion.
     pub fn finish(self) -> Learned {
         let Self { circuit: name, inputs, outputs, learner } = self;
         let circuit = learner.finish();

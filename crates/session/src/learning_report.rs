@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::learning::Learned;
 use crate::report::{Confusion, Svg};
-use crate::wording::LearningError;
+use crate::wording;
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::Column;
 use nbc_circuit::levels;
@@ -18,12 +18,12 @@ pub struct LearningReport {
     circuit: String,
     inputs: Vec<Column>,
     outputs: Vec<Column>,
-    /// AND gates, inverters not counted.
+    /// Inverters not counted.
     ands: usize,
     cells: usize,
     depth: u32,
     training: AccuracyReport,
-    /// Not there if no row was held out.
+    /// `None` if no row was held out.
     #[serde(skip_serializing_if = "Option::is_none")]
     held_out: Option<AccuracyReport>,
     bits: Vec<BitReport>,
@@ -32,7 +32,6 @@ pub struct LearningReport {
     seconds: f64,
 }
 
-/// How many rows are right.
 #[derive(Clone, Copy, Debug, Serialize)]
 struct AccuracyReport {
     right: usize,
@@ -40,7 +39,6 @@ struct AccuracyReport {
     accuracy: f64,
 }
 
-/// How an output bit was learned.
 #[derive(Debug, Serialize)]
 struct BitReport {
     name: String,
@@ -48,7 +46,6 @@ struct BitReport {
     tried: Vec<TriedReport>,
 }
 
-/// A method that was tried on an output bit.
 #[derive(Debug, Serialize)]
 struct TriedReport {
     method: String,
@@ -57,7 +54,6 @@ struct TriedReport {
 }
 
 impl LearningReport {
-    /// The report of a circuit that took so many seconds.
     pub fn of(learned: &Learned, seconds: f64) -> Self {
         let Learned { design, inputs, outputs, circuit } = learned;
         let names = outputs.iter().flat_map(Column::bits);
@@ -82,7 +78,6 @@ impl LearningReport {
         }
     }
 
-    /// The report in lines.
     pub fn text(&self) -> String {
         let ports = |ports: &[Column], word: &str| counted(ports.iter().map(|port| port.width).sum(), word);
         let (inputs, outputs) = (ports(&self.inputs, "input bit"), ports(&self.outputs, "output bit"));
@@ -105,14 +100,12 @@ impl LearningReport {
         text
     }
 
-    /// Which values are taken for which, as a picture.
     pub fn draw_confusion(&self) -> Result<Svg, Diagnostic> {
-        let confusion = self.confusion.as_ref();
-        let confusion = confusion.ok_or_else(|| LearningError::NoConfusion { circuit: self.circuit.clone() })?;
+        let confusion = self.confusion.as_ref().ok_or_else(|| wording::no_confusion(&self.circuit))?;
         Ok(confusion.draw(&format!("{}: {}", self.circuit, confusion.output)))
     }
 
-    /// What a file of the circuit says of where it comes from: `command` made it.
+    /// The comment in the file of the circuit, which `command` made.
     pub fn provenance(&self, command: &str) -> Vec<String> {
         let rows = |what: &str, rows: &AccuracyReport| format!("{} of {} {what} right", rows.right, rows.rows);
         let held_out =
@@ -136,7 +129,7 @@ impl TriedReport {
     }
 }
 
-/// The confusions of the only output, if it has few values, in the rows that were held out or else in all others.
+/// The confusions of a single output with few values, over the held-out rows, or else over all others.
 fn confusion(learned: &Learned) -> Option<Confusion> {
     let [output] = &learned.outputs[..] else { return None };
     let held_out = learned.circuit.held_out.rows > 0;
@@ -148,7 +141,7 @@ fn confusion(learned: &Learned) -> Option<Confusion> {
     Confusion::of(&output.name, held_out, &pairs.map(|(_, pair)| pair).collect::<Vec<_>>())
 }
 
-/// The number in each row of a word, the highest bit first; `None` of a word that is too wide.
+/// The number in each row, the highest bit first; `None` if it is wider than 64 bits.
 fn numbers(bits: &[Bits], rows: &Examples) -> Option<Vec<u64>> {
     let number = |row: usize| bits.iter().fold(0, |number, bit| number << 1 | u64::from(bit.get(row)));
     (bits.len() <= 64).then(|| (0..rows.rows).map(number).collect())

@@ -7,20 +7,19 @@ use crate::report::{OcclusionMap, Scheme, Svg, draw_occlusion};
 use nbc_base::model::{Body, Image, ImageOrder, ImageSize, MaterialKind, Schedule, Spell};
 use nbc_swarm::image_displacements;
 
-/// The images with each pixel covered, before the first body of a recognition. It is advanced pixel by pixel.
+/// Shows images to the first body of a recognition, with each pixel covered in turn.
 #[derive(Debug)]
 pub struct Occlusion {
     recognition: Recognition,
     size: ImageSize,
-    /// The mean of each pixel over all images, which covers it.
+    /// Of each pixel over all images; it covers the pixel.
     mean: Vec<f64>,
-    /// The distance in the right way before each image as it is.
+    /// Distance in the right direction before each uncovered image, in voxels.
     plain: Vec<f64>,
     losses: Vec<Option<f64>>,
 }
 
 impl Occlusion {
-    /// The occlusion of a recognition's first body.
     pub fn of(recognition: Recognition) -> Self {
         let images: Vec<&Image> =
             recognition.schedule.schedule.spells.iter().filter_map(|spell| spell.image.as_deref()).collect();
@@ -31,7 +30,6 @@ impl Occlusion {
         occlusion
     }
 
-    /// The pixels that were covered so far, and all of them.
     pub fn progress(&self) -> (u64, u64) {
         (self.losses.len() as u64, self.mean.len() as u64)
     }
@@ -49,7 +47,7 @@ impl Occlusion {
         self.losses.len() < self.mean.len()
     }
 
-    /// The distances in the right way, with a pixel covered. One that was not simulated to its end counts as 0.
+    /// A simulation that failed counts as 0.
     fn distances(&self, covered: Option<usize>) -> Vec<f64> {
         let Recognition { simulator, evolution, schedule, elites, .. } = &self.recognition;
         let (_, elite) = &elites[0];
@@ -69,7 +67,6 @@ impl Occlusion {
         walked.into_iter().flatten().zip(signs).map(|(moved, sign)| moved.unwrap_or(0.0) * sign).collect()
     }
 
-    /// The map as a picture.
     pub fn draw(&self, scheme: Scheme) -> Svg {
         let Recognition { evolution, schedule, elites, .. } = &self.recognition;
         let set = |(number, name): (usize, &String)| {
@@ -85,7 +82,6 @@ impl Occlusion {
     }
 }
 
-/// The mean of each pixel over images.
 fn mean<'a>(images: impl Iterator<Item = &'a Image>, pixels: usize) -> Vec<f64> {
     let (mut sum, mut count) = (vec![0.0; pixels], 0.0);
     for image in images {
@@ -95,7 +91,6 @@ fn mean<'a>(images: impl Iterator<Item = &'a Image>, pixels: usize) -> Vec<f64> 
     sum.into_iter().map(|sum: f64| if count > 0.0 { (sum / count).clamp(0.0, 1.0) } else { 0.0 }).collect()
 }
 
-/// Whether a voxel of a body senses a pixel.
 fn senses(body: &Body, size: ImageSize, pixel: usize) -> bool {
     let mut pixels = vec![0.0; size.pixels()];
     pixels[pixel] = 1.0;

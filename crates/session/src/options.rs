@@ -9,17 +9,15 @@ pub const RUNS: &str = "out";
 /// Options of compiling a circuit to a swarm. The default is what the source declares.
 #[derive(Clone, Debug)]
 pub struct CompileOptions {
-    /// The declared swarm, if several are declared for the circuit.
+    /// Needed if several are declared for the circuit.
     pub swarm: Option<String>,
-    /// Robots to use instead of those that the source declares.
+    /// Replace the declared robots.
     pub robots: Option<Library>,
-    /// The names of robots that are left out.
+    /// Names of robots to leave out.
     pub without: Vec<String>,
-    /// What mapping minimizes.
     pub objective: MappingObjective,
-    /// The amount of search in mapping.
     pub effort: Effort,
-    /// Files that replace declared ones: the name of each, and its path.
+    /// Replacements of declared files, by name and path.
     pub files: Vec<(String, String)>,
     /// The folder of evolution runs; the robots of `from: NAME` are in its `NAME/robots`.
     pub runs: String,
@@ -44,7 +42,6 @@ impl Default for CompileOptions {
 }
 
 impl CompileOptions {
-    /// The options of mapping.
     pub fn mapping(&self) -> MapOptions {
         MapOptions { objective: self.objective, effort: self.effort, cancel: self.cancel.clone() }
     }

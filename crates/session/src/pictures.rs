@@ -11,13 +11,11 @@ use crate::test::TestRun;
 use nbc_base::model::Robot;
 
 impl Compiled {
-    /// The circuit with its robots as gates, its slowest path marked.
     pub fn schematic(&self, scheme: Scheme) -> Schematic<'_> {
         let robots: Vec<&Robot> = self.assembly.members.iter().map(|member| &member.robot).collect();
         Schematic::of(&self.mapping.netlist, &robots, &self.timing.critical_path, scheme)
     }
 
-    /// Arrival, required times and slack of each robot, the slowest path, and memory.
     pub fn swarm_timing(&self) -> SwarmTiming {
         let Mapping { netlist, cells, kept, waves, .. } = &self.mapping;
         let phases = PhaseTiming::of(netlist, &self.timing, cells.kinds_of(netlist), kept);
@@ -27,7 +25,7 @@ impl Compiled {
 }
 
 impl RunReport {
-    /// The page of the source file with that name: every swarm that was simulated, with its verdict and a player.
+    /// A page with every simulated swarm, its verdict and a player.
     pub fn page(&self, source: &str, scheme: Scheme) -> String {
         let tests = self.tests.iter();
         let tests = tests.filter_map(|run| Some((SwarmOutcome::Test(&run.verdict), run.swarm.as_ref()?)));
@@ -37,13 +35,11 @@ impl RunReport {
 }
 
 impl fmt::Display for TestRun {
-    /// The truth table with expected and observed outputs, and the failures.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&report::describe_test(&self.verdict))
     }
 }
 
-/// The page of swarms that were tested or simulated, with a player for those whose poses were recorded.
 pub fn run_page(source: &str, runs: &[(SwarmOutcome<'_>, &SwarmRun)], scheme: Scheme) -> String {
     let drawings: Vec<(SchematicPages, Svg)> = runs
         .iter()

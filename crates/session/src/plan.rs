@@ -3,34 +3,27 @@
 use crate::choice::{check_swarm_is_clear, declared_swarm, swarms_of};
 use crate::options::CompileOptions;
 use crate::robots::RobotSources;
-use crate::wording::ChoiceError;
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Hold, Instance, Library, NamedWorld, Program, RegisterStyle, Swarm, WaveTimes};
 use nbc_lang::check::DEFAULT_LIBRARY;
 
-/// A circuit with everything that its swarm declares.
 #[derive(Clone, Debug)]
 pub struct Plan {
-    /// The circuit, with the values of its parameters.
     pub circuit: Instance,
-    /// The declared swarm; `None` if the source declares none for the circuit.
+    /// `None` if the source declares none for the circuit.
     pub swarm: Option<String>,
-    /// The robots.
     pub library: Library,
-    /// The hold of rows that do not set their own.
+    /// For rows without a hold of their own.
     pub hold: Hold,
     /// Cycles over which an output is measured.
     pub window: u32,
-    /// What registers are made of.
     pub registers: RegisterStyle,
-    /// The times of a wave machine, if it is to be one.
     pub waves: WaveTimes,
-    /// The world of the swarm.
     pub world: NamedWorld,
 }
 
-/// The plans of a circuit: one for each swarm that is declared for it, or that of the default library if there is none;
-/// only the chosen one if a swarm is chosen.
+/// One plan for each declared swarm, only the chosen one, or that of the default library.
 pub(super) fn plans(
     sources: RobotSources<'_>,
     program: &Program,
@@ -50,7 +43,6 @@ pub(super) fn plans(
     }
 }
 
-/// The one plan of a circuit.
 pub(super) fn plan(
     sources: RobotSources<'_>,
     program: &Program,
@@ -61,7 +53,6 @@ pub(super) fn plan(
     Ok(plans(sources, program, circuit, options)?.remove(0))
 }
 
-/// The plan of a circuit for a declared swarm, or for the default library.
 pub(super) fn of_swarm(
     sources: RobotSources<'_>,
     program: &Program,
@@ -82,8 +73,7 @@ pub(super) fn of_swarm(
     })
 }
 
-/// The robots of a declared library, or of the default library, unless the options have others, without those that the
-/// options leave out.
+/// The robots of `options`, or of a declared library or the default one, without those that are left out.
 pub(super) fn robots(
     sources: RobotSources<'_>,
     program: &Program,
@@ -99,7 +89,6 @@ pub(super) fn robots(
     Ok(library)
 }
 
-/// The swarm of that name, which must be one of the circuit's.
 fn chosen<'p>(
     program: &'p Program,
     circuit: &Instance,
@@ -110,6 +99,5 @@ fn chosen<'p>(
     if swarms.iter().any(|one| one.name == swarm.name) {
         return Ok(swarm);
     }
-    let (own, circuit) = (swarm.circuit.to_string(), circuit.to_string());
-    Err(ChoiceError::OtherCircuit { swarm: name.to_owned(), own, circuit }.into())
+    Err(wording::swarm_of_other_circuit(name, &swarm.circuit.to_string(), &circuit.to_string()))
 }

@@ -11,9 +11,9 @@ use nbc_circuit::{Clause, ValuedBit};
 /// A property and what is known of it.
 #[derive(Clone, Debug, Serialize)]
 pub struct PropertyReport {
-    /// The property as it is written, or the name of a bad state of a model.
+    /// As written, or the name of a bad state of a model.
     pub property: String,
-    /// Its line in the file; none for a model.
+    /// `None` for a model.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
     /// `proved`, `refuted` or `undecided`.
@@ -21,22 +21,21 @@ pub struct PropertyReport {
     /// `induction` or `invariant`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub method: Option<&'static str>,
-    /// The steps of an induction or of a run, or the first steps in which it is known to hold.
+    /// Steps of the induction or of the run, or the first steps in which it is known to hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
-    /// The clauses of the invariant.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub invariant: Option<Vec<String>>,
-    /// The properties without which this proof does not hold, as their numbers, counted from 0.
+    /// Numbers of the other properties that this proof needs, from 0.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub with: Vec<usize>,
-    /// Why the proof says nothing.
+    /// Why the proof is vacuous.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub empty: Option<String>,
-    /// A test that shows what refutes it, as text.
+    /// A test that refutes it, in the language.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub test: Option<String>,
-    /// A witness in AIGER's format.
+    /// In AIGER's format.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub witness: Option<String>,
     /// Whether robots do the same as the test.
@@ -83,7 +82,6 @@ impl PropertyReport {
         report
     }
 
-    /// What the verdict is based on, in words.
     pub fn how(&self) -> String {
         let steps = counted(self.steps.unwrap_or(0), "step");
         if let Some(why) = &self.empty {
@@ -97,7 +95,6 @@ impl PropertyReport {
         }
     }
 
-    /// The report for people.
     pub fn text(&self) -> String {
         let mut text = format!("    {:<9}  {}  ({})\n", self.verdict, self.property, self.how());
         for shown in self.test.iter().flat_map(|test| test.lines()) {

@@ -3,77 +3,61 @@
 use serde::Serialize;
 
 use crate::report::{Align, Svg, TextTable, draw_accuracies};
-use crate::wording::RecognitionError;
-use nbc_base::diag::{Diagnostic, Suggestion, counted};
+use crate::wording;
+use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{Direction, Evolution, ImageOrder, NamedSchedule, Program, Schedule, SearchObjective};
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::Elite;
 use nbc_swarm::{ImageSets, image_displacements};
 
-/// The images that are shown at once.
 const PORTION: usize = 64;
 
-/// Bodies that are shown the images of a schedule, each from a fresh start. It is advanced in portions.
+/// Bodies that are shown the images of a schedule, each from a fresh start.
 #[derive(Clone, Debug)]
 pub struct Recognition {
     pub(super) simulator: Simulator,
     pub(super) evolution: Evolution,
     pub(super) schedule: NamedSchedule,
-    /// The bodies with their seeds.
+    /// With their seeds.
     pub(super) elites: Vec<(u64, Elite)>,
-    /// The displacement of each body before each image so far, in voxels; none after a fault.
+    /// Displacement of each body before each image so far, in voxels; `None` after a fault.
     walked: Vec<Vec<Option<f64>>>,
 }
 
-/// How well bodies tell images apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecognitionReport {
-    /// The schedule that was shown.
     pub schedule: String,
-    /// The bodies in the order in which they were given.
     pub bodies: Vec<RecognizingBody>,
 }
 
-/// How well a body tells images apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecognizingBody {
-    /// The evolution that made it.
     pub evolution: String,
-    /// The seed of its run.
     pub seed: u64,
-    /// Its voxels.
     pub body: Vec<String>,
-    /// The least distance before the images of its search, in voxels.
+    /// Least distance before the images of its search, in voxels.
     pub least: f64,
-    /// The number of images before which it walked the right way.
+    /// Images before which it walked the right way.
     pub correct: usize,
-    /// The number of images.
     pub images: usize,
-    /// The share of `correct` in `images`.
     pub accuracy: f64,
-    /// The images by their sets.
     pub sets: Vec<RecognizedSet>,
 }
 
-/// The images of a set.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RecognizedSet {
-    /// Its name.
     pub set: String,
-    /// The way in which the body should walk: `left` or `right`.
+    /// The right way, `left` or `right`.
     pub way: &'static str,
-    /// The number of images before which it walked so.
     pub correct: usize,
-    /// The number of images.
     pub images: usize,
-    /// The least distance in that way, in voxels; none if a simulation failed.
+    /// Least distance in that way, in voxels; `None` if a simulation failed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub least: Option<f64>,
 }
 
 impl Recognition {
-    /// The recognition of a schedule's images by bodies of an evolution. Its sets are those of the evolution's schedule
-    /// in the same order.
+    /// The schedule has the sets of the evolution's schedule, in the same order.
     pub fn new(
         program: &Program,
         evolution: &str,
@@ -81,39 +65,38 @@ impl Recognition {
         elites: Vec<(u64, Elite)>,
         simulator: Simulator,
     ) -> Result<Self, Diagnostic> {
-        let unknown = |kind, name: &str, all: Vec<&str>| {
-            let meant = Suggestion::of(name, all);
-            RecognitionError::Unknown { kind, name: name.to_owned(), meant }
+        let Some(found) = program.evolution(evolution) else {
+            let known = program.evolutions.iter().map(|one| one.name.as_str());
+            return Err(wording::unknown("evolution", evolution, known));
         };
-        let evolutions = || program.evolutions.iter().map(|one| one.name.as_str()).collect();
-        let found = program.evolution(evolution).ok_or_else(|| unknown("evolution", evolution, evolutions()))?;
-        let schedules = || program.schedules.iter().map(|one| one.name.as_str()).collect();
-        let shown = program.schedule(schedule).ok_or_else(|| unknown("schedule", schedule, schedules()))?;
+        let Some(shown) = program.schedule(schedule) else {
+            let known = program.schedules.iter().map(|one| one.name.as_str());
+            return Err(wording::unknown("schedule", schedule, known));
+        };
         if found.objective != SearchObjective::Images {
-            return Err(RecognitionError::NoImages { evolution: evolution.to_owned() }.into());
+            return Err(wording::sees_no_images(evolution));
         }
         let known = ImageSets::of(&found.variable).count();
         if shown.sets.len() != known {
-            let (schedule, sets) = (schedule.to_owned(), shown.sets.len());
-            return Err(RecognitionError::Sets { schedule, found: sets, expected: known }.into());
+            return Err(wording::other_sets(schedule, shown.sets.len(), known));
         }
         if elites.is_empty() {
-            return Err(RecognitionError::NoBodies { evolution: evolution.to_owned() }.into());
+            return Err(wording::no_bodies(evolution));
         }
         if elites.iter().any(|(_, elite)| elite.body.palette() != &found.palette) {
-            return Err(RecognitionError::OtherMaterials { evolution: evolution.to_owned() }.into());
+            return Err(wording::other_materials(evolution));
         }
         let walked = vec![Vec::new(); elites.len()];
         Ok(Self { simulator, evolution: found.clone(), schedule: shown.clone(), elites, walked })
     }
 
-    /// The number of images that all bodies have seen together, and that they will have seen.
+    /// Images that all bodies have seen together, and that they will have seen.
     pub fn progress(&self) -> (u64, u64) {
         let done = self.walked.iter().map(|walked| walked.len() as u64).sum();
         (done, (self.elites.len() * self.schedule.schedule.spells.len()) as u64)
     }
 
-    /// Shows some more images to a body; returns whether there are more.
+    /// Shows some images to a body; returns whether there are more.
     pub fn advance(&mut self) -> bool {
         let spells = &self.schedule.schedule.spells;
         let Some(place) = self.walked.iter().position(|walked| walked.len() < spells.len()) else { return false };
@@ -125,7 +108,6 @@ impl Recognition {
         self.progress().0 < self.progress().1
     }
 
-    /// The results of the bodies, by the images that were shown.
     pub fn finish(self) -> Vec<RecognizingBody> {
         let Self { evolution, schedule, elites, walked, .. } = self;
         let body = |((seed, elite), walked): (&(u64, Elite), &Vec<Option<f64>>)| {
@@ -147,7 +129,6 @@ impl Recognition {
     }
 }
 
-/// The images of the set of that number.
 fn recognized(schedule: &NamedSchedule, number: usize, elite: &Elite, walked: &[Option<f64>]) -> RecognizedSet {
     let pattern = Schedule::of_set(number);
     let direction = elite.behavior.direction(pattern);
@@ -165,13 +146,11 @@ fn recognized(schedule: &NamedSchedule, number: usize, elite: &Elite, walked: &[
 }
 
 impl RecognitionReport {
-    /// The evolutions in the order of their bodies, each with the accuracies of its bodies.
     fn accuracies(&self) -> Vec<(&str, Vec<f64>)> {
         let runs = self.bodies.chunk_by(|a, b| a.evolution == b.evolution);
         runs.map(|own| (own[0].evolution.as_str(), own.iter().map(|body| body.accuracy).collect())).collect()
     }
 
-    /// The report for people.
     pub fn text(&self) -> String {
         let Self { schedule, bodies } = self;
         let columns = [
@@ -203,7 +182,6 @@ impl RecognitionReport {
         text
     }
 
-    /// A chart of the accuracies by evolution.
     pub fn chart(&self) -> Svg {
         draw_accuracies(&format!("Images of {} that are told apart", self.schedule), &self.accuracies())
     }

@@ -8,18 +8,13 @@ use nbc_base::model::{InputSpell, Simulation};
 use nbc_base::source::{FileId, Span};
 use nbc_swarm::{Room, SwarmSnapshot};
 
-/// A part of the run of a live swarm.
 #[derive(Clone, Debug)]
 pub struct Excerpt {
-    /// The swarm's circuit.
     pub compiled: Compiled,
-    /// The state of the swarm at the start of the part.
     pub start: SwarmSnapshot,
-    /// The input bits of each cycle.
     pub inputs: Vec<Vec<bool>>,
 }
 
-/// Simulates the part again, with the same result.
 pub(super) fn replay(physics: &Physics, excerpt: &Excerpt, observer: &mut dyn Observer) -> SimulationRun {
     let Excerpt { compiled, start, inputs } = excerpt;
     // The robots are where they were in their world, so this is the world of live swarms.
@@ -32,7 +27,6 @@ pub(super) fn replay(physics: &Physics, excerpt: &Excerpt, observer: &mut dyn Ob
     simulation::finish(&simulation(excerpt), compiled.clone(), trace, end)
 }
 
-/// The inputs of the part as a declared simulation would have them.
 fn simulation(excerpt: &Excerpt) -> Simulation {
     let plan = &excerpt.compiled.plan;
     let spell = |same: &[Vec<bool>]| InputSpell {

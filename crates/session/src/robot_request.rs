@@ -16,30 +16,25 @@ use nbc_swarm::{Executor, MEASUREMENT_COST, Measurement, RobotCandidate, Selecte
 /// A robot that is asked for.
 #[derive(Clone, Debug)]
 pub enum RobotRequest {
-    /// The best robot of a behavior among candidates.
     Behavior(Behavior, Vec<RobotCandidate>),
-    /// A body, whatever it does.
+    /// A body with any behavior.
     Own(Box<OwnBody>),
 }
 
 /// A body that is to become a robot.
 #[derive(Clone, Debug)]
 pub struct OwnBody {
-    /// The name of the robot.
     pub name: String,
-    /// Its voxels.
     pub body: Body,
-    /// Where it comes from.
     pub provenance: Provenance,
-    /// Its genotype, if it has one.
     pub genotype: Option<Genotype>,
     /// The highest accepted error rate.
     pub max_error: f64,
 }
 
 impl RobotRequest {
-    /// These behaviors of runs, in order of their functions, with the elites to screen. If no behavior is named, those
-    /// that are usually wanted. An archive of classes has an elite for all behaviors of its class.
+    /// Requests for these behaviors of runs, or for the usual ones, in order of their functions. An elite in an archive
+    /// of classes stands for all behaviors of its class.
     #[cfg(feature = "disk")]
     pub fn of_runs<'a>(
         runs: impl IntoIterator<Item = &'a Checkpoint>,
@@ -54,7 +49,7 @@ impl RobotRequest {
                     candidates.entry(behavior).or_default();
                 }
             }
-            let has_classes = run.declared.axes.contains(&Axis::Class);
+            let has_classes = run.declared.descriptors.contains(&Axis::Class);
             for elite in run.state.niches.iter().flat_map(|(_, elites)| elites) {
                 let shown = if has_classes { images(elite) } else { vec![elite.clone()] };
                 for elite in shown {
@@ -86,8 +81,8 @@ impl RobotRequest {
         }
     }
 
-    /// The best robot, measured; reports the work done to `observe`. `None` if the work was stopped; `run` is the
-    /// number that the executor asks for.
+    /// Measures candidates and selects the best robot. `observe` receives the work done; `run` is passed to the
+    /// executor. `None` if the work was stopped.
     pub fn select(
         &self,
         selection: &Selection,
@@ -114,8 +109,7 @@ impl RobotRequest {
         })
     }
 
-    /// The behavior that is asked for, or that the robot that was found has; `None` if the simulation of a body failed,
-    /// which then has none.
+    /// `None` if the simulation of a body failed.
     pub fn behavior(&self, selected: &Selected) -> Option<Behavior> {
         match (self, selected) {
             (Self::Behavior(behavior, _), _) => Some(*behavior),
@@ -137,7 +131,7 @@ pub fn behavior(word: &str) -> Result<Behavior, String> {
 }
 
 impl OwnBody {
-    /// A body that no run made. Its robot may have errors.
+    /// A body without a run. Its robot may have errors.
     pub fn by_hand(name: String, body: Body) -> Self {
         let provenance = Provenance {
             program: nbc_base::PROGRAM.to_owned(),
@@ -151,8 +145,7 @@ impl OwnBody {
     }
 }
 
-/// Whether a behavior is asked for if none is named: all of two stimuli; of those of three, those that depend on all of
-/// them, and one of each that differ in the order of their stimuli.
+/// All behaviors of two stimuli; of three, those that depend on all, one for each arrangement of the stimuli.
 #[cfg(feature = "disk")]
 fn is_usual(behavior: Behavior) -> bool {
     let function = behavior.function();

@@ -3,12 +3,12 @@
 use std::sync::OnceLock;
 
 use crate::store;
-use crate::wording::{RobotNameError, of_library};
-use nbc_base::diag::{Diagnostic, Suggestion};
+use crate::wording;
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Behavior, Library, LibrarySource, Origin};
 use nbc_base::source::SourceWorld;
 
-/// The libraries in the program, each read at its first use.
+/// Built-in libraries, each read at its first use.
 #[derive(Default)]
 pub(super) struct BuiltIn {
     shipped: OnceLock<Library>,
@@ -16,28 +16,24 @@ pub(super) struct BuiltIn {
 }
 
 impl BuiltIn {
-    /// The robots of two stimuli.
     pub(super) fn shipped(&self) -> &Library {
         self.shipped.get_or_init(store::shipped_library)
     }
 
-    /// These and the robots of three stimuli.
     pub(super) fn three(&self) -> &Library {
         self.three.get_or_init(store::three_library)
     }
 }
 
-/// Everything that robots can be read from.
 #[derive(Clone, Copy)]
 pub(super) struct RobotSources<'a> {
     pub(super) world: &'a dyn SourceWorld,
     pub(super) built_in: &'a BuiltIn,
-    /// The path of the checked source.
     pub(super) file: &'a str,
 }
 
 impl<'a> RobotSources<'a> {
-    /// The robots of a declared library; evolution runs are in the folder `runs`.
+    /// `runs` is the folder of evolution runs.
     pub(super) fn library(self, declared: &LibrarySource, runs: &str) -> Result<Library, Vec<Diagnostic>> {
         let mut library = match &declared.from {
             Origin::Shipped => self.built_in.shipped().clone(),
@@ -55,26 +51,21 @@ impl<'a> RobotSources<'a> {
             let absent = |behavior: &&Behavior| library.robots.iter().all(|robot| robot.behavior != **behavior);
             let absent: Vec<Behavior> = behaviors.iter().filter(absent).copied().collect();
             if !absent.is_empty() && !matches!(declared.from, Origin::Evolution(_)) {
-                let library = declared.name.clone();
-                return Err(vec![RobotNameError::NoBehavior { library, absent }.at(declared.span)]);
+                return Err(vec![wording::no_behavior(&declared.name, &absent, declared.span)]);
             }
             library.robots.retain(|robot| behaviors.contains(&robot.behavior));
         }
-        let robots = &library.robots;
-        let is_known = |name: &str| robots.iter().any(|robot| robot.name == name);
-        let unknown = declared.without.iter().filter(|(name, _)| !is_known(name)).map(|(name, place)| {
-            let meant = Suggestion::near(name, robots.iter().map(|robot| robot.name.as_str()));
-            RobotNameError::Unknown { name: name.clone(), meant }.at(*place)
-        });
-        let unknown: Vec<Diagnostic> = unknown.collect();
-        if !unknown.is_empty() {
-            return Err(unknown);
+        let names = || library.robots.iter().map(|robot| robot.name.as_str());
+        let unknown = declared.without.iter().filter(|(name, _)| names().all(|known| known != name));
+        let faults: Vec<_> = unknown.map(|(name, place)| wording::unknown_robot(name, names(), *place)).collect();
+        if !faults.is_empty() {
+            return Err(faults);
         }
         library.robots.retain(|robot| declared.without.iter().all(|(name, _)| robot.name != *name));
         Ok(library)
     }
 
-    /// Whether a library has robots by now: an evolution may not have run yet.
+    /// An evolution may not have run yet.
     pub(super) fn has_run(self, declared: &LibrarySource, runs: &str) -> bool {
         match &declared.from {
             Origin::Evolution(name) => self.world.list(&robots_of_run(runs, name)).is_ok(),
@@ -83,12 +74,11 @@ impl<'a> RobotSources<'a> {
     }
 
     fn folder(self, folder: &str, declared: &LibrarySource, help: Option<&str>) -> Result<Library, Vec<Diagnostic>> {
-        let placed = |fault: Diagnostic| of_library(fault, declared.span, help);
+        let placed = |fault: Diagnostic| wording::of_library(fault, declared.span, help);
         store::read_library(self.world, folder).map_err(|faults| faults.into_iter().map(placed).collect())
     }
 }
 
-/// The folder of the robots of an evolution run.
 fn robots_of_run(runs: &str, name: &str) -> String {
     format!("{runs}/{name}/robots")
 }

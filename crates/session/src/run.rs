@@ -12,8 +12,7 @@ use crate::swarm_run::RunEnd;
 use crate::test::{TestCase, TestOptions, TestRun};
 
 impl Session {
-    /// Runs tests and simulations of a checked source, in order. Tests run at the level of the options, simulations
-    /// always in physics.
+    /// Tests run at the level of the options, simulations always in physics.
     pub fn run_list(
         &self,
         checked: &Checked,
@@ -45,7 +44,7 @@ impl Session {
         Ok(report)
     }
 
-    /// Runs a test: once for each swarm that is declared for its circuit, or once at the level of logic.
+    /// Runs a test once for each swarm that is declared for its circuit, or once at the level of logic.
     pub fn test(
         &self,
         checked: &Checked,
@@ -58,7 +57,7 @@ impl Session {
         Ok(running.into_runs())
     }
 
-    /// A test that is ready to run, to be advanced in portions.
+    /// A test to be advanced in portions.
     pub fn begin_test(
         &self,
         checked: &Checked,
@@ -68,7 +67,6 @@ impl Session {
         Ok(RunningTest::new(self.physics.clone(), self.cases(checked, test, options)?))
     }
 
-    /// Runs one case of a test.
     pub fn run_case(&self, case: TestCase, observer: &mut dyn Observer) -> TestRun {
         let mut running = RunningCase::new(case, &self.physics, observer);
         loop {
@@ -89,7 +87,7 @@ mod tests {
     const TEXT: &str = "circuit f(a) -> (q) { q = not a }\nswarm one { circuit: f }\nswarm two { circuit: f }\n\
                         test f {\n a | q\n 0 | 1 for 3 cycles\n}\nsimulate one with schedule (a) { 0 for 3 cycles }\n";
 
-    /// Records all that it is told, and stops the work after so many steps.
+    /// Stops the work after `most` steps.
     struct RecordingObserver {
         told: Vec<(u64, u64)>,
         parts: Vec<(usize, usize)>,

@@ -10,38 +10,31 @@ use crate::test::TestRun;
 /// Tests and simulations to run, in this order.
 #[derive(Clone, Debug, Default)]
 pub struct RunList<'a> {
-    /// The tests.
     pub tests: Vec<&'a CircuitTest>,
-    /// The simulations, which come after all tests.
     pub simulations: Vec<&'a Simulation>,
 }
 
 impl<'a> RunList<'a> {
-    /// All tests and simulations of a program.
     pub fn all(program: &'a Program) -> Self {
         Self { tests: program.tests.iter().collect(), simulations: program.simulations.iter().collect() }
     }
 
-    /// The number of tests and simulations.
     pub fn len(&self) -> usize {
         self.tests.len() + self.simulations.len()
     }
 
-    /// Whether there is nothing to run.
     pub fn is_empty(&self) -> bool {
         self.len() == 0
     }
 }
 
-/// The results of tests and simulations. One that was cancelled has the results up to then, and its `end` is
-/// [`RunEnd::Cancelled`](crate::RunEnd::Cancelled).
+/// Results of tests and simulations. One that was cancelled has the results so far.
 #[derive(Clone, Debug, Default)]
 pub struct RunReport {
-    /// The tests in order, each once for each swarm of its circuit.
+    /// Each once for each swarm of its circuit.
     pub tests: Vec<TestRun>,
-    /// The simulations in order.
     pub simulations: Vec<SimulationRun>,
-    /// The number of tests and simulations that were cancelled or not begun.
+    /// Tests and simulations that were cancelled or not begun.
     pub left: usize,
 }
 
@@ -51,16 +44,12 @@ impl RunReport {
         self.tests.iter().all(|test| test.verdict.passed) && self.simulations.iter().all(SimulationRun::passed)
     }
 
-    /// The fault of a test or a simulation, if a robot failed.
     pub fn fault(&self) -> Option<&RobotFault> {
         let tests = self.tests.iter().find_map(|test| test.verdict.fault());
         tests.or_else(|| self.simulations.iter().find_map(|simulation| simulation.result.fault.as_ref()))
     }
 
-    /// Asserts that every test passed, and that no robot of a simulation failed.
-    ///
-    /// # Panics
-    /// With the tables of those that failed.
+    /// Panics with the tables of the tests and simulations that failed.
     pub fn assert_passed(&self) {
         let tests = self.tests.iter().filter(|test| !test.verdict.passed);
         let simulations = self.simulations.iter().filter(|run| !run.passed());

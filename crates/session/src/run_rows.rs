@@ -8,20 +8,17 @@ use nbc_circuit::{Logic, Netlist};
 /// How the inputs of a system are those of circuits.
 #[derive(Clone, Debug)]
 pub(super) struct RunPorts {
-    /// The input bits of the circuit but for the clock.
+    /// Input bits of the circuit without the clock.
     pub(super) ports: Vec<usize>,
-    /// For each of them, the literal of the system that it has.
+    /// The literal of the system for each of them.
     pub(super) given: Vec<AndLiteral>,
-    /// The clock: each step after the first is an edge of it.
+    /// Each step after the first is an edge of it.
     pub(super) clock: Option<StepClock>,
 }
 
 impl RunPorts {
-    /// The rows of a run, with what the cells of a circuit show. What is before an edge is a row of its own that checks
-    /// nothing; if the clock rises, it is the first half of a pulse.
-    ///
-    /// # Panics
-    /// When the circuit does not settle, which a circuit with steps does.
+    /// The rows of a run with the outputs of a circuit. The row before an edge checks nothing; if the clock rises, it
+    /// is the first half of a pulse.
     pub(super) fn rows(
         &self,
         circuit: &Netlist,

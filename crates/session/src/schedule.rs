@@ -1,24 +1,23 @@
 //! Schedules of a single robot as users write them: `00*10 01*56steps`, or `zeros*250steps` with sets of images.
 
-use crate::wording::{ScheduleError, ScheduleKind};
-use nbc_base::diag::{Diagnostic, Diagnostics, Suggestion};
+use crate::wording::{self, ScheduleKind};
+use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::model::{CYCLE_STEPS, ImageSize, NamedImages, NamedSchedule, Pattern, Schedule, Spell};
 use nbc_base::source::{SourceFile, Sources, Span};
 
-/// The most env steps of a schedule.
+/// In env steps.
 const MAX_STEPS: u64 = 10_000_000;
 
-/// An entry of a schedule: what is shown, the place of its name, and the env steps.
+/// What is shown, the place of its name, and the env steps.
 type Entry<T> = (T, Span, u32);
 
-/// Reads a schedule: entries with blanks between them, each of a bit for each of so many stimuli, `*`, and a number of
-/// cycles or env steps. Messages call the text `name`.
+/// Reads entries with blanks between them: a bit for each stimulus, `*`, and a number of cycles or env steps. Messages
+/// call the text `name`.
 pub fn read_schedule(name: &str, text: &str, stimuli: usize) -> Result<Schedule, Diagnostics> {
     read(name, text, |file| parse(file, stimuli))
 }
 
-/// Reads a schedule whose entries name sets of images, to a body that senses images of a size. Each image
-/// of a set is shown for the time of the entry.
+/// Reads a schedule whose entries name sets of images of this size. Each image is shown for the time of the entry.
 pub fn read_image_schedule(
     name: &str,
     text: &str,
@@ -29,7 +28,6 @@ pub fn read_image_schedule(
     Ok(NamedSchedule { name: name.to_owned(), ..schedule })
 }
 
-/// What is read from a text of that name.
 fn read<T>(
     name: &str,
     text: &str,
@@ -42,31 +40,29 @@ fn read<T>(
 
 fn parse(file: &SourceFile, stimuli: usize) -> Result<Schedule, Vec<Diagnostic>> {
     let kind = ScheduleKind::Pattern { stimuli };
-    let entries = parse_entries(file, kind, |bits| parse_bits(bits, stimuli), |_| 1)?;
+    let entries = parse_entries(file, kind, |bits, at| parse_bits(bits, stimuli, at), |_| 1)?;
     Ok(Schedule { spells: entries.into_iter().map(|(pattern, _, steps)| Spell::of(pattern, steps)).collect() })
 }
 
 fn parse_images(file: &SourceFile, images: &[NamedImages], size: ImageSize) -> Result<NamedSchedule, Vec<Diagnostic>> {
-    let entries =
-        parse_entries(file, ScheduleKind::Set, |name| find_set(name, images, size), |set| set.images.len() as u64)?;
+    let find = |name: &str, at| find_set(name, images, size, at);
+    let entries = parse_entries(file, ScheduleKind::Set, find, |set| set.images.len() as u64)?;
     let mut shown =
         NamedSchedule { name: String::new(), stimuli: Vec::new(), schedule: Schedule::default(), sets: Vec::new() };
     for (set, span, steps) in entries {
         shown.show(set, steps);
         if shown.sets.len() > NamedSchedule::MOST_SETS {
-            return Err(vec![
-                ScheduleError::TooManySets { most: NamedSchedule::MOST_SETS }.at(span, ScheduleKind::Set),
-            ]);
+            return Err(vec![wording::too_many_sets(span)]);
         }
     }
     Ok(shown)
 }
 
-/// All entries of a text, each of which shows so many things for its time.
+/// `shown` is the number of images in an entry.
 fn parse_entries<T>(
     file: &SourceFile,
     kind: ScheduleKind,
-    what: impl Fn(&str) -> Result<T, ScheduleError>,
+    what: impl Fn(&str, Span) -> Result<T, Diagnostic>,
     shown: impl Fn(&T) -> u64,
 ) -> Result<Vec<Entry<T>>, Vec<Diagnostic>> {
     let (mut entries, mut faults) = (Vec::new(), Vec::new());
@@ -78,16 +74,15 @@ fn parse_entries<T>(
     }
     let whole = Span::new(file.id, 0, file.text.len());
     if entries.is_empty() && faults.is_empty() {
-        faults.push(ScheduleError::Empty.at(whole, kind));
+        faults.push(kind.empty(whole));
     }
     let steps: u64 = entries.iter().map(|(entry, _, steps)| shown(entry) * u64::from(*steps)).sum();
     if steps > MAX_STEPS {
-        faults.push(ScheduleError::TooLong { steps, most: MAX_STEPS }.at(whole, kind));
+        faults.push(kind.too_long(steps, MAX_STEPS, whole));
     }
     if faults.is_empty() { Ok(entries) } else { Err(faults) }
 }
 
-/// The spans of the words of a text.
 fn words(file: &SourceFile) -> Vec<Span> {
     let start = |word: &str| word.as_ptr() as usize - file.text.as_ptr() as usize;
     file.text.split_whitespace().map(|word| Span::new(file.id, start(word), start(word) + word.len())).collect()
@@ -97,38 +92,39 @@ fn parse_entry<T>(
     file: &SourceFile,
     span: Span,
     kind: ScheduleKind,
-    what: impl Fn(&str) -> Result<T, ScheduleError>,
+    what: impl Fn(&str, Span) -> Result<T, Diagnostic>,
 ) -> Result<Entry<T>, Diagnostic> {
     let entry = &file.text[span.range()];
     let start = span.range().start;
     let Some((name, length)) = entry.split_once('*') else {
-        return Err(ScheduleError::NoDuration { entry: entry.to_owned() }.at(span, kind));
+        return Err(kind.no_duration(entry, span));
     };
     let name_span = Span::new(file.id, start, start + name.len());
     let length_span = Span::new(file.id, start + name.len() + 1, span.range().end);
-    let shown = what(name).map_err(|fault| fault.at(name_span, kind))?;
-    Ok((shown, name_span, parse_length(length).map_err(|fault| fault.at(length_span, kind))?))
+    Ok((what(name, name_span)?, name_span, parse_length(length, kind, length_span)?))
 }
 
-fn parse_bits(bits: &str, stimuli: usize) -> Result<Pattern, ScheduleError> {
+fn parse_bits(bits: &str, stimuli: usize, at: Span) -> Result<Pattern, Diagnostic> {
     let pattern = Pattern::try_from(bits.to_owned()).ok().filter(|_| bits.len() == stimuli);
-    pattern.ok_or_else(|| ScheduleError::Pattern { found: bits.to_owned() })
+    pattern.ok_or_else(|| wording::bad_pattern(bits, stimuli, at))
 }
 
-/// The set of images of that name, for bodies that sense images of that size.
-fn find_set<'a>(name: &str, images: &'a [NamedImages], size: ImageSize) -> Result<&'a NamedImages, ScheduleError> {
+fn find_set<'a>(
+    name: &str,
+    images: &'a [NamedImages],
+    size: ImageSize,
+    at: Span,
+) -> Result<&'a NamedImages, Diagnostic> {
     let Some(set) = images.iter().find(|set| set.name == name) else {
-        let meant = Suggestion::of(name, images.iter().map(|set| set.name.as_str()));
-        return Err(ScheduleError::NoSet { name: name.to_owned(), meant });
+        return Err(wording::unknown_images(name, images.iter().map(|set| set.name.as_str()), at));
     };
     match set.images.iter().map(|image| image.size()).find(|found| *found != size) {
-        Some(found) => Err(ScheduleError::ImageSize { name: name.to_owned(), found, expected: size }),
+        Some(found) => Err(wording::image_size(name, found, size, at)),
         None => Ok(set),
     }
 }
 
-fn parse_length(length: &str) -> Result<u32, ScheduleError> {
-    let found = length.to_owned();
+fn parse_length(length: &str, kind: ScheduleKind, at: Span) -> Result<u32, Diagnostic> {
     let (number, unit) = match length.find(|c: char| !c.is_ascii_digit()) {
         Some(at) => length.split_at(at),
         None => (length, "cycles"),
@@ -136,14 +132,14 @@ fn parse_length(length: &str) -> Result<u32, ScheduleError> {
     let steps_each = match unit {
         "cycle" | "cycles" => u64::from(CYCLE_STEPS),
         "step" | "steps" => 1,
-        _ => return Err(ScheduleError::NotADuration { found }),
+        _ => return Err(kind.not_a_duration(length, at)),
     };
     // A number that overflows is too long for a schedule.
     let count = number.parse::<u64>().unwrap_or(if number.is_empty() { 0 } else { u64::MAX });
     match count.saturating_mul(steps_each) {
-        0 => Err(ScheduleError::NoTime { found }),
+        0 => Err(kind.no_time(length, at)),
         steps @ 1..=MAX_STEPS => Ok(u32::try_from(steps).expect("the limit fits")),
-        _ => Err(ScheduleError::LongEntry { found, most: MAX_STEPS }),
+        _ => Err(kind.long_entry(length, MAX_STEPS, at)),
     }
 }
 
@@ -153,63 +149,53 @@ mod tests {
 
     use super::*;
     use nbc_base::model::Image;
-    use nbc_base::source::Sources;
 
-    /// A fault's message and the text at its place.
-    type FaultAtPlace = (String, String);
-
-    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
-        read_of(2, text)
-    }
-
-    fn read_of(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
-        let mut sources = Sources::default();
-        let id = sources.add("--schedule", text);
-        let told = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
-        parse(sources.file(id), stimuli).map(|schedule| schedule.spells.into_iter().map(told).collect()).map_err(
-            |faults| {
-                faults.into_iter().map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned())).collect()
-            },
-        )
-    }
-
-    fn check(text: &str, expected: &[(&str, u32)]) {
-        assert_eq!(read(text), Ok(expected.iter().map(|&(bits, steps)| (bits.to_owned(), steps)).collect()));
-    }
-
-    fn check_fault(text: &str, message: &str, place: &str) {
-        let faults = read(text).unwrap_err();
-        assert_eq!(faults, [(message.to_owned(), place.to_owned())]);
+    /// The spells, or the messages with the texts at their places.
+    fn read(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Vec<(String, String)>> {
+        let shown = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
+        match read_schedule("--schedule", text, stimuli) {
+            Ok(schedule) => Ok(schedule.spells.into_iter().map(shown).collect()),
+            Err(Diagnostics { list, sources }) => Err(list
+                .into_iter()
+                .map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned()))
+                .collect()),
+        }
     }
 
     #[test]
-    fn entries_are_cycles_or_env_steps() {
-        check("00*10 01*56steps", &[("00", 840), ("01", 56)]);
-        check("  11*1cycle\n10*2cycles ", &[("11", 84), ("10", 168)]);
-    }
-
-    #[test]
-    fn patterns_have_a_digit_for_each_stimulus() {
-        assert_eq!(read_of(3, "011*1 100*2steps"), Ok(vec![("011".to_owned(), 84), ("100".to_owned(), 2)]));
-        let fault = ("invalid stimulus pattern `01`".to_owned(), "01".to_owned());
-        assert_eq!(read_of(3, "011*1 01*1"), Err(vec![fault]));
-        check_fault("011*1", "invalid stimulus pattern `011`", "011");
+    fn entries_are_cycles_or_env_steps_and_have_a_digit_for_each_stimulus() {
+        for (stimuli, text, expected) in [
+            (2, "00*10 01*56steps", [("00", 840), ("01", 56)]),
+            (2, "  11*1cycle\n10*2cycles ", [("11", 84), ("10", 168)]),
+            (3, "011*1 100*2steps", [("011", 84), ("100", 2)]),
+        ] {
+            assert_eq!(read(stimuli, text), Ok(expected.map(|(bits, steps)| (bits.to_owned(), steps)).to_vec()));
+        }
     }
 
     #[test]
     fn errors_have_places() {
-        check_fault("00*10 02*10", "invalid stimulus pattern `02`", "02");
-        check_fault("00*0", "the duration `0` is too short", "0");
-        check_fault("00*0steps", "the duration `0steps` is too short", "0steps");
-        check_fault("00", "missing duration after `00`", "00");
-        check_fault("00*", "the duration `` is too short", "");
-        check_fault("00*-1", "`-1` is not a duration", "-1");
-        check_fault("00*10s", "`10s` is not a duration", "10s");
-        check_fault("", "the schedule is empty", "");
-        check_fault("0*1", "invalid stimulus pattern `0`", "0");
-        check_fault("é*1", "invalid stimulus pattern `é`", "é");
         let long = "9".repeat(40);
-        check_fault(&format!("00*{long}"), &format!("the duration `{long}` is too long"), &long);
+        for (stimuli, text, message, place) in [
+            (3, "011*1 01*1", "invalid stimulus pattern `01`", "01"),
+            (2, "011*1", "invalid stimulus pattern `011`", "011"),
+            (2, "00*10 02*10", "invalid stimulus pattern `02`", "02"),
+            (2, "0*1", "invalid stimulus pattern `0`", "0"),
+            (2, "é*1", "invalid stimulus pattern `é`", "é"),
+            (2, "00*0", "the duration `0` is too short", "0"),
+            (2, "00*0steps", "the duration `0steps` is too short", "0steps"),
+            (2, "00*", "the duration `` is too short", ""),
+            (2, "00", "missing duration after `00`", "00"),
+            (2, "00*-1", "`-1` is not a duration", "-1"),
+            (2, "00*10s", "`10s` is not a duration", "10s"),
+            (2, "", "the schedule is empty", ""),
+            (2, &format!("00*{long}"), &format!("the duration `{long}` is too long"), &long),
+        ] {
+            assert_eq!(read(stimuli, text), Err(vec![(message.to_owned(), place.to_owned())]));
+        }
+        assert_eq!(read(2, "02*1 00*0").unwrap_err().len(), 2, "every error is reported");
+        let total = read(2, &"00*100000 ".repeat(2)).unwrap_err();
+        assert_eq!(total[0].0, "the schedule of 16800000 env steps is too long");
     }
 
     #[test]
@@ -244,16 +230,5 @@ mod tests {
         let five: Vec<NamedImages> = (0..5).map(|i| set(&format!("s{i}"), &images[..1])).collect();
         let faults = read_image_schedule("", "s0*1 s1*1 s2*1 s3*1 s4*1", &five, size).unwrap_err();
         assert_eq!(faults.list[0].message, "the schedule shows too many sets of images");
-    }
-
-    #[test]
-    fn every_error_is_reported() {
-        assert_eq!(read("02*1 00*0").unwrap_err().len(), 2);
-    }
-
-    #[test]
-    fn the_total_length_is_limited() {
-        let text = "00*100000 ".repeat(2);
-        assert_eq!(read(&text).unwrap_err()[0].0, "the schedule of 16800000 env steps is too long");
     }
 }

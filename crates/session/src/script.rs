@@ -2,7 +2,7 @@
 //! circuit, and rows are repeated until an output has a value. In physics the rows are those that were found here.
 
 use crate::contents::first_words;
-use crate::wording::ScriptError;
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, MemoryArray, Program, Script, ScriptStep, TestRow};
 use nbc_base::source::SourceWorld;
@@ -10,29 +10,25 @@ use nbc_circuit::elaborate::elaborate_environment;
 use nbc_circuit::waves::{ClockRun, ClockStep};
 use nbc_circuit::{Environment, Logic, MemoryAccess, Netlist};
 
-/// How often a circuit and its environment may answer each other within a row.
+/// Limit on how often a circuit and its environment answer each other within a row.
 const MOST_ANSWERS: usize = 100;
 
-/// A script that is being performed.
 #[derive(Clone, Debug)]
 pub(super) struct Performance {
     script: Script,
     circuit: Performer,
     beside: Option<Beside>,
-    /// The step that is next, and how often it was repeated.
+    /// The next step, and how often it was repeated.
     next: (usize, usize),
-    /// What the environment wrote as text.
     pub(super) printed: String,
-    /// What the environment did, if it is watched.
+    /// Set if the environment is watched.
     watched: Option<EnvironmentRun>,
 }
 
-/// The circuit of a test at the level of logic.
 #[derive(Clone, Debug)]
 enum Performer {
-    /// A circuit with one clock, whose steps are all pulses.
+    /// One clock, and every step is a pulse.
     Clocked(Box<ClockRun>),
-    /// Any other circuit.
     Free(Box<Logic>),
 }
 
@@ -40,14 +36,13 @@ enum Performer {
 #[derive(Clone, Debug)]
 struct Beside {
     environment: Environment,
-    /// Its name, and those of its memories, each with the width of its words.
     name: String,
     memories: Vec<(String, usize)>,
-    /// For each of its input bits, the bit of the circuit's outputs, or of the row's inputs.
+    /// The source of each of its input bits.
     sees: Vec<Seen>,
-    /// For each of its output bits that is one, the input bit of the circuit.
+    /// Pairs of an output bit, and the circuit's input bit that it drives.
     gives: Vec<(usize, usize)>,
-    /// The first output bit of the text that it writes.
+    /// First output bit of the text.
     text: Option<usize>,
 }
 
@@ -57,48 +52,38 @@ enum Seen {
     Input(usize),
 }
 
-/// A row that was performed, with what the circuit showed.
 pub(super) struct PerformedRow {
     pub(super) row: TestRow,
     pub(super) outputs: Vec<bool>,
-    /// Whether it is the last of its step, of which the source says what is expected.
+    /// The last row of its step, where outputs are expected.
     pub(super) is_last: bool,
 }
 
-/// The environment of a test while its rows pass, at the level of logic.
+/// The environment of a test at the level of logic.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnvironmentRun {
-    /// Its name.
     pub name: String,
-    /// Whether it writes text.
     pub has_text: bool,
-    /// Its memories before the first row.
+    /// Before the first row.
     pub memories: Vec<MemoryContents>,
-    /// What it does in each row.
     pub rows: Vec<EnvironmentRow>,
 }
 
-/// A memory of an environment.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct MemoryContents {
-    /// Its name.
     pub name: String,
-    /// The width of a word in bits.
     pub width: usize,
-    /// Its words.
     pub words: Vec<u128>,
 }
 
-/// What an environment does in a row of a test.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnvironmentRow {
-    /// The character that it writes as the row begins.
+    /// Written as the row begins.
     pub printed: Option<char>,
-    /// For each memory, the addresses that are read in the row, and the words that it takes as the row begins.
+    /// For each memory, the addresses that are read in the row, and the words that are stored as it begins.
     pub accesses: Vec<MemoryAccess>,
 }
 
-/// Builds the environment of a test, with the files of its memories, to find its errors.
 pub(super) fn environment(
     world: &dyn SourceWorld,
     program: &Program,
@@ -110,7 +95,7 @@ pub(super) fn environment(
 }
 
 impl Performance {
-    /// The performance of a test's script; `files` are the paths of files that replace declared ones.
+    /// `files` replace declared files, by name and path.
     pub(super) fn new(
         world: &dyn SourceWorld,
         program: &Program,
@@ -143,12 +128,12 @@ impl Performance {
         Ok(self.watched)
     }
 
-    /// The steps that are done, and all steps; a step that is repeated is one.
+    /// Done and total; a step that is repeated is one.
     pub(super) fn progress(&self) -> (usize, usize) {
         (self.next.0, self.script.steps.len())
     }
 
-    /// The rows of the next step, or of the next repetition of one; none after the last.
+    /// The rows of the next step or repetition; `None` after the last.
     pub(super) fn step(&mut self) -> Result<Option<Vec<PerformedRow>>, Diagnostic> {
         let (at, times) = self.next;
         let Some(step) = self.script.steps.get(at) else { return Ok(None) };
@@ -186,17 +171,17 @@ impl Performance {
             }
             let outputs = self.circuit.apply(&row.inputs);
             let Some(beside) = &mut self.beside else { return Ok(PerformedRow { row, outputs, is_last: true }) };
-            beside.see(&row.inputs, &outputs).map_err(|fault| ScriptError::Environment(fault).at(row.span))?;
+            beside.see(&row.inputs, &outputs).map_err(|fault| wording::bad_environment(&fault, row.span))?;
             if beside.agrees(&row.inputs) {
                 let rows = self.watched.iter_mut().map(|run| &mut run.rows);
                 rows.for_each(|rows| rows.push(EnvironmentRow { printed: None, accesses: beside.reads() }));
                 return Ok(PerformedRow { row, outputs, is_last: true });
             }
         }
-        Err(ScriptError::NeverAgree.at(row.span))
+        Err(wording::never_agree(row.span))
     }
 
-    /// The second half of a pulse: what the environment gives stays as it was before the edge.
+    /// The second half of a pulse, in which the environment's outputs stay as before the edge.
     fn edge(&mut self, mut row: TestRow, before: &PerformedRow) -> PerformedRow {
         let (mut printed, mut taken) = (None, Vec::new());
         if let Some(beside) = &mut self.beside {
@@ -222,7 +207,6 @@ impl Performance {
 }
 
 impl Performer {
-    /// The outputs for these inputs, without an edge of the clock.
     fn apply(&mut self, inputs: &[bool]) -> Vec<bool> {
         match self {
             Self::Clocked(run) => {
@@ -235,7 +219,6 @@ impl Performer {
         }
     }
 
-    /// The outputs after the edge of the clock.
     fn edge(&mut self, inputs: &[bool]) -> Vec<bool> {
         match self {
             Self::Clocked(run) => {
@@ -269,7 +252,7 @@ impl Beside {
             .map(|(memory, ports)| first_words(world, program, memory, ports, files))
             .collect();
         let contents = contents.map_err(|fault| vec![fault])?;
-        let fault = |fault| vec![ScriptError::Environment(fault).at(circuit.span)];
+        let fault = |fault| vec![wording::bad_environment(&fault, circuit.span)];
         let name = |memory: &MemoryArray| circuit.nets[memory.net.0 as usize].name.clone();
         let memories = circuit.memories.iter().map(name).zip(ports.iter().map(|ports| ports.width)).collect();
         let environment = Environment::new(&netlist, ports, contents).map_err(fault)?;
@@ -288,7 +271,6 @@ impl Beside {
         Ok(Self { environment, name, memories, sees, gives, text })
     }
 
-    /// The environment before the first row.
     fn at_start(&self) -> EnvironmentRun {
         let contents = self.memories.iter().zip(self.environment.words());
         let contents = contents.map(|((name, width), words)| MemoryContents {
@@ -300,13 +282,12 @@ impl Beside {
         EnvironmentRun { name, has_text, memories: contents.collect(), rows: Vec::new() }
     }
 
-    /// What the memories are asked for, without the words that they will take at the edge of the clock.
+    /// Without the words that will be stored at the edge of the clock.
     fn reads(&self) -> Vec<MemoryAccess> {
         let accesses = self.environment.accesses().into_iter();
         accesses.map(|access| MemoryAccess { writes: Vec::new(), ..access }).collect()
     }
 
-    /// Writes what the environment gives into the inputs of a row.
     fn give(&self, inputs: &mut [bool]) {
         let outputs: Vec<bool> = self.environment.outputs().collect();
         for &(own, input) in &self.gives {
@@ -314,7 +295,6 @@ impl Beside {
         }
     }
 
-    /// Whether the environment gives what the circuit has.
     fn agrees(&self, inputs: &[bool]) -> bool {
         let outputs: Vec<bool> = self.environment.outputs().collect();
         self.gives.iter().all(|&(own, input)| inputs[input] == outputs[own])
@@ -329,7 +309,7 @@ impl Beside {
         self.environment.apply(&seen)
     }
 
-    /// The character that is written at the edge of the clock, if one is.
+    /// The character that is written at the edge of the clock.
     fn printed(&self) -> Option<char> {
         let first = self.text?;
         let outputs: Vec<bool> = self.environment.outputs().skip(first).take(9).collect();

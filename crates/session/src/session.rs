@@ -32,70 +32,63 @@ pub struct Session {
 }
 
 impl Session {
-    /// The length of the ground of [`Session::swarm`]: enough for a robot that moves by its own width in each of this
-    /// many cycles.
+    /// Length of the ground of [`Session::swarm`]: enough for a robot that moves by its own width in each of this many
+    /// cycles.
     pub const LIVE_CYCLES: usize = swarm_run::LIVE_CYCLES;
 
-    /// A session over the sources of a world.
     pub fn new(world: impl SourceWorld + Send + Sync + 'static) -> Self {
         Self { documents: Documents::new(Box::new(world)), physics: Physics::default() }
     }
 
-    /// The same session, with its robots simulated by `simulator`.
     pub fn with_simulator(mut self, simulator: Simulator) -> Self {
         self.physics.simulator = simulator;
         self
     }
 
-    /// The same session, in which the files with these names are those at these paths, and not those that the programs
-    /// declare.
+    /// Replaces declared files, by name and path.
     pub fn with_files(mut self, files: Vec<(String, String)>) -> Self {
         self.documents.replace_files(files);
         self
     }
 
-    /// The same session, which also records the poses of its swarms. `room` limits the size of a recording.
+    /// Records the poses of swarms. `room` limits the size of a recording.
     pub fn with_poses(mut self, room: Room) -> Self {
         self.physics.poses = Some(room);
         self
     }
 
-    /// Sets the text of the source at `path`, which hides the file of the world. A text with a lower revision than the
-    /// last one is ignored.
+    /// Sets the text of a source, which hides the file of the world. A text with a lower revision than the last one is
+    /// ignored.
     pub fn update(&mut self, path: &str, revision: u64, text: impl Into<String>) {
         self.documents.update(path, revision, text);
     }
 
-    /// Forgets what was read of `path`, and the text that [`Session::update`] gave it: the world's text counts again.
+    /// Forgets what was read of `path`, and the text set by [`Session::update`].
     pub fn close(&mut self, path: &str) {
         self.documents.close(path);
     }
 
-    /// The source at `path`, parsed and checked; the same value until one of its files changes. A file
-    /// that cannot be read has a diagnostic that says so.
+    /// Parses and checks a source; the same value until one of its files changes. An unreadable file is a diagnostic.
     pub fn checked(&mut self, path: &str) -> Arc<Checked> {
         self.documents.checked(path)
     }
 
-    /// Whether the source at `path` was checked, and its files have not changed since. A check that was
-    /// cancelled does not count.
+    /// Whether [`Session::checked`] has the result already. A cancelled check does not count.
     pub fn is_checked(&self, path: &str) -> bool {
         self.documents.is_known(path)
     }
 
-    /// The files and folders that the last check of the source at `path` read or looked for: the source itself, files
-    /// that it uses, and folders of robots.
+    /// Files and folders that the last check of a source read or looked for.
     pub fn dependencies(&self, path: &str) -> Vec<String> {
         self.documents.asked(path).map(str::to_owned).collect()
     }
 
-    /// The source at `path`, without errors.
+    /// A checked source without errors.
     pub fn open(&mut self, path: &str) -> Result<Arc<Checked>, Diagnostics> {
         let checked = self.checked(path);
         if checked.has_errors() { Err(checked.fail(checked.diagnostics.clone())) } else { Ok(checked) }
     }
 
-    /// The source at `path` in its canonical form.
     pub fn formatted(&self, path: &str) -> Result<Formatted, Diagnostics> {
         formatted::format(self.documents.world(), path)
     }
@@ -114,7 +107,7 @@ impl Session {
         read.map_err(|list| Diagnostics { list, sources: Sources::default() })
     }
 
-    /// The robots of a declared library, or of the default library, best first for each function.
+    /// The robots of a declared library or the default one, best first for each function.
     pub fn robots(
         &self,
         checked: &Checked,
@@ -126,8 +119,7 @@ impl Session {
         Ok(nbc_swarm::prefer(robots, options.objective))
     }
 
-    /// An evolution of a program with the robots of the library that it begins with, if it has one; robots of other
-    /// evolutions are in the folder `runs`.
+    /// An evolution with the robots of the library that it begins with. `runs` is the folder of other evolutions' runs.
     pub fn started(&self, checked: &Checked, evolution: &Evolution, runs: &str) -> Result<Evolution, Diagnostics> {
         let started = start_bodies::started(self.sources(checked), &checked.program, evolution, runs);
         started.map_err(|faults| checked.fail(faults))
@@ -137,7 +129,7 @@ impl Session {
         RobotSources { world: self.documents.world(), built_in: self.documents.built_in(), file: &checked.path }
     }
 
-    /// Elaborates a circuit, maps it onto the robots of its swarm and proves the result.
+    /// Maps a circuit onto the robots of its swarm, and proves the result.
     pub fn map(&self, checked: &Checked, circuit: &Instance, options: &CompileOptions) -> Result<Mapping, Diagnostics> {
         let plan = plan::plan(self.sources(checked), &checked.program, circuit, options);
         let plan = plan.map_err(|faults| checked.fail(faults))?;
@@ -146,7 +138,7 @@ impl Session {
         mapping.map_err(|faults| checked.fail(faults))
     }
 
-    /// Maps the part of a circuit that drives one net, which is declared at `net`, onto the robots of its swarm.
+    /// Maps the part of a circuit that drives the net declared at `net`.
     pub fn map_net(
         &self,
         checked: &Checked,
@@ -160,7 +152,7 @@ impl Session {
         mapping.map_err(|faults| checked.fail(faults))
     }
 
-    /// Elaborates a circuit, maps it onto these cells, which need not be robots, and proves the result.
+    /// Maps a circuit onto cells that need not be robots, and proves the result.
     pub fn map_onto(
         &self,
         checked: &Checked,
@@ -190,8 +182,7 @@ impl Session {
         compiled.map_err(|faults| checked.fail(faults))
     }
 
-    /// Makes a test ready to run: one case for each swarm that is declared for its circuit, or one at the level of
-    /// logic.
+    /// One case for each swarm that is declared for the test's circuit, or one at the level of logic.
     pub fn cases(
         &self,
         checked: &Checked,
@@ -201,7 +192,7 @@ impl Session {
         test::cases(self.sources(checked), &checked.program, test, options).map_err(|faults| checked.fail(faults))
     }
 
-    /// What the environment of a test does in its first `rows` rows in physics; `None` without an environment.
+    /// What the environment of a test does in its first rows in physics; `None` without an environment.
     pub fn environment(
         &self,
         checked: &Checked,
@@ -213,7 +204,7 @@ impl Session {
         run.map_err(|faults| checked.fail(faults))
     }
 
-    /// Begins to decide a claim; the search ends when its budget does, or when the flag is raised.
+    /// Begins to decide a claim. The search ends when its budget does, or when the flag is raised.
     pub fn prove(
         &self,
         checked: &Checked,
@@ -224,7 +215,6 @@ impl Session {
         ClaimSearch::new(&checked.program, claim, budget, cancel).map_err(|faults| checked.fail(faults))
     }
 
-    /// Runs a declared simulation in physics.
     pub fn simulate(
         &self,
         checked: &Checked,
@@ -237,7 +227,7 @@ impl Session {
         Ok(simulation::run(&self.physics, simulation, compiled, observer))
     }
 
-    /// A compiled circuit's swarm at its start, to be stepped a cycle at a time.
+    /// A swarm at its start, to be stepped a cycle at a time.
     pub fn swarm(&self, compiled: &Compiled) -> LiveSwarm {
         self.physics.swarm(compiled, Self::LIVE_CYCLES)
     }
@@ -247,7 +237,7 @@ impl Session {
         replay::replay(&self.physics, excerpt, observer)
     }
 
-    /// Runs every test and every simulation of a source in physics.
+    /// Runs every test and simulation of a source in physics.
     pub fn run(
         &mut self,
         path: &str,
@@ -260,7 +250,7 @@ impl Session {
     }
 }
 
-/// Runs every test and every simulation of a file of the disk in physics; see [`Session::run`].
+/// As [`Session::run`], for a file of the disk.
 #[cfg(feature = "disk")]
 pub fn run_file(path: impl AsRef<std::path::Path>, options: &CompileOptions) -> Result<RunReport, Diagnostics> {
     Session::new(crate::store::DiskWorld).run(&path.as_ref().to_string_lossy(), options, &mut ())

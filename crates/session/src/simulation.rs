@@ -14,13 +14,9 @@ use nbc_swarm::{SimulationResult, SwarmTrace};
 /// A simulation with its results.
 #[derive(Clone, Debug)]
 pub struct SimulationRun {
-    /// The activity of the outputs.
     pub result: SimulationResult,
-    /// How the run ended.
     pub end: RunEnd,
-    /// The swarm and its trace.
     pub swarm: SwarmRun,
-    /// Warnings about the swarm.
     pub warnings: Vec<Diagnostic>,
 }
 
@@ -31,7 +27,6 @@ impl SimulationRun {
     }
 }
 
-/// The swarm of a simulation, compiled.
 pub(super) fn compiled(
     sources: RobotSources<'_>,
     program: &Program,
@@ -45,7 +40,6 @@ pub(super) fn compiled(
     compile::compile(program, source, plan, &options.mapping(), simulation.span)
 }
 
-/// Runs a simulation in full physics.
 pub(super) fn run(
     physics: &Physics,
     simulation: &Simulation,
@@ -57,7 +51,6 @@ pub(super) fn run(
     finish(simulation, compiled, trace, end)
 }
 
-/// The results of a simulation that has run.
 pub(super) fn finish(simulation: &Simulation, compiled: Compiled, trace: SwarmTrace, end: RunEnd) -> SimulationRun {
     let result = SimulationResult {
         file: simulation.file.clone(),

@@ -1,11 +1,10 @@
 //! The robots with which an evolution begins: those of its library that fit into its box.
 
 use crate::robots::RobotSources;
-use crate::wording::StartError;
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Body, Evolution, Palette, Program, StartBodies};
 
-/// The evolution with the bodies of its library, if it begins with one.
 pub(super) fn started(
     sources: RobotSources<'_>,
     program: &Program,
@@ -19,15 +18,13 @@ pub(super) fn started(
     let bodies: Vec<Vec<String>> =
         library.robots.iter().filter_map(|robot| placed(&robot.body, evolution)).map(|body| body.rows()).collect();
     if bodies.is_empty() {
-        let (evolution, library) = (evolution.name.clone(), declared.name.clone());
-        return Err(vec![StartError { evolution, library }.at(declared.span)]);
+        return Err(vec![wording::no_start_body(&evolution.name, &declared.name, declared.span)]);
     }
     let start = StartBodies { library: declared.name.clone(), bodies };
     Ok(Evolution { start: Some(start), ..evolution.clone() })
 }
 
-/// A body on the ground in the middle of the evolution's box, in its codes; `None` if it does not fit, or has other
-/// materials.
+/// A body on the ground in the middle of the evolution's box; `None` if it does not fit, or has other materials.
 fn placed(body: &Body, evolution: &Evolution) -> Option<Body> {
     let Evolution { width, height, palette, .. } = evolution;
     let (above, left) = (height.checked_sub(body.height())?, width.checked_sub(body.width())? / 2);
@@ -40,7 +37,6 @@ fn placed(body: &Body, evolution: &Evolution) -> Option<Body> {
     Some(Body::new(*width, *height, codes, palette.clone()))
 }
 
-/// The code of the material in another palette.
 fn code(body: &Body, code: u8, palette: &Palette) -> Option<u8> {
     let Some(place) = usize::from(code).checked_sub(1) else { return Some(0) };
     let material = &body.palette().materials()[place];

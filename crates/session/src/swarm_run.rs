@@ -7,44 +7,34 @@ use crate::observer::{CycleRunner, Observer};
 use nbc_sim::Simulator;
 use nbc_swarm::{Assembly, LiveSwarm, Room, SwarmTask, SwarmTrace};
 
-/// The length of the ground of a live swarm: enough for a robot that moves by its own width in each of this many
-/// cycles.
+/// Length of the ground of a live swarm: enough for a robot that moves by its own width in each of this many cycles.
 pub(super) const LIVE_CYCLES: usize = 1000;
 
-/// A swarm with its trace.
 #[derive(Clone, Debug)]
 pub struct SwarmRun {
-    /// The circuit, compiled.
     pub compiled: Compiled,
-    /// The bits and the path of each robot.
     pub trace: SwarmTrace,
 }
 
-/// How a session's swarms are simulated.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Physics {
-    /// The simulator of their robots.
     pub simulator: Simulator,
-    /// The room for a recording of the robots' poses, if one is made.
     pub poses: Option<Room>,
 }
 
-/// How a run ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RunEnd {
-    /// It was completed.
     Complete,
-    /// The observer cancelled it; the results cover the part before.
+    /// The results cover the part before.
     Cancelled,
 }
 
 impl Physics {
-    /// A swarm at its start, with ground for that many cycles.
+    /// With ground for that many cycles.
     pub fn swarm(&self, compiled: &Compiled, cycles: usize) -> LiveSwarm {
         LiveSwarm::new(&self.simulator, &compiled.assembly, cycles, compiled.plan.window as usize, self.poses)
     }
 
-    /// Runs a swarm with these input bits in each cycle.
     pub fn run(
         &self,
         compiled: &Compiled,
@@ -55,21 +45,18 @@ impl Physics {
     }
 }
 
-/// A swarm that is run through inputs, a cycle at a time.
 pub(super) struct DrivenSwarm {
     swarm: LiveSwarm,
     inputs: Vec<Vec<bool>>,
-    /// The cycles that have passed.
     done: usize,
 }
 
 impl DrivenSwarm {
-    /// A swarm, and the input bits of each cycle.
     pub(super) fn new(swarm: LiveSwarm, inputs: Vec<Vec<bool>>) -> Self {
         Self { swarm, inputs, done: 0 }
     }
 
-    /// Continues with the swarm that the observer has kept, if there is one.
+    /// Continues with the swarm that the observer has saved, if any.
     pub(super) fn resume(&mut self, compiled: &Compiled, observer: &mut dyn Observer) {
         let Some(keeper) = observer.keeper() else { return };
         let Compiled { assembly, plan, .. } = compiled;
@@ -79,8 +66,7 @@ impl DrivenSwarm {
         }
     }
 
-    /// Simulates the next cycle, or a part of it. How the run ended, if it did: also after a cycle for whose trace
-    /// `is_enough` is true.
+    /// Simulates the next cycle, or a part of it. The run also ends after a cycle whose trace `is_enough`.
     pub(super) fn advance(
         &mut self,
         assembly: &Assembly,
@@ -111,7 +97,6 @@ impl DrivenSwarm {
         end
     }
 
-    /// Simulates all cycles that are left.
     pub(super) fn run(mut self, assembly: &Assembly, observer: &mut dyn Observer) -> (SwarmTrace, RunEnd) {
         loop {
             if let Some(end) = self.advance(assembly, |_| false, observer, &mut ()) {
@@ -120,7 +105,6 @@ impl DrivenSwarm {
         }
     }
 
-    /// The bits and the paths of the cycles that have passed.
     pub(super) fn into_trace(self) -> SwarmTrace {
         self.swarm.into_trace()
     }

@@ -1,7 +1,7 @@
 //! Designs of other tools, mapped onto cells of few robots and proved.
 
 use crate::compile::synthesize;
-use crate::wording::UnknownFunction;
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Function, Library};
 use nbc_circuit::correspondence::{self, Removed};
@@ -11,18 +11,15 @@ use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, 
 /// How a design is mapped.
 #[derive(Clone, Debug)]
 pub struct SynthesisOptions {
-    /// The available cells.
     pub cells: CellLibrary,
-    /// The goal of mapping.
     pub map: MapOptions,
     /// Whether registers become cells.
     pub expand: bool,
-    /// Functions of which it is asked how many cells a robot for each would save.
+    /// Functions for which to count the cells that a robot would save.
     pub what_if: Vec<Function>,
 }
 
 impl SynthesisOptions {
-    /// The design as it is, mapped onto few of these cells.
     pub fn onto(cells: CellLibrary) -> Self {
         Self { cells, map: MapOptions::default(), expand: false, what_if: Vec::new() }
     }
@@ -31,23 +28,19 @@ impl SynthesisOptions {
 /// A design as cells.
 #[derive(Clone, Debug)]
 pub struct Synthesis {
-    /// The design that was mapped, without the registers that it does not need.
+    /// Without the registers that it does not need.
     pub design: Design,
-    /// The cells, and the registers that are left.
+    /// The cells and the remaining registers.
     pub result: Design,
-    /// The registers that the design does not need.
     pub removed: Removed,
-    /// Whether no proof was found that the cells of its registers store what they store ([`prove_expanded`]).
+    /// No proof was found that the cells of registers store the same ([`prove_expanded`]).
     pub unproved_registers: bool,
-    /// The cells that a robot for each of the functions would save; negative if it needs more.
+    /// Cells that a robot for each of the functions would save; negative if it needs more.
     pub what_if: Vec<(Function, i64)>,
 }
 
 impl Synthesis {
-    /// Maps a design as it was read, and proves the result.
-    ///
-    /// # Panics
-    /// When the result is not equal to the design, which is a fault of the compiler.
+    /// Maps and proves a design. Panics if the result differs from it, which is a fault of the compiler.
     pub fn of(read: &Design, options: &SynthesisOptions) -> Result<Self, Diagnostic> {
         let (design, removed) = correspondence::reduce(read);
         let whole = Made::of(design, options)?;
@@ -69,25 +62,16 @@ impl Synthesis {
         Ok(synthesis)
     }
 
-    /// The number of cells.
     pub fn cells(&self) -> usize {
         self.result.logic.cells().count()
     }
 }
 
-/// The functions of these names.
 pub fn named_functions(names: &[String]) -> Result<Vec<Function>, Diagnostic> {
-    let parse = |name: &String| {
-        Function::parse(name.trim()).ok_or_else(|| {
-            let known = Function::named().map(Function::name).collect();
-            UnknownFunction { name: name.clone(), known }.into()
-        })
-    };
-    names.iter().map(parse).collect()
+    names.iter().map(|name| Function::parse(name.trim()).ok_or_else(|| wording::unknown_function(name))).collect()
 }
 
-/// Cells of these functions, which cost the same. `all` alone is all functions of two inputs, and `all3` those of two
-/// and three.
+/// Cells of equal cost. `all` alone means all functions of two inputs, `all3` those of two and three.
 pub fn cell_library(names: &[String]) -> Result<CellLibrary, Diagnostic> {
     let of_two = || Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
     Ok(match names {
@@ -103,15 +87,14 @@ pub fn cell_library(names: &[String]) -> Result<CellLibrary, Diagnostic> {
     })
 }
 
-/// The cells of robots, of which the goal prefers one for each function.
+/// One robot for each function, by the goal.
 pub fn robot_cells(robots: Library, objective: MappingObjective) -> CellLibrary {
     nbc_swarm::cells(&nbc_swarm::prefer(robots, objective))
 }
 
-/// A design and what it became.
 struct Made {
     design: Design,
-    /// Its logic, with its registers if they are expanded.
+    /// With its registers, if they are expanded.
     source: Netlist,
     result: Design,
     unproved_registers: bool,

@@ -11,7 +11,7 @@ use nbc_base::source::{ProofOrigin, SecondReading};
 use nbc_circuit::correspondence::Removed;
 use nbc_circuit::levels;
 
-/// The most registers that are named in a line.
+/// The most registers named in a line.
 const SHOWN: usize = 8;
 
 /// The result of a synthesis.
@@ -31,29 +31,25 @@ pub struct SynthesisReport {
     what_if: BTreeMap<String, i64>,
 }
 
-/// What the proof begins with, and what it leaves out.
 #[derive(Debug, Serialize)]
 struct ProofReport {
     /// `file`, or `slang` for what it reads of Verilog.
     from: &'static str,
-    /// The version of Yosys, in which slang reads.
+    /// Version of Yosys, in which slang reads.
     #[serde(skip_serializing_if = "Option::is_none")]
     version: Option<String>,
-    /// What a second reader makes of the file.
+    /// The result of a second reader.
     #[serde(skip_serializing_if = "Option::is_none")]
     second: Option<&'static str>,
-    /// The random steps in which both readings are equal, if more is not known.
+    /// Random steps in which both readings are equal, if more is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     steps: Option<usize>,
-    /// Whether the cells of registers are not proved to store what they store.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     unproved_registers: bool,
-    /// All this in words.
     #[serde(skip)]
     words: String,
 }
 
-/// Registers that the circuit does not need.
 #[derive(Debug, Serialize)]
 struct RemovedReport {
     constant: BTreeMap<String, u8>,
@@ -62,7 +58,7 @@ struct RemovedReport {
 }
 
 impl SynthesisReport {
-    /// The report of a synthesis that took so many seconds; `origin` is what its proof begins with.
+    /// `origin` is what the proof begins with.
     pub fn of(synthesis: &Synthesis, origin: ProofOrigin, seconds: f64) -> Self {
         let Synthesis { design, result, removed, unproved_registers, what_if } = synthesis;
         Self {
@@ -81,7 +77,6 @@ impl SynthesisReport {
         }
     }
 
-    /// The report in lines.
     pub fn text(&self) -> String {
         let parts: Vec<_> = self.by_function.iter().map(|(name, count)| format!("{count} {name}")).collect();
         let latches = if self.latches > 0 { format!(", {}", counted(self.latches, "register")) } else { String::new() };
@@ -130,7 +125,6 @@ impl RemovedReport {
         }
     }
 
-    /// A line for each reason that applies.
     fn text(&self) -> String {
         let constant: Vec<_> = self.constant.iter().map(|(name, value)| format!("{name} = {value}")).collect();
         let equal: Vec<_> = self.equal.iter().map(|(name, other)| format!("{name} = {other}")).collect();
@@ -148,7 +142,6 @@ impl RemovedReport {
     }
 }
 
-/// The first of these names, and how many more there are.
 fn listed(names: &[String]) -> String {
     let shown = names[..names.len().min(SHOWN)].join(", ");
     if names.len() > SHOWN { format!("{shown} and {} more", names.len() - SHOWN) } else { shown }

@@ -13,56 +13,52 @@ use crate::script::{EnvironmentRun, Performance, PerformedRow};
 use crate::swarm_run::{RunEnd, SwarmRun};
 use crate::test_timing::{TestTiming, TimedTest};
 use crate::waves::steps;
-use crate::wording::ScriptError;
+use crate::wording;
 use nbc_base::budget::{CYCLE_BITS, Limit, WorkBudget};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Base, CircuitTest, NamedWorld, PhysicsWorld, Program, Stimulation, TestRow};
 use nbc_circuit::waves::WaveMachine;
 use nbc_circuit::{Netlist, Settled, elaborate, elaborate_reference};
-use nbc_swarm::{Level, RowHold, RowVerdict, SwarmBits, SwarmTask, SwarmTrace, TestVerdict, WorldTrial};
+use nbc_swarm::{Level, RowHold, SwarmBits, SwarmTask, TestVerdict, WorldTrial};
 
-/// Swarms of this many robots or more are tested at the level of logic unless physics is requested.
+/// Swarms of at least this many robots are tested at the level of logic unless physics is requested.
 const LARGE: usize = 40;
 
-/// Circuits with this many gates are not compiled to count robots: no library makes them of fewer than [`LARGE`]
-/// robots.
+/// Circuits of at least this many gates are not compiled to count robots: no library makes them of fewer than
+/// [`LARGE`].
 const SURELY_LARGE: usize = 10 * LARGE;
 
-/// The most rows of a script in physics.
+/// Limit on the rows of a script in physics.
 const MOST_PHYSICAL_ROWS: usize = 200_000;
 
 /// How a test is run.
 #[derive(Clone, Debug, Default)]
 pub struct TestOptions {
-    /// The level; by default physics for swarms of few robots.
+    /// By default physics for swarms of few robots.
     pub level: Option<Level>,
-    /// How its circuit becomes a swarm.
     pub compile: CompileOptions,
 }
 
 /// A test with its results.
 #[derive(Clone, Debug)]
 pub struct TestRun {
-    /// Whether the circuit passed. A cancelled run has not passed, and its verdict has the completed rows.
+    /// A cancelled run has not passed, and its verdict has the completed rows.
     pub verdict: TestVerdict,
-    /// How the run ended.
     pub end: RunEnd,
-    /// The swarm and its trace; `None` at the level of logic.
+    /// `None` at the level of logic.
     pub swarm: Option<SwarmRun>,
-    /// Cycles that are a sufficient hold for each of its rows; `None` without a swarm.
+    /// Cycles that are a sufficient hold for each row; `None` without a swarm.
     pub hold: Option<usize>,
-    /// Warnings.
     pub warnings: Vec<Diagnostic>,
 }
 
 /// The first rows of a test as inputs of its swarm.
 #[derive(Clone, Debug)]
 pub struct PhysicalTest {
-    /// The swarm.
     pub compiled: Compiled,
-    /// The input bits of each cycle.
+    /// Input bits of each cycle.
     pub inputs: Vec<Vec<bool>>,
-    /// For each row, the cycles after which it has passed.
+    /// The cycles after which each row has passed.
     pub ends: Vec<usize>,
 }
 
@@ -70,27 +66,21 @@ pub struct PhysicalTest {
 #[derive(Clone, Debug)]
 pub struct TestCase {
     pub(super) test: Arc<CircuitTest>,
-    pub(super) rows: Arc<[TestRow]>,
     pub(super) subject: TestSubject,
-    /// Whether it ends in physics with the first row that fails.
-    pub(super) ends_at_failure: bool,
-    /// What its environment writes as text while the rows pass.
-    pub(super) printed: String,
 }
 
-/// The tested circuit.
 #[derive(Clone, Debug)]
 pub(super) enum TestSubject {
-    Gates(Netlist),
+    Gates(Netlist, Arc<[TestRow]>),
     /// Gates whose rows depend on what they do.
     Script(Box<Performance>),
     /// Gates that are compared with others for ever.
     Ever(Box<Equivalence>),
-    Robots(Box<Compiled>, TestTiming),
+    Robots(Box<TimedTest>),
 }
 
-/// The cases of a test: one for each swarm that is declared for its circuit in each world that the test names, or one
-/// at the level of logic, which has no worlds. A test for ever is always at the level of logic.
+/// One case for each declared swarm in each world that the test names, or one at the level of logic. A test for ever is
+/// always at the level of logic.
 pub(super) fn cases(
     sources: RobotSources<'_>,
     program: &Program,
@@ -101,28 +91,21 @@ pub(super) fn cases(
         declared_file(program, name).map_err(|fault| vec![fault])?;
     }
     let netlist = elaborate(program, &test.circuit)?;
+    let own = Arc::new(test.clone());
+    let case = |subject| TestCase { test: own.clone(), subject };
     if let Stimulation::Ever { other, reference } = &test.stimulation {
         let cancel = options.compile.cancel.clone();
         let subject = Equivalence::new(program, test, netlist, (other, reference), cancel)?;
-        let (test, subject) = (Arc::new(test.clone()), TestSubject::Ever(Box::new(subject)));
-        return Ok(vec![TestCase { test, rows: [].into(), subject, ends_at_failure: false, printed: String::new() }]);
+        return Ok(vec![case(TestSubject::Ever(Box::new(subject)))]);
     }
     let level = options.level;
     let performance = performance(sources, program, test, &netlist, &options.compile)?;
-    let own = Arc::new(test.clone());
-    let case = |rows: Vec<TestRow>, printed: String, subject: TestSubject| TestCase {
-        test: own.clone(),
-        rows: rows.into(),
-        subject,
-        ends_at_failure: false,
-        printed,
-    };
     let logic = |netlist| {
-        let (rows, subject) = match &performance {
-            Some(performance) => (Vec::new(), TestSubject::Script(Box::new(performance.clone()))),
-            None => (rows(program, test)?, TestSubject::Gates(netlist)),
+        let subject = match &performance {
+            Some(performance) => TestSubject::Script(Box::new(performance.clone())),
+            None => TestSubject::Gates(netlist, rows(program, test)?.into()),
         };
-        Ok(vec![case(rows, String::new(), subject)])
+        Ok(vec![case(subject)])
     };
     if level == Some(Level::Logic) || (level.is_none() && netlist.cells().count() >= SURELY_LARGE) {
         return logic(netlist);
@@ -155,22 +138,27 @@ pub(super) fn cases(
                 TestTiming::Holds(row_holds)
             }
         };
-        let one = case(rows, printed, TestSubject::Gates(Netlist::default()));
+        let rows: Arc<[TestRow]> = rows.into();
         for world in worlds {
-            let there = compiled.in_world(world);
-            cases.push(TestCase { subject: TestSubject::Robots(Box::new(there), timing.clone()), ..one.clone() });
+            cases.push(case(TestSubject::Robots(Box::new(TimedTest {
+                test: own.clone(),
+                rows: rows.clone(),
+                compiled: compiled.in_world(world),
+                timing: timing.clone(),
+                ends_at_failure: false,
+                printed: printed.clone(),
+            }))));
         }
     }
     Ok(cases)
 }
 
-/// Whether there is room for so many cycles of a test in physics.
 fn permit_cycles(test: &CircuitTest, cycles: u64) -> Result<(), Vec<Diagnostic>> {
     let bits = test.inputs.iter().map(|column| column.width as u64).sum::<u64>() + CYCLE_BITS;
     Limit::CycleBits.permit(cycles.saturating_mul(bits)).map_err(|over| vec![over.at(test.span)])
 }
 
-/// The performance of a test whose rows depend on what its circuit does; `None` for other tests.
+/// `None` for tests without a script.
 fn performance(
     sources: RobotSources<'_>,
     program: &Program,
@@ -182,7 +170,7 @@ fn performance(
     Performance::new(sources.world, program, test, script, netlist, &options.files).map(Some)
 }
 
-/// What the environment of a test does in its first rows, at the level of logic; `None` without an environment.
+/// What the environment does in the first rows, at the level of logic; `None` without an environment.
 pub(super) fn environment(
     sources: RobotSources<'_>,
     program: &Program,
@@ -195,8 +183,7 @@ pub(super) fn environment(
     performance.map_or(Ok(None), |performance| performance.watch(rows)).map_err(|fault| vec![fault])
 }
 
-/// The rows of a test in physics, and what its environment wrote meanwhile. All outputs are checked in the rows of a
-/// script.
+/// The rows in physics, and the environment's text. All outputs are checked in the rows of a script.
 fn physical_rows(
     program: &Program,
     test: &CircuitTest,
@@ -223,13 +210,13 @@ fn physical_rows(
             rows.push(row);
         }
         if rows.len() > MOST_PHYSICAL_ROWS {
-            return Err(vec![ScriptError::TooLong { most: MOST_PHYSICAL_ROWS }.at(test.span)]);
+            return Err(vec![wording::too_long_for_physics(MOST_PHYSICAL_ROWS, test.span)]);
         }
     }
     Ok((rows, performance.printed))
 }
 
-/// The rows of a wave machine: its outputs are checked after the edges of the clock only.
+/// Outputs of a wave machine are checked after the edges of the clock only.
 fn edges_only(mut rows: Vec<TestRow>, machine: &WaveMachine) -> Vec<TestRow> {
     if let Some((clock, rises)) = machine.clock {
         for row in rows.iter_mut().skip(1).filter(|row| row.inputs[clock] != rises) {
@@ -239,7 +226,6 @@ fn edges_only(mut rows: Vec<TestRow>, machine: &WaveMachine) -> Vec<TestRow> {
     rows
 }
 
-/// The warnings of a hold that is too short, with one that suffices for all tests of the circuit.
 fn short_holds(
     program: &Program,
     test: &CircuitTest,
@@ -258,7 +244,7 @@ fn short_holds(
 }
 
 impl TestRun {
-    /// The run as the result in its world; `None` at the level of logic.
+    /// `None` at the level of logic.
     pub fn world_trial(&self) -> Option<WorldTrial> {
         let SwarmRun { compiled, trace } = self.swarm.as_ref()?;
         let window = compiled.plan.window as usize;
@@ -267,164 +253,96 @@ impl TestRun {
 }
 
 impl TestCase {
-    /// The test with its swarm and its timing; `None` at the level of logic.
-    pub(super) fn timed(&self) -> Option<TimedTest<'_>> {
-        match &self.subject {
-            TestSubject::Gates(_) | TestSubject::Script(_) | TestSubject::Ever(_) => None,
-            TestSubject::Robots(compiled, timing) => {
-                Some(TimedTest { test: &self.test, rows: &self.rows, compiled, timing })
-            }
-        }
+    fn timed(&self) -> Option<&TimedTest> {
+        if let TestSubject::Robots(timed) = &self.subject { Some(timed) } else { None }
     }
 
-    /// The amount of work: cycles in physics, rows at the level of logic.
+    /// Cycles in physics, rows at the level of logic.
     pub fn work(&self) -> u64 {
-        match &self.subject {
-            TestSubject::Script(performance) => performance.progress().1 as u64,
+        let work = match &self.subject {
+            TestSubject::Gates(_, rows) => rows.len(),
+            TestSubject::Script(performance) => performance.progress().1,
             TestSubject::Ever(_) => 1,
-            _ => self.timed().map_or(self.rows.len(), |timed| timed.cycles(self.rows.len())) as u64,
-        }
+            TestSubject::Robots(timed) => timed.cycles(timed.rows.len()),
+        };
+        work as u64
     }
 
     /// The hold of each row in physics; empty at the level of logic, and for wave machines.
     pub fn row_holds(&self) -> &[RowHold] {
         match &self.subject {
-            TestSubject::Robots(_, TestTiming::Holds(row_holds)) => row_holds,
-            TestSubject::Robots(_, TestTiming::Waves)
-            | TestSubject::Gates(_)
-            | TestSubject::Script(_)
-            | TestSubject::Ever(_) => &[],
+            TestSubject::Robots(timed) => timed.timing.row_holds(),
+            _ => &[],
         }
     }
 
-    /// The swarm; `None` at the level of logic.
-    fn compiled(&self) -> Option<&Compiled> {
-        self.timed().map(|timed| timed.compiled)
-    }
-
-    /// The declared swarm that is tested, if it is one.
-    pub fn swarm(&self) -> Option<&str> {
-        self.compiled()?.plan.swarm.as_deref()
-    }
-
-    /// The name of the world of its swarm; `None` at the level of logic.
-    pub fn world_name(&self) -> Option<&str> {
-        Some(&self.compiled()?.plan.world.name)
-    }
-
-    /// The swarm with the inputs of the first `rows` rows; `None` at the level of logic.
-    pub fn into_physics(self, rows: usize) -> Option<PhysicalTest> {
-        let timed = self.timed()?;
-        let (inputs, ends) = (timed.inputs(rows), timed.ends(rows));
-        match self.subject {
-            TestSubject::Gates(_) | TestSubject::Script(_) | TestSubject::Ever(_) => None,
-            TestSubject::Robots(compiled, _) => Some(PhysicalTest { compiled: *compiled, inputs, ends }),
-        }
-    }
-
-    /// The world of its swarm; the paper's at the level of logic, which has none.
-    pub fn world(&self) -> PhysicsWorld {
-        self.compiled().map_or_else(PhysicsWorld::default, |compiled| compiled.plan.world.world)
-    }
-
-    /// The same test in another world, where it ends with the first row that fails.
-    pub fn trial_in(&self, world: PhysicsWorld) -> Self {
-        let subject = match &self.subject {
-            TestSubject::Robots(compiled, timing) => {
-                let world = NamedWorld { name: compiled.plan.world.name.clone(), world };
-                TestSubject::Robots(Box::new(compiled.in_world(world)), timing.clone())
-            }
-            other => other.clone(),
-        };
-        let (test, rows, printed) = (self.test.clone(), self.rows.clone(), self.printed.clone());
-        // A test that permits failures goes on after one.
-        let ends_at_failure = test.rows_from.as_ref().is_none_or(|from| from.at_least.is_none());
-        Self { test, rows, subject, ends_at_failure, printed }
-    }
-
-    /// The number of robots; 0 at the level of logic.
-    pub fn robots(&self) -> usize {
-        self.compiled().map_or(0, |compiled| compiled.assembly.members.len())
-    }
-
-    /// The rows, in order; those of a wave machine are its steps.
+    /// Those of a wave machine are its steps.
     pub fn rows(&self) -> &[TestRow] {
-        &self.rows
+        match &self.subject {
+            TestSubject::Gates(_, rows) => rows,
+            TestSubject::Robots(timed) => &timed.rows,
+            TestSubject::Script(_) | TestSubject::Ever(_) => &[],
+        }
+    }
+
+    pub fn swarm(&self) -> Option<&str> {
+        self.timed()?.compiled.plan.swarm.as_deref()
+    }
+
+    /// `None` at the level of logic.
+    pub fn world_name(&self) -> Option<&str> {
+        Some(&self.timed()?.compiled.plan.world.name)
+    }
+
+    /// `None` at the level of logic.
+    pub fn into_physics(self, rows: usize) -> Option<PhysicalTest> {
+        let TestSubject::Robots(timed) = self.subject else { return None };
+        let (inputs, ends) = (timed.inputs(rows), timed.ends(rows));
+        Some(PhysicalTest { compiled: timed.compiled, inputs, ends })
+    }
+
+    /// The paper's world at the level of logic.
+    pub fn world(&self) -> PhysicsWorld {
+        self.timed().map_or_else(PhysicsWorld::default, |timed| timed.compiled.plan.world.world)
+    }
+
+    /// The same test in another world. It ends with the first row that fails, unless the test permits failures.
+    pub fn trial_in(&self, world: PhysicsWorld) -> Self {
+        let mut trial = self.clone();
+        if let TestSubject::Robots(timed) = &mut trial.subject {
+            let name = timed.compiled.plan.world.name.clone();
+            timed.compiled = timed.compiled.in_world(NamedWorld { name, world });
+            timed.ends_at_failure = self.test.rows_from.as_ref().is_none_or(|from| from.at_least.is_none());
+        }
+        trial
+    }
+
+    /// 0 at the level of logic.
+    pub fn robots(&self) -> usize {
+        self.timed().map_or(0, |timed| timed.compiled.assembly.members.len())
     }
 
     /// The simulation of its swarm, to be done elsewhere; `None` at the level of logic.
     pub fn task(&self) -> Option<SwarmTask> {
         let timed = self.timed()?;
-        let Compiled { assembly, plan, .. } = timed.compiled;
-        Some(SwarmTask::of(assembly, timed.inputs(self.rows.len()), plan.window as usize))
+        let Compiled { assembly, plan, .. } = &timed.compiled;
+        Some(SwarmTask::of(assembly, timed.inputs(timed.rows.len()), plan.window as usize))
     }
 
-    /// The end of the test when its swarm was simulated elsewhere, with these bits. There is no trace.
-    ///
-    /// # Panics
-    /// When the bits belong to another swarm, or the test has none.
+    /// Ends a test whose swarm was simulated elsewhere; there is no trace. Panics if the bits belong to another swarm,
+    /// or the test has none.
     pub fn judge(self, bits: &SwarmBits) -> TestRun {
         let timed = self.timed().expect("a test in physics");
-        let inputs = timed.inputs(self.rows.len());
+        let inputs = timed.inputs(timed.rows.len());
         let is_short = bits.cycles.len() < inputs.len() && bits.fault.is_none();
         let end = if is_short { RunEnd::Cancelled } else { RunEnd::Complete };
-        let trace = bits.trace(&timed.compiled.assembly, &inputs);
-        let (verdict, warnings) = judged(timed, &self.printed, &trace, end);
-        TestRun { verdict, end, swarm: None, hold: None, warnings }
+        let verdict = timed.verdict(&bits.trace(&timed.compiled.assembly, &inputs), end);
+        TestRun { verdict, end, swarm: None, hold: None, warnings: timed.compiled.warnings.clone() }
     }
 }
 
-/// The verdict on a trace, and the warnings.
-pub(super) fn judged(
-    timed: TimedTest<'_>,
-    printed: &str,
-    trace: &SwarmTrace,
-    end: RunEnd,
-) -> (TestVerdict, Vec<Diagnostic>) {
-    let compiled = timed.compiled;
-    let mut verdict = verdict(timed.test, Level::Physics, Some(compiled), timed.judge(trace));
-    verdict.printed = Some(printed.to_owned()).filter(|printed| !printed.is_empty() && end == RunEnd::Complete);
-    verdict.passed &= end == RunEnd::Complete;
-    (verdict, compiled.warnings.clone())
-}
-
-pub(super) fn verdict(
-    test: &CircuitTest,
-    level: Level,
-    compiled: Option<&Compiled>,
-    rows: Vec<RowVerdict>,
-) -> TestVerdict {
-    TestVerdict {
-        file: test.file.clone(),
-        line: test.line,
-        circuit: test.circuit.to_string(),
-        title: test.title.clone(),
-        swarm: compiled.and_then(|compiled| compiled.plan.swarm.clone()),
-        world: compiled.map(|compiled| compiled.plan.world.name.clone()),
-        is_world_named: !test.worlds.is_empty(),
-        level,
-        passed: enough(test, &rows),
-        rows_from: test.rows_from.clone(),
-        inputs: test.inputs.clone(),
-        outputs: test.outputs.clone(),
-        weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
-        rows,
-        printed: None,
-        proof: None,
-    }
-}
-
-/// Whether all rows passed, or the share that the test asks for.
-fn enough(test: &CircuitTest, rows: &[RowVerdict]) -> bool {
-    let passed = rows.iter().filter(|row| row.passed).count();
-    match test.rows_from.as_ref().and_then(|from| from.at_least) {
-        Some(percent) => passed as f64 * 100.0 >= percent * rows.len() as f64,
-        None => passed == rows.len(),
-    }
-}
-
-/// The rows of a test without a script. For a test over all inputs, of which the checker allows few, they are computed
-/// from its reference.
+/// The rows of a test without a script. A test over all inputs, of which the checker allows few, has those of its
+/// reference.
 fn rows(program: &Program, test: &CircuitTest) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let reference = match &test.stimulation {
         Stimulation::Rows(rows) => return Ok(rows.clone()),

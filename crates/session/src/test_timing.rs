@@ -1,56 +1,103 @@
 //! How the rows of a test pass in physics: each held until the robots have settled, or as the steps of a wave machine.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use crate::compile::Compiled;
+use crate::hold;
+use crate::swarm_run::RunEnd;
 use nbc_base::model::{CircuitTest, TestRow};
-use nbc_swarm::{RowHold, RowVerdict, SwarmTrace, WaveTest};
+use nbc_swarm::{Level, RowHold, RowVerdict, SwarmTrace, TestVerdict, WaveTest};
 
-/// A row of a test in a thread of its swarm; only wave machines have more than thread 0.
+/// Only wave machines have more than thread 0.
 #[derive(Clone, Copy, Debug)]
 pub struct ThreadRow {
     row: usize,
     thread: usize,
 }
 
-/// The rows that end with a cycle, by the number of cycles until then.
+/// Rows by the number of cycles after which they end.
 pub type RowEnds = BTreeMap<usize, Vec<ThreadRow>>;
 
-/// When the rows of a test begin and end.
 #[derive(Clone, Debug)]
 pub(super) enum TestTiming {
-    /// Rows one after the other, each with its hold.
+    /// Rows one after the other.
     Holds(Vec<RowHold>),
     /// Steps of a wave machine.
     Waves,
 }
 
-/// A test with its swarm and its timing.
-#[derive(Clone, Copy)]
-pub(super) struct TimedTest<'a> {
-    pub test: &'a CircuitTest,
-    pub rows: &'a [TestRow],
-    pub compiled: &'a Compiled,
-    pub timing: &'a TestTiming,
+pub(super) fn verdict(
+    test: &CircuitTest,
+    level: Level,
+    compiled: Option<&Compiled>,
+    rows: Vec<RowVerdict>,
+) -> TestVerdict {
+    TestVerdict {
+        file: test.file.clone(),
+        line: test.line,
+        circuit: test.circuit.to_string(),
+        title: test.title.clone(),
+        swarm: compiled.and_then(|compiled| compiled.plan.swarm.clone()),
+        world: compiled.map(|compiled| compiled.plan.world.name.clone()),
+        is_world_named: !test.worlds.is_empty(),
+        level,
+        passed: enough(test, &rows),
+        rows_from: test.rows_from.clone(),
+        inputs: test.inputs.clone(),
+        outputs: test.outputs.clone(),
+        weak_robots: compiled.map_or(Vec::new(), |compiled| compiled.weak_robots.clone()),
+        rows,
+        printed: None,
+        proof: None,
+    }
 }
 
-impl<'a> TimedTest<'a> {
-    fn waves(self, rows: &'a [TestRow]) -> WaveTest<'a> {
+/// Whether all rows passed, or the share that the test asks for.
+fn enough(test: &CircuitTest, rows: &[RowVerdict]) -> bool {
+    let passed = rows.iter().filter(|row| row.passed).count();
+    match test.rows_from.as_ref().and_then(|from| from.at_least) {
+        Some(percent) => passed as f64 * 100.0 >= percent * rows.len() as f64,
+        None => passed == rows.len(),
+    }
+}
+
+impl TestTiming {
+    pub fn row_holds(&self) -> &[RowHold] {
+        if let Self::Holds(row_holds) = self { row_holds } else { &[] }
+    }
+}
+
+/// A test in physics.
+#[derive(Clone, Debug)]
+pub(super) struct TimedTest {
+    pub test: Arc<CircuitTest>,
+    pub rows: Arc<[TestRow]>,
+    pub compiled: Compiled,
+    pub timing: TestTiming,
+    /// Whether it ends with the first row that fails.
+    pub ends_at_failure: bool,
+    /// The environment's text while the rows pass.
+    pub printed: String,
+}
+
+impl TimedTest {
+    fn waves<'a>(&'a self, rows: &'a [TestRow]) -> WaveTest<'a> {
         let machine = self.compiled.mapping.waves.as_ref().expect("only wave machines run in waves");
-        WaveTest { test: self.test, rows, machine }
+        WaveTest { test: &self.test, rows, machine }
     }
 
     /// The cycles through the first `rows` rows.
-    pub fn cycles(self, rows: usize) -> usize {
-        match self.timing {
+    pub fn cycles(&self, rows: usize) -> usize {
+        match &self.timing {
             TestTiming::Holds(row_holds) => row_holds.iter().take(rows).map(|row_hold| row_hold.hold).sum(),
-            TestTiming::Waves => self.waves(self.rows).machine.cycles(rows),
+            TestTiming::Waves => self.waves(&self.rows).machine.cycles(rows),
         }
     }
 
-    /// For each of the first `rows` rows, the cycles after which it has passed.
-    pub fn ends(self, rows: usize) -> Vec<usize> {
-        match self.timing {
+    /// The cycles after which each of the first `rows` rows has passed.
+    pub fn ends(&self, rows: usize) -> Vec<usize> {
+        match &self.timing {
             TestTiming::Holds(row_holds) => {
                 let mut end = 0;
                 let pass = |row_hold: &RowHold| {
@@ -63,9 +110,9 @@ impl<'a> TimedTest<'a> {
         }
     }
 
-    /// The input bits of each cycle through the first `rows` rows.
-    pub fn inputs(self, rows: usize) -> Vec<Vec<bool>> {
-        match self.timing {
+    /// Input bits of each cycle through the first `rows` rows.
+    pub fn inputs(&self, rows: usize) -> Vec<Vec<bool>> {
+        match &self.timing {
             TestTiming::Holds(row_holds) => {
                 let held = self.rows.iter().zip(row_holds).take(rows);
                 held.flat_map(|(row, row_hold)| std::iter::repeat_n(row.inputs.clone(), row_hold.hold)).collect()
@@ -79,13 +126,28 @@ impl<'a> TimedTest<'a> {
         }
     }
 
-    /// The verdict on each row of which a trace has the results.
-    pub fn judge(self, trace: &SwarmTrace) -> Vec<RowVerdict> {
-        let mut verdicts = match self.timing {
+    /// A hold that suffices for every row without one of its own; for a wave machine, the length of a step.
+    pub fn sufficient_hold(&self) -> usize {
+        match self.timing {
+            TestTiming::Holds(_) => hold::sufficient(&self.rows, &self.compiled),
+            TestTiming::Waves => self.compiled.timing.hold as usize,
+        }
+    }
+
+    pub fn verdict(&self, trace: &SwarmTrace, end: RunEnd) -> TestVerdict {
+        let is_complete = end == RunEnd::Complete;
+        let mut verdict = verdict(&self.test, Level::Physics, Some(&self.compiled), self.judge(trace));
+        verdict.printed = Some(self.printed.clone()).filter(|printed| !printed.is_empty() && is_complete);
+        verdict.passed &= is_complete;
+        verdict
+    }
+
+    fn judge(&self, trace: &SwarmTrace) -> Vec<RowVerdict> {
+        let mut verdicts = match &self.timing {
             TestTiming::Holds(row_holds) => {
-                nbc_swarm::judge_swarm(self.test, self.rows, row_holds, trace, &self.compiled.clocks())
+                nbc_swarm::judge_swarm(&self.test, &self.rows, row_holds, trace, &self.compiled.clocks())
             }
-            TestTiming::Waves => self.waves(self.rows).judge(trace),
+            TestTiming::Waves => self.waves(&self.rows).judge(trace),
         };
         // Rows that show start values need no cycle, but a swarm in which a robot failed passes no test.
         if let (Some(last), Some(fault)) = (verdicts.last_mut(), trace.fault()) {
@@ -94,19 +156,17 @@ impl<'a> TimedTest<'a> {
         verdicts
     }
 
-    /// For each number of cycles, the rows whose last result is that of the last of them.
-    pub fn row_ends(self) -> RowEnds {
+    /// For each number of cycles, the rows whose last result is that of its last cycle.
+    pub fn row_ends(&self) -> RowEnds {
         let mut ends = RowEnds::new();
-        match self.timing {
+        match &self.timing {
             TestTiming::Holds(row_holds) => {
-                let mut end = 0;
-                for (row, row_hold) in row_holds.iter().enumerate() {
-                    end += row_hold.hold;
+                for (row, end) in self.ends(row_holds.len()).into_iter().enumerate() {
                     ends.insert(end, vec![ThreadRow { row, thread: 0 }]);
                 }
             }
             TestTiming::Waves => {
-                let waves = self.waves(self.rows);
+                let waves = self.waves(&self.rows);
                 for thread in 0..waves.machine.period as usize {
                     for row in 0..self.rows.len() {
                         if let Some(last) = waves.last_cycle(row, thread) {
@@ -119,11 +179,11 @@ impl<'a> TimedTest<'a> {
         ends
     }
 
-    /// Whether a row passes whose last result is that of a trace's last cycle.
-    pub fn passes(self, trace: &SwarmTrace, ThreadRow { row, thread }: ThreadRow) -> bool {
-        match self.timing {
-            TestTiming::Holds(row_holds) => nbc_swarm::passes(self.test, &self.rows[row], &row_holds[row], trace),
-            TestTiming::Waves => self.waves(self.rows).row(trace, row, thread).is_none_or(|verdict| verdict.passed),
+    /// Whether a row passes whose last result is that of the trace's last cycle.
+    pub fn passes(&self, trace: &SwarmTrace, ThreadRow { row, thread }: ThreadRow) -> bool {
+        match &self.timing {
+            TestTiming::Holds(row_holds) => nbc_swarm::passes(&self.test, &self.rows[row], &row_holds[row], trace),
+            TestTiming::Waves => self.waves(&self.rows).row(trace, row, thread).is_none_or(|verdict| verdict.passed),
         }
     }
 }

@@ -6,23 +6,18 @@ use nbc_base::model::{Character, Fault, Robot, SafeRadius, Variation};
 use nbc_sim::Simulator;
 use nbc_swarm::{Executor, Measurement, Task, WorldSample, safe_radius};
 
-/// What a measurement of a robot says of its file.
+/// A robot compared with its file.
 #[derive(Clone, Debug, Serialize)]
 pub struct Verified<'a> {
-    /// The robot's name.
     pub name: &'a str,
-    /// Whether nothing differs.
     pub verified: bool,
-    /// The differences from the file.
     pub differs: Vec<String>,
 }
 
 /// How far worlds may differ before a robot makes errors.
 #[derive(Clone, Debug, Serialize)]
 pub struct Reach<'a> {
-    /// The robot's name.
     pub name: &'a str,
-    /// What was found.
     #[serde(flatten)]
     pub found: SafeRadius,
     /// Whether its file has no such radius, or the same one.
@@ -30,7 +25,7 @@ pub struct Reach<'a> {
 }
 
 impl<'a> Verified<'a> {
-    /// Measures a robot again; `None` if the work was stopped. `run` is the number that the executor asks for.
+    /// Measures a robot again; `None` if the work was stopped. `run` is passed to the executor.
     pub fn of(executor: &dyn Executor, run: usize, robot: &'a Robot) -> Option<Self> {
         let task = Task::Measurement(robot.body.clone());
         let measured = executor.perform(run, &[task], &|| ())?.remove(0).measured();
@@ -51,7 +46,7 @@ impl<'a> Verified<'a> {
 }
 
 impl<'a> Reach<'a> {
-    /// Tries a robot in so many worlds of each radius; `variation` has the changes at radius 1.
+    /// `variation` has the changes at radius 1.
     pub fn of(simulator: &Simulator, robot: &'a Robot, variation: Variation, worlds: u32, seed: u64) -> Self {
         let found = safe_radius(simulator, robot, &WorldSample { variation, seed }, worlds);
         let sample = |of: &SafeRadius| (of.vary.clone(), of.worlds, of.seed);

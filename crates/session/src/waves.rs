@@ -1,20 +1,17 @@
 //! Circuits as wave machines: which machine is made of a circuit, and the steps that the rows of a test are.
 
 use crate::mapping::Mapping;
-use crate::wording::{ChoiceError, WaveRowError};
+use crate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CircuitTest, Library, TestRow, WaveTimes};
 use nbc_circuit::waves::{ClockStep, WaveMachine, WaveOptions, balance, certify};
 use nbc_circuit::{MapOptions, Netlist, Proof};
 
-/// The beats that are tried if the swarm names none, in cycles.
+/// In cycles, if the swarm names none.
 const BEATS: [u32; 2] = [1, 2];
 
-/// The best wave machine of a circuit for its times, proved: the one whose robots and cycles of a step are the smallest
-/// product.
-///
-/// # Panics
-/// When the machine is not proved to make the steps of the circuit, which is a fault of the compiler.
+/// The proved wave machine of a circuit with the smallest product of robots and cycles of a step. Panics if it does not
+/// make the steps of the circuit, which is a fault of the compiler.
 pub(super) fn map_waves(
     source: Netlist,
     library: &Library,
@@ -32,7 +29,7 @@ pub(super) fn map_waves(
     let weight = |machine: &WaveMachine| (machine.cells() * machine.cycles_per_step(), machine.beat);
     let best = made.into_iter().filter_map(Result::ok).min_by_key(|(_, machine)| weight(machine));
     let error = || errors.into_iter().filter_map(Result::err).next_back().expect("a beat is tried");
-    let (cells, machine) = best.ok_or_else(|| Diagnostic::from(ChoiceError::NoWaves(error())))?;
+    let (cells, machine) = best.ok_or_else(|| wording::no_waves(&error()))?;
     let step = ClockStep::of(&source).expect("a machine was made of its step");
     let method = certify(&step, &machine)
         .unwrap_or_else(|error| panic!("the wave machine of `{}` differs from its source: {error}", source.name));
@@ -43,9 +40,9 @@ pub(super) fn map_waves(
     Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves })
 }
 
-/// The steps of a wave machine that the rows of a test are: the first is before the first edge of the clock, and each
-/// other is one edge. A machine without state makes a step of each row. `clock` is the input that is the clock, and
-/// whether it makes a step when it rises; `step` is the length of a step, if it is known.
+/// The rows of a test as steps of a wave machine: the first before the first edge of the clock, each other one edge. A
+/// machine without state makes a step of each row. `clock` is an input, and whether it makes a step when it rises;
+/// `step` is the length of a step, if known.
 pub(super) fn steps(
     test: &CircuitTest,
     rows: &[TestRow],
@@ -54,7 +51,7 @@ pub(super) fn steps(
 ) -> Result<Vec<TestRow>, Vec<Diagnostic>> {
     let mut faults: Vec<Diagnostic> = Vec::new();
     for row in rows.iter().filter(|row| row.hold.is_some()) {
-        let fault = WaveRowError::Hold { step }.at(row.span);
+        let fault = wording::hold_in_waves(step, row.span);
         if !faults.contains(&fault) {
             faults.push(fault);
         }
@@ -62,7 +59,6 @@ pub(super) fn steps(
     let Some((clock, rises)) = clock else {
         return if faults.is_empty() { Ok(rows.to_vec()) } else { Err(faults) };
     };
-    let name = || test.input_bits()[clock].clone();
     let mut steps: Vec<TestRow> = Vec::new();
     let mut before = None;
     for row in rows {
@@ -71,7 +67,7 @@ pub(super) fn steps(
         match before.replace(level) {
             Some(false) if level => steps.push(row.clone()),
             None => steps.push(row.clone()),
-            _ if is_checked => faults.push(WaveRowError::NoEdge { clock: name(), rises }.at(row.span)),
+            _ if is_checked => faults.push(wording::no_edge(&test.input_bits()[clock], rises, row.span)),
             _ => {}
         }
     }

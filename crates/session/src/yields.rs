@@ -7,27 +7,22 @@ use nbc_swarm::{Robustness, TestVerdict, WorldSample, WorldTrial};
 /// A test in a sample of worlds.
 #[derive(Clone, Debug)]
 pub struct Experiment<'c> {
-    /// The test, in physics.
     pub case: &'c TestCase,
-    /// How much the worlds vary.
     pub variation: Variation,
     /// The factor of the requested variation.
     pub scale: f64,
 }
 
-/// Experiments, each in the same number of worlds. The runs do not depend on each other, so a door makes them in any
-/// order, on any threads, and passes their results to [`YieldTally::tell`] in order.
+/// Experiments in the same number of worlds. The runs do not depend on each other; [`YieldTally::tell`] takes their
+/// results in order.
 #[derive(Clone, Debug)]
 pub struct Yields<'c> {
-    /// The experiments.
     pub experiments: Vec<Experiment<'c>>,
-    /// The number of worlds.
     pub worlds: usize,
-    /// The seed of the worlds.
     pub seed: u64,
 }
 
-/// A run: the numbers of an experiment and of a world.
+/// The numbers of an experiment and of a world.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorldRun {
     experiment: usize,
@@ -55,7 +50,7 @@ impl<'c> Yields<'c> {
         Self { experiments, worlds, seed }
     }
 
-    /// The runs, in the order of their experiments and worlds.
+    /// In the order of their experiments and worlds.
     pub fn runs(&self) -> Vec<WorldRun> {
         let worlds = |experiment: usize| (0..self.worlds).map(move |world| WorldRun { experiment, world });
         (0..self.experiments.len()).flat_map(worlds).collect()
@@ -67,7 +62,6 @@ impl<'c> Yields<'c> {
         work * self.worlds as u64
     }
 
-    /// The sums of results, of which there are none yet.
     pub fn tally(&self) -> YieldTally<'_> {
         YieldTally { yields: self, trials: Vec::new(), done: 0 }
     }
@@ -77,14 +71,13 @@ impl<'c> Yields<'c> {
 #[derive(Debug)]
 pub struct YieldTally<'y> {
     yields: &'y Yields<'y>,
-    /// Those of the experiment that is not complete.
+    /// Of the experiment that is not complete.
     trials: Vec<WorldTrial>,
-    /// The number of complete experiments.
     done: usize,
 }
 
 impl YieldTally<'_> {
-    /// Takes the result of the next run. Returns the sum of an experiment's results after the last of them.
+    /// Takes the result of the next run. Returns the sum after the last result of an experiment.
     pub fn tell(&mut self, WorldResult { verdict, trial }: WorldResult) -> Option<Robustness> {
         self.trials.push(trial);
         if self.trials.len() < self.yields.worlds {
@@ -98,7 +91,7 @@ impl YieldTally<'_> {
 }
 
 impl Session {
-    /// Makes one of the runs; `None` if the observer cancelled it.
+    /// `None` if the observer cancelled it.
     pub fn run_in_world(&self, yields: &Yields<'_>, run: WorldRun, observer: &mut dyn Observer) -> Option<WorldResult> {
         let Experiment { case, variation, .. } = &yields.experiments[run.experiment];
         let world = WorldSample { variation: *variation, seed: yields.seed }.world(&case.world(), run.world);

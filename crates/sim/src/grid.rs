@@ -4,25 +4,16 @@ use std::collections::BTreeSet;
 
 use nbc_base::model::{Body, MaterialKind, Response};
 
-/// A voxel of a grid.
+/// A voxel. The target width or height of an active one is number `channel` of the targets; the points of a fixed one
+/// never move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GridCell {
-    /// Keeps its shape.
     Rigid,
-    /// Gives way.
     Soft,
-    /// Has a target width or height: number `channel` of the targets.
-    Active {
-        /// The place in the targets.
-        channel: u16,
-        /// Which of its sides get longer and shorter.
-        axis: DriveAxis,
-    },
-    /// Its points never move.
+    Active { channel: u16, axis: DriveAxis },
     Fixed,
 }
 
-/// A direction of actuation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum DriveAxis {
     /// The top and the bottom side are driven.
@@ -49,9 +40,7 @@ const ACROSS: [[isize; 2]; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
 impl Grid {
     /// Evolution Gym's codes, row by row from the top: 0 empty, 1 rigid, 2 soft, 3 horizontal actuator, 4 vertical
     /// actuator, 5 fixed. The actuators' channels are their places in reading order. All neighbors are joined.
-    ///
-    /// # Panics
-    /// When the number of codes is not `width * height`, or a code is above 5.
+    /// Panics when the number of codes is not `width * height`, or a code is above 5.
     pub fn structure(width: usize, height: usize, codes: &[u8]) -> Self {
         assert_eq!(codes.len(), width * height, "a grid has a code for each place");
         let mut channels = 0;
@@ -78,17 +67,14 @@ impl Grid {
         self
     }
 
-    /// The number of columns.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// The number of rows.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// The number of targets that its actuators have.
     pub fn channels(&self) -> usize {
         self.channels
     }
@@ -110,17 +96,14 @@ impl Grid {
         !self.apart.contains(&[ends[0].min(ends[1]), ends[0].max(ends[1])])
     }
 
-    /// The code of a place inside the grid.
     pub fn code(&self, row: usize, column: usize) -> u8 {
         self.codes[row * self.width + column]
     }
 
-    /// Whether any voxel is active.
     pub fn is_active(&self) -> bool {
         self.cells.iter().any(|cell| matches!(cell, Some(GridCell::Active { .. })))
     }
 
-    /// Whether all voxels are fixed.
     pub fn is_fixed(&self) -> bool {
         self.cells.iter().flatten().all(|cell| *cell == GridCell::Fixed)
     }

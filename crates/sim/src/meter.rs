@@ -5,14 +5,11 @@ use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-/// A part of the work of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Part {
-    /// Springs and the integrator: four stages.
     Springs,
     /// Contact with the ground and with the robot itself, and the instability test.
     Contact,
-    /// The length limits of springs and of rigid voxels.
     Limits,
     /// Between env steps: stimuli, centers of mass, loading and unloading lanes.
     Bookkeeping,
@@ -21,13 +18,10 @@ pub enum Part {
 }
 
 impl Part {
-    /// All parts, in the order of [`Times::nanoseconds`].
     pub const ALL: [Self; 5] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping, Self::Device];
 
-    /// The parts of this processor's work.
     pub const OF_LANES: [Self; 4] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping];
 
-    /// Its name in tables and in JSON.
     pub fn name(self) -> &'static str {
         match self {
             Self::Springs => "springs",
@@ -39,7 +33,6 @@ impl Part {
     }
 }
 
-/// The time that simulations took so far, of all threads together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Times {
     /// Nanoseconds of each part, in order of [`Part::ALL`].
@@ -48,7 +41,6 @@ pub struct Times {
     pub lane_substeps: u64,
 }
 
-/// Adds up the time of simulations on all threads.
 pub struct Meter {
     clock: Box<dyn Fn() -> u64 + Send + Sync>,
     nanoseconds: [AtomicU64; Part::ALL.len()],
@@ -61,7 +53,6 @@ impl Meter {
         Self { clock: Box::new(clock), nanoseconds: Default::default(), lane_substeps: AtomicU64::new(0) }
     }
 
-    /// The times of all simulations so far.
     pub fn times(&self) -> Times {
         let nanoseconds = Part::ALL.map(|part| self.nanoseconds[part as usize].load(Ordering::Relaxed));
         Times { nanoseconds, lane_substeps: self.lane_substeps.load(Ordering::Relaxed) }
@@ -83,7 +74,6 @@ pub struct Stopwatch {
 }
 
 impl Stopwatch {
-    /// A watch at zero.
     pub fn new(meter: &Arc<Meter>) -> Self {
         Self { meter: Arc::clone(meter), last: (meter.clock)(), times: Times::default() }
     }
@@ -113,7 +103,6 @@ impl Stopwatch {
         self.lap(Part::Device, 0);
     }
 
-    /// Adds the counted times to the meter.
     fn report(&mut self) {
         let Times { nanoseconds, lane_substeps } = std::mem::take(&mut self.times);
         for (total, time) in self.meter.nanoseconds.iter().zip(nanoseconds) {

@@ -13,7 +13,6 @@ pub struct Monitor {
 }
 
 impl Monitor {
-    /// A monitor that ends the simulations when the flag is raised.
     pub fn until(stop: CancelFlag) -> Self {
         Self { env_steps: AtomicU64::new(0), stop }
     }
@@ -29,12 +28,10 @@ impl Monitor {
         self.stop.raise();
     }
 
-    /// Whether the simulations are to end.
     pub fn is_stopped(&self) -> bool {
         self.stop.is_raised()
     }
 
-    /// Counts an env step of that many robots.
     pub(super) fn count(&self, robots: usize) {
         self.env_steps.fetch_add(robots as u64, Ordering::Relaxed);
     }

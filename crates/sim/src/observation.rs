@@ -10,18 +10,15 @@ use crate::state::State;
 pub struct ObjectCenter {
     /// The center of mass, in voxels.
     pub place: [f64; 2],
-    /// The mean of the places in meters.
     pub place_in_meters: [f64; 2],
     /// The mean velocity, in voxels per second.
     pub velocity: [f64; 2],
-    /// The mean of the velocities in meters per second.
     pub velocity_in_meters: [f64; 2],
 }
 
 /// Columns of terrain around the center of mass of an object, each as wide as a voxel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
-    /// The number of columns to the left of that in the middle, and to the right.
     pub columns: usize,
     /// The farthest that is seen, in voxels.
     pub reach: f64,
@@ -30,7 +27,6 @@ pub struct Sight {
 }
 
 impl Scene {
-    /// The means over an object's points in a state of the scene.
     pub fn center(&self, object: usize, state: &State, constants: &Constants) -> ObjectCenter {
         let (places, velocities) =
             (self.positions(object, state, constants), self.velocities(object, state, constants));
@@ -123,7 +119,6 @@ fn hull_area(points: &[[f64; 2]]) -> f64 {
     hull.iter().zip(following).fold(0.0, |sum, (a, b)| sum + (a[0] * b[1] - b[0] * a[1])) / 2.0
 }
 
-/// Whether the way over three points turns to the left.
 fn turns_left(a: [f64; 2], b: [f64; 2], c: [f64; 2]) -> bool {
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]) > 0.0
 }

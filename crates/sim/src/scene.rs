@@ -9,10 +9,8 @@ use crate::lattice::{CORNERS, Lattice, corner};
 use crate::state::State;
 use crate::terrain::Terrain;
 
-/// An object at its start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SceneObject {
-    /// Its voxels.
     pub grid: Grid,
     /// The column and the row of its lower left corner, in voxels from the lower left corner of the world.
     pub at: [usize; 2],
@@ -27,16 +25,12 @@ pub struct Scene {
     objects: Vec<Placed>,
 }
 
-/// Where the points and targets of an object are.
 #[derive(Clone, Debug)]
 enum Placed {
-    /// In the lattice of what moves.
     Moving { points: Range<usize>, channels: Range<usize> },
-    /// They stay where they are.
     Still(Still),
 }
 
-/// Points that never move.
 #[derive(Clone, Debug)]
 struct Still {
     /// In meters, in order of creation.
@@ -46,8 +40,8 @@ struct Still {
     voxels: Vec<[usize; CORNERS]>,
 }
 
-/// Evolution Gym's π, the cosine that it takes for those above 1, and the product of two distances from the center of
-/// mass, in square meters, below which it takes that, too.
+/// Evolution Gym's constants: π, the cosine that it uses instead of values above 1, and the product of two distances
+/// from the center of mass, in square meters, below which it uses that cosine, too.
 #[allow(clippy::approx_constant, reason = "Evolution Gym's number")]
 const PI: f64 = 3.1415926;
 const ALMOST: f64 = 0.99999;
@@ -76,9 +70,7 @@ fn arms(points: &[[f64; 2]]) -> Vec<([f64; 2], f64)> {
 impl Scene {
     /// The scene of these objects. In sums, objects without actuators come before robots, and objects of each kind in
     /// their order here.
-    ///
-    /// # Panics
-    /// When no object moves.
+    /// Panics when no object moves.
     pub fn new(objects: &[SceneObject], constants: &Constants) -> Self {
         let (still, mut moving): (Vec<usize>, Vec<usize>) =
             (0..objects.len()).partition(|&n| objects[n].grid.is_fixed());
@@ -92,7 +84,7 @@ impl Scene {
             let part = lattice.part_of(at.row);
             let object = &objects[moving[part]];
             let origin = object.at.map(|axis| axis as f64);
-            corner(origin, object.grid.height(), at.column, at.row - lattice.parts()[part].top, constants)
+            corner(origin, object.grid.height(), at.column, at.row - lattice.parts[part].top, constants)
         };
         let position: Vec<[f64; 2]> = (0..lattice.points().len()).map(place).collect();
         let start = State { previous: position.clone(), velocity: vec![[0.0; 2]; position.len()], position };
@@ -121,7 +113,6 @@ impl Scene {
         Self { lattice: Arc::new(lattice), terrain: Arc::new(terrain), start, objects }
     }
 
-    /// The number of objects.
     pub fn objects(&self) -> usize {
         self.objects.len()
     }
@@ -134,7 +125,6 @@ impl Scene {
         }
     }
 
-    /// The number of targets.
     pub fn targets(&self) -> usize {
         (0..self.objects()).map(|object| self.channels(object).end).max().unwrap_or(0)
     }
@@ -200,6 +190,6 @@ impl Scene {
 
     /// The parts that must agree in scenes whose robots share the lanes of a kernel: their first rows.
     pub(crate) fn tops(&self) -> Vec<usize> {
-        self.lattice.parts().iter().map(|part| part.top).collect()
+        self.lattice.parts.iter().map(|part| part.top).collect()
     }
 }

@@ -17,18 +17,14 @@ pub struct Signals {
 /// The target of a channel, as a fraction of the rest width.
 #[derive(Clone, Copy, Debug)]
 enum Signal {
-    /// Nothing drives it.
     Still,
-    /// A sample for each env step of the period.
     Periodic { drive: Drive, clip: [f64; 2] },
-    /// By the value of a stimulus.
     Sensed(Response),
-    /// By the value of an image over a place in a box: row and column, height and width.
+    // By the value of an image over a place in a box: row and column, height and width.
     Seen { response: Response, place: [usize; 2], size: [usize; 2] },
 }
 
 impl Signals {
-    /// The signals of a palette's materials, sampled and clipped.
     pub fn new(palette: &Palette, constants: &Constants) -> Self {
         let signal = |kind| match kind {
             MaterialKind::Rigid | MaterialKind::Soft => Signal::Still,
@@ -66,7 +62,6 @@ impl Signals {
         }
     }
 
-    /// The number of channels.
     #[cfg(feature = "gpu")]
     pub(crate) fn channels(&self) -> usize {
         self.signals.len()
@@ -78,13 +73,11 @@ impl Signals {
         self.signals.iter().any(|signal| matches!(signal, Signal::Seen { .. }))
     }
 
-    /// The targets of all channels.
     pub fn targets<'a>(&'a self, env_step: u32, spell: &'a Spell) -> impl Iterator<Item = f64> + 'a {
         (0..self.signals.len()).map(move |channel| self.target(channel, env_step, spell))
     }
 }
 
-/// A response with the widths that a voxel can have.
 fn clipped(response: Response, constants: &Constants) -> Response {
     let clip = |target: f64| target.clamp(constants.least_target, constants.greatest_target);
     Response { absent: clip(response.absent), present: clip(response.present), ..response }

@@ -20,7 +20,6 @@ impl Default for Simulator {
 }
 
 impl Simulator {
-    /// Simulation by a back end.
     pub fn new(backend: impl Backend + 'static) -> Self {
         Self { backend: Arc::new(backend) }
     }

@@ -11,13 +11,12 @@ use nbc_base::model::GroundProfile;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terrain {
     /// Those at a surface, by object and then in reading order.
-    voxels: Vec<TerrainVoxel>,
+    pub voxels: Vec<TerrainVoxel>,
     columns: usize,
     /// For each cell row by row from below, the number of its voxel plus one, or zero.
     cells: Vec<u32>,
 }
 
-/// A fixed voxel with a side at the surface of its object.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TerrainVoxel {
     /// Top left, top right, bottom right, bottom left, in meters.
@@ -60,11 +59,6 @@ impl Terrain {
         Self::new([(&Grid::structure(columns, rows, &codes), [0, 0])], constants)
     }
 
-    /// The fixed voxels at a surface.
-    pub fn voxels(&self) -> &[TerrainVoxel] {
-        &self.voxels
-    }
-
     /// Calls `found` with the number of each voxel in a cell that overlaps a box in meters, row by row from below.
     pub fn each_near(&self, least: [f64; 2], greatest: [f64; 2], cell: f64, mut found: impl FnMut(usize)) {
         if self.columns == 0 {
@@ -87,7 +81,6 @@ impl Terrain {
     }
 }
 
-/// The corners of a voxel of an object, rounded as in docs/physics.md 2.
 fn corners(
     grid: &Grid,
     [left, bottom]: [usize; 2],
@@ -118,7 +111,7 @@ mod tests {
         assert_eq!(near([0.05, 0.05], [0.15, 0.25]), [0, 1]);
         assert_eq!(near([-9.0, -9.0], [9.0, 9.0]), [0, 1, 2, 4, 5, 3]);
         assert_eq!(near([f64::NAN; 2], [f64::NAN; 2]), [0usize; 0]);
-        let tower = terrain.voxels()[3];
+        let tower = terrain.voxels[3];
         assert_eq!((tower.surface, tower.corners[0].y), ([true, true, false, true], (0.1 + 2.0 * 0.1) - 0.0));
     }
 }

@@ -13,7 +13,6 @@ pub fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_with(path, |out| out.write_all(bytes))
 }
 
-/// Writes a file as [`write()`] does.
 pub fn write_file(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
     write(path, bytes).map_err(|error| Diagnostic::unwritable(path, &error))
 }
@@ -53,7 +52,6 @@ pub(super) fn replace(target: &Path, content: impl FnOnce(&mut dyn Write) -> io:
     if cfg!(windows) { Ok(()) } else { fs::File::open(&folder)?.sync_all() }
 }
 
-/// Creates a folder and its parents.
 pub fn create_folder(path: &Path) -> io::Result<()> {
     fs::create_dir_all(path)
 }

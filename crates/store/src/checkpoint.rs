@@ -4,18 +4,15 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use crate::declared::Declared;
 use crate::disk::read;
-use crate::first_checkpoint::FirstRecord;
 use crate::search_state::SearchRecord as StateRecord;
-use crate::wording::{CheckpointError, StateError};
+use crate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Evolution;
 use nbc_base::source::FileError;
 use nbc_swarm::evolve::{Search, SearchState};
 
-/// The checkpoint version that this program writes; it also reads earlier ones.
 const FORMAT: &str = "2";
 /// The first bytes of checkpoints of any version.
 const MAGIC: &str = "nbc-checkpoint";
@@ -23,11 +20,8 @@ const MAGIC: &str = "nbc-checkpoint";
 /// The contents of a checkpoint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Checkpoint {
-    /// The version of the program that wrote it.
     pub version: String,
-    /// The declaration of its run.
-    pub declared: Declared,
-    /// The search.
+    pub declared: Evolution,
     pub state: SearchState,
     /// Env steps simulated so far.
     pub env_steps: u64,
@@ -69,35 +63,29 @@ impl Checkpoint {
         }
     }
 
-    /// Reads the bytes of a checkpoint file called `name`.
     pub fn read(name: &str, bytes: &[u8]) -> Result<Self, Diagnostic> {
-        Self::read_bytes(bytes).map_err(|error| error.of(name))
-    }
-
-    fn read_bytes(bytes: &[u8]) -> Result<Self, CheckpointError> {
-        let (format, text) = unframed(MAGIC, bytes)?;
-        let read = match format {
-            "1" => read_first,
-            FORMAT => read_record,
-            _ => return Err(CheckpointError::Format { found: format.to_owned(), expected: FORMAT }),
-        };
-        let text = text?;
-        read(text).map_err(CheckpointError::Unreadable)
+        let text = unframed(name, MAGIC, FORMAT, bytes)?;
+        let unreadable = |words: String| wording::unreadable_state(name, &words);
+        let record: Record = serde_json::from_slice(text).map_err(|error| unreadable(error.to_string()))?;
+        let Record { version, evolution: declared, state, env_steps, left_out } = record;
+        let state = state.into_state(&declared).map_err(unreadable)?;
+        Ok(Self { version, declared, state, env_steps, left_out })
     }
 
     /// The search as it was, for the declaration it was made by.
     pub fn resume(self, name: &str, evolution: &Evolution, seed: u64) -> Result<Search, Diagnostic> {
-        let declared = || evolution.name.clone();
-        let error = if self.state.seed != seed {
-            CheckpointError::OtherSeed { found: self.state.seed, expected: seed }
-        } else if !self.declared.fits(evolution) {
-            CheckpointError::Changed { evolution: declared() }
-        } else if !self.state.fits(evolution) {
-            CheckpointError::OtherEvolution { evolution: declared() }
-        } else {
-            return Ok(Search::resume(evolution, self.state));
-        };
-        Err(error.of(name))
+        if self.state.seed != seed {
+            return Err(wording::other_seed(name, self.state.seed, seed));
+        }
+        // Name, seeds and number of generations do not change what fills the archive.
+        let Evolution { name: declared, generations, seeds, .. } = evolution.clone();
+        if (Evolution { name: declared, generations, seeds, ..self.declared }) != *evolution {
+            return Err(wording::changed(name, &evolution.name));
+        }
+        if !self.state.fits(evolution) {
+            return Err(wording::other_evolution(name, &evolution.name));
+        }
+        Ok(Search::resume(evolution, self.state))
     }
 }
 
@@ -106,45 +94,27 @@ pub(super) fn framed(magic: &str, format: &str, text: &str) -> Vec<u8> {
     format!("{magic} {format} {:08x} {}\n{text}\n", crc32fast::hash(text.as_bytes()), text.len()).into_bytes()
 }
 
-/// The format of a file with such a header, and its text, or that it is damaged.
-pub(super) fn unframed<'b>(
-    magic: &str,
-    bytes: &'b [u8],
-) -> Result<(&'b str, Result<&'b [u8], CheckpointError>), CheckpointError> {
-    let none = CheckpointError::NotACheckpoint;
-    let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n');
-    let Some((header, rest)) = end.map(|end| (&bytes[..end], &bytes[end + 1..])) else { return Err(none) };
-    let Ok(header) = std::str::from_utf8(header) else { return Err(none) };
-    let words: Vec<&'b str> = header.split(' ').collect();
-    let [kind, format, checksum, length] = words[..] else { return Err(none) };
-    if kind != magic {
-        return Err(none);
+/// The text of a file with such a header.
+pub(super) fn unframed<'b>(name: &str, magic: &str, format: &str, bytes: &'b [u8]) -> Result<&'b [u8], Diagnostic> {
+    let end = bytes.iter().take(MAX_HEADER).position(|&byte| byte == b'\n').unwrap_or(0);
+    let words: Vec<&[u8]> = bytes[..end].split(|&byte| byte == b' ').collect();
+    let [kind, found, checksum, length] = words[..] else { return Err(wording::not_a_checkpoint(name)) };
+    if kind != magic.as_bytes() {
+        return Err(wording::not_a_checkpoint(name));
     }
-    let text = length.parse().ok().and_then(|length: usize| rest.get(..length));
-    let whole =
-        text.filter(|text| rest[text.len()..] == *b"\n" && format!("{:08x}", crc32fast::hash(text)) == checksum);
-    Ok((format, whole.ok_or(CheckpointError::Damaged)))
+    if found != format.as_bytes() {
+        return Err(wording::checkpoint_format(name, &String::from_utf8_lossy(found), format));
+    }
+    let rest = &bytes[end + 1..];
+    let length = str::from_utf8(length).ok().and_then(|length| length.parse().ok());
+    let text = length.and_then(|length: usize| rest.get(..length));
+    let is_whole =
+        |text: &&[u8]| rest[text.len()..] == *b"\n" && format!("{:08x}", crc32fast::hash(text)).as_bytes() == checksum;
+    text.filter(is_whole).ok_or_else(|| wording::damaged(name))
 }
 
 /// The longest header in bytes, so that a large file that is not a checkpoint is rejected at once.
 const MAX_HEADER: usize = 100;
-
-/// Reads the part after the header of format 1.
-fn read_first(text: &[u8]) -> Result<Checkpoint, StateError> {
-    let record: FirstRecord = serde_json::from_slice(text)?;
-    let declared = record.declared().ok_or(StateError::NoMaterials)?;
-    let FirstRecord { version, state, env_steps, left_out, .. } = record;
-    let state = state.into_state(&declared)?;
-    Ok(Checkpoint { version, declared, state, env_steps, left_out })
-}
-
-/// Reads the part after the header of format 2.
-fn read_record(text: &[u8]) -> Result<Checkpoint, StateError> {
-    let Record { version, evolution, state, env_steps, left_out } = serde_json::from_slice(text)?;
-    let declared = Declared::of(evolution);
-    let state = state.into_state(&declared)?;
-    Ok(Checkpoint { version, declared, state, env_steps, left_out })
-}
 
 #[cfg(test)]
 mod tests {

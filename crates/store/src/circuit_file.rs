@@ -3,8 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::verilog::{self, TopModule, WantedModules};
-use crate::wording::StoreError;
-use crate::{DiskWorld, disk};
+use crate::{DiskWorld, disk, wording};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::source::{FileError, FileId, ProofOrigin, Sources, VerilogPlace};
@@ -16,22 +15,18 @@ use nbc_lang::syntax;
 /// A circuit file to be read.
 #[derive(Clone, Copy, Debug)]
 pub struct CircuitFile<'a> {
-    /// Its path.
     pub path: &'a Path,
     /// Other files of the same design, of Verilog.
     pub others: &'a [PathBuf],
     /// The clock of registers for which the file names none.
     pub clock: Option<&'a str>,
-    /// The module or model to read.
     pub top: &'a TopModule,
 }
 
 /// A circuit that was read.
 #[derive(Clone, Debug)]
 pub struct CircuitRead {
-    /// The circuit.
     pub design: Design,
-    /// Warnings about it.
     pub warnings: Diagnostics,
     /// What a proof of it begins with.
     pub origin: ProofOrigin,
@@ -47,13 +42,12 @@ impl CircuitRead {
 pub fn read_model(path: &Path) -> Result<AigerModel, Diagnostics> {
     let file = path.display().to_string();
     if CircuitSource::of_path(&file) != Some(CircuitSource::Aiger) {
-        return Err(Diagnostic::from(StoreError::NoModel { file }).into());
+        return Err(wording::no_model(&file).into());
     }
     let bytes = disk::read(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))?;
     Ok(AigerModel::read(&bytes)?)
 }
 
-/// Reads a circuit.
 pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let read = read(from)?;
     if read.design.outputs() > 0 {
@@ -69,8 +63,7 @@ pub fn read_circuit(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> 
         let line = file.text.lines().position(declares)? + 1;
         Some(VerilogPlace { file: file.name.as_str().into(), line, columns: None })
     });
-    let fault = Diagnostic::from(StoreError::NoOutputs { circuit: circuit.clone() });
-    let list = vec![fault.at_verilog(&files, place.as_ref())];
+    let list = vec![wording::no_outputs(&circuit).at_verilog(&files, place.as_ref())];
     Err(Diagnostics { list, sources: read.warnings.sources })
 }
 
@@ -80,14 +73,14 @@ fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let format = CircuitSource::of_path(&name);
     let has_modules = matches!(format, Some(CircuitSource::Verilog | CircuitSource::Blif));
     if format.is_some() && top.name.is_some() && !has_modules {
-        return Err(Diagnostic::from(StoreError::NoModules { file: name }).into());
+        return Err(wording::no_modules(&name).into());
     }
     if format.is_some() && !top.parameters.is_empty() && format != Some(CircuitSource::Verilog) {
-        return Err(Diagnostic::from(StoreError::NoParameters { file: name }).into());
+        return Err(wording::no_parameters(&name).into());
     }
     let is_verilog = |path: &PathBuf| CircuitSource::of_path(&path.to_string_lossy()) == Some(CircuitSource::Verilog);
     if !others.is_empty() && (format != Some(CircuitSource::Verilog) || !others.iter().all(is_verilog)) {
-        return Err(Diagnostic::from(StoreError::SeveralFiles).into());
+        return Err(wording::several_files().into());
     }
     let design = match format {
         Some(CircuitSource::Aiger) => {
@@ -107,7 +100,7 @@ fn read(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
             without_effect(&name, clock)?;
             return verilog_top(from);
         }
-        None => return Err(Diagnostic::from(StoreError::CircuitFormat { file: name }).into()),
+        None => return Err(wording::circuit_format(&name).into()),
     };
     if design.registers.is_empty() {
         without_effect(&name, clock)?;
@@ -129,11 +122,9 @@ fn blif(name: String, text: String, from: &CircuitFile<'_>) -> Result<CircuitRea
 
 /// Rejects a clock that no register of a file is for.
 fn without_effect(file: &str, clock: Option<&str>) -> Result<(), Diagnostics> {
-    let unused = |clock: &str| StoreError::NoUnclocked { file: file.to_owned(), clock: clock.to_owned() };
-    clock.map_or(Ok(()), |clock| Err(Diagnostic::from(unused(clock)).into()))
+    clock.map_or(Ok(()), |clock| Err(wording::no_unclocked(file, clock).into()))
 }
 
-/// The top module of Verilog files.
 fn verilog_top(from: &CircuitFile<'_>) -> Result<CircuitRead, Diagnostics> {
     let mut sources = Sources::default();
     for path in std::iter::once(from.path).chain(from.others.iter().map(PathBuf::as_path)) {
@@ -187,7 +178,7 @@ pub fn read_rows(path: &Path) -> Result<(Sources, FileId), Diagnostics> {
 /// A program of ours as the formatter writes it, unless it is too large to be read again.
 fn canonical(text: String) -> Result<String, Diagnostic> {
     if Limit::SourceBytes.permit(text.len() as u64).is_err() {
-        return Err(StoreError::NbTooLarge { bytes: text.len(), most: Limit::SourceBytes.most() }.into());
+        return Err(wording::nb_too_large(text.len()));
     }
     let mut sources = Sources::default();
     let file = sources.add("the circuit as a .nb file", text);
@@ -204,7 +195,6 @@ fn text(path: &Path) -> Result<String, Diagnostics> {
     disk::read_text(path, Limit::CircuitFileBytes.most()).map_err(|error| unreadable(path, &error))
 }
 
-/// Reads a text under a name for messages.
 fn parse(
     name: String,
     text: String,

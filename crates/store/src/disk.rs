@@ -35,13 +35,11 @@ fn up_to(limit: u64, file: impl Read) -> Result<Vec<u8>, FileError> {
     if bytes.len() as u64 > limit { Err(FileError::TooLarge { limit }) } else { Ok(bytes) }
 }
 
-/// Like [`read`], for text.
 pub fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     let bytes = read(path, limit)?;
     String::from_utf8(bytes).map_err(|error| FileError::NotText { offset: error.utf8_error().valid_up_to() })
 }
 
-/// The error of the system.
 pub(super) fn refusal(error: &std::io::Error) -> FileError {
     match error.kind() {
         std::io::ErrorKind::NotFound => FileError::NotFound,
@@ -67,12 +65,10 @@ fn kind(of: FileType) -> &'static str {
     if of.is_dir() { "a folder" } else { "a special file" }
 }
 
-/// The text of a source.
 pub(super) fn source(path: &Path) -> Result<String, FileError> {
     read_text(path, Limit::SourceBytes.most())
 }
 
-/// The bytes of a source.
 pub(super) fn source_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     read(path, Limit::SourceBytes.most())
 }
@@ -89,7 +85,6 @@ pub(super) fn list(folder: &Path) -> Result<Vec<String>, FileError> {
     Ok(names)
 }
 
-/// What is at a path.
 pub(super) fn entry_kind(path: &Path) -> Option<EntryKind> {
     let about = fs::metadata(path).ok()?;
     Some(if about.is_dir() { EntryKind::Folder } else { EntryKind::File })

@@ -13,9 +13,7 @@ const NAMES_OF_OPEN_FILES: &str = "/proc/self/fd";
 /// A new file in a folder. If the system supports unnamed files it has no name, so nothing is left behind however the
 /// program ends. Elsewhere it is removed when dropped.
 pub(super) enum DraftFile {
-    /// A file without a name.
     Unnamed(File),
-    /// A file with a name of its own.
     Named(NamedTempFile),
 }
 
@@ -93,7 +91,6 @@ fn link(_: &File, _: &Path) -> io::Result<()> {
     Err(io::Error::from(io::ErrorKind::Unsupported))
 }
 
-/// Copies the owner and the mode of the replaced file.
 pub(super) fn keep_owner_and_mode(file: &File, before: &fs::Metadata) -> io::Result<()> {
     #[cfg(unix)]
     {

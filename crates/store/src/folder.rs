@@ -18,7 +18,6 @@ pub struct FolderWorld {
 }
 
 impl FolderWorld {
-    /// The files below `root`.
     pub fn new(root: &Path) -> io::Result<Self> {
         let root = fs::canonicalize(root)?;
         if root.is_dir() { Ok(Self { root }) } else { Err(io::ErrorKind::NotADirectory.into()) }
@@ -29,7 +28,6 @@ impl FolderWorld {
         &self.root
     }
 
-    /// The place of an existing file or folder.
     pub fn existing(&self, path: &str) -> Result<PathBuf, FileError> {
         let mut place = self.root.clone();
         // Part by part, because what is beyond a link that leads out must not even be looked for.

@@ -27,7 +27,6 @@ impl<W> GuardedWorld<W> {
         Self { world, cancel: Arc::new(cancel) }
     }
 
-    /// The same files. Translations and checks end when the flag is raised.
     pub fn until(world: W, cancel: CancelFlag) -> Self {
         Self::new(world, move || cancel.clone())
     }

@@ -8,15 +8,11 @@ mod checkpoint;
 #[cfg(feature = "disk")]
 mod circuit_file;
 #[cfg(feature = "disk")]
-mod declared;
-#[cfg(feature = "disk")]
 mod disk;
 #[cfg(feature = "disk")]
 mod disk_world;
 #[cfg(feature = "disk")]
 mod draft;
-#[cfg(feature = "disk")]
-mod first_checkpoint;
 #[cfg(feature = "disk")]
 mod folder;
 #[cfg(feature = "disk")]
@@ -42,35 +38,23 @@ mod verilog;
 mod wording;
 mod yaml;
 
-#[cfg(feature = "disk")]
-pub use atomic::{create_folder, write, write_file, write_with};
-#[cfg(feature = "disk")]
-pub use checkpoint::Checkpoint;
-#[cfg(feature = "disk")]
-pub use circuit_file::{CircuitFile, CircuitRead, encode_circuit, read_circuit, read_model, read_rows, with_comment};
-#[cfg(feature = "disk")]
-pub use declared::Declared;
-#[cfg(feature = "disk")]
-pub use disk::{read, read_text};
-#[cfg(feature = "disk")]
-pub use disk_world::DiskWorld;
-#[cfg(feature = "disk")]
-pub use folder::FolderWorld;
-#[cfg(feature = "disk")]
-pub use guarded::GuardedWorld;
 pub use library::{best_first, built_in, read_library, shipped_library, three_library};
-#[cfg(feature = "disk")]
-pub use lock::{FolderLock, LockFault, lock_folder};
-#[cfg(feature = "disk")]
-pub use results::{ResultPlace, write_result};
 pub use robot::{FORMAT, RobotRecord, print_robot, read_robot};
 pub use shape::read_body;
 pub use soundness::is_robot_name;
 #[cfg(feature = "disk")]
-pub use source_files::source_files;
-#[cfg(feature = "disk")]
-pub use swarm_checkpoint::SwarmCheckpoint;
-#[cfg(feature = "disk")]
-pub use temporary::{PrivateFile, temporary_folder};
-#[cfg(feature = "disk")]
-pub use verilog::{ParameterValue, TopModule};
+pub use {
+    atomic::{create_folder, write, write_file, write_with},
+    checkpoint::Checkpoint,
+    circuit_file::{CircuitFile, CircuitRead, encode_circuit, read_circuit, read_model, read_rows, with_comment},
+    disk::{read, read_text},
+    disk_world::DiskWorld,
+    folder::FolderWorld,
+    guarded::GuardedWorld,
+    lock::{FolderLock, LockFault, lock_folder},
+    results::{ResultPlace, write_result},
+    source_files::source_files,
+    swarm_checkpoint::SwarmCheckpoint,
+    temporary::{PrivateFile, temporary_folder},
+    verilog::{ParameterValue, TopModule},
+};

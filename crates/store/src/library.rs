@@ -4,8 +4,7 @@ use std::collections::BTreeSet;
 
 use include_dir::{Dir, include_dir};
 
-use crate::read_robot;
-use crate::wording::LibraryError;
+use crate::{read_robot, wording};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Library, Robot};
 use nbc_base::source::{SourceWorld, Sources};
@@ -13,7 +12,6 @@ use nbc_base::source::{SourceWorld, Sources};
 const SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/robots");
 const THREE: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/library/three");
 
-/// How the names of robot files end.
 const ENDING: &str = ".yaml";
 
 /// The robots that come with the program, best first within each function; read afresh at each call.
@@ -53,8 +51,7 @@ fn read_built_in(folders: &[&Dir<'_>]) -> Library {
 
 /// The robots of a folder's `.yaml` files, best first within each function.
 pub fn read_library(world: &dyn SourceWorld, folder: &str) -> Result<Library, Vec<Diagnostic>> {
-    let mut names =
-        world.list(folder).map_err(|error| vec![LibraryError { folder: folder.to_owned(), error }.into()])?;
+    let mut names = world.list(folder).map_err(|error| vec![wording::unreadable_library(folder, &error)])?;
     names.retain(|name| name.ends_with(ENDING));
     let (mut robots, mut faults) = (Vec::new(), Vec::new());
     for name in names {

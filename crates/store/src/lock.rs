@@ -14,7 +14,6 @@ const NAME: &str = "lock";
 #[derive(Debug)]
 pub struct FolderLock(#[expect(dead_code, reason = "the lock lasts as long as the file is open")] File);
 
-/// Why a folder cannot be locked.
 #[derive(Debug)]
 pub enum LockFault {
     /// Another process has the lock.
@@ -22,7 +21,6 @@ pub enum LockFault {
         /// Its number, if already written.
         process: Option<u32>,
     },
-    /// The folder or its lock cannot be used.
     Io(io::Error),
 }
 
@@ -43,7 +41,6 @@ pub fn lock_folder(folder: &Path) -> Result<FolderLock, LockFault> {
     Ok(FolderLock(file))
 }
 
-/// The number that the owner wrote into its lock.
 fn holder(file: &mut File) -> Option<u32> {
     let mut text = String::new();
     // Far longer than a number; a longer file was not written by `nbc`.

@@ -25,12 +25,10 @@ impl ResultPlace {
         }
     }
 
-    /// Its path.
     pub fn path(&self) -> PathBuf {
         self.chosen.iter().chain(&self.below).collect()
     }
 
-    /// Makes the folder.
     pub fn create(&self) -> io::Result<PathBuf> {
         self.refuse_links()?;
         let path = self.path();

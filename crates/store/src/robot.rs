@@ -6,13 +6,12 @@ use serde::{Deserialize, Deserializer, Serialize, de::Error};
 use serde_yaml::Value;
 use serde_yaml::with::singleton_map_recursive;
 
-use crate::wording::RobotFileError;
-use crate::{shape, soundness, yaml};
+use crate::{shape, soundness, wording, yaml};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Behavior, Character, Displacements, Genotype, Palette, Provenance, Robot};
 use nbc_base::source::SourceFile;
 
-/// The robot file version that this program writes; it also reads earlier ones.
+/// The version of robot files.
 pub const FORMAT: u32 = 2;
 
 /// A robot as data: the fields of its file, in the order in which they are written.
@@ -45,13 +44,11 @@ struct Version {
     format: u32,
 }
 
-/// A robot as the text of its file.
 pub fn print_robot(robot: &Robot) -> String {
     yaml::print(&RobotRecord::of(robot))
 }
 
 impl RobotRecord {
-    /// A robot as data.
     pub fn of(robot: &Robot) -> Self {
         let robot = robot.clone();
         Self {
@@ -68,12 +65,10 @@ impl RobotRecord {
     }
 }
 
-/// Reads a robot file.
 pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     let version: Version = yaml::read(file)?;
-    if !(1..=FORMAT).contains(&version.format) {
-        let error = RobotFileError::Format { found: version.format, expected: FORMAT };
-        return Err(error.of(&file.name, yaml::key_span(file, "format")));
+    if version.format != FORMAT {
+        return Err(wording::robot_format(file, version.format, FORMAT, yaml::key_span(file, "format")));
     }
     let read: RobotRecord = yaml::read(file)?;
     let palette = read.materials.unwrap_or_else(Palette::paper);
@@ -90,25 +85,10 @@ pub fn read_robot(file: &SourceFile) -> Result<Robot, Diagnostic> {
     Ok(robot)
 }
 
-/// Reads a genotype of any version: format 1 has tags, format 2 has mappings with one key.
+/// Reads mappings with one key, and says in errors where they are.
 fn genotype<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<Genotype>, D::Error> {
-    let value = untagged(Value::deserialize(deserializer)?);
+    let value = Value::deserialize(deserializer)?;
     singleton_map_recursive::deserialize(value).map_err(|error| D::Error::custom(format!("`genotype`: {error}")))
-}
-
-/// The value with a mapping of one key for every tag.
-fn untagged(value: Value) -> Value {
-    match value {
-        Value::Tagged(tagged) => {
-            let tag = tagged.tag.to_string().trim_start_matches('!').to_owned();
-            Value::Mapping([(Value::String(tag), untagged(tagged.value))].into_iter().collect())
-        }
-        Value::Sequence(values) => Value::Sequence(values.into_iter().map(untagged).collect()),
-        Value::Mapping(entries) => {
-            Value::Mapping(entries.into_iter().map(|(key, value)| (key, untagged(value))).collect())
-        }
-        other => other,
-    }
 }
 
 #[cfg(test)]
@@ -118,7 +98,6 @@ pub(crate) mod tests {
     use nbc_base::model::{Body, Drive, Material, MaterialKind, Pattern, Response, SafeRadius, Transition};
     use nbc_base::source::Sources;
 
-    /// A robot with every field filled.
     pub(crate) fn robot() -> Robot {
         let body = Body::parse(&["00345", "33333"], &Palette::paper()).unwrap();
         Robot {
@@ -161,12 +140,18 @@ pub(crate) mod tests {
             .map_err(|fault| (fault.code, fault.message, sources.text(fault.labels[0].span).to_owned()))
     }
 
+    /// The fault of a text with a change, and what stands at its place.
+    fn damage(whole: &str, from: &str, to: &str) -> (Code, String, String) {
+        let damaged = whole.replacen(from, to, 1);
+        assert_ne!(damaged, whole, "{from:?} is in the file");
+        read(&damaged).expect_err(to)
+    }
+
     #[test]
     fn a_robot_reads_back_bit_for_bit() {
         assert_eq!(read(&print_robot(&robot())), Ok(robot()));
     }
 
-    /// A palette with materials of every kind and names that look like other things.
     fn own_palette() -> Arc<Palette> {
         let named = |name: &str, kind| Material { name: name.to_owned(), kind };
         let drive = Drive { period: 84, phase: 1e-7, low: 0.98, high: 1.02 };
@@ -196,9 +181,7 @@ pub(crate) mod tests {
     fn invalid_materials_are_reported_at_their_place() {
         let whole = print_robot(&own_robot());
         let check = |from: &str, to: &str, expected: &str, place: &str| {
-            let damaged = whole.replacen(from, to, 1);
-            assert_ne!(damaged, whole, "{from:?} is in the file");
-            let (_, message, found) = read(&damaged).unwrap_err();
+            let (_, message, found) = damage(&whole, from, to);
             assert!(message.contains(expected), "{message:?} does not say {expected:?}");
             assert_eq!(found, place, "{message}");
         };
@@ -215,9 +198,7 @@ pub(crate) mod tests {
     fn impossible_measurements_are_rejected() {
         let whole = print_robot(&robot());
         let check = |from: &str, to: &str, place: &str| {
-            let damaged = whole.replacen(from, to, 1);
-            assert_ne!(damaged, whole, "{from:?} is in the file");
-            let (code, message, found) = read(&damaged).expect_err(to);
+            let (code, message, found) = damage(&whole, from, to);
             assert_eq!((code, found.as_str()), (Code::RobotFile, place), "{message}");
         };
         check("clock: 4", "clock: 0", "clock");
@@ -234,30 +215,17 @@ pub(crate) mod tests {
     }
 
     #[test]
-    fn format_1_is_read_with_its_tags() {
-        let text = include_str!("../../../tests/golden/robot_1.yaml");
-        assert!(text.starts_with("format: 1\n") && text.contains("!input"));
-        let robot = read(text).unwrap();
-        let printed = print_robot(&robot);
-        assert!(printed.starts_with("format: 2\n") && !printed.contains('!'), "{printed}");
-        assert_eq!(read(&printed), Ok(robot));
-    }
-
-    #[test]
     fn another_version_is_rejected_with_its_number() {
-        let (code, message, place) = read(&print_robot(&robot()).replace("format: 2", "format: 7")).unwrap_err();
-        assert_eq!(code, Code::ForeignFormat);
-        assert_eq!(message, "`a.yaml` is a robot file of format 7, expected format 2");
-        assert_eq!(place, "format");
+        let message = "`a.yaml` is a robot file of format 7, expected format 2".to_owned();
+        let found = damage(&print_robot(&robot()), "format: 2", "format: 7");
+        assert_eq!(found, (Code::ForeignFormat, message, "format".to_owned()));
     }
 
     #[test]
     fn damage_is_reported() {
         let whole = print_robot(&robot());
         let check = |from: &str, to: &str, expected: &str| {
-            let damaged = whole.replace(from, to);
-            assert_ne!(damaged, whole, "{from:?} is in the file");
-            let (_, message, _) = read(&damaged).unwrap_err();
+            let (_, message, _) = damage(&whole, from, to);
             assert!(message.contains(expected), "{message:?} does not say {expected:?}");
         };
         check("behavior: RRRL\n", "", "missing field `behavior`");

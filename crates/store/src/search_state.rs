@@ -4,15 +4,13 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use crate::declared::Declared;
-use crate::wording::StateError;
-use nbc_base::model::{Axis, Behavior, Body, Displacements, Genotype, Palette};
+use crate::wording;
+use nbc_base::model::{Axis, Behavior, Body, Displacements, Evolution, Genotype, Palette};
 use nbc_swarm::evolve::{Counts, Elite, MirrorSource, NicheKey, SearchState};
 
 /// The most bins of an axis that can be declared.
 const MAX_BINS: usize = 1000;
 
-/// A search's state.
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct SearchRecord {
@@ -55,29 +53,28 @@ impl SearchRecord {
         Self { seed, generation, counts, mirrors: networks, mirror_bodies: bodies, niches }
     }
 
-    /// The state of a search by that declaration.
-    pub(super) fn into_state(self, declared: &Declared) -> Result<SearchState, StateError> {
+    pub(super) fn into_state(self, declared: &Evolution) -> Result<SearchState, String> {
         let Self { seed, generation, counts, mirrors, mirror_bodies, niches } = self;
         let bins = declared
-            .axes
+            .descriptors
             .iter()
             .filter_map(|axis| if let Axis::Count { bins, .. } = *axis { Some(bins) } else { None });
         if let Some(bins) = bins.into_iter().find(|bins| !(1..=MAX_BINS).contains(bins)) {
-            return Err(StateError::Bins { bins, most: MAX_BINS });
+            return Err(wording::axis_bins(bins, MAX_BINS));
         }
         let niche = |(key, elites): (NicheKey, Vec<EliteRecord>)| {
-            if !declared.axes.is_empty() && !is_niche(&key, &declared.axes, declared.palette.inputs()) {
-                return Err(StateError::NoNiche { bins: key.0 });
+            if !is_niche(&key, &declared.descriptors, declared.palette.inputs()) {
+                return Err(wording::no_niche(&key.0));
             }
             let elites = elites.into_iter().map(|elite| elite.into_elite(&declared.palette));
             Ok((key, elites.collect::<Result<Vec<_>, _>>()?))
         };
-        let niches = niches.into_iter().map(niche).collect::<Result<_, StateError>>()?;
+        let niches = niches.into_iter().map(niche).collect::<Result<_, String>>()?;
         let body = |rows: Vec<String>| {
-            Body::parse(&rows, &declared.palette).map(MirrorSource::Voxels).map_err(StateError::Body)
+            Body::parse(&rows, &declared.palette).map(MirrorSource::Voxels).map_err(|error| wording::elite_body(&error))
         };
         let networks = mirrors.into_iter().map(|genotype| Ok(MirrorSource::Network(genotype)));
-        let mirrors = networks.chain(mirror_bodies.into_iter().map(body)).collect::<Result<_, StateError>>()?;
+        let mirrors = networks.chain(mirror_bodies.into_iter().map(body)).collect::<Result<_, String>>()?;
         Ok(SearchState { seed, generation, counts, mirrors, niches })
     }
 }
@@ -98,11 +95,11 @@ impl EliteRecord {
         Self { fitness, behavior, displacement, body: body.rows(), genotype, generation, evaluations }
     }
 
-    fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, StateError> {
+    fn into_elite(self, palette: &Arc<Palette>) -> Result<Elite, String> {
         let Self { fitness, behavior, displacement, body, genotype, generation, evaluations } = self;
-        let body = Body::parse(&body, palette).map_err(StateError::Body)?;
+        let body = Body::parse(&body, palette).map_err(|error| wording::elite_body(&error))?;
         if behavior.stimuli() != palette.inputs() || displacement.len() != 1 << palette.inputs() {
-            return Err(StateError::Stimuli { behavior, stimuli: palette.inputs() });
+            return Err(wording::elite_stimuli(behavior, palette.inputs()));
         }
         Ok(Elite { fitness, behavior, displacement, body, genotype, generation, evaluations })
     }

@@ -4,13 +4,11 @@ use std::sync::Arc;
 
 use serde::Deserialize;
 
-use crate::wording::{RobotFileError, with_body_example};
-use crate::yaml;
+use crate::{wording, yaml};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Body, BodyError, Palette};
 use nbc_base::source::{SourceFile, Span};
 
-/// A mapping with a body.
 #[derive(Deserialize)]
 #[serde(expecting = "a mapping with a `body`")]
 struct BodyFile {
@@ -59,23 +57,23 @@ impl Row {
 /// Reads the body of a robot file, or of any YAML or JSON mapping whose `body` is rows of codes, top row first.
 /// `materials` may define the codes.
 pub fn read_body(file: &SourceFile) -> Result<Body, Diagnostic> {
-    let BodyFile { body, materials } = yaml::read(file).map_err(with_body_example)?;
+    let BodyFile { body, materials } = yaml::read(file).map_err(wording::with_body_example)?;
     self::body(file, &body.into_text(), &materials.unwrap_or_else(Palette::paper))
 }
 
 /// The body of these rows, in one piece.
 pub(super) fn body(file: &SourceFile, rows: &[String], palette: &Arc<Palette>) -> Result<Body, Diagnostic> {
-    let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, error))?;
+    let body = Body::parse(rows, palette).map_err(|error| fault(file, rows, &error))?;
     if body.is_connected() {
         return Ok(body);
     }
-    Err(RobotFileError::TwoPieces.of(&file.name, yaml::key_span(file, "body")))
+    Err(wording::two_pieces(file, yaml::key_span(file, "body")))
 }
 
 /// The error of a body, at its row if the row can be found in the text.
-fn fault(file: &SourceFile, rows: &[String], error: BodyError) -> Diagnostic {
+fn fault(file: &SourceFile, rows: &[String], error: &BodyError) -> Diagnostic {
     let body = yaml::key_span(file, "body");
-    let span = match error {
+    let span = match *error {
         BodyError::Empty | BodyError::CodeRange { .. } | BodyError::TooLarge { .. } => body,
         BodyError::Ragged { row, .. } => row_span(file, body, rows, row - 1).unwrap_or(body),
         BodyError::UnknownCode { row, column, .. } => row_span(file, body, rows, row - 1).map_or(body, |span| {
@@ -84,7 +82,7 @@ fn fault(file: &SourceFile, rows: &[String], error: BodyError) -> Diagnostic {
             Span::new(file.id, at(column - 1), at(column))
         }),
     };
-    RobotFileError::Body(error).of(&file.name, span)
+    wording::no_body(file, error, span)
 }
 
 /// The place of row `wanted` in the text, found by walking from row to row after the key; `None` for other notations of

@@ -1,14 +1,12 @@
 //! Checks that the values of a robot file are possible.
 
-use crate::wording::{Flaw, RobotFileError};
-use crate::yaml;
+use crate::{wording, yaml};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Character, Robot, SafeRadius, Variation};
 use nbc_base::source::SourceFile;
 
 /// The longest clock and settle time of a robot, in cycles; the longest that is measured is 13.
 const MAX_CYCLES: u32 = 1000;
-/// The longest name.
 const MAX_NAME: usize = 100;
 
 /// Rejects a robot with values that a measurement cannot give.
@@ -16,17 +14,18 @@ pub(super) fn check(file: &SourceFile, robot: &Robot) -> Result<(), Diagnostic> 
     let flaw =
         words(robot).or_else(|| motion(robot)).or_else(|| character(&robot.character)).or_else(|| weights(robot));
     match flaw {
-        Some(flaw) => {
-            let place = yaml::key_span(file, flaw.field());
-            Err(RobotFileError::Flaw(flaw).of(&file.name, place))
-        }
+        Some((field, flaw)) => Err(wording::unsound(file, &flaw, yaml::key_span(file, field))),
         None => Ok(()),
     }
 }
 
+/// The field with an impossible value, and what is wrong with it.
+type Flaw = (&'static str, String);
+
 fn weights(robot: &Robot) -> Option<Flaw> {
-    let weights = robot.genotype.iter().flat_map(|genotype| &genotype.links).map(|link| link.weight);
-    weights.into_iter().any(|weight| !weight.is_finite()).then_some(Flaw::Weight)
+    let mut links = robot.genotype.iter().flat_map(|genotype| &genotype.links);
+    let is_bad = links.any(|link| !link.weight.is_finite());
+    is_bad.then(|| ("genotype", wording::not_finite("a weight of the network")))
 }
 
 /// Whether a robot can have the name, which is also that of its file.
@@ -38,38 +37,37 @@ pub fn is_robot_name(name: &str) -> bool {
 }
 
 fn words(robot: &Robot) -> Option<Flaw> {
-    let name = &robot.name;
-    if !is_robot_name(name) {
-        return Some(Flaw::Name { name: name.clone(), most: MAX_NAME });
+    if !is_robot_name(&robot.name) {
+        return Some(("name", wording::bad_name(&robot.name, MAX_NAME)));
     }
     let provenance = &robot.provenance;
     let words =
         [("program", &provenance.program), ("version", &provenance.version), ("evolution", &provenance.evolution)];
     let (field, _) = words.into_iter().find(|(_, word)| word.len() > MAX_NAME || word.chars().any(char::is_control))?;
-    Some(Flaw::Provenance { field, most: MAX_NAME })
+    Some((field, wording::bad_provenance(field, MAX_NAME)))
 }
 
 fn motion(robot: &Robot) -> Option<Flaw> {
     let displacement = &robot.displacement;
     if displacement.iter().any(|voxels| !voxels.is_finite()) {
-        return Some(Flaw::Displacement);
+        return Some(("displacement", wording::not_finite("a displacement")));
     }
     let expected = displacement.behavior();
-    (expected != robot.behavior).then_some(Flaw::Behavior { found: robot.behavior, expected })
+    (expected != robot.behavior).then(|| ("behavior", wording::other_behavior(robot.behavior, expected)))
 }
 
 fn character(character: &Character) -> Option<Flaw> {
     let Character { clock, error_rate, glitch_rate, margin, settle, radius, .. } = character;
     if !(1..=MAX_CYCLES).contains(clock) {
-        return Some(Flaw::Clock { cycles: *clock, most: MAX_CYCLES });
+        return Some(("clock", wording::bad_cycles("a clock", *clock, MAX_CYCLES)));
     }
     for (field, rate) in [("error_rate", *error_rate), ("glitch_rate", *glitch_rate)] {
         if !(0.0..=1.0).contains(&rate) {
-            return Some(Flaw::Rate { field, rate });
+            return Some((field, wording::bad_share(field, rate)));
         }
     }
     if !margin.is_finite() {
-        return Some(Flaw::Margin);
+        return Some(("margin", wording::not_finite("the margin")));
     }
     let is_radius = |found: &SafeRadius| {
         found.radius.is_finite()
@@ -77,8 +75,8 @@ fn character(character: &Character) -> Option<Flaw> {
             && found.vary.parse::<Variation>().is_ok()
     };
     if !radius.as_ref().is_none_or(is_radius) {
-        return Some(Flaw::Radius);
+        return Some(("radius", wording::bad_radius()));
     }
     let slow = settle.iter().find(|transition| !(1..=MAX_CYCLES).contains(&transition.cycles))?;
-    Some(Flaw::Settle { cycles: slow.cycles, most: MAX_CYCLES })
+    Some(("settle", wording::bad_cycles("a settle time", slow.cycles, MAX_CYCLES)))
 }

@@ -7,15 +7,13 @@ use serde::{Deserialize, Serialize};
 use crate::atomic::write_file;
 use crate::checkpoint::{framed, unframed};
 use crate::disk::read;
-use crate::wording::{CheckpointError, StateError};
+use crate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::FileError;
 use nbc_swarm::{KeptSwarm, SwarmTask};
 
-/// The version that this program writes and reads.
 const FORMAT: &str = "1";
-/// The first bytes of the files.
 const MAGIC: &str = "nbc-swarm";
 
 /// A swarm that was kept, and the task that it belongs to.
@@ -24,12 +22,10 @@ const MAGIC: &str = "nbc-swarm";
 pub struct SwarmCheckpoint {
     /// What tells the task: checksums of its robots and of its inputs.
     task: [u32; 2],
-    /// The swarm.
     pub swarm: KeptSwarm,
 }
 
 impl SwarmCheckpoint {
-    /// The checkpoint of a task.
     pub fn new(task: &SwarmTask, swarm: KeptSwarm) -> Self {
         Self { task: checksums(task), swarm }
     }
@@ -47,19 +43,11 @@ impl SwarmCheckpoint {
             Err(FileError::NotFound) => return Ok(None),
             Err(error) => return Err(Diagnostic::unreadable(&name, &error)),
         };
-        Self::read(&bytes, task).map(Some).map_err(|error| error.of(&name))
-    }
-
-    fn read(bytes: &[u8], task: &SwarmTask) -> Result<Self, CheckpointError> {
-        let (format, text) = unframed(MAGIC, bytes)?;
-        if format != FORMAT {
-            return Err(CheckpointError::Format { found: format.to_owned(), expected: FORMAT });
-        }
-        let text = text?;
+        let text = unframed(&name, MAGIC, FORMAT, &bytes)?;
         let kept: Self =
-            serde_json::from_slice(text).map_err(|error| CheckpointError::Unreadable(StateError::from(error)))?;
+            serde_json::from_slice(text).map_err(|error| wording::unreadable_state(&name, &error.to_string()))?;
         let is_same = kept.task == checksums(task) && kept.swarm.outputs(task.robots()).is_some();
-        if is_same { Ok(kept) } else { Err(CheckpointError::OtherSwarm) }
+        if is_same { Ok(Some(kept)) } else { Err(wording::other_swarm(&name)) }
     }
 }
 

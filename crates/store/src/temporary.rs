@@ -25,7 +25,6 @@ impl PrivateFile {
         Ok(Self(file.into_temp_path()))
     }
 
-    /// Where it is.
     pub fn path(&self) -> &Path {
         &self.0
     }

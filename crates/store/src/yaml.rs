@@ -5,7 +5,7 @@ use std::fmt;
 use serde::de::{DeserializeOwned, DeserializeSeed, EnumAccess, Error, MapAccess, SeqAccess, VariantAccess, Visitor};
 use serde::{Deserializer, Serialize};
 
-use crate::wording::RobotFileError;
+use crate::wording;
 use nbc_base::budget::{Limit, WorkBudget};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, SourceFile, Span};
@@ -14,20 +14,19 @@ use nbc_base::source::{FileId, SourceFile, Span};
 const RESERVED: [&str; 13] =
     ["y", "n", "yes", "no", "on", "off", "true", "false", "null", "inf", "nan", "infinity", "~"];
 
-/// Reads a text of one document.
 pub(super) fn read<T: DeserializeOwned>(file: &SourceFile) -> Result<T, Diagnostic> {
     if Limit::RobotBytes.permit(file.text.len() as u64).is_err() {
-        return Err(RobotFileError::TooLarge { most: Limit::RobotBytes.most() }.of(&file.name, None));
+        return Err(wording::too_large(file));
     }
     if let Some(at) = too_deep(&file.text) {
-        return Err(RobotFileError::TooDeep { most: Limit::RobotNesting.most() }.of(&file.name, span(file.id, at, 1)));
+        return Err(wording::too_deep(file, span(file.id, at, 1)));
     }
     // Only an alias is longer than it is written.
     if file.text.contains('*') {
         let mut budget = WorkBudget::default();
         let counted = Tally(&mut budget).deserialize(serde_yaml::Deserializer::from_str(&file.text));
         if budget.left(Limit::RobotTextBytes) == 0 {
-            return Err(RobotFileError::TooMuch { most: Limit::RobotTextBytes.most() }.of(&file.name, None));
+            return Err(wording::too_much(file));
         }
         counted.map_err(|error| fault(file, &error))?;
     }
@@ -161,7 +160,6 @@ fn portable_number(number: &str) -> String {
     format!("{digits}{point}e{sign}{exponent}")
 }
 
-/// The error of the YAML reader, at its place.
 fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
     let words = error.to_string();
     // The place is shown by the diagnostic.
@@ -170,7 +168,7 @@ fn fault(file: &SourceFile, error: &serde_yaml::Error) -> Diagnostic {
         Some(place) => span_at(file, place.line(), place.column()),
         None => quoted_span(file, &message),
     };
-    RobotFileError::Shape(message).of(&file.name, span)
+    wording::not_robot(file, &message, span)
 }
 
 /// The place of the first word in backticks that occurs in the text, for errors without a place.

@@ -5,24 +5,16 @@ use serde::Serialize;
 use crate::{RobotFault, SwarmTrace, WeakRobot};
 use nbc_base::model::{Column, Simulation, Value};
 
-/// The result of a simulation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SimulationResult {
-    /// The file of the simulation.
     pub file: String,
-    /// The line at which it is declared.
     pub line: usize,
     /// The circuit's name, with the values of its parameters.
     pub circuit: String,
-    /// The declared swarm.
     pub swarm: String,
-    /// The world of the swarm.
     pub world: String,
-    /// The input ports.
     pub inputs: Vec<Column>,
-    /// The output ports.
     pub outputs: Vec<Column>,
-    /// Robots of the swarm with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
     /// The rows of the schedule in order, as far as they were completed.
     pub rows: Vec<RowActivity>,
@@ -31,14 +23,11 @@ pub struct SimulationResult {
     pub fault: Option<RobotFault>,
 }
 
-/// The activity during one row of a schedule.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct RowActivity {
     /// Its number among the rows of the schedule, from 1.
     pub row: usize,
-    /// Its line in the source.
     pub line: usize,
-    /// The values of the input ports.
     pub inputs: Vec<Value>,
     /// Cycles for which they were held.
     pub cycles: usize,

@@ -12,7 +12,6 @@ use nbc_base::model::{
 };
 use nbc_sim::Simulator;
 
-/// Seed of the random sequences.
 const SEED: u64 = 0x6e62_6373;
 /// Clocks tried, from the shortest on, in cycles.
 const CLOCKS: std::ops::RangeInclusive<u32> = 1..=8;
@@ -73,7 +72,6 @@ pub(super) fn errors_in(simulator: &Simulator, robot: &Robot, world: &PhysicsWor
     tally.map_or(1.0, |tally| tally.map_or(1.0, |tally| tally.error_rate()))
 }
 
-/// A body under test.
 struct Probe<'a> {
     simulator: &'a Simulator,
     setting: Setting,
@@ -82,7 +80,6 @@ struct Probe<'a> {
     world: PhysicsWorld,
 }
 
-/// The results of random sequences at one clock.
 #[derive(Clone, Debug, PartialEq)]
 struct Tally {
     clock: u32,
@@ -91,14 +88,12 @@ struct Tally {
     wrong: u32,
     /// Cycles of holds whose correct output is the same as in the previous hold.
     quiet: u32,
-    /// The wrong ones among them.
     glitches: u32,
     margin: f64,
     toppled: bool,
 }
 
 impl Tally {
-    /// The character that follows from it, with settle times and whether the body fell over in those.
     fn character(self, settle: Vec<Transition>, toppled: bool) -> Character {
         Character {
             clock: self.clock,
@@ -144,7 +139,6 @@ impl<'a> Probe<'a> {
         Self { simulator, setting, body, behavior, world: PhysicsWorld::default() }
     }
 
-    /// Runs plans from a start.
     fn run(&self, plans: &[HoldPlan], start: usize) -> Result<Vec<Vec<PatternHold>>, Fault> {
         let noise = |robot| RobotNoise::new(&self.world.noise, robot);
         let body = noise(0).worn(self.body);

@@ -4,12 +4,10 @@
 use crate::distance::WalkMemory;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
-use crate::gate::GateObjective;
 use crate::{Work, distance, gate, seeing};
 use nbc_base::model::{Body, Evolution, SearchObjective};
 use nbc_sim::Simulator;
 
-/// Advances a search by one generation: asks, evaluates in parallel, tells.
 pub fn evolve_generation(search: &mut Search) -> Work {
     let candidates = search.ask();
     let (outcomes, work) = evaluate(&Simulator::default(), search, &candidates);
@@ -17,7 +15,6 @@ pub fn evolve_generation(search: &mut Search) -> Work {
     work
 }
 
-/// The result of each candidate for the current archive.
 pub fn evaluate(simulator: &Simulator, search: &Search, candidates: &[Candidate]) -> (Vec<CandidateOutcome>, Work) {
     let tasks: Vec<EvaluationTask> = candidates.iter().map(|candidate| EvaluationTask::of(search, candidate)).collect();
     let done = evaluate_tasks(simulator, &EvaluationProtocol::of(search.evolution()), &tasks);
@@ -43,8 +40,7 @@ pub(crate) fn evaluate_remembering(
 ) -> Vec<Evaluated> {
     match protocol.objective {
         SearchObjective::Distance => distance::evaluate(simulator, memory, protocol, tasks),
-        SearchObjective::Gate => gate::evaluate(simulator, GateObjective::Settled, protocol, tasks),
-        SearchObjective::Wave => gate::evaluate(simulator, GateObjective::Wave, protocol, tasks),
+        SearchObjective::Gate | SearchObjective::Wave => gate::evaluate(simulator, protocol, tasks),
         SearchObjective::Images => seeing::evaluate(simulator, protocol, tasks),
     }
 }
@@ -53,8 +49,7 @@ pub(crate) fn evaluate_remembering(
 pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
     match protocol.objective {
         SearchObjective::Distance => protocol.distance_steps(),
-        SearchObjective::Gate => gate::steps(GateObjective::Settled, protocol),
-        SearchObjective::Wave => gate::steps(GateObjective::Wave, protocol),
+        SearchObjective::Gate | SearchObjective::Wave => gate::steps(protocol),
         SearchObjective::Images => u64::from(protocol.variable.steps()),
     }
 }

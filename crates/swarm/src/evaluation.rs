@@ -1,5 +1,7 @@
 //! The input and the result of an evaluation as plain data, so that it can be done on any machine.
 
+use serde::{Deserialize, Serialize};
+
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
 use crate::noise::RobotNoise;
 use crate::{Work, WorldSample};
@@ -7,22 +9,17 @@ use nbc_base::model::{
     Behavior, Body, Displacements, Evolution, ImageOrder, PhysicsWorld, Schedule, SearchObjective, Setting,
 };
 
-/// The simulations of an evaluation.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationProtocol {
-    /// The stimuli of its bodies: two or three.
     pub stimuli: usize,
-    /// The objective.
     pub objective: SearchObjective,
     /// The behaviors as which gates are scored, the nearest of them; if there are none, what the body does.
     pub behaviors: Vec<Behavior>,
     /// The stimuli of the long simulation, or the images.
     pub variable: Schedule,
-    /// How images follow each other.
     pub shown: ImageOrder,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
-    /// The world of all simulations but those in `others`.
     pub world: PhysicsWorld,
     /// Further worlds in which the gate objective evaluates bodies.
     pub others: Vec<PhysicsWorld>,
@@ -39,10 +36,8 @@ pub(super) fn setting(world: &PhysicsWorld) -> Setting {
     Setting { shift, factors: world.factors, ground: world.ground.on(plain.world_width), ..plain }
 }
 
-/// A body to be evaluated.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct EvaluationTask {
-    /// Its voxels.
     pub body: Body,
     /// The elites that it must beat. An evaluation ends early when the body cannot beat them.
     pub rivals: Rivals,
@@ -51,17 +46,13 @@ pub struct EvaluationTask {
     pub expected: Option<Displacements>,
 }
 
-/// The result of an evaluation.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Evaluated {
-    /// The result for the archive.
     pub outcome: CandidateOutcome,
-    /// The simulation it took.
     pub work: Work,
 }
 
 impl EvaluationProtocol {
-    /// The protocol of a declared run.
     pub fn of(evolution: &Evolution) -> Self {
         let Evolution { objective, behaviors, variable, fixed_steps, world, sample, .. } = evolution;
         let others = sample.map_or(Vec::new(), |sample| {
@@ -89,7 +80,6 @@ impl EvaluationProtocol {
 }
 
 impl EvaluationTask {
-    /// The evaluation of a candidate for the current archive of a search.
     pub fn of(search: &Search, candidate: &Candidate) -> Self {
         let Candidate { body, .. } = candidate;
         Self { body: body.clone(), rivals: search.rivals(body), expected: search.expected(candidate) }

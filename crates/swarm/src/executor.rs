@@ -23,7 +23,6 @@ pub struct LocalExecutor {
 }
 
 impl LocalExecutor {
-    /// Does tasks with a simulator.
     pub fn new(simulator: Simulator) -> Self {
         Self { simulator, ..Self::default() }
     }
@@ -34,7 +33,6 @@ impl LocalExecutor {
         Self { stop, ..self }
     }
 
-    /// The number of bodies that it remembers.
     #[cfg(test)]
     pub(crate) fn remembered(&self) -> usize {
         self.memory.len()

@@ -6,7 +6,6 @@ use rand::{Rng, RngExt};
 
 use nbc_base::model::{Behavior, CYCLE_STEPS, Direction, Pattern, Schedule, Spell, Trajectory};
 
-/// Patterns with the number of cycles of each hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct HoldPlan(pub Vec<(Pattern, u32)>);
 
@@ -25,19 +24,16 @@ impl HoldPlan {
         Self(plan)
     }
 
-    /// The plan in env steps.
     pub(crate) fn schedule(&self) -> Schedule {
         let spell = |&(pattern, cycles): &_| Spell::of(pattern, cycles * CYCLE_STEPS);
         Schedule { spells: self.0.iter().map(spell).collect() }
     }
 }
 
-/// One hold and the motion in it.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct PatternHold {
     /// The pattern before; `None` at a fresh start.
     pub before: Option<Pattern>,
-    /// The pattern held.
     pub pattern: Pattern,
     /// Displacement in each cycle, in voxels.
     pub cycles: Vec<f64>,
@@ -53,7 +49,6 @@ impl PatternHold {
     }
 }
 
-/// The holds of a complete trajectory.
 pub(crate) fn holds(plan: &HoldPlan, trajectory: &Trajectory) -> Vec<PatternHold> {
     let cycle = CYCLE_STEPS as usize;
     let mut at = 0;

@@ -9,11 +9,9 @@ use nbc_circuit::waves::{Reading, WaveMachine};
 /// A test whose rows are the steps of a wave machine.
 #[derive(Clone, Copy, Debug)]
 pub struct WaveTest<'a> {
-    /// The test.
     pub test: &'a CircuitTest,
     /// Its steps: the first is before the first edge of the clock, each other one after one.
     pub rows: &'a [TestRow],
-    /// The machine.
     pub machine: &'a WaveMachine,
 }
 
@@ -27,7 +25,6 @@ impl WaveTest<'_> {
         threads.flat_map(rows).collect()
     }
 
-    /// The verdict of a row in a thread of which a trace has no results, because a robot failed.
     fn failed(&self, trace: &SwarmTrace, row: usize, thread: usize) -> Option<RowVerdict> {
         let verdict = without_outputs(self.test, &self.rows[row], trace.fault()?);
         let cycles = Some(self.machine.cycles_per_step());

@@ -6,7 +6,6 @@ use serde::{Deserialize, Serialize};
 use nbc_base::model::{Fault, FaultKind};
 use nbc_sim::{Snapshot, State};
 
-/// A swarm after some cycles.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct KeptSwarm {
@@ -15,7 +14,6 @@ pub struct KeptSwarm {
     robots: Vec<KeptRobot>,
 }
 
-/// A robot at the end of a cycle.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct KeptRobot {
@@ -26,7 +24,6 @@ struct KeptRobot {
     clock: u32,
     /// The env step of its fault, and which one it is.
     fault: Option<(u32, u8)>,
-    /// The last samples of its path.
     path: Vec<f64>,
 }
 
@@ -34,7 +31,6 @@ struct KeptRobot {
 const FAULTS: [FaultKind; 3] = [FaultKind::Unstable, FaultKind::NonFinite, FaultKind::Stopped];
 
 impl KeptSwarm {
-    /// A swarm with these outputs in its cycles, and each robot with the end of its path.
     pub(super) fn new<'a>(
         cycles: impl Iterator<Item = &'a [bool]>,
         robots: impl Iterator<Item = (Snapshot, Vec<f64>)>,
@@ -48,7 +44,6 @@ impl KeptSwarm {
         Self { bits: cycles.map(digits).collect(), robots: robots.map(robot).collect() }
     }
 
-    /// The cycles that are done.
     pub fn cycles(&self) -> usize {
         self.bits.len()
     }
@@ -61,7 +56,6 @@ impl KeptSwarm {
         is_whole.then(|| self.bits.iter().map(|text| outputs(text, robots)).collect())
     }
 
-    /// The robots, each with the end of its path.
     pub(super) fn robots(&self) -> impl Iterator<Item = (Snapshot, &[f64])> + '_ {
         self.robots.iter().map(|robot| {
             let KeptRobot { position, previous, velocity, center, clock, fault, path } = robot.clone();

@@ -14,7 +14,6 @@ use nbc_sim::{Flock, Simulator, Snapshot};
 /// Env steps from sample to sample.
 const SAMPLE_STRIDE: u32 = CYCLE_STEPS / SwarmTrace::SAMPLES_PER_CYCLE as u32;
 
-/// A swarm during its simulation.
 #[derive(Debug)]
 pub struct LiveSwarm {
     flock: Box<dyn Flock>,
@@ -23,14 +22,11 @@ pub struct LiveSwarm {
     sensing: Sensing,
     /// Env steps of a cycle at whose end something is read, in order.
     stops: BTreeSet<u32>,
-    /// Env steps from frame to frame of the recording.
     stride: u32,
     trace: SwarmTrace,
-    /// Cycles that were simulated and are no longer in the trace.
     forgotten: usize,
 }
 
-/// A swarm at the end of a cycle, with its trace and recording.
 #[derive(Clone, Debug)]
 pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,
@@ -39,16 +35,13 @@ pub struct SwarmSnapshot {
     forgotten: usize,
 }
 
-/// A cycle of a swarm before its robots have moved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BegunCycle {
     inputs: Vec<bool>,
-    /// What each robot senses.
     sensed: Vec<Pattern>,
 }
 
 impl SwarmSnapshot {
-    /// The robots.
     pub fn robots(&self) -> &[Snapshot] {
         &self.robots
     }
@@ -57,9 +50,7 @@ impl SwarmSnapshot {
 impl LiveSwarm {
     /// A swarm at its start, in a world that is wide enough for `cycles`. An output is the sign of the displacement
     /// over the last `window` cycles. Poses are recorded if there is room for them.
-    ///
-    /// # Panics
-    /// When the window is empty.
+    /// Panics when the window is empty.
     pub fn new(simulator: &Simulator, assembly: &Assembly, cycles: usize, window: usize, poses: Option<Room>) -> Self {
         assert!(window > 0, "an output is read over one cycle at least");
         let flock = assembly.flock(simulator, cycles);
@@ -72,7 +63,6 @@ impl LiveSwarm {
         Self { flock, window, sensing: Sensing::of(assembly), stops: stops(stride), stride, trace, forgotten: 0 }
     }
 
-    /// The cycles simulated so far.
     pub fn cycles(&self) -> usize {
         self.forgotten + self.trace.cycles.len()
     }
@@ -98,9 +88,7 @@ impl LiveSwarm {
     /// At the end of each cycle a robot outputs 1 if its center of mass moved in +x over the window, else 0. From the
     /// end of [`Assembly::start_cycles`] on, this bit is the stimulus of its receivers during the next cycle (paper,
     /// section 4).
-    ///
-    /// # Panics
-    /// When there are not as many bits as the input ports have.
+    /// Panics when there are not as many bits as the input ports have.
     pub fn step(&mut self, inputs: &[bool]) -> Result<&CycleTrace, RobotFault> {
         let begun = self.begin(inputs)?;
         let mut done = 0;
@@ -112,9 +100,7 @@ impl LiveSwarm {
     }
 
     /// Begins a cycle as [`LiveSwarm::step`] does. Until it has ended, the swarm is as it was before.
-    ///
-    /// # Panics
-    /// When there are not as many bits as the input ports have.
+    /// Panics when there are not as many bits as the input ports have.
     pub fn begin(&self, inputs: &[bool]) -> Result<BegunCycle, RobotFault> {
         let bits_in: usize = self.trace.inputs.iter().map(|port| port.width).sum();
         assert_eq!(inputs.len(), bits_in, "a bit for each bit of the input ports");
@@ -134,9 +120,6 @@ impl LiveSwarm {
     }
 
     /// Ends a begun cycle with the states of all robots, part by part in order, as [`LiveSwarm::step`] would.
-    ///
-    /// # Panics
-    /// When robots or stops are missing.
     pub fn end(&mut self, begun: BegunCycle, parts: &[PartStates]) -> Result<&CycleTrace, RobotFault> {
         let robots: usize = parts.iter().map(|part| part[0].len()).sum();
         assert_eq!(robots, self.flock.len(), "a state for each robot");
@@ -146,7 +129,6 @@ impl LiveSwarm {
         self.finish(begun)
     }
 
-    /// Takes the outputs of a cycle whose robots have moved.
     fn finish(&mut self, BegunCycle { inputs, sensed }: BegunCycle) -> Result<&CycleTrace, RobotFault> {
         for (i, robot) in self.trace.robots.iter_mut().enumerate() {
             robot.fault = self.flock.fault(i);
@@ -162,17 +144,14 @@ impl LiveSwarm {
         Ok(&self.trace.cycles[self.trace.cycles.len() - 1])
     }
 
-    /// The trace so far.
     pub fn trace(&self) -> &SwarmTrace {
         &self.trace
     }
 
-    /// The final trace.
     pub fn into_trace(self) -> SwarmTrace {
         self.trace
     }
 
-    /// The swarm as it is now, to come back to.
     pub fn snapshot(&self) -> SwarmSnapshot {
         let robots = (0..self.flock.len()).map(|robot| self.flock.snapshot(robot)).collect();
         let (sensing, trace, forgotten) = (self.sensing.clone(), self.trace.clone(), self.forgotten);
@@ -180,9 +159,6 @@ impl LiveSwarm {
     }
 
     /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
-    ///
-    /// # Panics
-    /// When the snapshot is of another number of robots.
     pub fn restore(&mut self, snapshot: &SwarmSnapshot) {
         assert_eq!(snapshot.robots.len(), self.flock.len(), "a snapshot is of the same swarm");
         for (i, robot) in snapshot.robots.iter().enumerate() {
@@ -194,9 +170,6 @@ impl LiveSwarm {
     }
 
     /// The swarm as plain data, from which it goes on with the same bits.
-    ///
-    /// # Panics
-    /// When a part of its trace was forgotten.
     pub fn keep(&self) -> KeptSwarm {
         assert_eq!(self.forgotten, 0, "the outputs of all cycles are kept");
         let needed = self.window * SwarmTrace::SAMPLES_PER_CYCLE + 1;
@@ -207,8 +180,8 @@ impl LiveSwarm {
         KeptSwarm::new(self.trace.cycles.iter().map(|cycle| &cycle.bits[..]), (0..self.flock.len()).map(robot))
     }
 
-    /// Sets a swarm at its start to a kept one of the same assembly that had these inputs in its cycles; whether it can
-    /// be one. The paths of the robots before that are not known, and stand still at 0.
+    /// Continues a swarm at its start from a kept one of the same assembly with these inputs; returns whether it fits.
+    /// Earlier paths of the robots are unknown, and stay at 0.
     pub fn go_on(&mut self, kept: &KeptSwarm, assembly: &Assembly, inputs: &[Vec<bool>]) -> bool {
         let outputs = kept.outputs(assembly.members.len()).filter(|cycles| cycles.len() <= inputs.len());
         let Some(outputs) = outputs else { return false };
@@ -237,7 +210,7 @@ impl LiveSwarm {
         true
     }
 
-    /// Takes the robots from stop to stop of a cycle by `reach`, with the number of each stop and its env step.
+    /// Moves the robots from stop to stop of a cycle by `reach`, which gets the number and the env step of each stop.
     fn go_through(&mut self, mut reach: impl FnMut(&mut dyn Flock, usize, u32)) {
         for (at, &stop) in self.stops.iter().enumerate() {
             reach(&mut *self.flock, at, stop);

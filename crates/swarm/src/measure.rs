@@ -1,5 +1,7 @@
 //! All measurements of a body for its robot file.
 
+use serde::{Deserialize, Serialize};
+
 use crate::characterize::characterize;
 use crate::distance::fixed_displacements;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Character, Displacements, Fault, Setting};
@@ -8,24 +10,19 @@ use nbc_sim::Simulator;
 /// Env steps of the paper's fixed simulations (docs/physics.md 10).
 pub const FIXED_STEPS: u32 = 10 * CYCLE_STEPS;
 
-/// The measurements of a body.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Measurement {
     /// Displacement in voxels over the paper's fixed simulations, one for each pattern.
     pub displacement: Displacements,
-    /// Its behavior in them.
     pub behavior: Behavior,
-    /// Its character as a gate with this behavior.
     pub character: Character,
 }
 
-/// The displacement of each body in the paper's fixed simulations, in voxels, one for each pattern; or the fault of one
-/// of them.
+/// The displacements of each body in the paper's fixed simulations, in voxels.
 pub fn walk(simulator: &Simulator, bodies: &[Body]) -> Vec<Result<Displacements, Fault>> {
     fixed_displacements(simulator, &Setting::default(), bodies, FIXED_STEPS)
 }
 
-/// Measures a body by the paper's fixed simulations and as a gate.
 pub fn measure(simulator: &Simulator, body: &Body) -> Result<Measurement, Fault> {
     let displacement = walk(simulator, std::slice::from_ref(body)).remove(0)?;
     let behavior = displacement.behavior();

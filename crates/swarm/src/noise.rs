@@ -10,10 +10,8 @@ use nbc_base::model::{
     Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Response, Schedule, Spell, WorldNoise,
 };
 
-/// The name of the material of voxels that never move.
 const DEAD: &str = "dead";
 
-/// The noise of a world for one robot.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct RobotNoise<'a> {
     noise: &'a WorldNoise,
@@ -29,7 +27,6 @@ enum NoiseKind {
 }
 
 impl<'a> RobotNoise<'a> {
-    /// The noise for robot `robot`.
     pub(crate) fn new(noise: &'a WorldNoise, robot: usize) -> Self {
         Self { noise, robot: robot as u64 }
     }
@@ -60,7 +57,6 @@ impl<'a> RobotNoise<'a> {
         unit(&mut rng) < self.noise.missed
     }
 
-    /// A schedule as it senses it.
     pub(crate) fn sensed(self, schedule: &Schedule) -> Schedule {
         if self.noise.missed <= 0.0 {
             return schedule.clone();
@@ -100,7 +96,6 @@ impl<'a> RobotNoise<'a> {
     }
 }
 
-/// A number from 0 to 1.
 fn unit(rng: &mut impl Rng) -> f64 {
     rng.random()
 }
@@ -109,7 +104,6 @@ fn is_active(body: &Body, code: u8) -> bool {
     matches!(body.palette().kind(code), Some(MaterialKind::Actuator(_) | MaterialKind::Sensor(_)))
 }
 
-/// A material whose width changes less.
 fn weakened(material: &Material, weak: f64) -> Material {
     let less = |width: f64| 1.0 + (width - 1.0) * (1.0 - weak);
     let kind = match material.kind {

@@ -2,12 +2,9 @@
 
 use serde::{Serialize, Serializer, ser::SerializeStruct};
 
-/// The number of successes in some independent attempts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Proportion {
-    /// How many of the attempts succeeded.
     pub successes: usize,
-    /// How many attempts there were.
     pub attempts: usize,
 }
 

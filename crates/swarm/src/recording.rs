@@ -36,23 +36,17 @@ impl Room {
     }
 }
 
-/// Some robots of a flock over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
-    /// Poses in each cycle, evenly spaced.
     pub frames_per_cycle: u32,
-    /// The recorded robots.
     pub robots: Vec<Recorded>,
 }
 
-/// One robot over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorded {
-    /// Its place in the flock.
     pub robot: usize,
     /// Each voxel's points, by their numbers, and its material code.
     pub voxels: Vec<([usize; 4], u8)>,
-    /// The number of points.
     pub points: usize,
     /// Hundredths of a voxel: x from the robot's start and height above the ground, point by point, frame by frame.
     pub frames: Vec<i16>,
@@ -61,7 +55,6 @@ pub struct Recorded {
 }
 
 impl Recording {
-    /// An empty recording of these robots of a flock at its start, with a frame every `stride` env steps.
     pub fn new(flock: &dyn Flock, robots: impl IntoIterator<Item = usize>, stride: u32) -> Self {
         let robots = robots.into_iter().map(|robot| Recorded::new(flock, robot)).collect();
         Self { frames_per_cycle: CYCLE_STEPS / stride, robots }
@@ -76,7 +69,6 @@ impl Recording {
         }
     }
 
-    /// Forgets the frames of the last cycle.
     pub(super) fn forget_cycle(&mut self) {
         for recorded in &mut self.robots {
             let length = 2 * recorded.points * self.frames_per_cycle as usize;
@@ -84,7 +76,6 @@ impl Recording {
         }
     }
 
-    /// Adds a frame with the current positions of the robots.
     pub fn record(&mut self, flock: &dyn Flock) {
         for recorded in &mut self.robots {
             let (points, start) = (flock.points(recorded.robot), recorded.start);

@@ -13,34 +13,25 @@ use nbc_base::model::{PhysicsWorld, Variation};
 /// the output was wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobotMargin {
-    /// The net that it drives.
     pub net: String,
-    /// Its name in the library.
     pub robot: String,
-    /// The cycle, from 0 at the test's start.
     pub cycle: usize,
-    /// Voxels a cycle.
     pub margin: f64,
 }
 
-/// The result of a test in one world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WorldTrial {
-    /// The sampled world.
     pub world: PhysicsWorld,
     /// The row that failed first, and its line in the source; `None` if the test passed.
     pub failed: Option<(usize, usize)>,
-    /// The robot whose simulation failed, if one did.
     pub fault: Option<RobotFault>,
     /// The robot that was wrong first; `None` if the test passed or a robot failed, or if each robot did what its
     /// stimuli require, but some had missed theirs or had no time.
     pub first_failing: Option<RobotMargin>,
-    /// The smallest margin.
     pub least: Option<RobotMargin>,
 }
 
 impl WorldTrial {
-    /// The result of a test that ran in a world, with these clocks of its robots and this window of their outputs.
     pub fn new(world: PhysicsWorld, verdict: &TestVerdict, trace: &SwarmTrace, clocks: &[u32], window: usize) -> Self {
         let margins = settled_margins(trace, clocks, window);
         let named = |&(cycle, k, margin): &(usize, usize, f64)| RobotMargin {
@@ -68,21 +59,15 @@ impl WorldTrial {
 /// A test in a sample of worlds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Robustness {
-    /// The path of the source file, as given.
     pub file: String,
-    /// The line of the test in its file, from 1.
     pub line: usize,
     /// The tested circuit, with the values of its parameters.
     pub circuit: String,
-    /// The test's title; empty if it has none.
     pub title: String,
-    /// The declared swarm, if it is one.
     pub swarm: Option<String>,
     /// The world around which the worlds vary.
     pub world: String,
-    /// The number of its robots.
     pub robots: usize,
-    /// How much the worlds vary.
     pub variation: Variation,
     /// The factor of the requested variation.
     pub scale: f64,
@@ -93,45 +78,33 @@ pub struct Robustness {
     pub fails_first: Vec<FailingRobot>,
     /// The smallest margin in the worlds in which the test passes, with the number of its world.
     pub least: Option<WorldMargin>,
-    /// The worlds in which the test fails.
     pub failures: Vec<WorldFailure>,
 }
 
 /// A robot that fails first in some worlds.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct FailingRobot {
-    /// The net that the robot drives.
     pub net: String,
-    /// The robot's name in its library.
     pub robot: String,
-    /// The number of these worlds.
     pub worlds: usize,
 }
 
-/// A margin in a world.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorldMargin {
-    /// The number of the world.
     pub world: usize,
     #[serde(flatten)]
-    /// The smallest margin in that world.
     pub margin: RobotMargin,
 }
 
-/// A world in which a test fails.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WorldFailure {
-    /// The number of the world in the sample.
     pub world: usize,
-    /// The world itself.
     pub physics: PhysicsWorld,
     /// The row that failed first.
     pub row: usize,
-    /// The line of the failing row in its file, from 1.
     pub line: usize,
     /// The robot that was wrong first, if one was.
     pub first: Option<RobotMargin>,
-    /// The robot whose simulation failed, if one did.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub fault: Option<RobotFault>,
 }

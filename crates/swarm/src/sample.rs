@@ -10,7 +10,6 @@ use nbc_base::model::{PhysicsWorld, Variation};
 pub struct WorldSample {
     /// The varied factors, each with its largest change.
     pub variation: Variation,
-    /// The seed of all worlds.
     pub seed: u64,
 }
 

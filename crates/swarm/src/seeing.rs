@@ -10,7 +10,6 @@ use nbc_base::model::{
 };
 use nbc_sim::Simulator;
 
-/// The stimuli of a behavior, which number the sets of images.
 const STIMULI: usize = 2;
 
 /// How far a body walks before images, in the direction of a behavior.
@@ -26,10 +25,7 @@ pub struct ImageDistance {
 }
 
 impl ImageDistance {
-    /// That of a body with these displacements, each before an image of the set of that number.
-    ///
-    /// # Panics
-    /// When there are no images.
+    /// The distance of a body with these displacements, each before an image of the set with that number.
     pub fn of(sets: &ImageSets, walked: &[(Pattern, f64)]) -> Self {
         let all = sets.behaviors().map(|behavior| (behavior, least(behavior, walked.iter().copied())));
         let best = all.fold(None, |best: Option<(Behavior, f64)>, one| match best {
@@ -51,15 +47,12 @@ fn least(behavior: Behavior, walked: impl Iterator<Item = (Pattern, f64)>) -> f6
     walked.map(|(set, moved)| moved * behavior.direction(set).sign()).fold(f64::INFINITY, f64::min)
 }
 
-/// The sets of images that a schedule shows, as the patterns that number them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImageSets(Vec<Pattern>);
 
 impl ImageSets {
-    /// The most sets that a behavior can tell apart.
     pub const MOST: usize = 1 << STIMULI;
 
-    /// Those of a schedule.
     pub fn of(schedule: &Schedule) -> Self {
         let mut sets: Vec<Pattern> = schedule.spells.iter().map(|spell| spell.pattern).collect();
         sets.sort_unstable();
@@ -67,7 +60,6 @@ impl ImageSets {
         Self(sets)
     }
 
-    /// The number of sets.
     pub fn count(&self) -> usize {
         self.0.len()
     }
@@ -119,7 +111,6 @@ pub fn image_displacements(
     trajectories.chunks(parts.len().max(1)).map(of_body).collect()
 }
 
-/// A body during its evaluation.
 struct Viewer<'a> {
     task: &'a EvaluationTask,
     walked: Vec<(Pattern, f64)>,
@@ -128,13 +119,11 @@ struct Viewer<'a> {
 }
 
 impl Viewer<'_> {
-    /// Whether it may enter the archive, whatever it does before the other images.
     fn is_admitted(&self, sets: &ImageSets) -> bool {
         let bound = |behavior| [least(behavior, self.walked.iter().copied()); 2];
         sets.behaviors().any(|behavior| self.task.rivals.admit(behavior, &bound(behavior)))
     }
 
-    /// The result of a body that has seen all images.
     fn measured(&self, sets: &ImageSets) -> CandidateOutcome {
         let ImageDistance { behavior, least, displacement } = ImageDistance::of(sets, &self.walked);
         let fitness = [least; 2];
@@ -211,7 +200,6 @@ mod tests {
         Schedule::of_set(set)
     }
 
-    /// Images of two sets, a few steps each.
     fn schedule(images: &[(usize, [u8; 9])]) -> Schedule {
         let spell = |&(set, pixels): &(usize, [u8; 9])| {
             let image = Image::new(ImageSize::new(3, 3), pixels.map(|pixel| f64::from(pixel) / 4.0).to_vec()).unwrap();

@@ -9,41 +9,32 @@ use nbc_base::model::{Behavior, Fault, Provenance, Robot};
 
 /// The longest clock of a gate that is measured in full, in cycles.
 const LONGEST_CLOCK: u32 = 4;
-/// The cost of a full measurement, in screenings.
 pub const MEASUREMENT_COST: u64 = 4;
 
-/// The effort of a selection and the accepted errors.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Selection {
     /// Elites of a behavior that are screened, the fittest first.
     pub tries: usize,
     /// The number of these that are measured in full.
     pub finalists: usize,
-    /// The highest accepted error rate.
     pub max_error: f64,
     /// The margin in voxels per cycle from which on a robot is better than all below it, whatever their clocks.
     pub wide_margin: f64,
 }
 
-/// An elite with its run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RobotCandidate {
-    /// The elite that is to become a robot.
     pub elite: Elite,
-    /// Its run.
     pub provenance: Provenance,
 }
 
-/// The result for a behavior.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Selected {
-    /// The best robot.
     Robot(Box<Robot>),
     /// A robot with more errors than accepted.
     Erring(Box<Robot>),
     /// The best elite walks otherwise in the paper's fixed simulations.
     Other(Behavior),
-    /// The simulation of the best elite failed.
     Faulty(Fault),
     /// There is no elite with this behavior.
     Missing,
@@ -111,7 +102,6 @@ impl Selection {
 }
 
 impl Selected {
-    /// The better one first.
     fn compare(&self, other: &Self, wide_margin: f64) -> Ordering {
         let place = |found: &Self| match found {
             Self::Robot(_) => 0,
@@ -151,7 +141,6 @@ impl Rank {
     }
 }
 
-/// The rank of elites before screening: both fitnesses have equal weight.
 fn worth(elite: &Elite) -> f64 {
     elite.fitness[0] + elite.fitness[1]
 }
@@ -191,11 +180,7 @@ mod tests {
             generation: 1,
             evaluations: 1,
         };
-        let (program, version, evolution) = ("nbc".to_owned(), "0".to_owned(), "small".to_owned());
-        RobotCandidate {
-            elite,
-            provenance: Provenance { program, version, evolution, seed: 1, generation: 1, evaluations: 1 },
-        }
+        RobotCandidate { elite, provenance: Provenance::default() }
     }
 
     #[test]

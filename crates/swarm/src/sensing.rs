@@ -4,23 +4,18 @@ use crate::noise::RobotNoise;
 use crate::{Assembly, CycleTrace, StimulusSource, SwarmTrace};
 use nbc_base::model::{Pattern, WorldNoise};
 
-/// The outputs that the robots sense.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Sensing {
     /// Cycles at the start in which robots sense the start values of the others.
     start: usize,
-    /// Cycles for which robots sense the same.
     beat: usize,
-    /// Each robot's output as sensed by the others.
     outputs: Vec<bool>,
     /// What each robot senses in the first cycles instead of its sources.
     held: Vec<Vec<Vec<bool>>>,
-    /// The noise of their world.
     noise: WorldNoise,
 }
 
 impl Sensing {
-    /// The outputs before the first cycle of a swarm.
     pub fn of(assembly: &Assembly) -> Self {
         let outputs = assembly.members.iter().map(|member| member.start).collect();
         Self {
@@ -65,7 +60,6 @@ impl Sensing {
         }
     }
 
-    /// Takes the robots' outputs at the end of the cycle with this number, from 0.
     pub fn take(&mut self, cycle: usize, bits: &[bool]) {
         if cycle + 1 >= self.start && (cycle + 1).is_multiple_of(self.beat) {
             self.outputs.clear();

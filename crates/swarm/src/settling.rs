@@ -25,7 +25,6 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// A swarm before its first cycle, whose outputs are read over `window` cycles.
     pub fn new(assembly: &'a Assembly, window: usize) -> Self {
         let members = &assembly.members[..];
         let clock = |member: &Member| member.robot.character.clock as usize + window - 1;
@@ -57,12 +56,10 @@ impl<'a> Settling<'a> {
         None
     }
 
-    /// Holds inputs for some cycles.
     pub fn hold(&mut self, inputs: &[bool], cycles: usize) {
         (0..cycles).for_each(|_| self.advance(inputs));
     }
 
-    /// The known output of each robot at the end of the last cycle.
     pub fn bits(&self) -> &[Option<bool>] {
         &self.bits
     }
@@ -88,7 +85,6 @@ impl<'a> Settling<'a> {
         self.cycles += 1;
     }
 
-    /// The known output of a robot at the end of a cycle.
     fn output(&self, robot: usize, pattern: &[TernaryBit], held: usize) -> TernaryBit {
         let member = &self.members[robot];
         let answer = answer(member.robot.function(), pattern);

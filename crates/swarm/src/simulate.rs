@@ -3,22 +3,17 @@
 use crate::{Assembly, LiveSwarm, Room, SwarmTrace};
 use nbc_sim::Simulator;
 
-/// The conditions of a simulation: the inputs, and how motion is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SwarmConditions {
-    /// The input ports' bits in each cycle.
     pub inputs: Vec<Vec<bool>>,
     /// Cycles over which a displacement is measured; its sign is the output. The paper's is one.
     pub window: usize,
-    /// The room for a recording of poses, if one is made.
     pub poses: Option<Room>,
 }
 
 /// Simulates a swarm in its world under these conditions until a robot fails, calling `observe` with the number of
 /// finished cycles after each cycle.
-///
-/// # Panics
-/// When a cycle's inputs are not as many as the assembly's, or the window is empty.
+/// Panics when a cycle's inputs are not as many as the assembly's, or the window is empty.
 pub fn simulate(
     simulator: &Simulator,
     assembly: &Assembly,

@@ -1,23 +1,26 @@
 //! The simulation of a swarm as plain data: bodies, wires and inputs go in, the robots' bits come out.
 
+use serde::{Deserialize, Serialize};
+
+use crate::bit_rows;
 use crate::sensing::Sensing;
 use crate::{Assembly, Member, StimulusSource, SwarmConditions, SwarmTrace, simulate};
-use nbc_base::model::{Body, Character, Column, Displacements, Fault, PhysicsWorld, Provenance, Robot};
+use nbc_base::model::{Body, Character, Column, Displacements, Fault, PhysicsWorld, Provenance, Robot, bodies};
 use nbc_sim::Simulator;
 
 /// The simulation of a swarm, without names: all that the resulting bits depend on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct SwarmTask {
-    /// The robots and their wiring.
     pub assembly: Assembly,
-    /// The inputs of each cycle, and over how many cycles displacements are measured.
     pub conditions: SwarmConditions,
 }
 
 /// The output of each robot at the end of each cycle.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct SwarmBits {
     /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
+    #[serde(with = "bit_rows")]
     pub cycles: Vec<Vec<bool>>,
     /// The robot whose simulation failed after these cycles, and its fault.
     pub fault: Option<(usize, Fault)>,
@@ -26,16 +29,77 @@ pub struct SwarmBits {
 /// The part of a robot that the bits of its swarm depend on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
-    /// Its voxels.
     pub body: Body,
-    /// The clock of its character, in cycles.
     pub clock: u32,
-    /// The source of each of its stimuli.
     pub senses: Vec<StimulusSource>,
-    /// Its output before the first cycle.
     pub start: bool,
     /// What it senses in the first cycles instead of each source.
     pub held: Vec<Vec<bool>>,
+}
+
+/// A [`SwarmTask`] as data, without names.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    /// One for each member.
+    #[serde(with = "bodies")]
+    bodies: Vec<Body>,
+    members: Vec<WrittenMember>,
+    world: PhysicsWorld,
+    window: usize,
+    beat: u32,
+    #[serde(with = "bit_rows")]
+    inputs: Vec<Vec<bool>>,
+}
+
+#[derive(Serialize, Deserialize)]
+struct WrittenMember {
+    clock: u32,
+    senses: Vec<StimulusSource>,
+    start: bool,
+    #[serde(with = "bit_rows")]
+    held: Vec<Vec<bool>>,
+}
+
+impl From<SwarmTask> for Written {
+    fn from(SwarmTask { assembly, conditions }: SwarmTask) -> Self {
+        let (mut bodies, mut members) = (Vec::new(), Vec::new());
+        for Member { robot, senses, start, held, .. } in assembly.members {
+            bodies.push(robot.body);
+            members.push(WrittenMember { clock: robot.character.clock, senses, start, held });
+        }
+        let SwarmConditions { inputs, window, .. } = conditions;
+        Self { bodies, members, world: assembly.world, window, beat: assembly.beat, inputs }
+    }
+}
+
+impl TryFrom<Written> for SwarmTask {
+    type Error = &'static str;
+
+    fn try_from(written: Written) -> Result<Self, Self::Error> {
+        let Written { bodies, members, world, window, beat, inputs } = written;
+        let (width, robots) = (inputs.first().map_or(0, Vec::len), members.len());
+        let is_there = |source: &StimulusSource| match *source {
+            StimulusSource::Input(place) => place < width,
+            StimulusSource::Robot(place) => place < robots,
+            StimulusSource::Constant(_) => true,
+        };
+        let is_wired = |member: &WrittenMember| {
+            matches!(member.senses.len(), 2 | 3)
+                && member.held.len() == member.senses.len()
+                && member.senses.iter().all(is_there)
+        };
+        let is_even = bodies.len() == robots && inputs.iter().all(|cycle| cycle.len() == width);
+        if !is_even || window == 0 || beat == 0 || !members.iter().all(is_wired) {
+            return Err("a swarm that cannot be simulated");
+        }
+        let member = |(body, member): (Body, WrittenMember)| {
+            let WrittenMember { clock, senses, start, held } = member;
+            PlainMember { body, clock, senses, start, held }
+        };
+        let mut task = Self::new(bodies.into_iter().zip(members).map(member).collect(), world, inputs, window);
+        task.assembly.beat = beat;
+        Ok(task)
+    }
 }
 
 impl SwarmTask {
@@ -70,12 +134,10 @@ impl SwarmTask {
         Self { assembly, conditions: SwarmConditions { inputs, window, poses: None } }
     }
 
-    /// The number of robots.
     pub fn robots(&self) -> usize {
         self.assembly.members.len()
     }
 
-    /// The number of cycles.
     pub fn cycles(&self) -> usize {
         self.conditions.inputs.len()
     }
@@ -84,37 +146,28 @@ impl SwarmTask {
 impl PlainMember {
     /// The robot with nothing but what its simulation needs.
     pub(super) fn nameless(self) -> Member {
-        let none = String::new;
-        let character = Character {
-            clock: self.clock,
-            switches: 0,
-            error_rate: 0.0,
-            glitch_rate: 0.0,
-            margin: 0.0,
-            topples: false,
-            settle: Vec::new(),
-            radius: None,
-        };
-        let provenance =
-            Provenance { program: none(), version: none(), evolution: none(), seed: 0, generation: 0, evaluations: 0 };
         let displacement = Displacements::zero(self.senses.len());
-        let (name, behavior) = (none(), displacement.behavior());
-        let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
-        Member { net: none(), block: Vec::new(), robot, senses: self.senses, start: self.start, held: self.held }
+        let robot = Robot {
+            name: String::new(),
+            behavior: displacement.behavior(),
+            body: self.body,
+            displacement,
+            character: Character { clock: self.clock, ..Character::default() },
+            provenance: Provenance::default(),
+            genotype: None,
+        };
+        let (net, block) = (String::new(), Vec::new());
+        Member { net, block, robot, senses: self.senses, start: self.start, held: self.held }
     }
 }
 
 impl SwarmBits {
-    /// Simulates a swarm.
     pub fn simulate(simulator: &Simulator, task: &SwarmTask) -> Self {
         let trace = simulate(simulator, &task.assembly, &task.conditions, &mut |_| ());
         Self { fault: trace.first_fault(), cycles: trace.cycles.into_iter().map(|cycle| cycle.bits).collect() }
     }
 
     /// The trace of the swarm through these inputs, without the paths of its robots.
-    ///
-    /// # Panics
-    /// When the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
         let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
         if let Some((robot, fault)) = self.fault {

@@ -2,20 +2,20 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use crate::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, SwarmBits, SwarmTask};
 use nbc_base::model::{Behavior, Body, Fault};
 
 /// Work whose result depends on it alone.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum Task {
     /// The evaluation of a candidate of a search.
     Evaluation(Arc<EvaluationProtocol>, EvaluationTask),
     /// A body tried in short sequences as a gate with a behavior, with clocks of at most `most` cycles (see
     /// [`screen`](crate::screen)).
     Screening {
-        /// The body to be screened.
         body: Body,
-        /// The behavior that it should have.
         behavior: Behavior,
         /// The slowest clock that is of use, in cycles.
         most: u32,
@@ -27,7 +27,7 @@ pub enum Task {
 }
 
 /// The result of a task of the same kind.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub enum TaskResult {
     /// The outcome of the candidate.
     Evaluation(Evaluated),
@@ -40,10 +40,7 @@ pub enum TaskResult {
 }
 
 impl TaskResult {
-    /// The result of an evaluation.
-    ///
-    /// # Panics
-    /// When it is of another task, as in all methods here.
+    /// The result of an evaluation. Panics if it is of another task, as all methods here do.
     pub fn evaluated(self) -> Evaluated {
         match self {
             Self::Evaluation(evaluated) => evaluated,
@@ -51,7 +48,6 @@ impl TaskResult {
         }
     }
 
-    /// The result of a screening.
     pub fn screened(self) -> Result<Option<(u32, f64)>, Fault> {
         match self {
             Self::Screening(screened) => screened,
@@ -59,7 +55,6 @@ impl TaskResult {
         }
     }
 
-    /// The result of a measurement.
     pub fn measured(self) -> Result<Measurement, Fault> {
         match self {
             Self::Measurement(measured) => measured,
@@ -67,7 +62,6 @@ impl TaskResult {
         }
     }
 
-    /// The result of a swarm.
     pub fn bits(self) -> SwarmBits {
         match self {
             Self::Swarm(bits) => bits,

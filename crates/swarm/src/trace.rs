@@ -8,29 +8,20 @@ use nbc_base::model::{CYCLE_STEPS, Column, Fault, Function, Pattern, Value};
 /// A swarm's run from its start to the end of its stimulation, or to the cycle in which a robot failed.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SwarmTrace {
-    /// The circuit's name.
     pub circuit: String,
-    /// The input ports.
     pub inputs: Vec<Column>,
-    /// The output ports.
     pub outputs: Vec<Column>,
-    /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
-    /// Samples of the robots' paths in one cycle.
     pub samples_per_cycle: usize,
-    /// The robots, in order of the assembly's members.
     pub robots: Vec<RobotTrace>,
     /// The cycles, first to last. One in which a robot failed has no outputs and is not among them.
     pub cycles: Vec<CycleTrace>,
-    /// The recorded poses of its robots, if requested.
     #[serde(skip)]
     pub recording: Recording,
 }
 
-/// The part of a trace about one robot.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RobotTrace {
-    /// The net whose bit it is.
     pub net: String,
     /// The names of the calls that the robot comes from, the outermost first.
     #[serde(skip)]
@@ -38,36 +29,26 @@ pub struct RobotTrace {
     /// The gate it plays, of its stimuli in the order of `senses`.
     #[serde(serialize_with = "as_text")]
     pub function: Function,
-    /// The robot's name in its library.
     pub robot: String,
-    /// The source of each of its stimuli.
     pub senses: Vec<StimulusSource>,
-    /// The names of the nets it senses, likewise.
     pub sensed_nets: Vec<String>,
     /// Horizontal place of the center of mass in voxels: the start, then `samples_per_cycle` samples a cycle.
     pub com_x: Vec<f64>,
-    /// The fault that ended its simulation, and the swarm with it.
     pub fault: Option<Fault>,
 }
 
-/// The bits of one cycle.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct CycleTrace {
-    /// The bits of the input ports during the cycle.
     pub inputs: Vec<bool>,
-    /// The stimuli of each robot during the cycle.
     pub sensed: Vec<Pattern>,
     /// Each robot's output at the cycle's end.
     pub bits: Vec<bool>,
-    /// The bits of the output ports at the cycle's end.
     pub outputs: Vec<bool>,
 }
 
 impl SwarmTrace {
-    /// Samples of a robot's path that a trace keeps of each cycle.
     pub(super) const SAMPLES_PER_CYCLE: usize = 12;
 
-    /// The trace before the first cycle, without the places of the robots.
     pub(super) fn begin(assembly: &Assembly) -> Self {
         let robot = |member: &Member| RobotTrace {
             net: member.net.clone(),
@@ -91,7 +72,6 @@ impl SwarmTrace {
         }
     }
 
-    /// The values of the input ports during a cycle.
     pub fn input_values(&self, cycle: usize) -> Vec<Value> {
         Value::of_ports(&self.inputs, self.cycles[cycle].inputs.iter().copied().map(Some), &[])
     }
@@ -104,13 +84,11 @@ impl SwarmTrace {
         }
     }
 
-    /// The robot whose simulation failed first, and its fault.
     pub(super) fn first_fault(&self) -> Option<(usize, Fault)> {
         let faults = self.robots.iter().enumerate().filter_map(|(k, robot)| Some((k, robot.fault?)));
         faults.min_by_key(|(_, fault)| fault.env_step)
     }
 
-    /// The fault that ended the swarm, if one did.
     pub fn fault(&self) -> Option<RobotFault> {
         let (k, Fault { env_step, kind }) = self.first_fault()?;
         let RobotTrace { net, robot, .. } = &self.robots[k];
@@ -145,7 +123,6 @@ impl SwarmTrace {
         robots
     }
 
-    /// The values of the output ports at the end of a cycle.
     pub fn output_values(&self, cycle: usize) -> Vec<Value> {
         Value::of_ports(&self.outputs, self.cycles[cycle].outputs.iter().copied().map(Some), &[])
     }

@@ -5,18 +5,15 @@ use serde::Serialize;
 use crate::{RobotFault, WeakRobot};
 use nbc_base::model::{Column, RowSource, Value};
 
-/// The level of a test.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
     /// Gates without physics, each of which takes one time step.
     Logic,
-    /// Robots in full physics.
     Physics,
 }
 
 impl Level {
-    /// Its word.
     pub fn word(self) -> &'static str {
         match self {
             Self::Logic => "logic",
@@ -25,40 +22,27 @@ impl Level {
     }
 }
 
-/// The verdict of a test.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TestVerdict {
-    /// The file of the test.
     pub file: String,
-    /// The line at which the test is declared.
     pub line: usize,
-    /// The circuit under test.
     pub circuit: String,
-    /// The test's title; empty if it has none.
     pub title: String,
-    /// The declared swarm, if it is one.
     pub swarm: Option<String>,
     /// The world of the swarm; none at the level of logic, which has no worlds.
     pub world: Option<String>,
     /// Whether the test names its world, so that texts name it, too.
     #[serde(skip)]
     pub is_world_named: bool,
-    /// Whether robots were simulated or only logic.
     pub level: Level,
     /// Whether all rows passed, or as many as the test asks for.
     pub passed: bool,
-    /// The file of its rows, if the source does not have them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_from: Option<RowSource>,
-    /// The input ports.
     pub inputs: Vec<Column>,
-    /// The output ports.
     pub outputs: Vec<Column>,
-    /// Robots of the swarm with errors or a thin margin.
     pub weak_robots: Vec<WeakRobot>,
-    /// The rows in order.
     pub rows: Vec<RowVerdict>,
-    /// What the environment wrote as text, if it wrote any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<String>,
     /// How a test for ever was decided, in words: `proved by induction over 1 step`.
@@ -77,25 +61,20 @@ impl TestVerdict {
         self.rows_from.as_ref().and_then(|from| from.at_least)
     }
 
-    /// The fault that ended the swarm, if one did.
     pub fn fault(&self) -> Option<&RobotFault> {
         self.rows.iter().find_map(|row| row.fault.as_ref())
     }
 }
 
-/// The verdict of a test's row.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RowVerdict {
     /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
     pub row: usize,
-    /// Its line in the source.
     pub line: usize,
     /// The thread of a wave machine, from 0; none in other swarms.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thread: Option<usize>,
-    /// The values of the input ports.
     pub inputs: Vec<Value>,
-    /// The expected values of the output ports.
     pub expected: Vec<Value>,
     /// The values of the output ports at the end of the row; none where a robot failed.
     pub observed: Vec<Value>,
@@ -127,14 +106,10 @@ pub struct RowVerdict {
 /// A robot whose output was not its function of its stimuli.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct WrongOutput {
-    /// The net with the wrong bit.
     pub net: String,
-    /// The robot's name.
     pub robot: String,
     /// The cycle, from 0 at the test's start.
     pub cycle: usize,
-    /// Its stimuli.
     pub sensed: Vec<bool>,
-    /// The bit that the robot showed.
     pub output: bool,
 }

@@ -11,11 +11,8 @@ pub const THIN_MARGIN: f64 = 0.02;
 /// A robot of a swarm with errors or a thin margin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct WeakRobot {
-    /// Its name in the library.
     pub robot: String,
-    /// The nets that it drives.
     pub nets: Vec<String>,
-    /// The share of measured switches with a wrong output.
     pub error_rate: f64,
     /// Its margin in voxels a cycle.
     pub margin: f64,

@@ -21,7 +21,6 @@ thread_local! {
     static STATE: RefCell<State> = RefCell::default();
 }
 
-/// Calls a function of the tab.
 fn with_tab<T>(call: impl FnOnce(&mut Tab) -> T) -> T {
     STATE.with_borrow_mut(|state| call(state.tab.as_mut().expect("`begin` was called")))
 }
@@ -37,7 +36,6 @@ fn bytes(place: *mut u8, length: usize) -> Box<[u8]> {
     unsafe { Box::from_raw(core::ptr::slice_from_raw_parts_mut(place, length)) }
 }
 
-/// The text in room of [`room`].
 fn text(place: *mut u8, length: usize) -> String {
     String::from_utf8_lossy(&bytes(place, length)).into_owned()
 }
@@ -69,34 +67,29 @@ extern "C" fn room(length: usize) -> *mut u8 {
     Box::into_raw(vec![0_u8; length].into_boxed_slice()).cast()
 }
 
-/// [`Tab::insert`].
 #[unsafe(no_mangle)]
 extern "C" fn insert(path: *mut u8, path_length: usize, place: *mut u8, length: usize) {
     let (path, text) = (text(path, path_length), text(place, length));
     with_tab(|tab| tab.insert(&path, &text));
 }
 
-/// [`Tab::remove`].
 #[unsafe(no_mangle)]
 extern "C" fn remove(path: *mut u8, length: usize) {
     let path = text(path, length);
     with_tab(|tab| tab.remove(&path));
 }
 
-/// [`Tab::set_template`].
 #[unsafe(no_mangle)]
 extern "C" fn template(place: *mut u8, length: usize) {
     let text = text(place, length);
     with_tab(|tab| tab.set_template(&text));
 }
 
-/// [`Tab::set_crew`].
 #[unsafe(no_mangle)]
 extern "C" fn crew(size: usize) {
     with_tab(|tab| tab.set_crew(size));
 }
 
-/// [`Tab::receive_part`].
 #[unsafe(no_mangle)]
 extern "C" fn receive_part(number: usize, place: *mut u8, length: usize) {
     let result = bytes(place, length);
@@ -110,20 +103,17 @@ extern "C" fn simulate(place: *mut u8, length: usize) {
     STATE.with_borrow_mut(|state| state.parts[0] = result);
 }
 
-/// [`Tab::receive`].
 #[unsafe(no_mangle)]
 extern "C" fn receive(place: *mut u8, length: usize, now: f64) {
     let text = text(place, length);
     with_tab(|tab| tab.receive(&text, time(now)));
 }
 
-/// [`Tab::greet`].
 #[unsafe(no_mangle)]
 extern "C" fn greet() {
     with_tab(Tab::greet);
 }
 
-/// [`Tab::receive_language`].
 #[unsafe(no_mangle)]
 extern "C" fn receive_language(place: *mut u8, length: usize, now: f64) {
     let text = text(place, length);

@@ -7,7 +7,6 @@ use nbc_base::source::SharedWorld;
 use nbc_lsp::{LanguageShell, LanguageWork};
 use nbc_play::{MemoryFolder, PageFolder};
 
-/// Work that waits, and the files of a folder in memory.
 pub(super) struct LanguageQueue {
     folder: MemoryFolder,
     work: Mutex<VecDeque<LanguageWork>>,
@@ -18,12 +17,10 @@ impl LanguageQueue {
         Self { folder, work: Mutex::default() }
     }
 
-    /// Whether there is work to do.
     pub(super) fn has_work(&self) -> bool {
         !self.work.lock().unwrap_or_else(PoisonError::into_inner).is_empty()
     }
 
-    /// Does the work that has waited longest.
     pub(super) fn advance(&self) {
         let next = self.work.lock().unwrap_or_else(PoisonError::into_inner).pop_front();
         next.into_iter().for_each(|work| work());

@@ -23,28 +23,21 @@ pub struct Tab {
     refusals: Vec<String>,
 }
 
-/// What a tab says.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum TabMessage {
-    /// A text or a frame for the page.
     Page(PageMessage),
-    /// A text for the client of the language service.
     Language(String),
     /// The page has written a file, which can now be kept.
     Written {
-        /// Its path.
         path: String,
-        /// Its text.
         text: String,
     },
-    /// A file that the page will fetch.
     Kept(KeptFile),
     /// A part of a simulation for somebody else to do: its number and bytes.
     Part(usize, Vec<u8>),
 }
 
 impl Tab {
-    /// A tab without files, whose page opens the file `first` if there is one.
     pub fn new(first: Option<String>, now: Duration) -> Self {
         let (folder, shell, line) = (MemoryFolder::default(), Arc::<LocalShell>::default(), Arc::default());
         let site = PlaySite {
@@ -68,12 +61,10 @@ impl Tab {
         self.folder.insert(path, text);
     }
 
-    /// Deletes a file.
     pub fn remove(&self, path: &str) {
         self.folder.remove(path);
     }
 
-    /// Sets the page that live pages are made of.
     pub fn set_template(&self, text: &str) {
         self.shell.set_template(text);
     }
@@ -84,26 +75,22 @@ impl Tab {
         self.shell.wake();
     }
 
-    /// Takes what became of a part of a simulation.
     pub fn receive_part(&self, number: usize, result: &[u8]) {
         let result = parts::read_result(result).expect("what became of a part comes from the same program");
         self.shell.local_crew().receive(number, result);
         self.shell.wake();
     }
 
-    /// Takes a request of the page.
     pub fn receive(&mut self, text: &str, now: Duration) {
         self.visit.receive(text, now);
         // It may stop work that waits for others.
         self.shell.wake();
     }
 
-    /// Begins a language service for a new client.
     pub fn greet(&mut self) {
         self.service = LanguageService::new(self.queue.clone());
     }
 
-    /// Takes a message of the client of the language service.
     pub fn receive_language(&mut self, text: &str, now: Duration) {
         match nbc_lsp::parse(text.as_bytes()).and_then(nbc_lsp::message) {
             Ok(message) => _ = self.service.receive(message, now),

@@ -8,10 +8,11 @@ use std::collections::BTreeMap;
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::gpu::{DeviceFigures, OpenDevice};
+#[cfg(feature = "gpu")]
+use crate::cli::gpu::DeviceFigures;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::timings::{meter, part_seconds};
-use crate::cli::{Context, Failure, Progress, Status};
+use crate::cli::{Context, Failure, OpenDevice, Progress, Status};
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::{Kernel, LaneBackend, Part};
 
@@ -37,7 +38,6 @@ pub struct BenchArguments {
     device: DeviceArguments,
 }
 
-/// The figures of one box.
 #[derive(Serialize)]
 struct Case {
     #[serde(rename = "box")]
@@ -50,7 +50,7 @@ struct Case {
     different: f64,
     /// Full evaluations per second by the paper's protocol.
     evaluations: f64,
-    /// With `--timings`: the share of time of each stage, by name.
+    /// Share of the time by stage.
     #[serde(skip_serializing_if = "Option::is_none")]
     timings: Option<BTreeMap<&'static str, f64>>,
 }
@@ -60,19 +60,17 @@ struct Figures {
     machine: String,
     width: usize,
     cases: Vec<Case>,
-    /// With `--swarm`.
     #[serde(skip_serializing_if = "Option::is_none")]
     swarm: Option<SwarmFigures>,
-    /// With `--device gpu`.
+    #[cfg(feature = "gpu")]
     #[serde(skip_serializing_if = "Option::is_none")]
     device: Option<DeviceFigures>,
 }
 
 impl BenchArguments {
-    /// Measures and prints.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let kernel = Kernel::default();
-        let device = OpenDevice::open(self.device.choice(), LaneBackend::default(), context)?;
+        let device = OpenDevice::open(self.device, LaneBackend::default(), context)?;
         let bar = Progress::new("measuring", SIDES.len() as u64);
         let case = |&side: &usize| {
             let case = measure(side, kernel, self.timings);
@@ -83,7 +81,14 @@ impl BenchArguments {
         drop(bar);
         let swarm = self.swarm.then(|| SwarmFigures::measure(kernel)).transpose()?;
         let (machine, width) = (machine(kernel), kernel.lanes());
-        let figures = Figures { machine, width, cases, swarm, device: device.figures() };
+        let figures = Figures {
+            machine,
+            width,
+            cases,
+            swarm,
+            #[cfg(feature = "gpu")]
+            device: device.figures(),
+        };
         device.end(context)?;
         context.print_result(Schema::Bench, &figures, || describe(&figures))?;
         Ok(Status::Done)
@@ -102,7 +107,7 @@ fn measure(side: usize, kernel: Kernel, timings: bool) -> Case {
     }
 }
 
-/// The share of time of each stage of a substep, with one body in all lanes.
+/// Shares of the time by stage of a substep, with one body in all lanes.
 fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     let meter = meter();
     race(side, kernel, 0, Some(&meter));
@@ -111,12 +116,11 @@ fn shares(side: usize, kernel: Kernel) -> BTreeMap<&'static str, f64> {
     Part::OF_LANES.iter().zip(spent).map(|(part, spent)| (part.name(), spent / all)).collect()
 }
 
-/// The name of the processor and its instruction set.
 fn machine(kernel: Kernel) -> String {
     format!("{}, {}", processor(), kernel.set().name())
 }
 
-/// The name of the processor, if the system tells it, or else its architecture.
+/// Its name, if the system knows it, or else its architecture.
 pub(super) fn processor() -> String {
     let information = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = information.lines().find_map(|line| line.strip_prefix("model name")?.split_once(':'));
@@ -134,13 +138,14 @@ fn describe(figures: &Figures) -> String {
         table.push(vec![case.bounds.clone(), scalar, lanes, different, format!("{:.2}", case.evaluations)]);
     }
     let Figures { machine, width, .. } = figures;
-    let parts = describe_timings(figures)
-        + &figures.swarm.as_ref().map_or(String::new(), SwarmFigures::describe)
-        + &figures.device.as_ref().map_or(String::new(), DeviceFigures::describe);
+    let mut parts = describe_timings(figures);
+    parts.extend(figures.swarm.as_ref().map(SwarmFigures::describe));
+    #[cfg(feature = "gpu")]
+    parts.extend(figures.device.as_ref().map(DeviceFigures::describe));
     format!("{machine}, {width} lanes, one core; substeps and the paper's evaluations per second\n{table}{parts}")
 }
 
-/// The shares of time as a table; empty if they were not measured.
+/// Empty if they were not measured.
 fn describe_timings(figures: &Figures) -> String {
     let columns = Part::OF_LANES.map(|part| (part.name(), Align::Right));
     let columns: Vec<_> = [("box", Align::Left)].into_iter().chain(columns).collect();

@@ -6,10 +6,8 @@ use std::time::{Duration, Instant};
 use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use nbc_sim::{Constants, Kernel, LaneBackend, Meter, Simulator};
 
-/// The shortest measurement of a figure.
 const PATIENCE: Duration = Duration::from_millis(500);
 
-/// Substeps of a cycle.
 pub(super) fn cycle_substeps() -> f64 {
     f64::from(CYCLE_STEPS * Constants::default().substeps)
 }
@@ -31,7 +29,6 @@ pub(super) fn race(side: usize, kernel: Kernel, shift: usize, meter: Option<&Arc
     on_one_thread(|| per_second(PATIENCE, processor_seconds, simulate))
 }
 
-/// Runs a measurement whose work is done by one thread.
 pub(super) fn on_one_thread<T: Send>(measure: impl FnOnce() -> T + Send) -> T {
     rayon::ThreadPoolBuilder::new().num_threads(1).build().expect("one thread can be started").install(measure)
 }

@@ -14,17 +14,14 @@ use nbc_session::{Choice, CompileOptions, Session};
 use nbc_sim::{Kernel, LaneBackend, Simulator};
 use nbc_swarm::{Assembly, LiveSwarm, Room};
 
-/// A counter of three bits.
 const FILE: &str = "circuits/counter.nb";
 const SOURCE: &str = include_str!("../../../circuits/counter.nb");
-/// The shortest measurement of a swarm.
 const PATIENCE: Duration = Duration::from_secs(1);
 /// Cycles for which the inputs are held.
 const HOLD: usize = 8;
 /// Cycles for which the world has room.
 const CYCLES: usize = 1000;
 
-/// How fast the swarm was.
 #[derive(Serialize)]
 pub(super) struct SwarmFigures {
     robots: usize,
@@ -38,7 +35,6 @@ pub(super) struct SwarmFigures {
 }
 
 impl SwarmFigures {
-    /// Measures the swarm on one thread, and on all.
     pub(super) fn measure(kernel: Kernel) -> Result<Self, Failure> {
         let assembly = assembly()?;
         let mut boxes: BTreeMap<usize, f64> = BTreeMap::new();
@@ -70,7 +66,6 @@ impl SwarmFigures {
     }
 }
 
-/// The swarm of the counter.
 fn assembly() -> Result<Assembly, Failure> {
     let mut session = Session::new(MemoryWorld::default());
     session.update(FILE, 1, SOURCE);

@@ -30,10 +30,10 @@ pub struct WorkerArguments {
 }
 
 impl WorkerArguments {
-    /// Works until a signal arrives.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let cancel = Interrupt::watch()?.cancel();
-        let worker = Worker::open(WorkerOptions { server: self.server.server(), name: self.name, cancel, log })?;
+        let options = WorkerOptions { server: self.server.server(), name: self.name, cancel, log };
+        let worker = Worker::open(options)?;
         let threads = self.threads.map_or_else(|| thread::available_parallelism().map_or(1, usize::from), usize::from);
         let (name, version, physics) = (worker.name(), nbc_base::VERSION, worker.physics());
         let shown = counted(threads, "thread");

@@ -23,7 +23,6 @@ pub struct WorkersArguments {
 }
 
 impl WorkersArguments {
-    /// Listens for a few seconds and lists who reported.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let mut watch = ClusterWatch::open(&self.server.server(), log)?;

@@ -4,29 +4,27 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind};
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
 use crate::cli::{Failure, Progress};
 use nbc_session::report::{self, Film, Stage};
 use nbc_session::store;
 
-/// The file to be written.
 pub(super) struct Canvas {
     path: PathBuf,
     extension: String,
 }
 
 impl Canvas {
-    /// The file, if its name fits the kind of picture.
-    pub(super) fn new(path: &Path, kind: &dyn PictureKind) -> Result<Self, DrawError> {
+    pub(super) fn new(path: &Path, kind: &PictureKind) -> Result<Self, Failure> {
         let extension = path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-        if kind.description().extensions.contains(&extension.as_str()) {
+        let PictureKind { word, extensions, .. } = kind;
+        if extensions.contains(&extension.as_str()) {
             return Ok(Self { path: path.to_owned(), extension });
         }
-        let expected = kind.description().extensions.iter().map(|extension| format!("`.{extension}`")).collect();
-        Err(DrawError::Extension { path: path.display().to_string(), expected, kind: kind.description().word })
+        let expected: Vec<String> = extensions.iter().map(|extension| format!("`.{extension}`")).collect();
+        Err(wording::extension(path, &expected, word).into())
     }
 
-    /// Writes the file.
     pub(super) fn write(&self, drawing: Drawing) -> Result<(), Failure> {
         match drawing {
             Drawing::Picture(svg) if self.extension == "svg" => self.bytes(svg.finish().as_bytes()),

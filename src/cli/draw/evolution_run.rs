@@ -3,23 +3,19 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::cli::draw::titled_body::TitledBody;
-use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::titled::{NamedBody, TitledBody, TitledRobots};
+use crate::cli::draw::wording;
 use crate::cli::evolution_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
-use crate::cli::evolve::wording::ProgressGaps;
+use crate::cli::evolve::wording::gaps_in_curves;
 use crate::cli::{Context, Failure};
-use nbc_base::model::Behavior;
+use nbc_base::model::{Behavior, Evolution};
 use nbc_base::source::Sources;
 use nbc_session::report::{EvolutionResults, History, SeedRun};
-use nbc_session::store::Declared;
 
-/// Whether a folder contains an evolution run: of one seed, or of several.
 pub(in crate::cli) fn is_run(folder: &Path) -> bool {
     !checkpoints(folder).is_empty()
 }
 
-/// The results of the runs in a folder.
 pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<EvolutionResults, Failure> {
     let mut results: Option<EvolutionResults> = None;
     for path in checkpoints(folder) {
@@ -28,39 +24,33 @@ pub(in crate::cli) fn read(folder: &Path, context: &Context) -> Result<Evolution
         let bytes = read_progress(&progress)?;
         let text = String::from_utf8_lossy(&bytes);
         let history = History::read(&text, checkpoint.state.generation);
-        let damage = history.damage().map(|damage| {
-            let path = progress.display().to_string();
-            ProgressGaps::InCurves { path, damage }.into()
-        });
+        let damage = history.damage().map(|damage| gaps_in_curves(&progress, &damage));
         context.tell(&Vec::from_iter(damage), &Sources::default());
         let run = SeedRun { niches: checkpoint.state.niches, progress: history.lines().collect() };
-        let place = path.display().to_string();
-        if checkpoint.declared.axes.is_empty() {
-            return Err(DrawError::NoAxes { path: place }.into());
+        if checkpoint.declared.descriptors.is_empty() {
+            return Err(wording::no_axes(&path).into());
         }
         let images = checkpoint.declared.images();
-        let Declared { name, axes, objective, palette, .. } = checkpoint.declared;
+        let Evolution { name, descriptors: axes, objective, palette, .. } = checkpoint.declared;
         let stimuli = palette.inputs();
         let empty = EvolutionResults { name, axes: axes.clone(), stimuli, images, objective, runs: BTreeMap::new() };
         let results = results.get_or_insert(empty);
         if results.axes != axes || results.objective != objective || results.stimuli != stimuli {
-            return Err(DrawError::OtherDeclaration { path: place }.into());
+            return Err(wording::other_declaration(&path).into());
         }
         if results.runs.insert(seed, run).is_some() {
-            return Err(DrawError::SameSeed { path: place, seed }.into());
+            return Err(wording::same_seed(&path, seed).into());
         }
     }
-    results.ok_or_else(|| DrawError::NoRunInFolder { folder: folder.display().to_string() }.into())
+    results.ok_or_else(|| wording::no_run_in_folder(folder).into())
 }
 
-/// The best robot of a behavior.
 pub(super) fn champion(results: &EvolutionResults, behavior: Behavior) -> Option<TitledBody> {
     let elite = results.champion(behavior)?;
     let title = format!("{}: {}, {behavior}", results.name, behavior.function());
     Some(TitledBody { title, body: elite.body.clone() })
 }
 
-/// The champions of every seed, by behavior.
 pub(super) fn each_champion(results: &EvolutionResults) -> TitledRobots {
     let one = |behavior: Behavior| {
         results.runs.iter().filter_map(move |(seed, run)| {
@@ -75,7 +65,6 @@ pub(super) fn each_champion(results: &EvolutionResults) -> TitledRobots {
     TitledRobots { title, robots: results.behaviors().into_iter().flat_map(one).collect() }
 }
 
-/// The best of each behavior over all seeds.
 pub(super) fn best_champions(results: &EvolutionResults) -> TitledRobots {
     let one = |behavior: Behavior| {
         let body = results.champion(behavior)?.body.clone();

@@ -2,20 +2,17 @@
 
 use crate::cli::draw::picture::{PictureKind, SubjectKind};
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
+use nbc_base::diag::Diagnostic;
 
 /// Rejects the first option that cannot change the picture.
-pub(super) fn check_options(
-    request: &DrawRequest,
-    kind: &dyn PictureKind,
-    subject: SubjectKind,
-) -> Result<(), DrawError> {
+pub(super) fn check_options(request: &DrawRequest, kind: &PictureKind, subject: SubjectKind) -> Result<(), Diagnostic> {
     let is_program = subject == SubjectKind::Program;
     let has_robots = matches!(subject, SubjectKind::Library | SubjectKind::Run);
-    let takes = |option| kind.description().options.contains(&option);
+    let takes = |option| kind.options.contains(&option);
     let choice = request.making.choice();
-    let has_library = request.making.library().library.is_some();
-    let goal = request.making.goal().given();
+    let has_library = request.making.library.library.is_some();
+    let goal = request.making.goal.given();
     let options = [
         ("--at", request.at.is_some(), takes("--at"), "a pose"),
         ("--axes", !request.axes.is_empty(), takes("--axes"), "a heat map"),
@@ -32,8 +29,10 @@ pub(super) fn check_options(
         ("--swarm", choice.swarm.is_some(), is_program, "a source file (.nb)"),
         ("--test", request.test.is_some(), is_program, "a source file (.nb)"),
     ];
-    let Some((option, .., wanted)) = options.into_iter().find(|(_, given, applies, _)| *given && !applies) else {
-        return Ok(());
-    };
-    Err(DrawError::Option { what: request.what.clone(), option, kind: kind.description().word, applies_to: wanted })
+    match options.into_iter().find(|(_, given, applies, _)| *given && !applies) {
+        None => Ok(()),
+        Some((option, .., applies_to)) => {
+            Err(wording::option_without_effect(&request.what, option, kind.word, applies_to))
+        }
+    }
 }

@@ -3,13 +3,11 @@
 use crate::cli::Failure;
 use crate::cli::draw::evolution_run::best_champions;
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::titled_body::TitledBody;
-use crate::cli::draw::titled_robots::TitledRobots;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::titled::{TitledBody, TitledRobots};
+use crate::cli::draw::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
 
-/// What is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SubjectKind {
     Library,
@@ -18,7 +16,6 @@ pub(super) enum SubjectKind {
     Run,
 }
 
-/// A finished picture, or a film to be made.
 pub(super) enum Drawing {
     Picture(Svg),
     Text(String),
@@ -34,7 +31,6 @@ pub(super) enum Drawing {
     },
 }
 
-/// A drawing, with a warning of each robot whose simulation failed.
 pub(super) struct Drawn {
     pub(super) drawing: Drawing,
     pub(super) faults: Vec<Diagnostic>,
@@ -46,68 +42,57 @@ impl From<Drawing> for Drawn {
     }
 }
 
-/// The formats of films.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum FilmFormat {
     Apng,
     Gif,
 }
 
-/// The description of a kind of picture.
-pub(super) struct KindDescription {
-    /// The word for it on the command line.
+/// A kind of picture. What it has no function for is refused, with the kind of subject that it is for.
+pub(super) struct PictureKind {
     pub(super) word: &'static str,
-    /// A line about it in the help.
     pub(super) about: &'static str,
-    /// The extensions of its files.
+    /// Of its files.
     pub(super) extensions: &'static [&'static str],
-    /// The options that change the picture, of those that not every kind has.
+    /// Options that change the picture, of those that not every kind has.
     pub(super) options: &'static [&'static str],
-    /// The kind of subject that it is for: the one to name if another is given. A kind for libraries also shows the
-    /// best robots of a run.
+    /// The subject to name if another is given. A kind for libraries also shows the best robots of a run.
     pub(super) subject: SubjectKind,
+    pub(super) robot: Option<fn(&TitledBody, &DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) library: Option<fn(&TitledRobots, &DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) run: Option<fn(&EvolutionResults, &DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) program: Option<fn(&DrawRequest) -> Result<Drawn, Failure>>,
 }
 
-impl KindDescription {
-    /// A kind of picture as SVG or PNG without options.
-    pub(super) fn new(word: &'static str, about: &'static str, subject: SubjectKind) -> Self {
-        Self { word, about, extensions: &["svg", "png"], options: &[], subject }
-    }
-}
-
-/// A kind of picture. What it cannot show is refused, with the kind of subject that it is for.
-pub(super) trait PictureKind: Sync {
-    /// Its name and what it applies to.
-    fn description(&self) -> KindDescription;
-
-    /// Draws one robot.
-    fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
-        Err(self.refuse(SubjectKind::Robot, request))
+impl PictureKind {
+    /// A kind of picture as SVG or PNG without options and functions.
+    pub(super) const fn new(word: &'static str, about: &'static str, subject: SubjectKind) -> Self {
+        let (robot, library, run, program) = (None, None, None, None);
+        Self { word, about, extensions: &["svg", "png"], options: &[], subject, robot, library, run, program }
     }
 
-    /// Draws the robots of a library.
-    fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
-        Err(self.refuse(SubjectKind::Library, request))
+    pub(super) fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
+        self.robot.ok_or_else(|| self.refuse(SubjectKind::Robot, request))?(robot, request)
     }
 
-    /// Draws an evolution run; its best robots, if this is a picture of several robots.
-    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
-        match self.description().subject {
-            SubjectKind::Library => self.of_library(&best_champions(results), request),
+    pub(super) fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
+        self.library.ok_or_else(|| self.refuse(SubjectKind::Library, request))?(robots, request)
+    }
+
+    pub(super) fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
+        match (self.run, self.subject) {
+            (Some(draw), _) => draw(results, request),
+            (None, SubjectKind::Library) => self.of_library(&best_champions(results), request),
             _ => Err(self.refuse(SubjectKind::Run, request)),
         }
     }
 
-    /// Draws the circuit of a source file, or its swarm.
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
-        Err(self.refuse(SubjectKind::Program, request))
+    pub(super) fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
+        self.program.ok_or_else(|| self.refuse(SubjectKind::Program, request))?(request)
     }
 
-    /// The error for a subject that has no such picture.
     fn refuse(&self, given: SubjectKind, request: &DrawRequest) -> Failure {
-        let KindDescription { word: kind, subject, .. } = self.description();
-        let what = request.what.clone();
-        DrawError::Kind { what, given: noun(given), expected: wanted(subject, given), kind }.into()
+        wording::other_kind(&request.what, noun(given), wanted(self.subject, given), self.word).into()
     }
 }
 
@@ -120,7 +105,6 @@ fn noun(subject: SubjectKind) -> &'static str {
     }
 }
 
-/// The subject to name instead of the given one.
 fn wanted(subject: SubjectKind, given: SubjectKind) -> &'static str {
     match (subject, given) {
         (SubjectKind::Run, _) => "the folder of a run",

@@ -1,7 +1,7 @@
 //! The circuit of a source file to be drawn, and the run of its swarm.
 
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::wording::DrawError;
+use crate::cli::draw::wording;
 use crate::cli::runs::{CompleteRun, chosen_runs, in_physics, names_of_tests, run_list};
 use crate::cli::{Failure, Interrupt};
 use nbc_base::model::CircuitTest;
@@ -10,7 +10,7 @@ use nbc_session::{Checked, CompileOptions, Compiled, RunList, Session};
 use nbc_swarm::Room;
 
 impl DrawRequest {
-    /// The chosen circuit, compiled: that of the chosen test, else the one that `nbc build` would build.
+    /// The circuit of the chosen test, else the one that `nbc build` would build.
     pub(super) fn compiled(&self) -> Result<Compiled, Failure> {
         let mut session = Session::new(DiskWorld);
         let file = session.open(&self.what)?;
@@ -22,8 +22,8 @@ impl DrawRequest {
         Ok(session.compile(&file, &circuit, &self.making.options()?)?)
     }
 
-    /// The chosen test, run in physics: the first one, or the first simulation if the file has no test. Poses are
-    /// recorded if there is room for them.
+    /// The chosen test or the first, or the first simulation if the file has no test. Poses are recorded if there is
+    /// room.
     pub(super) fn ran(&self, poses: Option<Room>) -> Result<CompleteRun, Failure> {
         let session = Session::new(DiskWorld).with_files(self.named.files());
         let mut session = match poses {
@@ -31,7 +31,7 @@ impl DrawRequest {
             None => session,
         };
         let file = session.open(&self.what)?;
-        self.named.check(std::slice::from_ref(&file)).map_err(Failure::plain)?;
+        self.named.check(std::slice::from_ref(&file))?;
         let choice = self.making.choice();
         let chosen = in_physics(chosen_runs(&file, None, &choice)?);
         let test = match &self.test {
@@ -40,8 +40,7 @@ impl DrawRequest {
         };
         let options = self.named.of(&file, self.making.options()?);
         if let Some(test) = test {
-            let clear = nbc_session::check_swarm_is_clear(&file.program, &test.circuit, options.swarm.as_deref());
-            clear.map_err(Failure::plain)?;
+            nbc_session::check_swarm_is_clear(&file.program, &test.circuit, options.swarm.as_deref())?;
             return run_one(&session, &file, &RunList { tests: vec![test], ..RunList::default() }, options);
         }
         match chosen.simulations.first() {
@@ -49,12 +48,13 @@ impl DrawRequest {
                 let list = RunList { simulations: vec![simulation], ..RunList::default() };
                 run_one(&session, &file, &list, options)
             }
-            None => Err(DrawError::NoRun { what: choice.circuit.or(choice.swarm).unwrap_or(self.what.clone()) }.into()),
+            None => {
+                Err(wording::no_run(choice.circuit.as_ref().or(choice.swarm.as_ref()).unwrap_or(&self.what)).into())
+            }
         }
     }
 }
 
-/// The first run of a list.
 fn run_one(
     session: &Session,
     file: &Checked,
@@ -65,13 +65,10 @@ fn run_one(
     Ok(CompleteRun::complete(report).into_iter().next().expect("nothing interrupts it"))
 }
 
-/// The first test of that title or circuit.
 fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, Failure> {
-    let unknown = || DrawError::UnknownTest {
-        file: file.path.clone(),
-        name: name.to_owned(),
-        known: names_of_tests(file).into_iter().collect(),
-    };
     let called = in_physics(RunList { tests: file.tests(name).collect(), ..RunList::default() });
-    called.tests.into_iter().next().ok_or_else(|| unknown().into())
+    called.tests.into_iter().next().ok_or_else(|| {
+        let known: Vec<String> = names_of_tests(file).into_iter().collect();
+        wording::unknown_test(&file.path, name, &known).into()
+    })
 }

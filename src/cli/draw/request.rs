@@ -4,20 +4,19 @@ use clap::Args;
 use clap::builder::PossibleValuesParser;
 
 use crate::cli::Failure;
-use crate::cli::draw::wording::DrawError;
-use crate::cli::options::circuit::FilesArguments;
+use crate::cli::draw::wording;
+use crate::cli::options::files::FilesArguments;
 use crate::cli::options::images::ImagesArguments;
 use crate::cli::options::making::MakingArguments;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Spell};
 use nbc_session::behavior;
 use nbc_session::report::{FRAMES_PER_CYCLE, Scheme};
 
-/// The cycles of each pattern if no schedule is given, as in the paper.
+/// Cycles of each pattern if no schedule is given, as in the paper.
 const CYCLES: u32 = 10;
 /// The most patterns that are tried if no schedule is given.
 const MOST_PATTERNS: usize = 64;
 
-/// The arguments of all kinds of pictures.
 #[derive(Args)]
 pub struct DrawRequest {
     /// A file with a body, a robot of the library, a folder of robot files, `shipped`, the folder of a run, or a source
@@ -67,7 +66,7 @@ impl DrawRequest {
         CYCLE_STEPS / frames
     }
 
-    /// The schedule of some bodies, by default all patterns of the stimuli that they sense.
+    /// By default all patterns of the stimuli that the bodies sense.
     pub(super) fn schedule<'a>(&self, bodies: impl IntoIterator<Item = &'a Body> + Clone) -> Result<Schedule, Failure> {
         let given = self.images.schedule(self.schedule.as_deref(), bodies.clone())?;
         Ok(given.map(|given| given.schedule).unwrap_or_else(|| {
@@ -77,7 +76,7 @@ impl DrawRequest {
         }))
     }
 
-    /// The env step of a pose: the end of the schedule, or the cycle of `--at`.
+    /// The end of the schedule, or the cycle of `--at`.
     pub(super) fn step(&self, schedule: &Schedule) -> Result<u32, Failure> {
         let end = schedule.steps();
         let Some(cycle) = self.at else { return Ok(end) };
@@ -85,15 +84,15 @@ impl DrawRequest {
         if step <= f64::from(end) {
             return Ok(step as u32);
         }
-        Err(DrawError::AfterEnd { at: cycle, end: f64::from(end) / f64::from(CYCLE_STEPS) }.into())
+        Err(wording::after_end(cycle, f64::from(end) / f64::from(CYCLE_STEPS)).into())
     }
 
     pub(super) fn none_of(&self, behavior: Behavior) -> Failure {
-        DrawError::UnknownBehavior { what: self.what.clone(), behavior }.into()
+        wording::unknown_behavior(&self.what, behavior).into()
     }
 }
 
-/// A moment in cycles from the start.
+/// In cycles from the start.
 fn cycle(text: &str) -> Result<f64, String> {
     let cycle = text.parse().ok().filter(|cycle: &f64| cycle.is_finite() && *cycle >= 0.0);
     cycle.ok_or_else(|| "expected a number of cycles, 0 or more".to_owned())

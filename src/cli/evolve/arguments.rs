@@ -10,7 +10,7 @@ use crate::cli::options::number::number;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::options::timings::Timings;
 use crate::cli::source_path::source_path;
-use crate::cli::wording::UsageError;
+use nbc_base::diag::Diagnostic;
 use nbc_session::RUNS;
 use nbc_session::store::ResultPlace;
 
@@ -61,11 +61,11 @@ pub struct EvolveArguments {
 
 impl EvolveArguments {
     /// The folder of runs, in which the robots of other evolutions are.
-    pub(super) fn runs(&self) -> Result<&str, UsageError> {
+    pub(super) fn runs(&self) -> Result<&str, Diagnostic> {
         source_path(self.out.as_deref().unwrap_or(Path::new(RUNS)))
     }
 
-    /// The folder for the runs of a declaration, or for a part of their results.
+    /// `part` is the name of a declaration, or a folder below it.
     pub(super) fn folder(&self, part: impl AsRef<Path>) -> ResultPlace {
         ResultPlace::new(self.out.as_deref(), Path::new(RUNS), part)
     }

@@ -6,20 +6,18 @@ use std::sync::Arc;
 use crate::cli::evolve::arguments::EvolveArguments;
 use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::{Ended, RunFolder};
-use crate::cli::evolve::wording::ProgressGaps;
 use crate::cli::in_order::in_order;
 use crate::cli::options::timings::Timer;
 use crate::cli::task_executor::TaskExecutor;
 use crate::cli::{Context, Failure, Interrupt, context};
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::Evolution;
 use nbc_base::source::Sources;
 use nbc_swarm::Task;
 use nbc_swarm::evolve::Champion;
 
-/// Seeds of a declaration whose runs are made together.
 type RunSet<'a> = (&'a Evolution, &'a [u64]);
 
-/// The runs of a command, and what does their tasks.
 pub(super) struct Campaign<'a> {
     pub(super) arguments: &'a EvolveArguments,
     pub(super) timer: &'a Timer,
@@ -28,12 +26,10 @@ pub(super) struct Campaign<'a> {
     pub(super) open: Arc<OpenRuns>,
 }
 
-/// A run that ended, with its results.
 pub(super) struct MadeRun<'a> {
     pub(super) evolution: &'a Evolution,
     pub(super) seed: u64,
     pub(super) finished: bool,
-    /// Whether its archive has a robot.
     pub(super) has_robots: bool,
     pub(super) ended: Ended,
     pub(super) summary: String,
@@ -41,8 +37,8 @@ pub(super) struct MadeRun<'a> {
 }
 
 impl<'a> Campaign<'a> {
-    /// Makes the runs of the declarations and passes them to `hand_on` in their order. Returns whether all were
-    /// finished; after an interruption, those that were begun are passed on.
+    /// Passes the runs to `hand_on` in their order. Returns whether all were finished; after an interruption, those
+    /// that were begun are passed on.
     pub(super) fn make(
         self,
         evolutions: &'a [Evolution],
@@ -87,7 +83,7 @@ impl<'a> Campaign<'a> {
 
     /// Makes runs until they are finished or stopped. After an error, the other runs are stopped.
     fn make_set(&self, place: usize, (evolution, seeds): RunSet<'a>, color: bool) -> Result<Vec<MadeRun<'a>>, Failure> {
-        let warn = |warning: ProgressGaps| context::tell(&[warning.into()], &Sources::default(), color);
+        let warn = |warning: Diagnostic| context::tell(&[warning], &Sources::default(), color);
         let open = |&seed: &u64| RunFolder::open(self.arguments, evolution, seed, self.timer, &warn);
         let opened: Result<Vec<RunFolder>, Failure> = seeds.iter().map(open).collect();
         let made = opened.and_then(|mut runs| {

@@ -16,11 +16,9 @@ use crate::cli::draw::{read_run, run_page};
 use crate::cli::evolve::campaign::{Campaign, MadeRun};
 use crate::cli::evolve::open_runs::OpenRuns;
 use crate::cli::evolve::run::Ended;
-use crate::cli::evolve::wording::{EvolveError, QuickRun};
-use crate::cli::gpu::OpenDevice;
 use crate::cli::source_path::source_path;
 use crate::cli::task_executor::TaskExecutor;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
+use crate::cli::{Context, Failure, Interrupt, OpenDevice, OutputFormat, Status};
 use nbc_base::diag::counted;
 use nbc_base::model::{Evolution, SearchObjective};
 use nbc_base::source::Sources;
@@ -34,24 +32,20 @@ use nbc_swarm::{Executor, LocalExecutor};
 
 pub(super) use arguments::EvolveArguments;
 
-/// The size of a run with `--quick`.
 const QUICK_SEEDS: usize = 3;
 const QUICK_GENERATIONS: u32 = 200;
-/// The number of evaluations above which the duration is estimated, and the number that is timed for the estimate.
+/// Evaluations above which the duration is estimated, and those that are timed for the estimate.
 const LONG: u64 = 20_000;
 const SAMPLE: usize = 8;
 
-/// The output as JSON.
 #[derive(Default, Serialize)]
 struct Results {
     runs: Vec<Ended>,
     comparisons: Vec<Comparison>,
-    /// Whether a run found a robot.
     #[serde(skip)]
     has_robots: bool,
 }
 
-/// The paper's comparison of behaviors over the runs of a declaration.
 #[derive(Serialize)]
 struct Comparison {
     run: String,
@@ -61,14 +55,13 @@ struct Comparison {
 }
 
 impl EvolveArguments {
-    /// Runs the evolutions.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (timer, interrupt) = (self.timings.start(), Interrupt::watch()?);
         let declared = match self.declared(&interrupt, context) {
             Err(_) if interrupt.is_raised() => return Ok(Status::Interrupted),
             declared => declared?,
         };
-        let device = OpenDevice::open(self.device.choice(), interrupt.ending(timer.processor()), context)?;
+        let device = OpenDevice::open(self.device, interrupt.ending(timer.processor()), context)?;
         let open = Arc::new(OpenRuns::default());
         let executor = self.executor(device, &declared, &interrupt, &open, context)?;
         let mut results = Results::default();
@@ -80,7 +73,7 @@ impl EvolveArguments {
         results.end(context, if finished { Status::Done } else { Status::Interrupted })
     }
 
-    /// Opens what does the evaluations, and logs how long they will take or how many cores they can use.
+    /// Also logs how long the runs will take, or how many cores they can use.
     fn executor(
         &self,
         device: OpenDevice,
@@ -100,7 +93,7 @@ impl EvolveArguments {
         Ok(executor)
     }
 
-    /// Reports a run, and after the last run of a declaration compares them.
+    /// Reports a run; after the last one of a declaration, compares its runs.
     fn end_run(
         &self,
         made: MadeRun,
@@ -133,7 +126,6 @@ impl EvolveArguments {
         Ok(())
     }
 
-    /// Writes the page of a declaration's runs beside their folders.
     fn write_report(&self, evolution: &Evolution, context: &mut Context) -> Result<(), Failure> {
         let folder = self.folder(&evolution.name).path();
         let path = folder.join("report.html");
@@ -153,7 +145,7 @@ impl Results {
             context.print_json(Schema::Evolve, self)?;
         }
         if status == Status::Done && !self.has_robots {
-            context.tell(&[EvolveError::NoRobotFound.into()], &Sources::default());
+            context.tell(&[wording::no_robot_found()], &Sources::default());
             return Ok(Status::TestFailed);
         }
         Ok(status)
@@ -173,7 +165,6 @@ impl Comparison {
 }
 
 impl EvolveArguments {
-    /// The evolutions to run, with the changes from the command line.
     fn declared(&self, interrupt: &Interrupt, context: &Context) -> Result<Vec<Evolution>, Failure> {
         let declared = self.chosen(interrupt)?;
         let mut evolutions = declared.clone();
@@ -191,7 +182,7 @@ impl EvolveArguments {
             evolution.generations = self.generations.or(quick).unwrap_or(evolution.generations);
         }
         if let (true, [declared, left_out @ ..], [used, ..]) = (self.quick, &declared[..], &evolutions[..]) {
-            context.log(&QuickRun { declared, used, left_out }.text());
+            context.log(&wording::quick_run(declared, used, left_out));
         }
         Ok(evolutions)
     }
@@ -212,8 +203,7 @@ impl EvolveArguments {
         context.log(&text);
     }
 
-    /// The evolutions of the file itself, or of the prelude without a file, or the one given by name, which may be in a
-    /// file that it uses.
+    /// Those of the file, or of the prelude without a file, or a named one, which may be in a file that the file uses.
     fn chosen(&self, interrupt: &Interrupt) -> Result<Vec<Evolution>, Failure> {
         let mut session = Session::new(interrupt.world());
         let checked = self.file.as_ref().map(|path| Ok::<_, Failure>(session.open(source_path(path)?)?)).transpose()?;
@@ -224,22 +214,21 @@ impl EvolveArguments {
             Some(checked) if evolution.start.is_some() => Ok(session.started(checked, evolution, self.runs()?)?),
             Some(_) => Ok(evolution.clone()),
         };
-        let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect();
+        let known = || program.evolutions.iter().map(|evolution| evolution.name.clone()).collect::<Vec<_>>();
         if let Some(name) = &self.run {
-            let found = program.evolution(name);
-            let unknown = || EvolveError::UnknownEvolution { name: name.clone(), known: known() };
-            return Ok(vec![started(found.ok_or_else(unknown)?)?]);
+            let found = program.evolution(name).ok_or_else(|| wording::unknown_evolution(name, &known()))?;
+            return Ok(vec![started(found)?]);
         }
         let Some(path) = &self.file else { return Ok(program.evolutions) };
         if program.own_evolutions.is_empty() {
-            return Err(EvolveError::NoEvolution { file: path.display().to_string(), known: known() }.into());
+            return Err(wording::no_evolution(path, &known()).into());
         }
         let own = program.evolutions.iter().filter(|evolution| program.own_evolutions.contains(&evolution.name));
         own.map(started).collect()
     }
 }
 
-/// The number of bodies that are evaluated at once in the first generations after the first.
+/// Bodies that are evaluated at once in the first generations after the first.
 fn cores(declared: &[Evolution], most_runs: usize) -> usize {
     let bodies = |evolution: &Evolution| evolution.batch + evolution.newcomers;
     let runs = declared.iter().flat_map(|evolution| evolution.seeds.iter().map(move |_| bodies(evolution)));
@@ -255,7 +244,7 @@ fn seconds_each(evolution: &Evolution) -> f64 {
     started.elapsed().as_secs_f64() / tasks.len().max(1) as f64
 }
 
-/// Whether the paper's comparison of behaviors is possible: it needs several runs with its objective.
+/// The paper's comparison needs several runs with its objective.
 fn is_comparable(evolution: &Evolution) -> bool {
     evolution.seeds.len() > 1 && evolution.objective == SearchObjective::Distance
 }

@@ -4,14 +4,13 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::cli::Progress;
 
-/// The progress display of all runs in progress together.
 #[derive(Default)]
 pub(super) struct OpenRuns(Mutex<State>);
 
 #[derive(Default)]
 struct State {
     runs: usize,
-    /// Generations that the runs have, and those they will have.
+    /// Done and total.
     generations: (u64, u64),
     bar: Option<Progress>,
 }
@@ -42,7 +41,6 @@ impl OpenRuns {
         }
     }
 
-    /// Shows a note.
     pub(super) fn note(&self, note: String) {
         if let Some(bar) = &self.lock().bar {
             bar.note(note);

@@ -11,9 +11,9 @@ use crate::cli::Failure;
 use crate::cli::context;
 use crate::cli::evolution_folder::{CHECKPOINT, PROGRESS, read_checkpoint, read_progress};
 use crate::cli::evolve::arguments::EvolveArguments;
-use crate::cli::evolve::wording::{EvolveError, ProgressGaps, ResumedUntil};
+use crate::cli::evolve::wording;
 use crate::cli::options::timings::{TimedStage, Timer};
-use nbc_base::diag::counted;
+use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::Evolution;
 use nbc_session::EvolutionRun;
 use nbc_session::report::{EvolutionLine, History, evolution_table};
@@ -21,7 +21,6 @@ use nbc_session::store::{self, FolderLock, LockFault};
 use nbc_swarm::evolve::Candidate;
 use nbc_swarm::{Task, TaskResult, Work};
 
-/// How one run ended.
 #[derive(Serialize)]
 pub(super) struct Ended {
     run: String,
@@ -33,20 +32,19 @@ pub(super) struct Ended {
     line: EvolutionLine,
 }
 
-/// A run in its folder.
 pub(super) struct RunFolder<'a> {
     run: EvolutionRun,
-    /// The candidates that are being evaluated.
+    /// Being evaluated.
     candidates: Vec<Candidate>,
     timer: &'a Timer,
     folder: PathBuf,
     checkpoint_every: Duration,
     started: Instant,
     saved: Instant,
-    /// Evaluations and work made before this program took over.
+    /// Made before this program took over.
     evaluations_before: u64,
     work_before: Work,
-    /// Seconds spent on asking and telling: parents, mutation, development, the archive.
+    /// Seconds spent on parents, mutation, development and the archive.
     searching: f64,
     _lock: FolderLock,
 }
@@ -58,7 +56,7 @@ impl<'a> RunFolder<'a> {
         evolution: &Evolution,
         seed: u64,
         timer: &'a Timer,
-        warn: &dyn Fn(ProgressGaps),
+        warn: &dyn Fn(Diagnostic),
     ) -> Result<Self, Failure> {
         let folder = arguments.folder(Path::new(&evolution.name).join(format!("seed-{seed}")));
         let folder = folder.create().map_err(|error| Failure::unwritable(&folder.path(), &error))?;
@@ -66,17 +64,11 @@ impl<'a> RunFolder<'a> {
         let path = folder.join(CHECKPOINT);
         let run = match read_checkpoint(&path)? {
             None => EvolutionRun::new(evolution, seed),
-            Some(_) if !arguments.resume => return Err(would_overwrite(&path)),
+            Some(_) if !arguments.resume => return Err(wording::has_run(&path).into()),
             Some(checkpoint) => {
-                let until = ResumedUntil {
-                    folder: folder.display().to_string(),
-                    done: checkpoint.state.generation,
-                    before: checkpoint.declared.generations(),
-                    now: evolution.generations,
-                };
-                context::log(&until.text());
-                let resumed = EvolutionRun::resume(checkpoint, &path.display().to_string(), evolution, seed);
-                resumed.map_err(Failure::plain)?
+                let (done, before) = (checkpoint.state.generation, checkpoint.declared.generations);
+                context::log(&wording::resumed_until(&folder, done, before, evolution.generations));
+                EvolutionRun::resume(checkpoint, &path.display().to_string(), evolution, seed)?
             }
         };
         let opened = Self {
@@ -96,17 +88,14 @@ impl<'a> RunFolder<'a> {
         Ok(opened)
     }
 
-    /// The run.
     pub(super) fn run(&self) -> &EvolutionRun {
         &self.run
     }
 
-    /// Whether all generations are done.
     pub(super) fn is_done(&self) -> bool {
         self.run.search().is_done()
     }
 
-    /// The tasks of the next generation. The time of everything except simulation is counted.
     pub(super) fn ask(&mut self) -> Vec<Task> {
         let started = Instant::now();
         self.candidates = self.timer.time(TimedStage::Development, || self.run.ask());
@@ -115,8 +104,8 @@ impl<'a> RunFolder<'a> {
         tasks
     }
 
-    /// Takes the results of a generation, in order of its candidates, and writes a checkpoint if one is due. Returns a
-    /// note for the progress display.
+    /// Takes the results in order of the candidates, and writes a checkpoint if one is due. Returns a note for the
+    /// progress display.
     pub(super) fn tell(&mut self, results: Vec<TaskResult>) -> Result<String, Failure> {
         let (candidates, started) = (std::mem::take(&mut self.candidates), Instant::now());
         let line = self.timer.time(TimedStage::Archive, || self.run.tell(&candidates, results));
@@ -129,7 +118,6 @@ impl<'a> RunFolder<'a> {
         Ok(self.message(&line))
     }
 
-    /// Writes a checkpoint.
     pub(super) fn save_timed(&self) -> Result<(), Failure> {
         self.timer.time(TimedStage::Output, || self.save())
     }
@@ -148,7 +136,7 @@ impl<'a> RunFolder<'a> {
 
     /// Drops the lines of generations after the checkpoint, which will be made again. A damaged file is set aside and
     /// reported.
-    fn trim_progress(&self, warn: &dyn Fn(ProgressGaps)) -> Result<(), Failure> {
+    fn trim_progress(&self, warn: &dyn Fn(Diagnostic)) -> Result<(), Failure> {
         let write = |path: &Path, bytes: &[u8]| {
             store::write_result(path, bytes).map_err(|error| Failure::unwritable(path, &error))
         };
@@ -158,12 +146,9 @@ impl<'a> RunFolder<'a> {
         let history = History::read(&text, self.run.search().generation());
         if let Some(damage) = history.damage() {
             let aside = path.with_extension("jsonl.damaged");
-            let mut kept = None;
-            if !bytes.is_empty() {
-                write(&aside, &bytes)?;
-                kept = Some(aside.display().to_string());
-            }
-            warn(ProgressGaps::InRun { path: path.display().to_string(), damage, aside: kept });
+            let kept = (!bytes.is_empty()).then_some(aside.as_path());
+            kept.map_or(Ok(()), |aside| write(aside, &bytes))?;
+            warn(wording::gaps_in_run(&path, &damage, kept));
         }
         write(&path, history.print().as_bytes())
     }
@@ -194,7 +179,7 @@ impl<'a> RunFolder<'a> {
         format!("{run}, seed {seed}\n{table}{speed}results in {folder}\n{left}\n")
     }
 
-    /// The speed since this program took over; empty if there was nothing left to do.
+    /// Since this program took over; empty if there was nothing left to do.
     fn speed(&self) -> String {
         let seconds = self.started.elapsed().as_secs_f64().max(1e-9);
         let rate = (self.run.search().counts().evaluations - self.evaluations_before) as f64 / seconds;
@@ -215,11 +200,7 @@ impl<'a> RunFolder<'a> {
 
 fn not_ours(folder: &Path, fault: LockFault) -> Failure {
     match fault {
-        LockFault::Held { process } => EvolveError::Held { folder: folder.display().to_string(), process }.into(),
+        LockFault::Held { process } => wording::held_folder(folder, process).into(),
         LockFault::Io(error) => Failure::unwritable(&folder.join("lock"), &error),
     }
-}
-
-fn would_overwrite(path: &Path) -> Failure {
-    EvolveError::HasRun { folder: path.display().to_string() }.into()
 }

@@ -1,4 +1,6 @@
-//! Errors of evolution runs and their folders, and the messages.
+//! Messages of evolution runs and their folders.
+
+use std::path::Path;
 
 use nbc_base::diag::suggest::alternatives;
 use nbc_base::diag::{Code, Diagnostic, Severity, counted};
@@ -6,120 +8,79 @@ use nbc_base::model::Evolution;
 
 use crate::cli::wording::no_such;
 
-/// A run that cannot be chosen, opened or read; `path`, `file` and `folder` are as the user wrote them.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::cli) enum EvolveError {
-    /// A file without evolutions of its own.
-    NoEvolution { file: String, known: Vec<String> },
-    /// An evolution that the file does not have.
-    UnknownEvolution { name: String, known: Vec<String> },
-    /// A folder that another process writes.
-    Held { folder: String, process: Option<u32> },
-    /// A folder with a run in it.
-    HasRun { folder: String },
-    /// Runs whose archives are empty.
-    NoRobotFound,
-    /// A folder without a checkpoint.
-    NoCheckpoint { path: String },
+pub(super) fn no_evolution(file: &Path, known: &[String]) -> Diagnostic {
+    Diagnostic::without_place(Code::Unknown, format!("`{}` declares no evolution", file.display()))
+        .with_help(format!("run one that it uses with `--run`: {}", alternatives(known, "or")))
 }
 
-impl From<EvolveError> for Diagnostic {
-    fn from(error: EvolveError) -> Self {
-        let fault = Self::without_place;
-        match error {
-            EvolveError::NoEvolution { file, known } => fault(Code::Unknown, format!("`{file}` declares no evolution"))
-                .with_help(format!("run one that it uses with `--run`: {}", alternatives(&known, "or"))),
-            EvolveError::UnknownEvolution { name, known } => {
-                no_such(format!("no evolution is called `{name}`"), &name, &known)
-            }
-            EvolveError::Held { folder, process } => {
-                let who = process.map_or_else(|| "another process".to_owned(), |process| format!("process {process}"));
-                fault(Code::Unwritable, format!("`{folder}` is in use by {who}"))
-                    .with_help("wait until it has ended, or choose another folder with `--out`")
-            }
-            EvolveError::HasRun { folder } => fault(Code::Checkpoint, format!("`{folder}` already contains a run"))
-                .with_help("continue it with `--resume`, or choose another folder with `--out`"),
-            EvolveError::NoRobotFound => fault(Code::Empty, "no run found a robot".to_owned())
-                .with_help("the summary tells what became of the bodies; more generations or a larger box may help"),
-            EvolveError::NoCheckpoint { path } => fault(Code::Checkpoint, format!("there is no checkpoint `{path}`"))
-                .with_help(
-                    "name the folder of a run such as `out/gates`, or of one of its seeds such as `out/gates/seed-1`",
-                ),
-        }
+pub(super) fn unknown_evolution(name: &str, known: &[String]) -> Diagnostic {
+    no_such(format!("no evolution is called `{name}`"), name, known)
+}
+
+pub(super) fn held_folder(folder: &Path, process: Option<u32>) -> Diagnostic {
+    let who = process.map_or_else(|| "another process".to_owned(), |process| format!("process {process}"));
+    Diagnostic::without_place(Code::Unwritable, format!("`{}` is in use by {who}", folder.display()))
+        .with_help("wait until it has ended, or choose another folder with `--out`")
+}
+
+pub(super) fn has_run(folder: &Path) -> Diagnostic {
+    Diagnostic::without_place(Code::Checkpoint, format!("`{}` already contains a run", folder.display()))
+        .with_help("continue it with `--resume`, or choose another folder with `--out`")
+}
+
+pub(super) fn no_robot_found() -> Diagnostic {
+    Diagnostic::without_place(Code::Empty, "no run found a robot")
+        .with_help("the summary tells what became of the bodies; more generations or a larger box may help")
+}
+
+pub(in crate::cli) fn no_checkpoint(path: &Path) -> Diagnostic {
+    Diagnostic::without_place(Code::Checkpoint, format!("there is no checkpoint `{}`", path.display()))
+        .with_help("name the folder of a run such as `out/gates`, or of one of its seeds such as `out/gates/seed-1`")
+}
+
+fn progress_gaps(path: &Path, damage: &str, help: impl Into<String>) -> Diagnostic {
+    let fault = Diagnostic::without_place(Code::Checkpoint, format!("`{}` {damage}", path.display()));
+    Diagnostic { severity: Severity::Warning, ..fault }.with_help(help)
+}
+
+/// Missing lines of past generations, without which curves are drawn.
+pub(in crate::cli) fn gaps_in_curves(path: &Path, damage: &str) -> Diagnostic {
+    progress_gaps(path, damage, "curves over time leave them out")
+}
+
+/// Missing lines of past generations, without which a run is resumed; `kept` is the path of the damaged file.
+pub(super) fn gaps_in_run(path: &Path, damage: &str, kept: Option<&Path>) -> Diagnostic {
+    let kept = kept.map_or_else(String::new, |kept| format!("; the damaged file is kept as `{}`", kept.display()));
+    progress_gaps(path, damage, format!("the run continues without them{kept}"))
+}
+
+/// What `--quick` changes and leaves out.
+pub(super) fn quick_run(declared: &Evolution, used: &Evolution, left_out: &[Evolution]) -> String {
+    let mut text = format!(
+        "`--quick` runs `{}` with {} of {} and {} instead of {}\n",
+        declared.name,
+        counted(used.seeds.len(), "seed"),
+        declared.seeds.len(),
+        counted(used.generations as usize, "generation"),
+        declared.generations
+    );
+    if !left_out.is_empty() {
+        let names: Vec<&str> = left_out.iter().map(|evolution| evolution.name.as_str()).collect();
+        text += &format!("`--quick` leaves out {}\n", alternatives(&names, "and"));
     }
+    text
 }
 
-/// Lines of past generations that are missing in a file of progress.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(in crate::cli) enum ProgressGaps {
-    /// Curves are drawn without them.
-    InCurves { path: String, damage: String },
-    /// The run is resumed without them; `aside` is the path of the damaged file.
-    InRun { path: String, damage: String, aside: Option<String> },
-}
-
-impl From<ProgressGaps> for Diagnostic {
-    fn from(gaps: ProgressGaps) -> Self {
-        let (path, damage, help) = match gaps {
-            ProgressGaps::InCurves { path, damage } => (path, damage, "curves over time leave them out".to_owned()),
-            ProgressGaps::InRun { path, damage, aside } => {
-                let kept = aside.map_or_else(String::new, |aside| format!("; the damaged file is kept as `{aside}`"));
-                (path, damage, format!("the run continues without them{kept}"))
-            }
-        };
-        let message = format!("`{path}` {damage}");
-        Self { severity: Severity::Warning, ..Self::without_place(Code::Checkpoint, message).with_help(help) }
+/// A run that is resumed until generation `now`, and `before` was to end elsewhere; empty if nothing changes.
+pub(super) fn resumed_until(folder: &Path, done: u32, before: u32, now: u32) -> String {
+    let (folder, made) = (folder.display(), counted(done as usize, "generation"));
+    if done > now {
+        return format!("`{folder}` has {made} already, more than the {now} that are asked for\n");
     }
-}
-
-/// What `--quick` makes of a declaration.
-pub(in crate::cli) struct QuickRun<'a> {
-    pub(in crate::cli) declared: &'a Evolution,
-    pub(in crate::cli) used: &'a Evolution,
-    /// The declarations that are not run.
-    pub(in crate::cli) left_out: &'a [Evolution],
-}
-
-impl QuickRun<'_> {
-    /// A line on what is different, and one on what is left out.
-    pub(in crate::cli) fn text(&self) -> String {
-        let Self { declared, used, left_out } = self;
-        let (seeds, generations) = (used.seeds.len(), used.generations);
-        let (all_seeds, all_generations) = (declared.seeds.len(), declared.generations);
-        let name = &declared.name;
-        let mut text = format!(
-            "`--quick` runs `{name}` with {} of {all_seeds} and {} instead of {all_generations}\n",
-            counted(seeds, "seed"),
-            counted(generations as usize, "generation")
-        );
-        if !left_out.is_empty() {
-            let names: Vec<&str> = left_out.iter().map(|evolution| evolution.name.as_str()).collect();
-            text += &format!("`--quick` leaves out {}\n", alternatives(&names, "and"));
-        }
-        text
+    if before == now {
+        return String::new();
     }
-}
-
-/// A run that is resumed until another generation than before.
-pub(in crate::cli) struct ResumedUntil {
-    pub(in crate::cli) folder: String,
-    pub(in crate::cli) done: u32,
-    pub(in crate::cli) before: Option<u32>,
-    pub(in crate::cli) now: u32,
-}
-
-impl ResumedUntil {
-    /// A line on what is different; empty if nothing is.
-    pub(in crate::cli) fn text(&self) -> String {
-        let Self { folder, done, before, now } = self;
-        let before = before.filter(|before| before != now).map(|before| format!(", which was to have {before},"));
-        let made = counted(*done as usize, "generation");
-        match before {
-            _ if done > now => format!("`{folder}` has {made} already, more than the {now} that are asked for\n"),
-            None => String::new(),
-            Some(before) => format!("`{folder}`{before} continues after {made} until it has {now}\n"),
-        }
-    }
+    format!("`{folder}`, which was to have {before}, continues after {made} until it has {now}\n")
 }
 
 #[cfg(test)]
@@ -128,11 +89,11 @@ mod tests {
 
     #[test]
     fn a_resumed_run_says_what_is_replaced() {
-        let text = |done, before, now| ResumedUntil { folder: "out/a/seed-1".to_owned(), done, before, now }.text();
+        let text = |done, before, now| resumed_until(Path::new("out/a/seed-1"), done, before, now);
         let longer = "`out/a/seed-1`, which was to have 10, continues after 10 generations until it has 50\n";
-        assert_eq!(text(10, Some(10), 50), longer);
+        assert_eq!(text(10, 10, 50), longer);
         let fewer = "`out/a/seed-1` has 10 generations already, more than the 5 that are asked for\n";
-        assert_eq!(text(10, Some(10), 5), fewer);
-        assert_eq!((text(4, Some(10), 10), text(4, None, 10)), (String::new(), String::new()));
+        assert_eq!(text(10, 10, 5), fewer);
+        assert_eq!(text(4, 10, 10), "");
     }
 }

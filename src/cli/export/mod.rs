@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::cli::draw::{is_run, read_run};
 use crate::cli::options::new_path::new_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use nbc_base::model::Library;
 use nbc_session::report::{Document, Elites, Schema, robots_csv};
@@ -32,7 +32,6 @@ pub struct ExportArguments {
     output: Option<PathBuf>,
 }
 
-/// The formats of an export.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Target {
     /// A table with a header and a row for each elite or robot
@@ -41,14 +40,12 @@ enum Target {
     Json,
 }
 
-/// Robots with all their data.
 #[derive(Serialize)]
 struct Robots {
     robots: Vec<RobotRecord>,
 }
 
 impl ExportArguments {
-    /// Reads and exports.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (target, what) = (self.target(context.format)?, Path::new(&self.what));
         if is_run(what) {
@@ -85,12 +82,11 @@ impl ExportArguments {
     fn library(&self) -> Result<Library, Failure> {
         let found = robots::robots(Path::new(&self.what))?;
         if found.robots.is_empty() {
-            return Err(UsageError::NothingToExport { path: self.what.clone() }.into());
+            return Err(wording::nothing_to_export(&self.what).into());
         }
         Ok(found)
     }
 
-    /// The format from `--to`, from the name of the file, or from `--format`.
     fn target(&self, format: OutputFormat) -> Result<Target, Failure> {
         let ending = self.output.as_ref().and_then(|path| path.extension()).map(|ending| ending.to_ascii_lowercase());
         let by_name = ending.and_then(|ending| match ending.to_str() {
@@ -101,7 +97,7 @@ impl ExportArguments {
         let by_format = (format == OutputFormat::Json && self.output.is_none()).then_some(Target::Json);
         match (self.to, by_format.or(by_name)) {
             (Some(Target::Csv), Some(Target::Json)) if by_format.is_some() => {
-                Err(UsageError::TwoFormats { option: "--to csv" }.into())
+                Err(wording::two_formats("--to csv").into())
             }
             (Some(target), _) | (None, Some(target)) => Ok(target),
             (None, None) => Ok(Target::Csv),

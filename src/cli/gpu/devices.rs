@@ -3,9 +3,8 @@
 use clap::Args;
 use serde::Serialize;
 
-use crate::cli::gpu::wording::DeviceFailure;
+use crate::cli::gpu::wording::device_failure;
 use crate::cli::{Context, Failure, Progress, Status};
-use nbc_base::diag::Diagnostic;
 use nbc_session::report::{Align, Schema, TextTable};
 use nbc_sim::{BoxComparison, LaneBackend, OpenClBackend, OpenClDevice, SelfTest};
 
@@ -24,7 +23,6 @@ pub struct DevicesArguments {
     self_test: bool,
 }
 
-/// A device with the result of its test.
 #[derive(Serialize)]
 struct DeviceReport {
     number: usize,
@@ -32,17 +30,13 @@ struct DeviceReport {
     kind: &'static str,
     platform: String,
     driver: String,
-    /// Memory in bytes.
+    /// In bytes.
     memory: u64,
-    /// Whether it can be used.
     usable: bool,
-    /// Why not.
     problem: Option<String>,
-    /// The comparisons made.
     boxes: Vec<BoxReport>,
 }
 
-/// The comparison of one box.
 #[derive(Serialize)]
 struct BoxReport {
     #[serde(rename = "box")]
@@ -52,9 +46,8 @@ struct BoxReport {
 }
 
 impl DevicesArguments {
-    /// Lists and tests.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let devices = OpenClDevice::all().map_err(DeviceFailure)?;
+        let devices = OpenClDevice::all().map_err(|error| device_failure(&error))?;
         let test = if self.self_test { SelfTest::FULL } else { SelfTest::QUICK };
         let bar = Progress::new("testing", devices.len() as u64);
         let report = |device: &OpenClDevice| {
@@ -76,7 +69,7 @@ impl DeviceReport {
             Ok((comparisons, problem)) => (comparisons, problem),
             Err(error) => (Vec::new(), Some(error)),
         };
-        let problem = problem.map(|error| Diagnostic::from(DeviceFailure(error)).message);
+        let problem = problem.map(|error| device_failure(&error).message);
         Self {
             number: device.number,
             name: device.name.clone(),

@@ -8,14 +8,12 @@ use nbc_base::model::{Body, CYCLE_STEPS, Pattern, Schedule, Setting, Trial};
 use nbc_session::report::{Align, TextTable};
 use nbc_sim::{Constants, OpenClBackend, Simulator};
 
-/// The boxes of the paper.
 const SIDES: [usize; 3] = [5, 7, 10];
-/// Numbers of robots that are simulated at once.
+/// Robots that are simulated at once.
 const ROBOTS: [usize; 5] = [64, 512, 2048, 8192, 32_768];
 /// If a number of robots takes longer than this, larger ones are not measured.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// How fast a device is.
 #[derive(Serialize)]
 pub struct DeviceFigures {
     name: String,
@@ -23,7 +21,6 @@ pub struct DeviceFigures {
     cases: Vec<DeviceCase>,
 }
 
-/// One box with so many robots in flight.
 #[derive(Serialize)]
 struct DeviceCase {
     #[serde(rename = "box")]
@@ -33,14 +30,13 @@ struct DeviceCase {
     substeps: f64,
 }
 
-/// Measures a device: different bodies, one cycle from a fresh start.
+/// Different bodies, one cycle from a fresh start.
 pub(super) fn measure(backend: &OpenClBackend) -> DeviceFigures {
     let device = backend.device();
     let cases = SIDES.iter().flat_map(|&side| cases(backend, side)).collect();
     DeviceFigures { name: device.name.clone(), driver: device.driver.clone(), cases }
 }
 
-/// The figures of a box, until one takes too long.
 fn cases(backend: &OpenClBackend, side: usize) -> Vec<DeviceCase> {
     let simulator = Simulator::new(backend.clone());
     // The kernel is compiled before anything is measured.
@@ -57,7 +53,6 @@ fn cases(backend: &OpenClBackend, side: usize) -> Vec<DeviceCase> {
     cases
 }
 
-/// The time of so many robots for some env steps.
 fn race(simulator: &Simulator, side: usize, robots: usize, steps: u32) -> Duration {
     let schedule = Schedule::constant(Pattern::PAIRS[1], steps);
     let trial = |robot| Trial { body: Body::patchwork(side, robot), schedule: schedule.clone() };
@@ -68,7 +63,6 @@ fn race(simulator: &Simulator, side: usize, robots: usize, steps: u32) -> Durati
 }
 
 impl DeviceFigures {
-    /// The figures as a table.
     pub fn describe(&self) -> String {
         use Align::{Left, Right};
         let mut table = TextTable::new(&[("box", Left), ("robots", Right), ("substeps", Right)]);

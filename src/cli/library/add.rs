@@ -8,21 +8,20 @@ use clap::Args;
 use serde::Serialize;
 
 use crate::cli::evolution_folder::{CHECKPOINT, checkpoints, read_checkpoint};
-use crate::cli::evolve::wording::EvolveError;
+use crate::cli::evolve::wording::no_checkpoint;
 use crate::cli::in_order::in_order;
 use crate::cli::library::measured::Measured;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::task_executor::TaskExecutor;
-use crate::cli::wording::UsageError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
-use nbc_base::budget::Limit;
-use nbc_base::diag::{Diagnostic, counted};
+use crate::cli::wording;
+use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status, robots};
+use nbc_base::diag::counted;
 use nbc_base::model::{Behavior, Robot};
 use nbc_base::source::Sources;
 use nbc_session::report::{Answer, Schema};
-use nbc_session::store::{self, Checkpoint, DiskWorld, ResultPlace};
+use nbc_session::store::{self, Checkpoint, ResultPlace};
 use nbc_session::{OwnBody, RobotRequest, behavior};
 use nbc_swarm::{Selected, Selection};
 
@@ -66,27 +65,24 @@ pub struct AddArguments {
     queue: QueueArguments,
 }
 
-/// The output as JSON.
 #[derive(Serialize)]
 struct Answers {
     folder: String,
     answers: Vec<Answer>,
 }
 
-/// A robot that is asked for, and the file of its body, if it is of one.
+/// A request, with the file of its body, if it has one.
 struct Asked {
     path: Option<PathBuf>,
     request: RobotRequest,
 }
 
-/// What was found for it.
 struct Found<'a> {
     asked: &'a Asked,
     selected: Selected,
 }
 
 impl AddArguments {
-    /// Selects, measures and writes robots.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let selection = self.selection();
         let asked = self.asked(&selection)?;
@@ -133,7 +129,6 @@ impl AddArguments {
         self.end(answers, context)
     }
 
-    /// Prints the summary and returns the exit status.
     fn end(&self, answers: Vec<Answer>, context: &mut Context) -> Result<Status, Failure> {
         let (asked, added) = (answers.len(), answers.iter().filter(|answer| answer.is_added()).count());
         match context.format {
@@ -156,13 +151,13 @@ impl AddArguments {
         Ok(if missed { Status::TestFailed } else { Status::Done })
     }
 
-    /// The checkpoints of the runs, each once.
+    /// Each once.
     fn checkpoints(&self) -> Result<BTreeSet<PathBuf>, Failure> {
         let mut found = BTreeSet::new();
         for folder in self.runs.iter().filter(|path| !path.is_file()) {
             let seeds = checkpoints(folder);
             if seeds.is_empty() {
-                return Err(missing(&folder.join(CHECKPOINT)));
+                return Err(no_checkpoint(&folder.join(CHECKPOINT)).into());
             }
             found.extend(seeds);
         }
@@ -174,21 +169,20 @@ impl AddArguments {
         Selection { tries: self.tries as usize, finalists: self.finalists as usize, max_error, wide_margin }
     }
 
-    /// The files with bodies.
     fn files(&self) -> impl Iterator<Item = &PathBuf> {
         self.runs.iter().filter(|path| path.is_file())
     }
 
-    /// What is to be measured: the bodies in files, and the requested behaviors of runs.
+    /// The bodies in files, and the requested behaviors of runs.
     fn asked(&self, selection: &Selection) -> Result<Vec<Asked>, Failure> {
         let own = self.files().map(|path| self.own_body(path)).collect::<Result<Vec<_>, _>>()?;
         for (at, body) in own.iter().enumerate() {
             if own[..at].iter().any(|other| other.name == body.name) {
-                return Err(UsageError::SameRobot { name: body.name.clone() }.into());
+                return Err(wording::same_robot(&body.name).into());
             }
         }
         if !own.is_empty() && !self.behavior.is_empty() && own.len() == self.runs.len() {
-            return Err(UsageError::BehaviorOfFile.into());
+            return Err(wording::behavior_of_file().into());
         }
         let of_file = |(own, path): (OwnBody, &PathBuf)| Asked {
             path: Some(path.clone()),
@@ -196,8 +190,8 @@ impl AddArguments {
         };
         let mut asked: Vec<Asked> = own.into_iter().zip(self.files()).map(of_file).collect();
         let checkpoints = self.checkpoints()?;
-        let read = |path: &PathBuf| read_checkpoint(path)?.ok_or_else(|| missing(path));
-        let runs = checkpoints.iter().map(read).collect::<Result<Vec<Checkpoint>, _>>()?;
+        let read = |path: &PathBuf| read_checkpoint(path)?.ok_or_else(|| no_checkpoint(path).into());
+        let runs = checkpoints.iter().map(read).collect::<Result<Vec<Checkpoint>, Failure>>()?;
         if !runs.is_empty() {
             let requests = RobotRequest::of_runs(&runs, &self.behavior, selection);
             asked.extend(requests.into_iter().map(|request| Asked { path: None, request }));
@@ -205,25 +199,22 @@ impl AddArguments {
         Ok(asked)
     }
 
-    /// The body in a file that somebody wrote, or in a robot file.
+    /// The body in a file written by hand, or in a robot file.
     fn own_body(&self, path: &Path) -> Result<OwnBody, Failure> {
         let name = path.file_stem().and_then(|stem| stem.to_str()).unwrap_or_default().to_owned();
         if !store::is_robot_name(&name) {
-            return Err(UsageError::RobotName { path: path.display().to_string() }.into());
+            return Err(wording::robot_name(path).into());
         }
-        let shown = path.display().to_string();
-        let text = store::read_text(path, Limit::RobotBytes.most());
-        let text = text.map_err(|error| Failure::plain(Diagnostic::unreadable_in(&DiskWorld, &shown, &error)))?;
         let mut sources = Sources::default();
-        let is_robot = text.lines().any(|line| line.starts_with("format:"));
-        let id = sources.add(&shown, text);
-        let read = if is_robot {
-            store::read_robot(sources.file(id)).map(|robot| {
+        let id = robots::read_source(path, &mut sources)?;
+        let file = sources.file(id);
+        let read = if file.text.lines().any(|line| line.starts_with("format:")) {
+            store::read_robot(file).map(|robot| {
                 let Robot { body, provenance, genotype, .. } = robot;
                 OwnBody { provenance, genotype, ..OwnBody::by_hand(name, body) }
             })
         } else {
-            store::read_body(sources.file(id)).map(|body| OwnBody::by_hand(name, body))
+            store::read_body(file).map(|body| OwnBody::by_hand(name, body))
         };
         let own = read.map_err(|fault| Failure::input(vec![fault], sources))?;
         Ok(OwnBody { max_error: self.max_error.unwrap_or(own.max_error), ..own })
@@ -231,19 +222,15 @@ impl AddArguments {
 }
 
 impl Found<'_> {
-    /// The answer for the output.
     fn answer(&self, max_error: f64) -> Result<Answer, Failure> {
         match (self.asked.request.behavior(&self.selected), &self.selected, &self.asked.path) {
             (Some(behavior), selected, _) => Ok(Answer::of(behavior, selected, max_error)),
-            (None, Selected::Faulty(fault), Some(path)) => {
-                Err(UsageError::Unstable { path: path.display().to_string(), env_step: fault.env_step }.into())
-            }
+            (None, Selected::Faulty(fault), Some(path)) => Err(wording::unstable_body(path, fault.env_step).into()),
             (None, ..) => unreachable!("any behavior of a body is right"),
         }
     }
 }
 
-/// A share between 0 and 1.
 fn share(text: &str) -> Result<f64, String> {
     let share = text.parse().ok().filter(|share| (0.0..=1.0).contains(share));
     share.ok_or_else(|| "expected a number from 0 to 1, such as 0.01 for one per cent".to_owned())
@@ -254,8 +241,4 @@ fn write(folder: &Path, robot: &Robot) -> Result<(), Failure> {
     let text = store::print_robot(robot);
     let written = store::create_folder(folder).and_then(|()| store::write_result(&path, text.as_bytes()));
     written.map_err(|error| Failure::unwritable(&path, &error))
-}
-
-fn missing(path: &Path) -> Failure {
-    EvolveError::NoCheckpoint { path: path.display().to_string() }.into()
 }

@@ -14,17 +14,16 @@ use nbc_base::model::{Behavior, Character, Displacements, Fault};
 use nbc_session::store;
 use nbc_swarm::{Executor, Measurement, Task, TaskResult};
 
-/// The file, in the folder of the robots.
+/// In the folder of the robots.
 const FILE: &str = "measured.jsonl";
 
 /// An executor that remembers the results of screenings and measurements, and stops between two tasks.
 pub(super) struct Measured<'a> {
     executor: &'a dyn Executor,
     interrupt: &'a Interrupt,
-    /// Whether tasks are done elsewhere, where many are done at once.
+    /// Tasks are done elsewhere, where many are done at once.
     together: bool,
     path: PathBuf,
-    /// Whether the folder was not there before.
     is_new_folder: bool,
     state: Mutex<State>,
 }
@@ -35,7 +34,6 @@ struct State {
     fault: Option<Failure>,
 }
 
-/// A line of the file: a task and its result.
 #[derive(Serialize, Deserialize)]
 struct Line {
     version: String,
@@ -43,7 +41,6 @@ struct Line {
     outcome: KeptResult,
 }
 
-/// A result as data.
 #[derive(Clone, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum KeptResult {
@@ -66,7 +63,6 @@ impl<'a> Measured<'a> {
         Self { executor, interrupt, together, path, is_new_folder, state }
     }
 
-    /// The number of results that are known.
     pub(super) fn len(&self) -> usize {
         self.lock().known.len()
     }
@@ -88,7 +84,6 @@ impl<'a> Measured<'a> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Remembers a result.
     fn keep(&self, task: String, result: &TaskResult) {
         let Some(outcome) = KeptResult::of(result) else { return };
         let line = Line { version: nbc_base::VERSION.to_owned(), task, outcome };
@@ -126,7 +121,7 @@ impl Executor for Measured<'_> {
     }
 }
 
-/// A task as text; `None` for tasks that are not remembered.
+/// `None` for tasks that are not remembered.
 fn key(task: &Task) -> Option<String> {
     let (what, body) = match task {
         Task::Screening { body, behavior, most } => (format!("screening {behavior} {most}"), body),
@@ -171,7 +166,7 @@ mod tests {
     use nbc_base::model::{Body, Palette};
     use nbc_swarm::LocalExecutor;
 
-    /// Counts what it does, and raises the interrupt after some tasks.
+    /// Raises the interrupt after `most` tasks.
     struct Counting<'a> {
         done: AtomicUsize,
         most: usize,

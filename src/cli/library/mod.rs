@@ -3,7 +3,6 @@
 mod add;
 mod measured;
 mod radius;
-mod rewrite;
 mod verify;
 
 use std::path::{Path, PathBuf};
@@ -18,7 +17,7 @@ use nbc_base::model::{Library, Robot};
 use nbc_session::report::{self, Listing, Schema};
 use nbc_session::store;
 
-/// List, show, verify, add and rewrite robots
+/// List, show, verify and add robots
 #[derive(Args)]
 #[command(after_help = "\
 Examples:
@@ -39,7 +38,6 @@ enum Action {
         /// A robot file, or a folder of them, instead of the built-in library
         path: Option<PathBuf>,
     },
-    Rewrite(rewrite::RewriteArguments),
     /// Show one robot
     Show {
         /// The name of a robot, a function such as `nand` for its best robot, or a robot file
@@ -61,13 +59,11 @@ enum Action {
 }
 
 impl LibraryArguments {
-    /// Runs the subcommand.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let library = |path: Option<&Path>| path.map_or_else(|| Ok(store::shipped_library()), robots_of);
         match self.action {
             Action::Add(arguments) => arguments.run(context),
             Action::List { path } => list(&library(path.as_deref())?, context),
-            Action::Rewrite(arguments) => arguments.run(context),
             Action::Show { name, path } => show(&named(&name, path.as_deref())?, context),
             Action::Verify { path, radius, device, queue } => {
                 let library = library(path.as_deref())?;

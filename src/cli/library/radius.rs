@@ -15,11 +15,12 @@ use nbc_session::report::Schema;
 use nbc_session::store;
 use nbc_sim::Simulator;
 
-/// The worlds in which robots are tried.
 #[derive(Args)]
 pub(super) struct RadiusArguments {
     /// Measure instead how far worlds may differ: the changes at radius 1, such as `friction=10%` or `all=10%`
-    #[arg(long, value_name = "CHANGES", conflicts_with_all = ["nats", "device"])]
+    #[cfg_attr(feature = "cluster", arg(conflicts_with = "nats"))]
+    #[cfg_attr(feature = "gpu", arg(conflicts_with = "device"))]
+    #[arg(long, value_name = "CHANGES")]
     vary: Option<Variation>,
     /// The number of worlds for each radius
     #[arg(long, value_name = "N", requires = "vary", default_value_t = 20)]
@@ -34,12 +35,11 @@ pub(super) struct RadiusArguments {
 }
 
 impl RadiusArguments {
-    /// The changes of the worlds, if robots are to be tried in other worlds.
     pub(super) fn changes(&self) -> Option<Variation> {
         self.vary
     }
 
-    /// Measures the radius of every robot; a robot fails if its file has another radius for the same worlds.
+    /// A robot fails if its file has another radius for the same worlds.
     pub(super) fn run(
         &self,
         library: &Library,
@@ -77,7 +77,6 @@ impl RadiusArguments {
     }
 }
 
-/// Writes the radii into the files of a folder.
 fn write(path: &Path, found: &[Reach<'_>]) -> Result<(), Failure> {
     for path in robot_paths(path)? {
         for mut robot in robots(&path)?.robots {

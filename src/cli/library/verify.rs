@@ -12,7 +12,7 @@ use nbc_base::model::{Library, Robot};
 use nbc_session::Verified;
 use nbc_session::report::Schema;
 
-/// Measures every robot again; a robot fails if its file has another value.
+/// A robot fails if its file has another value.
 pub fn verify(
     library: &Library,
     device: DeviceArguments,
@@ -21,7 +21,7 @@ pub fn verify(
 ) -> Result<Status, Failure> {
     let bar = Arc::new(Progress::new("verifying", library.robots.len() as u64));
     // Without workers a signal ends the program at once.
-    let interrupt = if queue.nats.is_some() { Interrupt::watch()? } else { Interrupt::default() };
+    let interrupt = if queue.is_given() { Interrupt::watch()? } else { Interrupt::default() };
     let tasks = TaskExecutor::choose(device, queue, &interrupt, &bar, context)?;
     let robots: Vec<&Robot> = library.robots.iter().collect();
     let mut findings = Vec::new();

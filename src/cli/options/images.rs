@@ -6,12 +6,11 @@ use clap::Args;
 
 use crate::cli::Failure;
 use crate::cli::source_path::source_path;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use nbc_base::model::{Body, NamedImages, NamedSchedule, Pattern, Schedule};
 use nbc_session::store::DiskWorld;
 use nbc_session::{Session, read_image_schedule, read_schedule};
 
-/// The file with the images of a schedule.
 #[derive(Args)]
 pub(in crate::cli) struct ImagesArguments {
     /// For bodies that see: the source file (.nb) with the sets of images that the schedule names, as in
@@ -20,19 +19,17 @@ pub(in crate::cli) struct ImagesArguments {
     images: Option<PathBuf>,
 }
 
-/// A schedule, and what is shown in each of its spells.
 pub(in crate::cli) struct ShownSchedule {
     pub(in crate::cli) schedule: Schedule,
     pub(in crate::cli) shown: Vec<String>,
 }
 
 impl ImagesArguments {
-    /// Whether the user gave a file.
     pub(in crate::cli) fn is_given(&self) -> bool {
         self.images.is_some()
     }
 
-    /// The schedule of bodies with this text; `None` if there is no text and the bodies do not see.
+    /// `None` if there is no text and the bodies do not see.
     pub(in crate::cli) fn schedule<'a>(
         &self,
         text: Option<&str>,
@@ -45,8 +42,8 @@ impl ImagesArguments {
                 let images = &checked.program.images;
                 Ok(Some(ShownSchedule::of_images(read_image_schedule("--schedule", text, images, size)?, images)))
             }
-            (Some(size), ..) => Err(UsageError::NoImages { size }.into()),
-            (None, Some(_), _) => Err(UsageError::NothingSees.into()),
+            (Some(size), ..) => Err(wording::no_images(size).into()),
+            (None, Some(_), _) => Err(wording::nothing_sees().into()),
             (None, None, None) => Ok(None),
             (None, None, Some(text)) => {
                 let stimuli = bodies.into_iter().map(|body| body.palette().stimuli()).fold(2, usize::max);
@@ -59,7 +56,7 @@ impl ImagesArguments {
 }
 
 impl ShownSchedule {
-    /// A schedule of these images, each of which has the name of its set and its number in it.
+    /// Each image has the name of its set and its number in it.
     fn of_images(schedule: NamedSchedule, images: &[NamedImages]) -> Self {
         let NamedSchedule { schedule, sets, .. } = schedule;
         let mut shown = vec![String::new(); schedule.spells.len()];

@@ -13,7 +13,7 @@ pub(in crate::cli) fn new_path() -> impl TypedValueParser<Value = PathBuf> {
     })
 }
 
-/// A path of a picture, as [`new_path`], that ends in `.svg` or `.png`.
+/// A path that ends in `.svg` or `.png`.
 pub(in crate::cli) fn picture_path() -> impl TypedValueParser<Value = PathBuf> {
     new_path().try_map(|path| {
         let is_picture = path.extension().is_some_and(|extension| extension == "svg" || extension == "png");

@@ -1,34 +1,90 @@
-//! `--nats` and its options: workers at a NATS server do the work. A program without the feature does not list them,
-//! and says what is missing to those who give them.
-
-use std::path::PathBuf;
+//! `--nats` and its options: workers at a NATS server do the work. Without the feature `cluster` there are none.
 
 use clap::Args;
 
-/// The files that a client needs to connect to a NATS server.
-#[derive(Args, Clone, Debug, Default)]
+use crate::cli::{Failure, Interrupt};
+
+#[cfg(feature = "cluster")]
+pub use nbc_cluster::QueueExecutor;
+#[cfg(not(feature = "cluster"))]
+pub use nbc_swarm::LocalExecutor as QueueExecutor;
+
+#[cfg(feature = "cluster")]
+#[derive(Args, Clone, Debug)]
 pub struct NatsAccess {
     /// The file with the credentials for the server
-    #[cfg_attr(not(feature = "cluster"), arg(hide = true))]
     #[arg(long, value_name = "FILE", requires = "nats")]
-    pub creds: Option<PathBuf>,
+    creds: Option<std::path::PathBuf>,
     /// The file with the root certificate for the server's, if the system does not trust it
-    #[cfg_attr(not(feature = "cluster"), arg(hide = true))]
     #[arg(long, value_name = "FILE", requires = "nats")]
-    pub tls_ca: Option<PathBuf>,
+    tls_ca: Option<std::path::PathBuf>,
 }
 
-/// Whether workers at a NATS server do the work.
-#[derive(Args, Clone, Debug, Default)]
+#[derive(Args, Clone, Debug)]
 pub struct QueueArguments {
     /// Let workers at this NATS server do the work, such as `nats://localhost:4222`; results do not depend on it
-    #[cfg_attr(not(feature = "cluster"), arg(hide = true))]
+    #[cfg(feature = "cluster")]
     #[arg(long, value_name = "URL", group = "place")]
-    pub nats: Option<String>,
+    nats: Option<String>,
+    #[cfg(feature = "cluster")]
     #[command(flatten)]
-    pub access: NatsAccess,
+    access: NatsAccess,
     /// Do not check workers by doing some of their work here
-    #[cfg_attr(not(feature = "cluster"), arg(hide = true))]
+    #[cfg(feature = "cluster")]
     #[arg(long, requires = "nats")]
-    pub trust_workers: bool,
+    trust_workers: bool,
+}
+
+#[cfg(feature = "cluster")]
+impl NatsAccess {
+    pub fn server(&self, address: &str) -> nbc_cluster::NatsServer {
+        let Self { creds, tls_ca } = self.clone();
+        nbc_cluster::NatsServer { address: address.to_owned(), credentials: creds, root_certificate: tls_ca }
+    }
+}
+
+#[cfg(feature = "cluster")]
+impl QueueArguments {
+    pub fn is_given(&self) -> bool {
+        self.nats.is_some()
+    }
+
+    /// The workers at a server, if the options name one. A signal stops their work; `note` receives notes on its
+    /// progress.
+    pub fn open(
+        &self,
+        interrupt: &Interrupt,
+        note: impl Fn(String) + Send + 'static,
+    ) -> Result<Option<QueueExecutor>, Failure> {
+        let Some(address) = &self.nats else { return Ok(None) };
+        let options = nbc_cluster::QueueOptions {
+            server: self.access.server(address),
+            trust_workers: self.trust_workers,
+            cancel: interrupt.cancel(),
+            log: crate::cli::context::log,
+        };
+        Ok(Some(QueueExecutor::open(options, note)?))
+    }
+}
+
+#[cfg(not(feature = "cluster"))]
+impl QueueArguments {
+    pub fn is_given(&self) -> bool {
+        false
+    }
+
+    pub fn open(&self, _: &Interrupt, _: impl Fn(String) + Send + 'static) -> Result<Option<QueueExecutor>, Failure> {
+        Ok(None)
+    }
+}
+
+/// Waits until the workers have stopped.
+pub fn end(queue: Option<QueueExecutor>) -> Result<(), Failure> {
+    #[cfg(feature = "cluster")]
+    if let Some(queue) = queue {
+        queue.end()?;
+    }
+    #[cfg(not(feature = "cluster"))]
+    drop(queue);
+    Ok(())
 }

@@ -4,7 +4,6 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-/// The robots of a circuit, or those among which a robot has its name.
 #[derive(Args)]
 pub(in crate::cli) struct RobotsArguments {
     /// The robots: a robot file, a folder of them, `shipped` or `three` [default: those that the file declares, or

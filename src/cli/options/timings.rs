@@ -12,7 +12,6 @@ use crate::cli::Context;
 use nbc_session::report::{Align, TextTable};
 use nbc_sim::{LaneBackend, Meter, Part, Times};
 
-/// The option, for commands that simulate.
 #[derive(Args, Clone, Copy)]
 pub struct Timings {
     /// Print the time of each stage to standard error; simulation is a few per cent slower
@@ -40,35 +39,31 @@ impl TimedStage {
     }
 }
 
-/// The times of one command.
 pub struct Timer {
-    /// Counts the time of simulations, if it is requested.
+    /// Set by `--timings`.
     meter: Option<Arc<Meter>>,
     started: Instant,
     /// Nanoseconds of all threads.
     stages: [AtomicU64; TimedStage::ALL.len()],
 }
 
-/// A meter that reads the clock of this machine.
 pub fn meter() -> Arc<Meter> {
     let start = Instant::now();
     Arc::new(Meter::new(move || start.elapsed().as_nanos() as u64))
 }
 
 impl Timings {
-    /// A timer that starts now.
     pub fn start(self) -> Timer {
         Timer { meter: self.timings.then(meter), started: Instant::now(), stages: Default::default() }
     }
 }
 
 impl Timer {
-    /// The back end of this processor, with a meter if `--timings` was given.
+    /// With a meter if `--timings` was given.
     pub fn processor(&self) -> LaneBackend {
         LaneBackend { meter: self.meter.clone(), ..LaneBackend::default() }
     }
 
-    /// Does some work and counts its time.
     pub fn time<T>(&self, stage: TimedStage, work: impl FnOnce() -> T) -> T {
         let started = Instant::now();
         let result = work();
@@ -76,12 +71,10 @@ impl Timer {
         result
     }
 
-    /// Seconds counted for a stage so far.
     fn seconds(&self, stage: TimedStage) -> f64 {
         self.stages[stage as usize].load(Ordering::Relaxed) as f64 / 1e9
     }
 
-    /// Prints the times to standard error, if they are requested.
     pub fn report(&self, context: &Context) {
         if let Some(meter) = &self.meter {
             let stages = TimedStage::ALL.map(|stage| self.seconds(stage));
@@ -90,12 +83,11 @@ impl Timer {
     }
 }
 
-/// Seconds of each part of a simulation, in order of [`Part::ALL`].
+/// In order of [`Part::ALL`].
 pub fn part_seconds(times: &Times) -> [f64; Part::ALL.len()] {
     times.nanoseconds.map(|nanoseconds| nanoseconds as f64 / 1e9)
 }
 
-/// The times as a table, and the speed of simulation.
 fn describe(times: &Times, stages: [f64; TimedStage::ALL.len()], elapsed: f64) -> String {
     let mut table = TextTable::new(&[("stage", Align::Left), ("seconds", Align::Right), ("share", Align::Right)]);
     let parts = part_seconds(times);

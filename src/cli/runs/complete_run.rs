@@ -9,14 +9,12 @@ use nbc_session::{
 };
 use nbc_swarm::Level;
 
-/// A test or a simulation that was run.
 pub(in crate::cli) enum CompleteRun {
     Test(TestRun),
     Simulation(SimulationRun),
 }
 
 impl CompleteRun {
-    /// The complete results of a report, in their order.
     pub(in crate::cli) fn complete(report: RunReport) -> Vec<Self> {
         let tests = report.tests.into_iter().filter(|run| run.end == RunEnd::Complete).map(Self::Test);
         let simulations = report.simulations.into_iter().filter(|run| run.end == RunEnd::Complete);
@@ -30,7 +28,6 @@ impl CompleteRun {
         }
     }
 
-    /// Whether the test passed, or no robot of the simulation failed.
     pub(in crate::cli) fn passed(&self) -> bool {
         match self {
             Self::Test(run) => run.verdict.passed,
@@ -53,13 +50,12 @@ impl CompleteRun {
     }
 }
 
-/// What robots can do of a list: tests for ever are decided at the level of logic alone.
+/// Tests for ever are decided at the level of logic alone.
 pub(in crate::cli) fn in_physics(mut list: RunList<'_>) -> RunList<'_> {
     list.tests.retain(|test| !matches!(test.stimulation, Stimulation::Ever { .. }));
     list
 }
 
-/// Runs tests and simulations in physics, with a bar.
 pub(in crate::cli) fn run_list(
     session: &Session,
     file: &Checked,
@@ -72,7 +68,6 @@ pub(in crate::cli) fn run_list(
     Ok(session.run_list(file, list, &options, &mut interrupt.observe(bar.whole()))?)
 }
 
-/// The page of a test or simulation that was run.
 pub(in crate::cli) fn run_page(source: &str, ran: &CompleteRun, scheme: Scheme) -> String {
     nbc_session::run_page(source, &[(ran.outcome(), ran.swarm())], scheme)
 }

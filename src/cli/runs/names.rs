@@ -3,12 +3,12 @@
 use std::collections::BTreeSet;
 
 use crate::cli::Failure;
-use crate::cli::runs::wording::RunChoiceError;
+use crate::cli::runs::wording;
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::Instance;
 use nbc_circuit::is_same_instance;
 use nbc_session::{Checked, Choice, RunList};
 
-/// The tests and simulations of a file that have this name and are of the chosen circuit and swarm.
 pub(in crate::cli) fn chosen_runs<'f>(
     file: &'f Checked,
     only: Option<&'f str>,
@@ -29,15 +29,12 @@ pub(in crate::cli) fn chosen_runs<'f>(
     Ok(list)
 }
 
-/// A name that no test and no simulation of a file has.
-pub(in crate::cli) fn unknown_run(file: &Checked, name: &str) -> RunChoiceError {
+pub(in crate::cli) fn unknown_run(file: &Checked, name: &str) -> Diagnostic {
     let mut known = names_of_tests(file);
     known.extend(file.program.simulations.iter().map(|simulation| simulation.swarm.clone()));
-    let known = known.into_iter().collect();
-    RunChoiceError::UnknownRun { file: file.path.clone(), name: name.to_owned(), known }
+    wording::unknown_run(&file.path, name, &known.into_iter().collect::<Vec<_>>())
 }
 
-/// The circuits and the titles of a file's tests.
 pub(in crate::cli) fn names_of_tests(file: &Checked) -> BTreeSet<String> {
     let tests = &file.program.tests;
     let titles = tests.iter().map(|test| test.title.clone()).filter(|title| !title.is_empty());

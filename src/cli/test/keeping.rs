@@ -8,10 +8,8 @@ use nbc_session::store::SwarmCheckpoint;
 use nbc_session::{Observer, SwarmKeeper};
 use nbc_swarm::{KeptSwarm, SwarmTask};
 
-/// The time between two files of a swarm.
 const PERIOD: Duration = Duration::from_secs(60);
 
-/// An observer with a keeper.
 pub(super) struct Keeping<O> {
     pub(super) observer: O,
     pub(super) keeper: Option<Keeper>,
@@ -31,7 +29,6 @@ impl<O: Observer> Observer for Keeping<O> {
     }
 }
 
-/// Keeps the swarm of a test in a file.
 pub(super) struct Keeper {
     path: PathBuf,
     task: Option<SwarmTask>,
@@ -41,7 +38,7 @@ pub(super) struct Keeper {
 }
 
 impl Keeper {
-    /// The keeper of a test in a folder, by a name that no other test of the command has.
+    /// `name` is that of no other test of the command.
     pub(super) fn new(folder: &Path, name: &str) -> Self {
         Self { path: folder.join(format!("{name}.swarm")), task: None, last: Instant::now(), fault: None }
     }

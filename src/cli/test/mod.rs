@@ -9,20 +9,16 @@ use std::sync::Arc;
 
 use clap::Args;
 
-use crate::cli::cluster::open_queue;
-use crate::cli::gpu::OpenDevice;
 use crate::cli::in_order::in_order;
-use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::files::FilesArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
-use crate::cli::options::queue::QueueArguments;
-use crate::cli::runs::wording::RunChoiceError;
+use crate::cli::options::queue::{self, QueueArguments};
 use crate::cli::runs::{chosen_runs, unknown_run};
 use crate::cli::source_path::source_path;
 use crate::cli::task_executor::threads;
-use crate::cli::wording::UsageError;
-use crate::cli::{Context, Failure, Interrupt, OutputFormat, Progress, Status};
+use crate::cli::{Context, Failure, Interrupt, OpenDevice, OutputFormat, Progress, Status, runs};
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{self, Schema};
 use nbc_session::store;
@@ -61,7 +57,9 @@ pub struct TestArguments {
     #[arg(long, value_name = "NAME")]
     only: Option<String>,
     /// Test at the level of logic
-    #[arg(long, conflicts_with_all = ["physics", "device", "nats"])]
+    #[cfg_attr(feature = "cluster", arg(conflicts_with = "nats"))]
+    #[cfg_attr(feature = "gpu", arg(conflicts_with = "device"))]
+    #[arg(long, conflicts_with = "physics")]
     logic: bool,
     /// Test in full physics
     #[arg(long)]
@@ -85,7 +83,7 @@ pub struct TestArguments {
 type Numbered = (usize, TestCase);
 
 impl TestArguments {
-    /// Runs the tests in parallel and prints each result as soon as those before it are done.
+    /// Runs the tests in parallel, and prints each result as soon as those before it are done.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
         let device = self.device(context)?;
@@ -100,22 +98,18 @@ impl TestArguments {
         Ok(status)
     }
 
-    /// The device for tests in physics.
     pub(super) fn device(&self, context: &Context) -> Result<OpenDevice, Failure> {
-        OpenDevice::open(self.device.choice(), LaneBackend::default(), context)
+        OpenDevice::open(self.device, LaneBackend::default(), context)
     }
 
-    /// The files that replace those that the sources declare.
     pub(super) fn named_files(&self) -> Vec<(String, String)> {
         self.named.files()
     }
 
-    /// The paths of the files.
-    pub(super) fn paths(&self) -> Result<Vec<&str>, UsageError> {
+    pub(super) fn paths(&self) -> Result<Vec<&str>, Diagnostic> {
         self.files.iter().map(|file| source_path(file)).collect()
     }
 
-    /// Runs the tests of files without errors.
     pub(super) fn test(
         &self,
         session: &Session,
@@ -168,14 +162,13 @@ impl TestArguments {
         }
     }
 
-    /// The tests of the files, in order.
     fn cases(
         &self,
         session: &Session,
         files: &[Arc<Checked>],
         interrupt: &Interrupt,
     ) -> Result<Vec<Numbered>, Failure> {
-        self.named.check(files).map_err(Failure::plain)?;
+        self.named.check(files)?;
         let (mut cases, choice, making) = (Vec::new(), self.making.choice(), self.making.options()?);
         for (number, file) in files.iter().enumerate() {
             let compile = self.named.of(file, making.clone());
@@ -196,12 +189,11 @@ impl TestArguments {
 fn load(session: &mut Session, path: &Path) -> Result<Arc<Checked>, Failure> {
     let file = session.open(source_path(path)?)?;
     if file.program.tests.is_empty() {
-        return Err(RunChoiceError::NoTest { file: file.path.clone() }.into());
+        return Err(runs::wording::no_test(&file.path).into());
     }
     Ok(file)
 }
 
-/// Runs the tests; in text format each verdict is printed when it is known.
 fn run_cases(
     session: &Session,
     cases: &[Numbered],
@@ -213,7 +205,7 @@ fn run_cases(
 ) -> Result<Vec<TestVerdict>, Failure> {
     let bar = Arc::new(Progress::new("testing", cases.iter().map(|(_, case)| case.work()).sum()));
     let shown = Arc::clone(&bar);
-    let workers = open_queue(queue, interrupt, move |note| shown.note(note))?;
+    let workers = queue.open(interrupt, move |note| shown.note(note))?;
     // The trace is dropped, because it is large and not needed.
     let run = |place: usize, (file, case): &Numbered| {
         // After an interruption circuits are compiled with little effort, so their tests are not begun.
@@ -246,7 +238,7 @@ fn run_cases(
     };
     let (mut verdicts, mut warned) = (Vec::new(), BTreeSet::new());
     let mut tell = |done: Result<Option<(usize, TestVerdict, Vec<Diagnostic>)>, Diagnostic>| -> Result<(), Failure> {
-        let Some((file, verdict, mut warnings)) = done.map_err(Failure::plain)? else { return Ok(()) };
+        let Some((file, verdict, mut warnings)) = done? else { return Ok(()) };
         warnings.retain(|warning| warned.insert((file, warning.code, warning.message.clone())));
         context.warn(&files[file], &warnings);
         if context.format == OutputFormat::Text {
@@ -257,8 +249,6 @@ fn run_cases(
         Ok(())
     };
     in_order(threads(workers.as_ref()), cases, run, |judged| bar.suspend(|| tell(judged)))?;
-    if let Some(workers) = workers {
-        workers.end()?;
-    }
+    queue::end(workers)?;
     Ok(verdicts)
 }

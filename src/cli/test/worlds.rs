@@ -6,7 +6,7 @@ use clap::Args;
 
 use crate::cli::options::new_path::picture_path;
 use crate::cli::options::number::number;
-use crate::cli::wording::UsageError;
+use crate::cli::wording;
 use crate::cli::world_runs::world_runs;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
 use nbc_base::diag::counted;
@@ -15,10 +15,8 @@ use nbc_session::report::{self, Schema, YieldCurve};
 use nbc_session::{Session, TestCase, Yields};
 use nbc_swarm::{Proportion, Robustness};
 
-/// The number of worlds of a sample.
 const WORLDS: u32 = 100;
 
-/// The worlds in which tests run.
 #[derive(Args)]
 pub(super) struct WorldsArguments {
     /// The number of worlds in which each test runs [default: 100]
@@ -26,7 +24,8 @@ pub(super) struct WorldsArguments {
     worlds: Option<u32>,
     /// The largest changes of the worlds, such as `friction=10%,gravity=5%`, or `10%` of all factors; may be given
     /// several times
-    #[arg(long, value_name = "CHANGES", conflicts_with_all = ["logic", "nats"])]
+    #[cfg_attr(feature = "cluster", arg(conflicts_with = "nats"))]
+    #[arg(long, value_name = "CHANGES", conflicts_with = "logic")]
     vary: Vec<Variation>,
     /// Repeat with the changes times each of these numbers
     #[arg(long, value_name = "NUMBERS", requires = "vary", value_delimiter = ',', value_parser = scale)]
@@ -43,7 +42,6 @@ pub(super) struct WorldsArguments {
 }
 
 impl WorldsArguments {
-    /// Whether tests run in other worlds than their own.
     pub(super) fn is_used(&self) -> bool {
         !self.vary.is_empty()
     }
@@ -59,7 +57,7 @@ impl WorldsArguments {
         let times = if self.times.is_empty() { &[1.0][..] } else { &self.times };
         let yields = Yields::of(cases, &self.vary, times, self.count(), self.seed);
         if yields.experiments.is_empty() {
-            return Err(UsageError::NoWorlds.into());
+            return Err(wording::no_worlds().into());
         }
         let found = world_runs(session, &yields, interrupt, |robustness| {
             if context.format == OutputFormat::Text {
@@ -119,7 +117,6 @@ impl WorldsArguments {
     }
 }
 
-/// A factor of changes.
 fn scale(text: &str) -> Result<f64, String> {
     let scale = text.parse().ok().filter(|scale| (0.0..=1000.0).contains(scale));
     scale.ok_or_else(|| "expected numbers from 0 to 1000, such as `0.5,1,2`".to_owned())

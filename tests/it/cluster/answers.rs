@@ -2,8 +2,10 @@
 
 use std::collections::BTreeMap;
 
+use serde_json::{Value, json};
+
 use crate::cluster::server::Server;
-use crate::cluster::wire::{Seen, VERSION, Wire, subject_of, varint};
+use crate::cluster::wire::{Seen, VERSION, Wire, foreign_note, message, subject_of};
 use crate::cluster::{SMALL_STEPS, assert_same, bench, evolve, worker};
 
 /// The subject for an answer of a worker to the search that a task belongs to.
@@ -14,8 +16,23 @@ fn answer_subject(task: &Seen, worker: &str) -> String {
 
 /// An answer to a task that could be right, but is not: the simulation of the body becomes unstable in env step 1.
 fn unstable(task: &Seen) -> Vec<u8> {
-    let key: Vec<u8> = task.subject.split('.').skip(5).flat_map(|number| varint(number.parse().unwrap())).collect();
-    [vec![VERSION], key, vec![0, 3, 0, 1], varint(SMALL_STEPS), vec![0]].concat()
+    let key: Vec<u64> = task.subject.split('.').skip(5).map(|number| number.parse().unwrap()).collect();
+    let outcome = json!({ "Faulty": { "env_step": 1, "kind": "unstable" } });
+    answered(&key, &evaluated(&outcome, SMALL_STEPS))
+}
+
+fn answered(key: &[u64], result: &Value) -> Vec<u8> {
+    let key = json!({ "run": key[0], "generation": key[1], "index": key[2] });
+    message(&json!({ "key": key, "result": result }))
+}
+
+fn evaluated(outcome: &Value, env_steps: u64) -> Value {
+    json!({ "Evaluation": { "outcome": outcome, "work": { "env_steps": env_steps, "left_out": 0 } } })
+}
+
+/// An answer to the first task that has too few env steps.
+fn impossible() -> Vec<u8> {
+    answered(&[0; 3], &evaluated(&json!("Surpassed"), 3))
 }
 
 fn is_task(message: &Seen, run: u32, generation: u32) -> bool {
@@ -32,13 +49,11 @@ fn garbage_repeated_late_and_oversized_answers_change_nothing() {
     let answer = |worker: &str| answer_subject(&task, worker);
     wire.publish(&answer("garbage"), &[VERSION, 255, 255, 255]);
     wire.publish(&answer("empty"), &[]);
-    wire.publish(&answer("oversized"), &vec![VERSION; 300_000]);
+    wire.publish(&answer("oversized"), &vec![VERSION; 1_000_001]);
     // A screening that found nothing, for a task that is an evaluation.
-    wire.publish(&answer("confused"), &[VERSION, 0, 0, 0, 1, 0, 0]);
-    // An answer to the first task that has too few env steps: Surpassed, 3 and 0.
-    wire.publish(&answer("impossible"), &[VERSION, 0, 0, 0, 0, 1, 3, 0]);
-    let note = |name: &str| [&[VERSION, name.len() as u8], name.as_bytes(), &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
-    wire.publish(&subject_of("worker"), &note("foreign"));
+    wire.publish(&answer("confused"), &answered(&[0; 3], &json!({ "Screening": { "Ok": null } })));
+    wire.publish(&answer("impossible"), &impossible());
+    wire.publish(&subject_of("worker"), &foreign_note("foreign"));
     let good = worker(&bench, &server, "good");
     // Every answer is sent again at once, and the first is sent again much later.
     let first = wire.wait_for(|message| message.is_answer_of("good"));
@@ -76,12 +91,12 @@ fn junk_in_the_name_of_a_worker_is_dropped_and_the_worker_stays() {
         wire.publish(&subject, junk);
     }
     // Answers that can be read, but are wrong, one of them with a reply to somebody else.
-    wire.publish(&subject, &[VERSION, 0, 0, 0, 0, 1, 3, 0]);
+    wire.publish(&subject, &impossible());
     wire.publish(&format!("{subject} {}", subject_of("reply.wire")), &unstable(&task));
     let good = worker(&bench, &server, "good");
     // More junk between the answers of the worker, each from another connection.
     for number in 0..20 {
-        wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[VERSION, 0]));
+        wire.wait_for(|message| message.is_first_answer_of("good"));
         wire.publish(&format!("{subject} junk.{number}"), b"junk");
     }
     let ran = search.end();
@@ -103,7 +118,7 @@ fn a_forged_message_in_the_name_of_a_worker_does_not_remove_it() {
     let mut wire = Wire::open(&server);
     let good = worker(&bench, &server, "good");
     let search = evolve(&bench, &server, &[]);
-    let is_first_answer = |message: &Seen| message.is_answer_of("good") && message.payload.starts_with(&[VERSION, 0]);
+    let is_first_answer = |message: &Seen| message.is_first_answer_of("good");
     (0..20).for_each(|_| _ = wire.wait_for(is_first_answer));
     // A wrong result of a task, which claims to come from the connection of the worker.
     let answer = wire.wait_for(is_first_answer);
@@ -111,10 +126,9 @@ fn a_forged_message_in_the_name_of_a_worker_does_not_remove_it() {
     let (connection, _) = answer.reply.rsplit_once('.').expect("the worker waits for a reply");
     wire.publish(&format!("{} {connection}.forged", answer_subject(&task, "good")), &unstable(&task));
     // A report of other physics, and a reply that says that a result is wrong.
-    let note = [&[VERSION, 4], &b"good"[..], &[5], b"9.9.9", &[7, 1, 0, 0, 0]].concat();
-    wire.publish(&subject_of("worker"), &note);
+    wire.publish(&subject_of("worker"), &foreign_note("good"));
     let answer = wire.wait_for(|message| message.is_answer_of("good"));
-    wire.publish(&answer.reply, &[VERSION, 3]);
+    wire.publish(&answer.reply, &message(&json!("Wrong")));
     let ran = search.end();
     assert_same(&bench, &ran);
     assert!(
@@ -154,9 +168,9 @@ fn a_worker_that_is_wrong_after_its_results_were_used_ends_the_search_with_a_che
     let (search, good) = (evolve(&first, &server, &["--seed", "1"]), worker(&first, &server, "good"));
     let mut right = BTreeMap::new();
     loop {
-        let answer =
-            wire.wait_for(|message| message.is_answer_of("good") && message.payload.starts_with(&[VERSION, 0]));
-        let (generation, index) = (answer.payload[2], answer.payload[3]);
+        let answer = wire.wait_for(|message| message.is_first_answer_of("good"));
+        let key = &serde_json::from_slice::<Value>(&answer.payload[1..]).unwrap()["key"];
+        let [generation, index] = ["generation", "index"].map(|field| key[field].as_u64().unwrap());
         if generation == 2 {
             break;
         }

@@ -48,7 +48,8 @@ fn workers_that_are_killed_twenty_times_at_random_lose_nothing() {
         let name = format!("worker-{number}");
         let victim = worker(&bench, &server, &name);
         wire.wait_for(|message| {
-            message.subject == subject_of("worker") && message.payload[2..].starts_with(name.as_bytes())
+            message.subject == subject_of("worker")
+                && message.payload[1..].starts_with(format!("{{\"name\":\"{name}").as_bytes())
         });
         let answers = random.random_range(0..3);
         (0..answers).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of(&name)));

@@ -4,11 +4,13 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
+use serde_json::{Value, json};
+
 use crate::cluster::server::Server;
 use crate::support::limits::PATIENCE;
 
 /// The first byte of each message.
-pub const VERSION: u8 = 7;
+pub const VERSION: u8 = 8;
 
 /// A subject of these messages.
 pub fn subject_of(rest: &str) -> String {
@@ -29,6 +31,11 @@ pub struct Seen {
 }
 
 impl Seen {
+    /// Whether it is an answer of the worker to a task of run 0.
+    pub fn is_first_answer_of(&self, worker: &str) -> bool {
+        self.is_answer_of(worker) && self.payload[1..].starts_with(br#"{"key":{"run":0,"#)
+    }
+
     pub fn is_answer_of(&self, worker: &str) -> bool {
         self.subject.starts_with(&subject_of("answer.")) && self.subject.ends_with(&format!(".{worker}"))
     }
@@ -99,13 +106,16 @@ impl Wire {
     }
 }
 
-/// A number as in messages: seven bits a byte, the lowest first.
-pub fn varint(mut number: u64) -> Vec<u8> {
-    let mut bytes = Vec::new();
-    while number >= 128 {
-        bytes.push(number as u8 | 128);
-        number >>= 7;
-    }
-    bytes.push(number as u8);
-    bytes
+/// The bytes of a message.
+pub fn message(content: &Value) -> Vec<u8> {
+    [vec![VERSION], content.to_string().into_bytes()].concat()
+}
+
+/// The report of a worker with foreign physics.
+pub fn foreign_note(name: &str) -> Vec<u8> {
+    let (version, physics) = ("9.9.9", "0000000000000007");
+    message(&json!({
+        "name": name, "version": version, "physics": physics, "threads": 1, "evaluations": 0,
+        "evaluations_per_second": 0.0, "redelivered": 0,
+    }))
 }

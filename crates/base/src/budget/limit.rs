@@ -6,21 +6,18 @@ macro_rules! limits {
         /// What is counted.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Limit {
-            $(#[doc = concat!("The most ", $things, " ", $scope, ".")] $name,)*
+            $($name,)*
         }
 
         impl Limit {
-            /// All limits, in the order of the table.
             pub const ALL: &[Self] = &[$(Self::$name,)*];
 
-            /// The most that is permitted.
             pub const fn most(self) -> u64 {
                 match self {
                     $(Self::$name => $most,)*
                 }
             }
 
-            /// What is counted, in words.
             pub const fn things(self) -> &'static str {
                 match self {
                     $(Self::$name => $things,)*

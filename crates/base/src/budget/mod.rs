@@ -6,6 +6,7 @@ mod wording;
 
 pub use limit::{CYCLE_BITS, Limit};
 
+use crate::diag::grouped;
 use crate::source::CancelFlag;
 
 /// What one piece of work has made so far, such as a check of a program or the building of a circuit.
@@ -18,17 +19,13 @@ pub struct WorkBudget {
     unseen: u64,
 }
 
-/// The reason why work ends without a result.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum OverBudget {
-    /// It would make more than a limit permits.
     Limit(Limit),
-    /// Nobody waits for the result any more.
     Cancelled,
 }
 
 impl Default for WorkBudget {
-    /// A budget of work that somebody waits for until it ends.
     fn default() -> Self {
         Self::until(CancelFlag::default())
     }
@@ -38,7 +35,6 @@ impl Default for WorkBudget {
 const BETWEEN_LOOKS: u64 = 1 << 16;
 
 impl WorkBudget {
-    /// A budget of work that ends when the flag is raised.
     pub fn until(cancel: CancelFlag) -> Self {
         Self { used: [0; Limit::ALL.len()], cancel, unseen: 0 }
     }
@@ -59,24 +55,19 @@ impl WorkBudget {
         Ok(())
     }
 
-    /// What may still be made.
     pub fn left(&self, limit: Limit) -> u64 {
         limit.most() - self.used[limit as usize]
     }
 }
 
 impl Limit {
-    /// Whether so much is permitted.
     pub fn permit(self, amount: u64) -> Result<(), OverBudget> {
         if amount <= self.most() { Ok(()) } else { Err(OverBudget::Limit(self)) }
     }
 
     /// Its row in the table of docs/limits.md.
     pub fn row(self) -> String {
-        let digits = self.most().to_string();
-        let groups: Vec<&str> =
-            digits.as_bytes().rchunks(3).rev().map(|group| str::from_utf8(group).expect("digits")).collect();
-        format!("| {} {} | {} |", self.things(), self.scope(), groups.join(","))
+        format!("| {} {} | {} |", self.things(), self.scope(), grouped(self.most()))
     }
 }
 

@@ -5,12 +5,10 @@ use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
 
 impl OverBudget {
-    /// The error at the place that would make too much.
     pub fn at(self, span: Span) -> Diagnostic {
         Diagnostic::new(Code::TooLarge, self.message(), span, "the limit is reached here")
     }
 
-    /// The error where there is no place.
     pub fn without_place(self) -> Diagnostic {
         Diagnostic::without_place(Code::TooLarge, self.message())
     }

@@ -9,14 +9,12 @@ use super::Severity;
 /// Declares the codes, each with a name, a word, a severity and a description, in alphabetical order of the words.
 macro_rules! codes {
     ($($name:ident = $word:literal, $severity:ident: $meaning:literal;)*) => {
-        /// A rule that the input violates.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
         pub enum Code {
-            $(#[doc = $meaning] $name,)*
+            $($name,)*
         }
 
         impl Code {
-            /// All codes, in alphabetical order of their words.
             pub const ALL: &[Self] = &[$(Self::$name,)*];
 
             /// The code as users write it, for `nbc explain`.
@@ -33,7 +31,6 @@ macro_rules! codes {
                 }
             }
 
-            /// Its description, in one sentence.
             pub fn meaning(self) -> &'static str {
                 match self {
                     $(Self::$name => $meaning,)*

@@ -7,7 +7,6 @@ use crate::source::Span;
 /// A place with a word about it.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Label {
-    /// The labeled place, in a file of the sources.
     pub span: Span,
     /// The text of the label; lower case, without a full stop. It may be empty.
     pub text: String,
@@ -20,7 +19,6 @@ pub type Related = Label;
 /// programs.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Diagnostic {
-    /// The violated rule, which `nbc explain` explains.
     pub code: Code,
     /// Whether the input is refused, or only suspect; mostly that of the code.
     pub severity: Severity,
@@ -28,7 +26,6 @@ pub struct Diagnostic {
     pub message: String,
     /// The places, the main one first.
     pub labels: Vec<Label>,
-    /// A sentence that says what to write instead, if that is known.
     pub help: Option<String>,
     /// Related places, such as the first of two definitions.
     pub related: Vec<Related>,
@@ -57,13 +54,11 @@ impl Diagnostic {
         Self { code, severity, message, labels: Vec::new(), help: None, related: Vec::new(), fix: None }
     }
 
-    /// The same with a sentence that says what to write instead.
     pub fn with_help(mut self, help: impl Into<String>) -> Self {
         self.help = Some(help.into());
         self
     }
 
-    /// Adds edits that remove the fault.
     pub fn with_fix(mut self, fix: impl Into<Option<Fix>>) -> Self {
         self.fix = fix.into();
         self
@@ -86,19 +81,16 @@ impl Diagnostic {
         if let Suggestion::Near(_) = suggestion { self.with_suggestion(None, suggestion) } else { self }
     }
 
-    /// Adds a further labeled place.
     pub fn with_label(mut self, span: Span, text: impl Into<String>) -> Self {
         self.labels.push(Label { span, text: text.into() });
         self
     }
 
-    /// Adds a note at another place.
     pub fn with_related(mut self, span: Span, text: impl Into<String>) -> Self {
         self.related.push(Label { span, text: text.into() });
         self
     }
 
-    /// Whether it is an error.
     pub fn is_error(&self) -> bool {
         self.severity == Severity::Error
     }

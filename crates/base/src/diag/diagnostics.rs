@@ -13,12 +13,10 @@ use crate::source::{Sources, Span};
 pub struct Diagnostics {
     /// The faults, in order of place.
     pub list: Vec<Diagnostic>,
-    /// The texts that they point into.
     pub sources: Sources,
 }
 
 impl Diagnostics {
-    /// All of them as data for programs.
     pub fn json(&self) -> Vec<Value> {
         json(&self.list, &self.sources)
     }
@@ -29,7 +27,6 @@ impl Diagnostics {
         format!("{}:{}:{}: ", file.name, at.line, at.column)
     }
 
-    /// One diagnostic in plain lines.
     fn lines(&self, diagnostic: &Diagnostic) -> String {
         let place = diagnostic.labels.first().map_or(String::new(), |label| self.place(label.span));
         let severity = if diagnostic.is_error() { "error" } else { "warning" };
@@ -45,7 +42,6 @@ impl Diagnostics {
 }
 
 impl From<Diagnostic> for Diagnostics {
-    /// A diagnostic without a place in a text.
     fn from(diagnostic: Diagnostic) -> Self {
         Self { list: vec![diagnostic], sources: Sources::default() }
     }

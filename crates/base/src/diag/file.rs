@@ -8,7 +8,6 @@ use super::{Code, Diagnostic, Suggestion};
 use crate::source::{FileError, SourceWorld};
 
 impl Diagnostic {
-    /// The error of reading the file at `path`, as the user wrote it.
     pub fn unreadable(path: &str, error: &FileError) -> Self {
         let why = file_error(error);
         Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {why}"))
@@ -20,7 +19,6 @@ impl Diagnostic {
         Self::unreadable(path, error).with_suggestion(None, &meant)
     }
 
-    /// The error of writing a file or folder.
     pub fn unwritable(path: &Path, error: &io::Error) -> Self {
         Self::without_place(Code::Unwritable, format!("cannot write `{}`: {}", path.display(), io_words(error)))
     }
@@ -44,7 +42,6 @@ pub fn similar_file(world: &dyn SourceWorld, path: &str) -> Suggestion {
     }
 }
 
-/// Why a file cannot be read, in plain words.
 pub(super) fn file_error(error: &FileError) -> String {
     match error {
         FileError::NotFound => "there is no such file".to_owned(),
@@ -55,7 +52,6 @@ pub(super) fn file_error(error: &FileError) -> String {
     }
 }
 
-/// Why a folder cannot be listed, in plain words.
 pub fn folder_error(error: &FileError) -> &str {
     match error {
         FileError::NotFound => "there is no such folder",

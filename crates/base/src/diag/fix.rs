@@ -2,7 +2,6 @@
 
 use crate::source::{FileId, Span};
 
-/// The replacement of a piece of text.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Edit {
     /// What is replaced; empty where text is inserted.
@@ -21,7 +20,6 @@ pub struct Fix {
 }
 
 impl Fix {
-    /// Replaces `span` by `text`.
     pub fn replace(span: Span, text: impl Into<String>) -> Self {
         let text = text.into();
         Self { title: format!("replace with `{}`", text.trim()), edits: vec![Edit { span, text }] }
@@ -39,7 +37,6 @@ impl Fix {
         Self { title: format!("remove {what}"), edits: vec![Edit { span, text: String::new() }] }
     }
 
-    /// The text of a file after its edits.
     pub fn apply(&self, file: FileId, text: &str) -> String {
         let mut fixed = text.to_owned();
         for edit in self.edits.iter().rev().filter(|edit| edit.span.file == file) {

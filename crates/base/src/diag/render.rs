@@ -19,7 +19,6 @@ const MOST_SHOWN: usize = 201;
 /// The most characters of a message that are shown, because a user's word may be megabytes long.
 const MOST_CHARACTERS: usize = 600;
 
-/// A message as displayed.
 fn clipped(text: &str) -> String {
     match text.char_indices().nth(MOST_CHARACTERS) {
         Some((end, _)) => format!("{}…", visible(&text[..end])),
@@ -27,7 +26,6 @@ fn clipped(text: &str) -> String {
     }
 }
 
-/// The texts of the files, as displayed.
 type Shown<'a> = BTreeMap<FileId, Cow<'a, str>>;
 
 fn shown<'a>(diagnostics: &[Diagnostic], sources: &'a Sources) -> Shown<'a> {
@@ -140,7 +138,6 @@ impl miette::Diagnostic for Report<'_> {
 #[derive(Debug)]
 struct Excerpt<'a> {
     file: &'a SourceFile,
-    /// The file's text as displayed.
     text: &'a str,
 }
 

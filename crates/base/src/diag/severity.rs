@@ -8,6 +8,5 @@ use serde::Serialize;
 pub enum Severity {
     /// Legal, but probably a mistake.
     Warning,
-    /// The program is invalid.
     Error,
 }

@@ -17,17 +17,14 @@ pub fn nearest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
 /// What may have been meant by an unknown name.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Suggestion {
-    /// Nothing can be suggested.
     #[default]
     None,
-    /// A name that differs in a few letters.
     Near(String),
     /// One of these; all known names, if they are few.
     Known(Vec<String>),
 }
 
 impl Suggestion {
-    /// The nearest of `known`, or all of them if they are few.
     pub fn of<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
         let known: Vec<_> = known.into_iter().collect();
         match nearest(word, known.iter().copied()) {
@@ -37,7 +34,6 @@ impl Suggestion {
         }
     }
 
-    /// The nearest of `known` alone.
     pub fn near<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> Self {
         nearest(word, known).map_or(Self::None, |near| Self::Near(near.to_owned()))
     }
@@ -61,7 +57,6 @@ pub fn join<S: AsRef<str>>(phrases: &[S], last: &str) -> String {
     }
 }
 
-/// The letters that are compared.
 fn letters(text: &str) -> impl Iterator<Item = char> {
     text.chars().flat_map(char::to_lowercase).take(LETTERS)
 }
@@ -71,7 +66,6 @@ fn letters(text: &str) -> impl Iterator<Item = char> {
 struct Measure {
     word: Vec<char>,
     limit: usize,
-    /// The letters of the name.
     name: Vec<char>,
     /// The edit distances from prefixes of the word (this one, and one and two letters shorter) to the prefixes of the
     /// name.

@@ -6,19 +6,17 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{BehaviorError, DisplacementsError, Function, Pattern};
+use super::wording::{displacement_count, not_behavior};
+use super::{Function, Pattern};
 
-/// The direction in which a robot walks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Direction {
     /// Towards negative x: output 0. Standing still counts as left (docs/physics.md 10).
     Left,
-    /// Towards positive x: output 1.
     Right,
 }
 
 impl Direction {
-    /// The direction of a displacement along x.
     pub fn of(displacement: f64) -> Self {
         if displacement > 0.0 { Self::Right } else { Self::Left }
     }
@@ -36,10 +34,6 @@ impl Direction {
 pub struct Behavior(Function);
 
 impl Behavior {
-    /// The behavior with these displacements, one for each pattern.
-    ///
-    /// # Panics
-    /// When there are neither four nor eight.
     pub fn of(displacements: &[f64]) -> Self {
         let right = |(i, &voxels): (usize, &f64)| u8::from(Direction::of(voxels) == Direction::Right) << i;
         let bits = displacements.iter().enumerate().map(right).sum();
@@ -51,7 +45,6 @@ impl Behavior {
         self.0
     }
 
-    /// The number of stimuli: two or three.
     pub fn stimuli(self) -> usize {
         self.0.inputs()
     }
@@ -61,7 +54,6 @@ impl Behavior {
         Pattern::all(self.stimuli())
     }
 
-    /// The direction under a pattern.
     pub fn direction(self, pattern: Pattern) -> Direction {
         if self.0.under(pattern) { Direction::Right } else { Direction::Left }
     }
@@ -86,29 +78,28 @@ impl fmt::Display for Behavior {
 }
 
 impl FromStr for Behavior {
-    type Err = BehaviorError;
+    type Err = String;
 
-    fn from_str(word: &str) -> Result<Self, BehaviorError> {
-        let error = || BehaviorError(word.to_owned());
+    fn from_str(word: &str) -> Result<Self, String> {
         let stimuli = match word.len() {
             4 => 2,
             8 => 3,
-            _ => return Err(error()),
+            _ => return Err(not_behavior(word)),
         };
         let bit = |(i, letter): (usize, char)| match letter {
             'L' => Some(0),
             'R' => Some(1 << i),
             _ => None,
         };
-        let bits = word.chars().enumerate().map(bit).sum::<Option<u8>>().ok_or_else(error)?;
+        let bits = word.chars().enumerate().map(bit).sum::<Option<u8>>().ok_or_else(|| not_behavior(word))?;
         Ok(Self(Function::of(stimuli, bits)))
     }
 }
 
 impl TryFrom<String> for Behavior {
-    type Error = BehaviorError;
+    type Error = String;
 
-    fn try_from(word: String) -> Result<Self, BehaviorError> {
+    fn try_from(word: String) -> Result<Self, String> {
         word.parse()
     }
 }
@@ -130,29 +121,19 @@ pub struct Displacements {
 }
 
 impl Displacements {
-    /// The displacement under each pattern of that many stimuli.
-    ///
-    /// # Panics
-    /// When there are neither two nor three stimuli.
     pub fn under(stimuli: usize, displacement: impl FnMut(Pattern) -> f64) -> Self {
         let voxels: Vec<f64> = Pattern::all(stimuli).map(displacement).collect();
         Self::try_from(voxels).expect("bodies sense two or three stimuli")
     }
 
-    /// No displacement under any pattern of that many stimuli.
-    ///
-    /// # Panics
-    /// When there are neither two nor three stimuli.
     pub fn zero(stimuli: usize) -> Self {
         Self::under(stimuli, |_| 0.0)
     }
 
-    /// The displacement under a pattern.
     pub fn at(&self, pattern: Pattern) -> f64 {
         self[pattern.number(self.stimuli.into())]
     }
 
-    /// The behavior that they show.
     pub fn behavior(&self) -> Behavior {
         Behavior::of(self)
     }
@@ -167,13 +148,13 @@ impl Deref for Displacements {
 }
 
 impl TryFrom<Vec<f64>> for Displacements {
-    type Error = DisplacementsError;
+    type Error = String;
 
-    fn try_from(found: Vec<f64>) -> Result<Self, DisplacementsError> {
+    fn try_from(found: Vec<f64>) -> Result<Self, String> {
         let stimuli = match found.len() {
             4 => 2,
             8 => 3,
-            found => return Err(DisplacementsError(found)),
+            found => return Err(displacement_count(found)),
         };
         let mut voxels = [0.0; 8];
         voxels[..found.len()].copy_from_slice(&found);

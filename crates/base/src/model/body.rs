@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use serde::{Deserialize, Serialize};
+
 use super::{BodyError, Material, Palette};
 
 /// Actuators that an evolved body must have (docs/physics.md 11).
@@ -9,7 +11,8 @@ pub const LEAST_ACTUATORS: usize = 3;
 
 /// A body: `height` rows of `width` material codes, row 0 on top, and the palette that defines the codes; code 0 is
 /// empty (docs/physics.md 1).
-#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct Body {
     width: usize,
     height: usize,
@@ -18,14 +21,27 @@ pub struct Body {
     palette: Arc<Palette>,
 }
 
+/// A body as data: its rows, and the meaning of their codes.
+#[derive(Serialize, Deserialize)]
+struct Written(Vec<String>, Arc<Palette>);
+
+impl From<Body> for Written {
+    fn from(body: Body) -> Self {
+        Self(body.rows(), body.palette)
+    }
+}
+
+impl TryFrom<Written> for Body {
+    type Error = BodyError;
+
+    fn try_from(Written(rows, palette): Written) -> Result<Self, BodyError> {
+        Self::parse(&rows, &palette)
+    }
+}
+
 impl Body {
-    /// The most rows or columns of a body.
     pub const MAX_SIDE: usize = 100;
 
-    /// A body of `height` rows of `width` codes, row by row from the top.
-    ///
-    /// # Panics
-    /// When the number of codes is not `width * height`, or the palette lacks a code.
     pub fn new(width: usize, height: usize, codes: Vec<u8>, palette: Arc<Palette>) -> Self {
         assert_eq!(codes.len(), width * height, "a body has a code for each place");
         let known = |&code: &u8| usize::from(code) <= palette.materials().len();
@@ -33,7 +49,6 @@ impl Body {
         Self { width, height, codes, palette }
     }
 
-    /// A body of `height` rows of `width` codes, row by row from the top, which need not be valid.
     pub fn from_codes(width: usize, height: usize, codes: &[u8], palette: &Arc<Palette>) -> Result<Self, BodyError> {
         if width > Self::MAX_SIDE || height > Self::MAX_SIDE {
             return Err(BodyError::TooLarge { width, height, most: Self::MAX_SIDE });
@@ -88,20 +103,14 @@ impl Body {
         Ok(Self { width: expected, height: rows.len(), codes, palette: Arc::clone(palette) })
     }
 
-    /// The number of columns of the box.
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// The number of rows of the box.
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// The code at row `row` (0 on top) and column `column` (0 on the left).
-    ///
-    /// # Panics
-    /// When the place is outside the body.
     pub fn code(&self, row: usize, column: usize) -> u8 {
         assert!(column < self.width, "column inside the body");
         self.codes[row * self.width + column]
@@ -117,7 +126,6 @@ impl Body {
         Some(self.palette()).filter(|palette| !palette.is_paper()).cloned()
     }
 
-    /// The meaning of the codes.
     pub fn palette(&self) -> &Arc<Palette> {
         &self.palette
     }
@@ -127,12 +135,10 @@ impl Body {
         (1..).zip(self.palette.materials()).filter(|(code, _)| self.codes.contains(code))
     }
 
-    /// The rows as text, top row first; [`Body::parse`] reads them back.
     pub fn rows(&self) -> Vec<String> {
         self.codes.chunks(self.width).map(|row| row.iter().map(|&code| code_digit(code)).collect()).collect()
     }
 
-    /// The mirror image: left and right exchanged.
     pub fn mirrored(&self) -> Self {
         let codes = self.codes.chunks(self.width).flat_map(|row| row.iter().rev().copied()).collect();
         Self { codes, ..self.clone() }

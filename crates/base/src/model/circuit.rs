@@ -6,32 +6,22 @@ use std::fmt;
 use super::Table;
 use crate::source::Span;
 
-/// A declared circuit: its ports and parameters, and a body of statements.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Circuit {
-    /// The name as written; unique among the circuits of a program.
     pub name: String,
-    /// The place of the name in the declaration.
     pub span: Span,
     /// The width parameters; their slots are the first variables.
     pub parameters: Vec<Parameter>,
     /// Every net: the input ports, the output ports, then those of the body.
     pub nets: Vec<Net>,
-    /// The number of input ports among the nets.
     pub inputs: usize,
-    /// The number of output ports; they follow the inputs.
     pub outputs: usize,
-    /// The integers of the body.
     pub sizes: Vec<Size>,
-    /// The expressions of the body.
     pub expressions: Vec<Expression>,
-    /// The truth tables of the body.
     pub tables: Vec<Table>,
-    /// The statements between the braces, with the nets declared there.
     pub body: Block,
     /// The number of integer slots: parameters, then loop variables and integers with names.
     pub variables: usize,
-    /// The memories of an environment.
     pub memories: Vec<MemoryArray>,
 }
 
@@ -40,22 +30,17 @@ pub struct Circuit {
 pub struct MemoryArray {
     /// The net that gives it its name; it has no bits.
     pub net: NetSlot,
-    /// The number of words.
     pub words: SizeId,
-    /// The width of a word.
     pub width: SizeId,
     /// The file with the first contents, as its place in [`super::Program::files`].
     pub contents: Option<usize>,
-    /// The reads.
     pub reads: Vec<MemoryRead>,
-    /// The writes.
     pub writes: Vec<MemoryWrite>,
 }
 
 /// A read: the word at the address is there as long as the address is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryRead {
-    /// The address.
     pub address: NetSlot,
     /// The word, which nothing else drives.
     pub data: NetSlot,
@@ -64,13 +49,9 @@ pub struct MemoryRead {
 /// A write: when the clock rises, the word at the address takes the data if it is enabled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryWrite {
-    /// The address.
     pub address: NetSlot,
-    /// The word to write.
     pub data: NetSlot,
-    /// Whether it is written.
     pub enable: NetSlot,
-    /// The clock.
     pub clk: NetSlot,
 }
 
@@ -99,24 +80,20 @@ pub struct SizeId(pub u32);
 pub struct NetSlot(pub u32);
 
 /// The place of a circuit in [`super::Program::circuits`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CircuitId(pub u32);
 
 /// A width parameter: an integer known when the circuit is built.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Parameter {
-    /// The name as written; sizes refer to it.
     pub name: String,
-    /// The place of the declaration.
     pub span: Span,
     /// The default value: an integer over the parameters before it.
     pub default: Option<SizeId>,
 }
 
-/// A net of a circuit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Net {
-    /// The name as written; unique in its circuit.
     pub name: String,
     /// The place of the declaration or of the first driver.
     pub span: Span,
@@ -138,53 +115,35 @@ pub struct Net {
 /// Statements with their nets; the body of a `for` has its own nets in each iteration.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Block {
-    /// The nets of this block, as a range of slots.
     pub nets: std::ops::Range<u32>,
     /// The statements in order of text; their order does not matter.
     pub statements: Vec<Statement>,
 }
 
-/// One statement of a body.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Statement {
-    /// Targets and their driver.
     Drive {
-        /// The targets.
         targets: Vec<Target>,
         /// Whether they are the parts of one value, the highest first. Otherwise several are the outputs of a call.
         joined: bool,
-        /// The driver.
         value: ExpressionId,
     },
-    /// Statements repeated for each value of a variable.
     For {
-        /// The variable's slot.
         variable: u32,
-        /// Its first value.
         from: SizeId,
         /// One more than its last value.
         to: SizeId,
-        /// The place of the range.
         span: Span,
-        /// The repeated statements.
         body: Block,
     },
-    /// Statements that exist only where integers compare as they must.
     If {
-        /// What is compared.
         condition: Condition,
-        /// The statements if it is so.
         then: Block,
-        /// The statements if it is not.
         otherwise: Block,
     },
-    /// Statements with nets of their own.
     Scope(Block),
-    /// A name for an integer.
     Let {
-        /// The slot of its value.
         variable: u32,
-        /// The integer.
         value: SizeId,
     },
 }
@@ -192,33 +151,23 @@ pub enum Statement {
 /// A comparison of two integers when a circuit is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condition {
-    /// The left integer.
     pub left: SizeId,
-    /// How it must compare with the right one.
     pub comparison: Relation,
-    /// The right integer.
     pub right: SizeId,
 }
 
 /// How one number compares with another: integers when a circuit is built, or the values of nets.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Relation {
-    /// `==`
     Equal,
-    /// `!=`
     NotEqual,
-    /// `<`
     Less,
-    /// `>`
     Greater,
-    /// `<=`
     AtMost,
-    /// `>=`
     AtLeast,
 }
 
 impl Relation {
-    /// All, each with its symbol in the language.
     pub const SIGNS: [(Self, &'static str); 6] = [
         (Self::Equal, "=="),
         (Self::NotEqual, "!="),
@@ -228,17 +177,14 @@ impl Relation {
         (Self::AtLeast, ">="),
     ];
 
-    /// The symbol of the language for it.
     pub fn sign(self) -> &'static str {
         Self::SIGNS.iter().find(|(comparison, _)| *comparison == self).expect("every comparison has a sign").1
     }
 
-    /// The comparison with that symbol, if there is one.
     pub fn parse(sign: &str) -> Option<Self> {
         Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(comparison, _)| *comparison)
     }
 
-    /// Whether it holds between two values.
     pub fn holds<T: Ord>(self, left: &T, right: &T) -> bool {
         match self {
             Self::Equal => left == right,
@@ -251,7 +197,6 @@ impl Relation {
     }
 }
 
-/// The left side of a statement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Target {
     /// The net; `None` discards the value (`_`).
@@ -262,16 +207,13 @@ pub struct Target {
     pub bits: Option<(SizeId, SizeId)>,
     /// The value before the first cycle (`init`), if it is given.
     pub start: Option<SizeId>,
-    /// The place of the target in the source.
     pub span: Span,
 }
 
 /// An integer known when the circuit is built.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Size {
-    /// A literal, a variable or an operation.
     pub kind: SizeKind,
-    /// The place of the integer in the source.
     pub span: Span,
 }
 
@@ -289,47 +231,34 @@ impl Size {
     }
 }
 
-/// What an integer is: a number, a variable, or an operation on others.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SizeKind {
-    /// A number as written.
     Literal(i128),
     /// A parameter or loop variable, by slot.
     Variable(u32),
     /// The number of bits needed for that many different values.
     Log2(SizeId),
-    /// An operation on two integers.
     Binary(SizeOperator, SizeId, SizeId),
 }
 
-/// An operation on integers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SizeOperator {
-    /// `+`
     Add,
-    /// `-`
     Subtract,
-    /// `*`
     Multiply,
     /// `/`, rounded down
     Divide,
-    /// `%`
     Remainder,
-    /// `**`
     Power,
 }
 
-/// An expression with its place.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Expression {
-    /// What is computed, and from which other expressions.
     pub kind: ExpressionKind,
-    /// The place of the expression in the source.
     pub span: Span,
 }
 
 impl Expression {
-    /// The first of its parts.
     fn first_part(&self) -> Option<ExpressionId> {
         match &self.kind {
             ExpressionKind::Bits(_) | ExpressionKind::Number { .. } | ExpressionKind::Computed { .. } => None,
@@ -347,75 +276,53 @@ impl Expression {
     }
 }
 
-/// What an expression is: a constant, a net, or what is made of other expressions.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ExpressionKind {
     /// A bit pattern, most significant bit first.
     Bits(Vec<bool>),
-    /// A number in a given width.
     Number {
-        /// The width in bits.
         width: SizeId,
         /// An unsigned number that fits into the width.
         value: u128,
     },
-    /// A computed number in a given width.
     Computed {
-        /// The width in bits.
         width: SizeId,
         /// The integer; that it fits into the width is checked when the circuit is built.
         value: SizeId,
     },
     /// A number as wide as its context needs.
     Unsized(FreeNumber),
-    /// A whole net.
     Net(NetSlot),
     /// A word of an array, bits of a net from the highest to the lowest, including both, or such bits of a word.
     Slice {
-        /// The net whose bits are taken.
         net: NetSlot,
-        /// The word, if the net is an array.
         word: Option<SizeId>,
         /// The highest and the lowest bit.
         bits: Option<(SizeId, SizeId)>,
     },
     /// The word of an array, or the bit of another net, that a value selects.
     Element {
-        /// The net.
         net: NetSlot,
-        /// The value that selects.
         index: ExpressionId,
-        /// The highest and the lowest bit that are taken of the word.
         bits: Option<(SizeId, SizeId)>,
     },
     /// Concatenated values, most significant first.
     Concatenation(Vec<ExpressionId>),
-    /// A value repeated.
     Repetition {
-        /// The number of repetitions.
         count: SizeId,
-        /// What is repeated.
         value: ExpressionId,
     },
-    /// A bitwise operation on operands of one width.
     Operation {
-        /// The operation.
         operator: Operator,
         /// The operands: one for `not`, two or more for the others.
         operands: Vec<ExpressionId>,
     },
-    /// A choice between two values of the same width by a bit.
     Choice {
-        /// A value of one bit.
         condition: ExpressionId,
-        /// The value if it is 1.
         then: ExpressionId,
-        /// The value if it is 0.
         otherwise: ExpressionId,
     },
-    /// A call of a circuit.
     Call {
-        /// The declared circuit of which the call makes an instance.
         circuit: CircuitId,
         /// The parameters, in the circuit's order; `None` to infer it from the widths of the operands or use the
         /// default.
@@ -437,28 +344,19 @@ pub enum ExpressionKind {
 /// A number without a width of its own.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FreeNumber {
-    /// As written.
     Literal(u128),
-    /// An integer known when the circuit is built.
     Size(SizeId),
 }
 
 /// An operation on each bit of values of one width.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operator {
-    /// `not`
     Not,
-    /// `and`
     And,
-    /// `or`
     Or,
-    /// `xor`
     Xor,
-    /// `nand`
     Nand,
-    /// `nor`
     Nor,
-    /// `xnor`
     Xnor,
 }
 
@@ -466,7 +364,6 @@ impl Operator {
     /// All, in the order of precedence of the manual.
     pub const ALL: [Self; 7] = [Self::Not, Self::And, Self::Nand, Self::Xor, Self::Xnor, Self::Or, Self::Nor];
 
-    /// The keyword of the language for it.
     pub fn word(self) -> &'static str {
         match self {
             Self::Not => "not",
@@ -479,7 +376,6 @@ impl Operator {
         }
     }
 
-    /// The operation for a keyword.
     pub fn parse(word: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|operator| operator.word() == word)
     }
@@ -494,14 +390,12 @@ impl fmt::Display for Operator {
 /// A circuit with values for its parameters.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Instance {
-    /// The name of the circuit.
     pub circuit: String,
     /// The parameters in order; missing ones at the end have their defaults.
     pub arguments: Vec<u64>,
 }
 
 impl From<&str> for Instance {
-    /// A circuit without parameters, or with all defaults.
     fn from(circuit: &str) -> Self {
         Self { circuit: circuit.to_owned(), arguments: Vec::new() }
     }
@@ -538,7 +432,6 @@ impl SizeOperator {
         }
     }
 
-    /// All operations, each with its symbol in the language.
     pub const SIGNS: [(Self, &'static str); 6] = [
         (Self::Add, "+"),
         (Self::Subtract, "-"),
@@ -548,12 +441,10 @@ impl SizeOperator {
         (Self::Power, "**"),
     ];
 
-    /// The symbol of the language for it.
     pub fn sign(self) -> &'static str {
         Self::SIGNS.iter().find(|(operator, _)| *operator == self).expect("every operator has a sign").1
     }
 
-    /// The operation with that symbol, if there is one.
     pub fn parse(sign: &str) -> Option<Self> {
         Self::SIGNS.iter().find(|(_, known)| *known == sign).map(|(operator, _)| *operator)
     }

@@ -6,50 +6,36 @@ use crate::source::Span;
 /// A declared claim. The source is needed for messages only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Claim {
-    /// The circuit, with numbers for its parameters.
     pub circuit: Instance,
     /// The title; empty if there is none.
     pub title: String,
-    /// The place of the declaration.
     pub span: Span,
-    /// The file in which it is declared.
     pub file: String,
-    /// The line at which it is declared.
     pub line: usize,
-    /// The input ports of the circuit in order of declaration.
     pub inputs: Vec<Column>,
-    /// The output ports of the circuit in order of declaration.
     pub outputs: Vec<Column>,
     /// The nets inside the circuit that properties read.
     pub inner: Vec<InnerNet>,
     /// The environment that gives some of its inputs, if there is one.
     pub environment: Option<CircuitId>,
-    /// The properties, in order of declaration.
     pub properties: Vec<Property>,
     /// What the properties say, as a circuit: its inputs are the ports of the circuit, the nets inside it,
     /// and a clock that rises between two steps, its outputs those of [`Property::outputs`].
     pub monitor: Box<Circuit>,
 }
 
-/// A net inside a circuit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InnerNet {
-    /// Its name and its width in bits.
     pub column: Column,
-    /// The place of its declaration.
     pub declared: Span,
 }
 
-/// A property of the steps of a circuit.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Property {
-    /// What is said.
     pub kind: PropertyKind,
     /// The property as written, in one line.
     pub text: String,
-    /// The place of the property.
     pub span: Span,
-    /// Its line in the file.
     pub line: usize,
     /// Whether it is said only of steps in which a condition holds, which stands before `=>`.
     pub has_condition: bool,
@@ -71,7 +57,6 @@ pub enum PropertyKind {
 }
 
 impl PropertyKind {
-    /// The word of the language.
     pub fn word(self) -> &'static str {
         match self {
             Self::Always => "always",
@@ -80,7 +65,6 @@ impl PropertyKind {
         }
     }
 
-    /// The kind of a word.
     pub fn parse(word: &str) -> Option<Self> {
         [Self::Always, Self::Never, Self::Assume].into_iter().find(|kind| kind.word() == word)
     }

@@ -9,20 +9,17 @@ use super::Enumeration;
 /// A port with its width: a column of a test, a waveform or a table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Column {
-    /// The name of the port.
     pub name: String,
     /// The width in bits, at least 1.
     pub width: usize,
     /// The number of its words, if it is an array.
     #[serde(skip)]
     pub words: Option<usize>,
-    /// The enumeration whose members its values are.
     #[serde(skip)]
     pub members: Option<Arc<Enumeration>>,
 }
 
 impl Column {
-    /// A port whose values are numbers.
     pub fn new(name: impl Into<String>, width: usize) -> Self {
         Self { name: name.into(), width, words: None, members: None }
     }

@@ -5,28 +5,21 @@ use crate::source::Span;
 /// A declared enumeration: `enum phase { fetch, execute }`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Enumeration {
-    /// What nets call it.
     pub name: String,
-    /// The place of the name in the declaration.
     pub span: Span,
-    /// The width of its values in bits.
     pub width: u32,
     /// The members in order of declaration; no two have the same value.
     pub members: Vec<EnumerationMember>,
 }
 
-/// A member of an enumeration.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EnumerationMember {
-    /// What expressions, tables and tests call it.
     pub name: String,
-    /// The place of the declaration.
     pub span: Span,
     /// Its value, which fits into the width.
     pub value: u128,
 }
 
-/// How an enumeration gives its members values.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum MemberEncoding {
     /// 0, 1, 2, … in as few bits as possible.
@@ -39,14 +32,11 @@ pub enum MemberEncoding {
 }
 
 impl MemberEncoding {
-    /// All, each with its word in the language.
     pub const WORDS: [(Self, &'static str); 3] =
         [(Self::Binary, "binary"), (Self::Gray, "gray"), (Self::OneHot, "one_hot")];
 
-    /// The most members.
     pub const MOST: usize = 128;
 
-    /// The value of a member by its place among the others.
     pub fn value(self, place: usize) -> u128 {
         match self {
             Self::Binary => place as u128,
@@ -55,7 +45,6 @@ impl MemberEncoding {
         }
     }
 
-    /// The width of the values of that many members.
     pub fn width(self, members: usize) -> u32 {
         match self {
             Self::OneHot => members as u32,
@@ -65,7 +54,6 @@ impl MemberEncoding {
 }
 
 impl Enumeration {
-    /// The member of that name.
     pub fn member(&self, name: &str) -> Option<&EnumerationMember> {
         self.members.iter().find(|member| member.name == name)
     }
@@ -75,7 +63,6 @@ impl Enumeration {
         (0..self.width).rev().map(|bit| value >> bit & 1 == 1).collect()
     }
 
-    /// The name of a value, if it has one.
     pub fn named(&self, value: u128) -> Option<&str> {
         self.members.iter().find(|member| member.value == value).map(|member| member.name.as_str())
     }

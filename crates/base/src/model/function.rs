@@ -73,44 +73,27 @@ const HEXADECIMAL: &[[u8; 5]; 256] = &{
 };
 
 impl Function {
-    /// The most inputs of a function.
     pub const MOST_INPUTS: usize = 3;
 
-    /// Always 0.
     pub const ZERO: Self = Self::new(0b0000);
-    /// `nor`
     pub const NOR: Self = Self::new(0b0001);
     /// `not a`
     pub const NOT: Self = Self::new(0b0011);
-    /// `not b`
     pub const NOT_B: Self = Self::new(0b0101);
-    /// `xor`
     pub const XOR: Self = Self::new(0b0110);
-    /// `nand`
     pub const NAND: Self = Self::new(0b0111);
-    /// `and`
     pub const AND: Self = Self::new(0b1000);
-    /// `xnor`
     pub const XNOR: Self = Self::new(0b1001);
-    /// `b`
     pub const BUF_B: Self = Self::new(0b1010);
-    /// `a`
     pub const BUF: Self = Self::new(0b1100);
-    /// `or`
     pub const OR: Self = Self::new(0b1110);
-    /// Always 1.
     pub const ONE: Self = Self::new(0b1111);
-    /// The majority of three inputs.
     pub const MAJ: Self = Self::three(0xe8);
     /// `b` if `a`, else `c`.
     pub const MUX: Self = Self::three(0xca);
-    /// `a xor b xor c`
     pub const XOR3: Self = Self::three(0x96);
 
     /// The function of two inputs whose output at (a, b) is bit `2a + b` of `bits`.
-    ///
-    /// # Panics
-    /// When `bits` is 16 or more.
     pub const fn new(bits: u8) -> Self {
         assert!(bits < 16, "a two-input function has four outputs");
         Self { inputs: 2, bits }
@@ -121,10 +104,6 @@ impl Function {
         Self { inputs: 3, bits }
     }
 
-    /// The function of that many inputs with these bits.
-    ///
-    /// # Panics
-    /// When there are neither two nor three inputs, or more bits than outputs.
     pub const fn of(inputs: usize, bits: u8) -> Self {
         match inputs {
             2 => Self::new(bits),
@@ -133,15 +112,11 @@ impl Function {
         }
     }
 
-    /// All sixteen of two inputs, in order of their bits.
     pub fn all() -> impl Iterator<Item = Self> {
         Self::all_of(2)
     }
 
     /// All of two or three inputs, in order of their bits: 16 or 256.
-    ///
-    /// # Panics
-    /// When there are neither two nor three inputs.
     pub fn all_of(inputs: usize) -> impl Iterator<Item = Self> {
         let last = Self::last(inputs);
         (0..=last).map(move |bits| Self::of(inputs, bits))
@@ -163,24 +138,17 @@ impl Function {
         usize::from(self.inputs)
     }
 
-    /// The outputs as bits, bit `2a + b` at (a, b) or bit `4a + 2b + c` at (a, b, c).
     pub fn bits(self) -> u8 {
         self.bits
     }
 
     /// The output of a function of two inputs at (a, b).
-    ///
-    /// # Panics
-    /// When it has three.
     pub fn output(self, a: bool, b: bool) -> bool {
         assert_eq!(self.inputs, 2, "the function has two inputs");
         self.row(usize::from(a) * 2 + usize::from(b))
     }
 
     /// The output at these inputs, `a` first.
-    ///
-    /// # Panics
-    /// When there are not as many as the function has.
     pub fn at(self, inputs: impl IntoIterator<Item = bool>) -> bool {
         let (row, count) =
             inputs.into_iter().fold((0, 0), |(row, count), bit| (row << 1 | usize::from(bit), count + 1));
@@ -233,9 +201,6 @@ impl Function {
     }
 
     /// The function whose input `i` is input `order[i]` of this one.
-    ///
-    /// # Panics
-    /// When there is not a place for each input.
     pub fn permuted(self, order: &[usize]) -> Self {
         assert_eq!(order.len(), self.inputs(), "each input has a place");
         let place = |input: usize| 1usize << (self.inputs() - 1 - input);
@@ -246,7 +211,6 @@ impl Function {
         Self { bits, ..self }
     }
 
-    /// The function with the inverted output.
     pub fn inverted(self) -> Self {
         Self { bits: !self.bits & Self::last(self.inputs()), ..self }
     }
@@ -258,9 +222,6 @@ impl Function {
     }
 
     /// Of a function of three inputs, the functions of `b` and `c` that it is while `a` is 0 and while it is 1.
-    ///
-    /// # Panics
-    /// When it has two.
     pub fn halves(self) -> [Self; 2] {
         assert_eq!(self.inputs, 3, "the function has three inputs");
         [Self::new(self.bits & 0b1111), Self::new(self.bits >> 4)]
@@ -375,7 +336,6 @@ mod tests {
         assert_eq!(Function::ONE.arity(), 0);
     }
 
-    /// The output of a function of three inputs.
     fn at(function: Function, [a, b, c]: [bool; 3]) -> bool {
         function.row(usize::from(a) * 4 + usize::from(b) * 2 + usize::from(c))
     }

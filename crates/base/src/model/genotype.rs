@@ -16,7 +16,6 @@ pub struct Genotype {
     pub links: Vec<Link>,
 }
 
-/// The kind of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum NodeKind {
@@ -24,18 +23,14 @@ pub enum NodeKind {
     Input(u8),
     /// The score of a material code, with its activation.
     Output(u8, Activation),
-    /// A hidden node with its activation.
     Hidden(Activation),
 }
 
 /// A link between two nodes: it adds the output of one, times a weight, to the input of the other.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Link {
-    /// The node whose output it carries.
     pub source: NodeId,
-    /// The node to which it adds.
     pub target: NodeId,
-    /// The factor of the output.
     pub weight: f64,
 }
 

@@ -34,11 +34,8 @@ impl Default for GroundProfile {
 }
 
 impl GroundProfile {
-    /// The most columns of a file before they repeat.
     pub const MOST_COLUMNS: usize = 128;
-    /// The most rows of a file.
     pub const MOST_ROWS: usize = 32;
-    /// The most heights before they repeat.
     pub const MOST_HEIGHTS: usize = 32;
     /// The most voxels by which one height is above another.
     pub const MOST_HEIGHT: u8 = 10;
@@ -70,12 +67,10 @@ impl GroundProfile {
         profile
     }
 
-    /// Whether it is one row of voxels everywhere.
     pub fn is_flat(&self) -> bool {
         self.count == 0
     }
 
-    /// Whether its columns are those of a file.
     pub fn is_of_file(&self) -> bool {
         self.is_of_file
     }
@@ -157,7 +152,6 @@ impl TryFrom<GroundShape> for GroundProfile {
     }
 }
 
-/// The ground of rows of text, the top one first.
 fn cells(rows: &[String]) -> Option<GroundProfile> {
     let width = rows.first()?.len();
     if rows.len() > GroundProfile::MOST_ROWS || width > GroundProfile::MOST_COLUMNS {

@@ -26,7 +26,6 @@ struct FileObject {
 }
 
 impl GroundProfile {
-    /// The ground of a world file of Evolution Gym.
     pub fn of_file(text: &str) -> Result<Self, GroundFileError> {
         let file: WorldFile =
             serde_json::from_str(text).map_err(|error| GroundFileError::NotWorld { reason: error.to_string() })?;
@@ -61,7 +60,6 @@ impl GroundProfile {
 mod tests {
     use super::*;
 
-    /// A file of two columns with one object.
     fn file(cells: &str, codes: &str) -> Result<GroundProfile, GroundFileError> {
         let object = format!(r#"{{"indices": [{cells}], "types": [{codes}], "neighbors": {{}}}}"#);
         GroundProfile::of_file(&format!(r#"{{"grid_width": 2, "grid_height": 3, "objects": {{"floor": {object}}}}}"#))

@@ -5,7 +5,8 @@ use std::hash::{Hash, Hasher};
 
 use serde::{Deserialize, Serialize};
 
-use super::{ImageError, ImageSize};
+use super::ImageSize;
+use super::wording::{image_pixels, image_size, pixel_range, ragged_image};
 
 /// The values of a stimulus over a body, from 0 for absent to 1 for present: rows of pixels, row 0 on top.
 ///
@@ -19,24 +20,20 @@ pub struct Image {
 
 impl Image {
     /// An image of that size, row by row from the top.
-    pub fn new(size: ImageSize, pixels: Vec<f64>) -> Result<Self, ImageError> {
+    pub fn new(size: ImageSize, pixels: Vec<f64>) -> Result<Self, String> {
         let ImageSize { rows, columns } = size;
         if !size.is_valid() {
-            return Err(ImageError::Size { rows, columns, most: ImageSize::MAX_SIDE });
+            return Err(image_size(rows, columns));
         }
         if pixels.len() != size.pixels() {
-            return Err(ImageError::Pixels { found: pixels.len(), rows, columns });
+            return Err(image_pixels(pixels.len(), rows, columns));
         }
         match pixels.iter().position(|pixel| !(0.0..=1.0).contains(pixel)) {
-            Some(at) => {
-                let (row, column) = (at / columns + 1, at % columns + 1);
-                Err(ImageError::Range { row, column, found: pixels[at].to_string() })
-            }
+            Some(at) => Err(pixel_range(at / columns + 1, at % columns + 1, pixels[at])),
             None => Ok(Self { size, pixels }),
         }
     }
 
-    /// The numbers of its rows and columns.
     pub fn size(&self) -> ImageSize {
         self.size
     }
@@ -48,9 +45,6 @@ impl Image {
 
     /// The value over a place of a body, whose box the image covers: the mean of the pixels over the place, by area.
     /// On a body of its own size it is the pixel at the place.
-    ///
-    /// # Panics
-    /// When the place is outside the box.
     pub fn over(&self, [row, column]: [usize; 2], [height, width]: [usize; 2]) -> f64 {
         assert!(row < height && column < width, "a place is inside its box");
         // The place and the pixels in units in which both have whole sides.
@@ -81,12 +75,12 @@ impl Image {
 }
 
 impl TryFrom<Vec<Vec<f64>>> for Image {
-    type Error = ImageError;
+    type Error = String;
 
-    fn try_from(rows: Vec<Vec<f64>>) -> Result<Self, ImageError> {
+    fn try_from(rows: Vec<Vec<f64>>) -> Result<Self, String> {
         let columns = rows.first().map_or(0, Vec::len);
         match rows.iter().position(|row| row.len() != columns) {
-            Some(row) => Err(ImageError::Ragged { row: row + 1, found: rows[row].len(), expected: columns }),
+            Some(row) => Err(ragged_image(row + 1, rows[row].len(), columns)),
             None => Self::new(ImageSize::new(rows.len(), columns), rows.concat()),
         }
     }
@@ -161,7 +155,7 @@ mod tests {
     #[test]
     fn invalid_images_are_refused() {
         let check = |rows: Vec<Vec<f64>>, expected: &str| {
-            assert_eq!(Image::try_from(rows).map_err(|error| error.to_string()), Err(expected.to_owned()));
+            assert_eq!(Image::try_from(rows), Err(expected.to_owned()));
         };
         check(vec![], "the image has 0 rows and 0 columns, expected 1 to 256 of each");
         check(vec![vec![0.0], vec![]], "row 2 has 0 pixels, expected 1 as in row 1");

@@ -6,22 +6,17 @@ use super::{Image, ImageSize};
 /// An image, and what its file says that it is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LabeledImage {
-    /// What the image is, if its file says so.
     pub label: Option<String>,
-    /// The image.
     pub image: Image,
 }
 
-/// A file of images.
 #[derive(Clone, Copy, Debug)]
 pub struct ImageFile<'a> {
     /// Its name, whose ending is the format.
     pub name: &'a str,
-    /// What is in it.
     pub bytes: &'a [u8],
     /// The bytes of a file of labels beside it, if there is one.
     pub labels: Option<&'a [u8]>,
-    /// The size of each image.
     pub size: ImageSize,
     /// The number of the file that stands for 1; without it, the greatest that its format has.
     pub white: Option<f64>,
@@ -39,7 +34,6 @@ impl ImageFile<'_> {
         path.contains("images-idx3").then(|| path.replace("images-idx3", "labels-idx1"))
     }
 
-    /// All images of the file, in their order.
     pub fn read(&self) -> Result<Vec<LabeledImage>, ImageFileError> {
         let name = self.name.to_ascii_lowercase();
         let images = match name.rsplit(['.', '-']).next() {
@@ -102,7 +96,6 @@ impl ImageFile<'_> {
         Ok(LabeledImage { label, image: self.image(&numbers, self.white.unwrap_or(1.0), Some(line))? })
     }
 
-    /// A portable graymap, as text or as bytes.
     fn pgm(&self) -> Result<LabeledImage, ImageFileError> {
         let mut words = Words { bytes: self.bytes, at: 0 };
         let damaged = |what| ImageFileError::Damaged { format: "PGM", what };
@@ -131,7 +124,6 @@ impl ImageFile<'_> {
         Ok(LabeledImage { label: None, image: self.image(&numbers, self.white.unwrap_or(greatest as f64), None)? })
     }
 
-    /// The gray values of a picture.
     #[cfg(feature = "pictures")]
     fn png(&self) -> Result<LabeledImage, ImageFileError> {
         let (numbers, greatest) = super::png_file::gray(self.bytes, self.size)?;
@@ -237,7 +229,6 @@ mod tests {
         ImageFile { name, bytes, labels: None, size, white }.read().map_err(|error| error.to_string())
     }
 
-    /// The pixels of each image, and its label.
     fn check(name: &str, bytes: &[u8], white: Option<f64>, expected: &[(&[f64], Option<&str>)]) {
         let found = read(name, bytes, ImageSize::new(2, 2), white).unwrap();
         let found: Vec<(&[f64], Option<&str>)> =
@@ -287,7 +278,6 @@ mod tests {
         assert_eq!(ImageFile::labels_beside("a/train-images-idx3-ubyte").as_deref(), Some("a/train-labels-idx1-ubyte"));
     }
 
-    /// A PNG of two rows and columns.
     #[cfg(feature = "pictures")]
     fn png(color: png::ColorType, depth: png::BitDepth, data: &[u8]) -> Vec<u8> {
         let mut bytes = Vec::new();

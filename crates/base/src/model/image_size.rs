@@ -8,27 +8,21 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(from = "[usize; 2]", into = "[usize; 2]")]
 pub struct ImageSize {
-    /// From the top.
     pub rows: usize,
-    /// From the left.
     pub columns: usize,
 }
 
 impl ImageSize {
-    /// The most rows or columns of an image.
     pub const MAX_SIDE: usize = 256;
 
-    /// That many rows and columns.
     pub fn new(rows: usize, columns: usize) -> Self {
         Self { rows, columns }
     }
 
-    /// The number of pixels.
     pub fn pixels(self) -> usize {
         self.rows * self.columns
     }
 
-    /// Whether images can have this size.
     pub fn is_valid(self) -> bool {
         [self.rows, self.columns].iter().all(|side| (1..=Self::MAX_SIDE).contains(side))
     }

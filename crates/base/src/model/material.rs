@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::{ImageSize, MaterialError, MaterialNumber, Pattern};
+use super::wording::{foreign_field, material_number, missing_field};
+use super::{ImageSize, Pattern};
 
 /// A declared material: a name and a response.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -10,7 +11,6 @@ use super::{ImageSize, MaterialError, MaterialNumber, Pattern};
 pub struct Material {
     /// The name in the program, unique in its palette.
     pub name: String,
-    /// The stiffness, and what changes the width of a voxel.
     pub kind: MaterialKind,
 }
 
@@ -21,7 +21,6 @@ pub enum MaterialKind {
     Rigid,
     /// Passive and compliant: bends with its neighbors.
     Soft,
-    /// Swells and shrinks with time.
     Actuator(Drive),
     /// Swells or shrinks with a stimulus, or with an image at its place.
     Sensor(Response),
@@ -60,7 +59,6 @@ impl Response {
         Self { stimulus, image: None, absent, present }
     }
 
-    /// The width under a value of its stimulus, from 0 to 1.
     pub fn width(&self, value: f64) -> f64 {
         if value >= 1.0 { self.present } else { self.absent + value * (self.present - self.absent) }
     }
@@ -82,7 +80,6 @@ impl MaterialKind {
         }
     }
 
-    /// Whether all its numbers are finite.
     pub(super) fn is_finite(&self) -> bool {
         match self {
             Self::Rigid | Self::Soft => true,
@@ -117,7 +114,6 @@ struct Record {
     present: Option<f64>,
 }
 
-/// The words for kinds.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Word {
@@ -158,9 +154,9 @@ impl From<Material> for Record {
 }
 
 impl TryFrom<Record> for Material {
-    type Error = MaterialError;
+    type Error = String;
 
-    fn try_from(record: Record) -> Result<Self, MaterialError> {
+    fn try_from(record: Record) -> Result<Self, String> {
         let kind = match record.kind {
             Word::Rigid => MaterialKind::Rigid,
             Word::Soft => MaterialKind::Soft,
@@ -186,12 +182,11 @@ impl TryFrom<Record> for Material {
 }
 
 impl Record {
-    fn need<T>(&self, field: &'static str, value: Option<T>) -> Result<T, MaterialError> {
-        value.ok_or_else(|| MaterialError::Missing { material: self.name.clone(), field })
+    fn need<T>(&self, field: &'static str, value: Option<T>) -> Result<T, String> {
+        value.ok_or_else(|| missing_field(&self.name, field))
     }
 
-    /// Rejects the fields of other kinds.
-    fn refuse_foreign(&self) -> Result<(), MaterialError> {
+    fn refuse_foreign(&self) -> Result<(), String> {
         let (drives, senses) = (matches!(self.kind, Word::Actuator), matches!(self.kind, Word::Sensor));
         let fields = [
             ("period", self.period.is_some() && !drives),
@@ -203,35 +198,36 @@ impl Record {
             ("present", self.present.is_some() && !senses),
         ];
         match fields.into_iter().find(|(_, foreign)| *foreign) {
-            Some((field, _)) => Err(MaterialError::Foreign { material: self.name.clone(), field }),
+            Some((field, _)) => Err(foreign_field(&self.name, field)),
             None => Ok(()),
         }
     }
 
-    /// Rejects numbers that the language would reject.
-    fn check_numbers(&self) -> Result<(), MaterialError> {
-        let bad = |field, found: String, expected| {
-            Err(MaterialError::OutOfRange { material: self.name.clone(), field, found, expected })
-        };
+    fn check_numbers(&self) -> Result<(), String> {
+        let bad = |field, found: String, expected: &str| Err(material_number(&self.name, field, &found, expected));
         if let Some(period) = self.period.filter(|period| !(1..=MAX_PERIOD).contains(period)) {
-            return bad("period", period.to_string(), MaterialNumber::Period { most: MAX_PERIOD });
+            return bad("period", period.to_string(), &format!("1 to {MAX_PERIOD} env steps"));
         }
         if let Some(phase) = self.phase.filter(|phase| !phase.is_finite()) {
-            return bad("phase", phase.to_string(), MaterialNumber::Phase);
+            return bad("phase", phase.to_string(), "a finite number of degrees");
         }
         if let Some([low, high]) = self.range.filter(|[low, high]| !(is_width(*low) && is_width(*high) && low <= high))
         {
-            return bad("range", format!("[{low:?}, {high:?}]"), MaterialNumber::Widths);
+            return bad("range", format!("[{low:?}, {high:?}]"), "widths from 0.6 to 1.6, the smallest first");
         }
         if let Some(stimulus) = self.stimulus.filter(|stimulus| !(1..=Pattern::MAX_STIMULI).contains(stimulus)) {
-            return bad("stimulus", stimulus.to_string(), MaterialNumber::Stimulus { most: Pattern::MAX_STIMULI });
+            return bad("stimulus", stimulus.to_string(), &format!("1 to {}", Pattern::MAX_STIMULI));
         }
         if let Some(ImageSize { rows, columns }) = self.image.filter(|size| !size.is_valid()) {
-            return bad("image", format!("[{rows}, {columns}]"), MaterialNumber::Image { most: ImageSize::MAX_SIDE });
+            return bad(
+                "image",
+                format!("[{rows}, {columns}]"),
+                &format!("1 to {} rows and columns", ImageSize::MAX_SIDE),
+            );
         }
         for (field, width) in [("absent", self.absent), ("present", self.present)] {
             if let Some(width) = width.filter(|width| !is_width(*width)) {
-                return bad(field, format!("{width:?}"), MaterialNumber::Width);
+                return bad(field, format!("{width:?}"), "a width from 0.6 to 1.6");
             }
         }
         Ok(())

@@ -2,6 +2,7 @@
 //! in that stage.
 
 mod behavior;
+pub mod bodies;
 mod body;
 mod circuit;
 mod claim;
@@ -68,10 +69,7 @@ pub use test::{CircuitTest, RowSource, Script, ScriptStep, Stimulation, TestRow,
 pub use trial::{Fault, Setting, Trajectory, Trial};
 pub use value::{Base, Value};
 pub use variation::Variation;
-pub use wording::{
-    BehaviorError, BodyError, DisplacementsError, FaultKind, GroundFileError, ImageError, ImageFileError,
-    MaterialError, MaterialNumber, PaletteError, PatternError, SettingError, VariationError,
-};
+pub use wording::{BodyError, FaultKind, GroundFileError, ImageFileError, SettingError};
 pub use world::{NamedWorld, PhysicsWorld, WorldFactors, WorldNoise};
 
 /// Env steps in one actuation cycle of the paper (docs/physics.md 10).

@@ -18,7 +18,6 @@ pub enum SearchObjective {
 }
 
 impl SearchObjective {
-    /// All of them, with their names in a declaration.
     pub const ALL: [(&str, Self); 4] =
         [("distance", Self::Distance), ("gate", Self::Gate), ("wave", Self::Wave), ("images", Self::Images)];
 

@@ -6,7 +6,8 @@ use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Drive, Function, ImageSize, Material, MaterialKind, PaletteError, Response};
+use super::wording::{material_name, palette_size, same_material};
+use super::{Drive, Function, ImageSize, Material, MaterialKind, Response};
 
 /// The materials of a body: code 0 is empty, code `k` is the `k`-th material.
 ///
@@ -21,10 +22,6 @@ impl Palette {
     /// The most materials of a palette. Codes are written as digits and lower-case letters; `0` is empty.
     pub const MAX_MATERIALS: usize = 35;
 
-    /// A palette of these materials, in order of their codes.
-    ///
-    /// # Panics
-    /// When there are more than [`Palette::MAX_MATERIALS`], or a number of one is not finite.
     pub fn new(materials: Vec<Material>) -> Self {
         assert!(materials.len() <= Self::MAX_MATERIALS, "a palette holds at most 35 materials");
         assert!(materials.iter().all(|material| material.kind.is_finite()), "the numbers of materials are finite");
@@ -44,7 +41,6 @@ impl Palette {
         Arc::new(Self::new(materials))
     }
 
-    /// Whether these are the paper's materials.
     pub fn is_paper(&self) -> bool {
         *self == *Self::paper()
     }
@@ -55,17 +51,10 @@ impl Palette {
     }
 
     /// The material of code `code`; `None` for empty.
-    ///
-    /// # Panics
-    /// When the palette has no such code.
     pub fn material(&self, code: u8) -> Option<&Material> {
         (code > 0).then(|| &self.materials[usize::from(code) - 1])
     }
 
-    /// The response of code `code`; `None` if it is empty.
-    ///
-    /// # Panics
-    /// When the palette has no such code.
     pub fn kind(&self, code: u8) -> Option<MaterialKind> {
         self.material(code).map(|material| material.kind)
     }
@@ -80,7 +69,6 @@ impl Palette {
         sensed.fold(2, usize::max)
     }
 
-    /// The size of the images that bodies of these materials sense; none if they sense no image.
     pub fn image(&self) -> Option<ImageSize> {
         self.materials.iter().find_map(|material| match material.kind {
             MaterialKind::Sensor(response) => response.image,
@@ -127,18 +115,18 @@ fn sensor(name: &str, stimulus: usize, absent: f64, present: f64) -> Material {
 }
 
 impl TryFrom<Vec<Material>> for Palette {
-    type Error = PaletteError;
+    type Error = String;
 
-    fn try_from(materials: Vec<Material>) -> Result<Self, PaletteError> {
+    fn try_from(materials: Vec<Material>) -> Result<Self, String> {
         if materials.is_empty() || materials.len() > Self::MAX_MATERIALS {
-            return Err(PaletteError::Size { found: materials.len(), most: Self::MAX_MATERIALS });
+            return Err(palette_size(materials.len(), Self::MAX_MATERIALS));
         }
         for (i, Material { name, .. }) in materials.iter().enumerate() {
             if !is_name(name) {
-                return Err(PaletteError::Name(name.clone()));
+                return Err(material_name(name));
             }
             if materials[..i].iter().any(|other| other.name == *name) {
-                return Err(PaletteError::Twice(name.clone()));
+                return Err(same_material(name));
             }
         }
         Ok(Self::new(materials))

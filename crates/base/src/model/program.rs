@@ -16,13 +16,11 @@ pub struct Program {
     pub stimuli: Vec<String>,
     /// The sizes of those stimuli that are images, by their numbers.
     pub image_sizes: BTreeMap<usize, ImageSize>,
-    /// The sets of images.
     pub images: Vec<NamedImages>,
     /// The materials, in the order of their numbers in bodies.
     pub materials: Vec<Material>,
     /// Declared worlds, those of the prelude first.
     pub worlds: Vec<NamedWorld>,
-    /// The schedules of stimuli.
     pub schedules: Vec<NamedSchedule>,
     /// The evolution runs that are declared, those of the prelude included.
     pub evolutions: Vec<Evolution>,
@@ -32,15 +30,12 @@ pub struct Program {
     pub circuits: Vec<Circuit>,
     /// The circuit `select` of the prelude: its second operand selects a bit of its first.
     pub selector: Option<CircuitId>,
-    /// Declared enumerations, in the order of the source.
     pub enumerations: Vec<Enumeration>,
-    /// Declared files, in the order of the source.
     pub files: Vec<NamedFile>,
     /// The environments among the circuits, which no swarm is made of.
     pub environments: Vec<CircuitId>,
     /// Declared libraries; the built-in one is not among them.
     pub libraries: Vec<LibrarySource>,
-    /// Declared swarms, in the order of the source.
     pub swarms: Vec<Swarm>,
     /// The simulations of the file itself, not of files it uses.
     pub simulations: Vec<Simulation>,
@@ -50,14 +45,11 @@ pub struct Program {
     pub claims: Vec<Claim>,
 }
 
-/// A schedule with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedSchedule {
-    /// What evolutions and simulations call it.
     pub name: String,
     /// Its stimuli, as indices of [`Program::stimuli`].
     pub stimuli: Vec<usize>,
-    /// The stimuli over time.
     pub schedule: Schedule,
     /// The names of the sets whose images it shows, in the order that numbers them; none for other stimuli.
     pub sets: Vec<String>,
@@ -80,47 +72,36 @@ impl NamedSchedule {
     }
 }
 
-/// Images of a file with a name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedImages {
-    /// What schedules call them.
     pub name: String,
     /// The stimulus that shows them, as an index of [`Program::stimuli`].
     pub stimulus: usize,
-    /// The images in the order of their file.
     pub images: Vec<Arc<Image>>,
 }
 
 /// A file with a name, which memories begin with.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NamedFile {
-    /// What memories and the command line call it.
     pub name: String,
     /// The path, from the same place as that of the source file which names it.
     pub path: String,
-    /// The place of the path.
     pub span: Span,
 }
 
 /// A declared library: the source of its robots, and the behaviors it is restricted to.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LibrarySource {
-    /// What a swarm's `library:` calls it.
     pub name: String,
-    /// The place of the declaration.
     pub span: Span,
-    /// The source of the robots.
     pub from: Origin,
     /// The behaviors it is restricted to; `None` is all.
     pub behaviors: Option<Vec<Behavior>>,
-    /// The names of robots that are left out, each with its place.
     pub without: Vec<(String, Span)>,
 }
 
-/// The source of a library's robots.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
-    /// The library that is built into the program.
     Shipped,
     /// Those robots, and the built-in ones of three stimuli.
     Three,
@@ -133,11 +114,8 @@ pub enum Origin {
 /// A declared swarm: a circuit made of a library's robots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Swarm {
-    /// What `simulate` and `--swarm` call it.
     pub name: String,
-    /// The place of the declaration.
     pub span: Span,
-    /// The circuit that its robots compute, with parameters.
     pub circuit: Instance,
     /// The name of the library in [`Program::libraries`].
     pub library: String,
@@ -145,15 +123,12 @@ pub struct Swarm {
     pub hold: Hold,
     /// The number of cycles over which a robot's output is measured; the paper's is 1.
     pub window: u32,
-    /// What its registers are made of.
     pub registers: RegisterStyle,
-    /// The times of a wave machine, if it is one.
     pub waves: WaveTimes,
     /// The world in which it runs, unless a test or a simulation names another.
     pub world: NamedWorld,
 }
 
-/// What registers are made of.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RegisterStyle {
     /// Two latches each, as written.
@@ -174,7 +149,6 @@ pub struct WaveTimes {
     pub step: Option<u32>,
 }
 
-/// The time for which inputs are held.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hold {
     /// Until every robot has settled, row by row.
@@ -189,17 +163,11 @@ pub enum Hold {
 pub struct Simulation {
     /// The swarm's name in [`Program::swarms`], or the name of a circuit without a swarm.
     pub swarm: String,
-    /// The circuit of the swarm.
     pub circuit: Instance,
-    /// The place of the declaration.
     pub span: Span,
-    /// The file in which it is declared.
     pub file: String,
-    /// The line at which it is declared.
     pub line: usize,
-    /// The input ports of the swarm's circuit.
     pub inputs: Vec<Column>,
-    /// The spells in order of time.
     pub spells: Vec<InputSpell>,
     /// The world, if it is not the swarm's.
     pub world: Option<NamedWorld>,
@@ -214,7 +182,6 @@ pub struct InputSpell {
     pub bases: Vec<Base>,
     /// The duration in actuation cycles.
     pub cycles: u32,
-    /// The line in the source.
     pub line: usize,
 }
 
@@ -225,27 +192,22 @@ impl Program {
         declared.cloned().unwrap_or_default()
     }
 
-    /// The circuit of that name.
     pub fn circuit(&self, name: &str) -> Option<&Circuit> {
         self.circuits.iter().find(|circuit| circuit.name == name)
     }
 
-    /// The evolution run of that name.
     pub fn evolution(&self, name: &str) -> Option<&Evolution> {
         self.evolutions.iter().find(|evolution| evolution.name == name)
     }
 
-    /// The library of that name.
     pub fn library(&self, name: &str) -> Option<&LibrarySource> {
         self.libraries.iter().find(|library| library.name == name)
     }
 
-    /// The swarm of that name.
     pub fn swarm(&self, name: &str) -> Option<&Swarm> {
         self.swarms.iter().find(|swarm| swarm.name == name)
     }
 
-    /// The schedule of that name.
     pub fn schedule(&self, name: &str) -> Option<&NamedSchedule> {
         self.schedules.iter().find(|schedule| schedule.name == name)
     }

@@ -4,24 +4,19 @@ use std::cmp::Ordering;
 
 use serde::{Deserialize, Serialize};
 
-use super::{Behavior, Body, Displacements, Function, Genotype, Pattern, PatternError};
+use super::{Behavior, Body, Displacements, Function, Genotype, Pattern, wording};
 
 /// A body with a known behavior and its provenance.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Robot {
     /// The robot's name, unique in its library.
     pub name: String,
-    /// The directions in which it walks, one for each pattern of its stimuli.
     pub behavior: Behavior,
-    /// The voxels, with the palette that says what they are made of.
     pub body: Body,
     /// Displacement in voxels over the paper's fixed simulations, one for each pattern (docs/physics.md 10).
     pub displacement: Displacements,
-    /// How reliable and how quick it is as a gate.
     pub character: Character,
-    /// The run of evolution that made it.
     pub provenance: Provenance,
-    /// The network it was developed from.
     pub genotype: Option<Genotype>,
 }
 
@@ -33,7 +28,7 @@ impl Robot {
 }
 
 /// The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Character {
     /// Cycles for which an input pattern must be held so that the output is correct at the end of every hold.
@@ -47,12 +42,10 @@ pub struct Character {
     /// The smallest displacement in the correct direction at the end of a hold, in voxels per cycle; negative if an
     /// output was wrong.
     pub margin: f64,
-    /// Whether the body ever fell over.
     pub topples: bool,
     /// Settle times, one entry for each of the transitions between different patterns: 12 of two stimuli, 56 of
     /// three.
     pub settle: Vec<Transition>,
-    /// How far a world may differ before the robot makes errors, if that was measured.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<SafeRadius>,
 }
@@ -65,7 +58,6 @@ pub struct SafeRadius {
     pub vary: String,
     /// The number of worlds that were tried at each radius.
     pub worlds: u32,
-    /// The seed from which the worlds were drawn.
     pub seed: u64,
     /// The largest factor of the changes up to which no output was wrong.
     pub radius: f64,
@@ -87,11 +79,8 @@ impl Character {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(try_from = "TransitionRecord", into = "TransitionRecord")]
 pub struct Transition {
-    /// The number of stimuli: two or three.
     pub stimuli: usize,
-    /// The pattern before the switch.
     pub from: Pattern,
-    /// The pattern after the switch.
     pub to: Pattern,
     /// Cycles after the switch until the output is correct and stays correct.
     pub cycles: u32,
@@ -113,31 +102,27 @@ impl From<Transition> for TransitionRecord {
 }
 
 impl TryFrom<TransitionRecord> for Transition {
-    type Error = PatternError;
+    type Error = String;
 
-    fn try_from(TransitionRecord { from, to, cycles }: TransitionRecord) -> Result<Self, PatternError> {
+    fn try_from(TransitionRecord { from, to, cycles }: TransitionRecord) -> Result<Self, String> {
         let stimuli = from.len();
         let read = |digits: String| match Pattern::try_from(digits.clone()) {
             Ok(pattern) if digits.len() == stimuli && (2..=Function::MOST_INPUTS).contains(&stimuli) => Ok(pattern),
-            _ => Err(PatternError::Senses { found: digits }),
+            _ => Err(wording::not_gate_pattern(&digits)),
         };
         Ok(Self { stimuli, from: read(from)?, to: read(to)?, cycles })
     }
 }
 
 /// The provenance of a robot: enough to make it again.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
-    /// The program that made it.
     pub program: String,
-    /// The version of that program.
     pub version: String,
     /// The name of the declaration of the run.
     pub evolution: String,
-    /// The seed of the run.
     pub seed: u64,
-    /// The generation in which the robot was born.
     pub generation: u32,
     /// Evaluations made in the run up to then.
     pub evaluations: u64,
@@ -151,7 +136,6 @@ pub struct Library {
 }
 
 impl Library {
-    /// The robots that compute a function, best first.
     pub fn robots_for(&self, function: Function) -> impl Iterator<Item = &Robot> {
         self.robots.iter().filter(move |robot| robot.function() == function)
     }

@@ -10,7 +10,6 @@ use super::{Image, Pattern};
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Spell {
-    /// The stimuli that are present.
     pub pattern: Pattern,
     /// The image that is shown. Its pattern then says what it stands for: bodies that sense images sense no pattern.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -20,7 +19,6 @@ pub struct Spell {
 }
 
 impl Spell {
-    /// A pattern for that many env steps.
     pub fn of(pattern: Pattern, steps: u32) -> Self {
         Self { pattern, image: None, steps }
     }
@@ -40,7 +38,6 @@ impl Spell {
 #[derive(Clone, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Schedule {
-    /// The spells in order of time.
     pub spells: Vec<Spell>,
 }
 
@@ -50,7 +47,6 @@ impl Schedule {
         Pattern::new(&[number & 1 == 1, number >> 1 & 1 == 1])
     }
 
-    /// A schedule of one spell: a pattern for that many env steps.
     pub fn constant(pattern: Pattern, steps: u32) -> Self {
         Self { spells: vec![Spell::of(pattern, steps)] }
     }

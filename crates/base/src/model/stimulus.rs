@@ -4,7 +4,7 @@ use std::fmt;
 
 use serde::{Deserialize, Serialize};
 
-use super::PatternError;
+use super::wording::not_pattern;
 
 /// The stimuli that are present: bit `i` is stimulus `i`, counted from 0 in the order of declaration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -15,21 +15,13 @@ impl Pattern {
     /// The four patterns of two stimuli in the paper's order: 00, 01, 10, 11, stimulus 1 written first.
     pub const PAIRS: [Pattern; 4] = [Pattern(0b00), Pattern(0b10), Pattern(0b01), Pattern(0b11)];
 
-    /// The most stimuli of a pattern.
     pub const MAX_STIMULI: usize = 32;
 
     /// The pattern in which stimulus `i` is present if `present[i]` is true.
-    ///
-    /// # Panics
-    /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
     pub fn new(present: &[bool]) -> Self {
         Self::of(present.iter().copied())
     }
 
-    /// The pattern in which those stimuli are present for which an iterator has true, in their order.
-    ///
-    /// # Panics
-    /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
     pub fn of(present: impl Iterator<Item = bool>) -> Self {
         Self(present.enumerate().fold(0, |bits, (i, on)| {
             assert!(i < Self::MAX_STIMULI, "a pattern holds at most 32 stimuli");
@@ -37,22 +29,17 @@ impl Pattern {
         }))
     }
 
-    /// Whether each of the first stimuli is present, so many of them.
     pub fn bits(self, stimuli: usize) -> Vec<bool> {
         (0..stimuli).map(|i| self.has(i)).collect()
     }
 
     /// The patterns of so many stimuli, counted as binary numbers with stimulus 1 first.
-    ///
-    /// # Panics
-    /// When there are more than [`Pattern::MAX_STIMULI`] stimuli.
     pub fn all(stimuli: usize) -> impl Iterator<Item = Self> {
         assert!(stimuli <= Self::MAX_STIMULI, "a pattern holds at most 32 stimuli");
         let pattern = move |number: u64| (0..stimuli).fold(0, |bits, i| bits | (number >> (stimuli - 1 - i) & 1) << i);
         (0..1u64 << stimuli).map(move |number| Self(pattern(number) as u32))
     }
 
-    /// Whether stimulus `i` (from 0) is present.
     pub fn has(self, i: usize) -> bool {
         self.0 >> i & 1 == 1
     }
@@ -69,12 +56,12 @@ impl Pattern {
 }
 
 impl TryFrom<String> for Pattern {
-    type Error = PatternError;
+    type Error = String;
 
-    fn try_from(digits: String) -> Result<Self, PatternError> {
+    fn try_from(digits: String) -> Result<Self, String> {
         let sized = (1..=Self::MAX_STIMULI).contains(&digits.len());
         if !sized || digits.contains(|digit| !matches!(digit, '0' | '1')) {
-            return Err(PatternError::Digits { found: digits, most: Self::MAX_STIMULI });
+            return Err(not_pattern(&digits, Self::MAX_STIMULI));
         }
         Ok(Self::new(&digits.chars().map(|digit| digit == '1').collect::<Vec<_>>()))
     }

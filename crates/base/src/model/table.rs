@@ -9,7 +9,6 @@ pub struct Table {
     pub rows: Vec<TableRow>,
     /// The output for the patterns without a row.
     pub otherwise: Option<TableOutput>,
-    /// The place of the table.
     pub span: Span,
 }
 
@@ -20,18 +19,13 @@ impl Table {
     }
 }
 
-/// One row of a truth table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableRow {
-    /// The inputs that it is for.
     pub pattern: TablePattern,
-    /// The place of the pattern.
     pub span: Span,
-    /// What the table shows for these inputs.
     pub output: TableOutput,
 }
 
-/// The inputs that a row of a truth table is for.
 #[derive(Clone, Debug, PartialEq)]
 pub enum TablePattern {
     /// Most significant bit first; `None` matches both values.
@@ -40,16 +34,12 @@ pub enum TablePattern {
     Number(u128),
 }
 
-/// The output of a row.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TableOutput {
-    /// One bit for each output, or a value that is computed.
     pub value: OutputValue,
-    /// The place of the output in the source.
     pub span: Span,
 }
 
-/// The value of an output.
 #[derive(Clone, Debug, PartialEq)]
 pub enum OutputValue {
     /// Most significant bit first; the compiler chooses a bit that is `None`.

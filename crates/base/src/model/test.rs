@@ -8,21 +8,14 @@ use crate::source::Span;
 /// A declared test, as bits. The source is needed for messages only.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CircuitTest {
-    /// The circuit to test, with numbers for its parameters.
     pub circuit: Instance,
     /// The title; empty if there is none.
     pub title: String,
-    /// The place of the declaration.
     pub span: Span,
-    /// The file in which it is declared.
     pub file: String,
-    /// The line at which it is declared.
     pub line: usize,
-    /// The input ports in order of declaration, with their widths in bits.
     pub inputs: Vec<Column>,
-    /// The output ports in order of declaration, with their widths in bits.
     pub outputs: Vec<Column>,
-    /// The method of the test.
     pub stimulation: Stimulation,
     /// The file of its rows, if the source does not have them.
     pub rows_from: Option<RowSource>,
@@ -30,22 +23,18 @@ pub struct CircuitTest {
     pub worlds: Vec<NamedWorld>,
 }
 
-/// A file that the rows of a test are from.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RowSource {
-    /// The file.
     pub file: String,
     /// The share of the rows in percent that must pass, if not all must.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub at_least: Option<f64>,
 }
 
-/// The methods of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Stimulation {
     /// These rows one after another, without a reset between them.
     Rows(Vec<TestRow>),
-    /// Rows that depend on what the circuit does.
     Script(Script),
     /// Every input pattern in counting order, against a circuit with the same ports.
     All {
@@ -55,7 +44,6 @@ pub enum Stimulation {
     },
     /// Against a circuit with the same ports: no output ever differs, whatever the inputs. A search decides it.
     Ever {
-        /// The other circuit.
         other: Instance,
         /// A circuit with the ports of the tested one that calls the other. It is not part of the program.
         reference: Box<Circuit>,
@@ -66,7 +54,6 @@ pub enum Stimulation {
 /// a value. What the rows are is found at the level of logic.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Script {
-    /// The environment of the circuit, if it has one.
     pub environment: Option<CircuitId>,
     /// The steps one after another, without a reset between them.
     pub steps: Vec<ScriptStep>,
@@ -77,7 +64,6 @@ pub struct Script {
 pub struct ScriptStep {
     /// The row, or the two halves of a pulse. Inputs that the environment gives are 0.
     pub rows: Vec<TestRow>,
-    /// When its repetition ends, if it is repeated.
     pub until: Option<Until>,
 }
 
@@ -88,15 +74,11 @@ pub struct Until {
     pub first: usize,
     /// The values, the most significant first; `None` is any.
     pub bits: Vec<Option<bool>>,
-    /// The most repetitions.
     pub most: usize,
-    /// The name of the output.
     pub output: String,
-    /// The place of the condition.
     pub span: Span,
 }
 
-/// One row of a test.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TestRow {
     /// The input bits in order of the ports, the most significant bit of a port first.
@@ -107,7 +89,6 @@ pub struct TestRow {
     pub bases: Vec<Base>,
     /// The hold of the row in cycles, if the row sets it.
     pub hold: Option<u32>,
-    /// The place of the row.
     pub span: Span,
     /// The line of the row in its file, from 1.
     pub line: usize,
@@ -125,14 +106,12 @@ impl CircuitTest {
         self.inputs.iter().flat_map(Column::bits).collect()
     }
 
-    /// The names of the output bits in order: `q` for a port of one bit, `s[3]`, `s[2]`, … for a wider one.
     pub fn output_bits(&self) -> Vec<String> {
         self.outputs.iter().flat_map(Column::bits).collect()
     }
 }
 
 impl TestRow {
-    /// The values of the input ports.
     pub fn input_values(&self, inputs: &[Column]) -> Vec<Value> {
         Value::of_ports(inputs, self.inputs.iter().copied().map(Some), &self.bases)
     }

@@ -35,10 +35,8 @@ impl Default for Setting {
 }
 
 impl Setting {
-    /// The most ground voxels in a row.
     pub const MAX_WIDTH: usize = 1_000_000;
 
-    /// Checks that a body stands on the ground at its start.
     pub fn check(&self, body: &Body) -> Result<(), SettingError> {
         let (width, columns) = (self.world_width, body.width());
         if width > Self::MAX_WIDTH {
@@ -60,7 +58,6 @@ impl Setting {
         [left, self.ground.highest(columns) as f64]
     }
 
-    /// The start column of a body of that many columns.
     pub fn start_column(&self, body_width: usize) -> usize {
         self.start_x.unwrap_or_else(|| (self.world_width / 2).saturating_sub(body_width / 2))
     }
@@ -69,9 +66,7 @@ impl Setting {
 /// One simulation to run: a body, fresh at its start, under a schedule.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Trial {
-    /// The body that is simulated.
     pub body: Body,
-    /// The stimuli over time, from the first env step to the last.
     pub schedule: Schedule,
 }
 
@@ -83,12 +78,10 @@ pub struct Trajectory {
     pub com_x: Vec<f64>,
     /// Height of the center of mass in voxels, at the same times.
     pub com_y: Vec<f64>,
-    /// The fault that ended it early, if any.
     pub fault: Option<Fault>,
 }
 
 impl Trajectory {
-    /// Adds a position of the center of mass, in voxels.
     pub fn push(&mut self, [x, y]: [f64; 2]) {
         self.com_x.push(x);
         self.com_y.push(y);
@@ -112,6 +105,5 @@ impl Trajectory {
 pub struct Fault {
     /// The env step that was abandoned, from 1.
     pub env_step: u32,
-    /// What went wrong.
     pub kind: FaultKind,
 }

@@ -7,7 +7,6 @@ use serde::ser::{Serialize, SerializeStruct, Serializer};
 
 use super::{Column, Enumeration};
 
-/// How a value is written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Base {
     /// Its bits alone: `0101`.
@@ -47,22 +46,16 @@ impl Base {
     }
 }
 
-/// The value of a port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Value {
     /// The bits, most significant first; `None` is unchecked.
     pub bits: Vec<Option<bool>>,
-    /// The base in which it is written.
     pub base: Base,
-    /// The enumeration of the port, if it has one.
     pub members: Option<Arc<Enumeration>>,
 }
 
 impl Value {
     /// Splits bits into the values of ports. `bases` are the notations of the ports, or empty if there are none.
-    ///
-    /// # Panics
-    /// When there are fewer bits than the ports have.
     pub fn of_ports(ports: &[Column], bits: impl IntoIterator<Item = Option<bool>>, bases: &[Base]) -> Vec<Self> {
         let mut bits = bits.into_iter();
         let value = |(at, port): (usize, &Column)| {
@@ -74,12 +67,10 @@ impl Value {
         ports.iter().enumerate().map(value).collect()
     }
 
-    /// Whether no bit is checked.
     pub fn is_open(&self) -> bool {
         self.bits.iter().all(Option::is_none)
     }
 
-    /// The digits `0`, `1` and `-`.
     pub fn digits(&self) -> String {
         self.bits.iter().map(|bit| bit.map_or('-', |bit| if bit { '1' } else { '0' })).collect()
     }

@@ -6,7 +6,8 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-use super::{PhysicsWorld, VariationError, WorldFactors, WorldNoise};
+use super::wording::{does_not_vary, no_amount, variation_amount};
+use super::{PhysicsWorld, WorldFactors, WorldNoise};
 
 /// The largest changes of a sample of worlds. A factor varies to either side by a share of itself; noise is added.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -16,14 +17,12 @@ pub struct Variation {
     amounts: [f64; COUNT],
 }
 
-/// The number of quantities that vary.
 const COUNT: usize = 10;
 
 /// The number of these that are factors; the others are noise.
 const FACTORS: usize = 6;
 
 impl Variation {
-    /// The names of the quantities.
     pub const NAMES: [&str; COUNT] =
         ["friction", "gravity", "stiffness", "drag", "damping", "swelling", "start", "missed", "weak", "dead"];
 
@@ -33,7 +32,6 @@ impl Variation {
     /// The numbers that [`Variation::world`] needs for one world.
     pub const DRAWS: usize = COUNT;
 
-    /// The largest change of a quantity.
     pub fn most(name: &str) -> f64 {
         match name {
             "start" => WorldNoise::MOST_START,
@@ -42,12 +40,10 @@ impl Variation {
         }
     }
 
-    /// The changes of the quantities, by their names.
     pub fn of(amount: impl FnMut(&'static str) -> f64) -> Self {
         Self { amounts: Self::NAMES.map(amount) }
     }
 
-    /// Whether a quantity is a factor and not noise.
     pub fn is_factor(name: &str) -> bool {
         Self::NAMES[..FACTORS].contains(&name)
     }
@@ -60,7 +56,6 @@ impl Variation {
         (varied.all(|amount| *amount == first) && noise.iter().all(|amount| *amount == 0.0)).then_some(first)
     }
 
-    /// The names of the quantities that vary.
     pub fn quantities(&self) -> String {
         let varied: Vec<&str> = Self::NAMES
             .into_iter()
@@ -73,17 +68,21 @@ impl Variation {
 
     /// The text that [`Variation::from_str`] reads.
     pub fn changes(&self) -> String {
-        let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
-        let word = |(name, amount): (&&str, f64)| match *name {
-            "start" => format!("{name}={}", rounded(amount)),
-            _ => format!("{name}={}%", rounded(amount * 100.0)),
-        };
-        changes.map(word).collect::<Vec<_>>().join(",")
+        self.words("=", "%").join(",")
     }
 
-    fn place(name: &str) -> Result<usize, VariationError> {
-        let place = Self::NAMES.iter().position(|known| *known == name);
-        place.ok_or_else(|| VariationError::Unknown(name.to_owned(), &Self::NAMES))
+    /// Each change with a sign between its name and its amount.
+    fn words(&self, sign: &str, percent: &str) -> Vec<String> {
+        let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
+        let word = |(name, amount): (&&str, f64)| match *name {
+            "start" => format!("{name}{sign}{}", rounded(amount)),
+            _ => format!("{name}{sign}{}{percent}", rounded(amount * 100.0)),
+        };
+        changes.map(word).collect()
+    }
+
+    fn place(name: &str) -> Result<usize, String> {
+        Self::NAMES.iter().position(|known| *known == name).ok_or_else(|| does_not_vary(name, &Self::NAMES))
     }
 
     /// All changes times a number, but none above its largest.
@@ -134,14 +133,14 @@ impl From<Variation> for BTreeMap<String, f64> {
 }
 
 impl TryFrom<BTreeMap<String, f64>> for Variation {
-    type Error = VariationError;
+    type Error = String;
 
-    fn try_from(changes: BTreeMap<String, f64>) -> Result<Self, VariationError> {
+    fn try_from(changes: BTreeMap<String, f64>) -> Result<Self, String> {
         let mut variation = Self::default();
         for (name, amount) in changes {
             let place = Self::place(&name)?;
             if !(0.0..=Self::most(&name)).contains(&amount) {
-                return Err(out_of_range(&name, &amount.to_string()));
+                return Err(variation_amount(&name, &amount.to_string(), Self::most(&name)));
             }
             variation.amounts[place] = amount;
         }
@@ -150,16 +149,16 @@ impl TryFrom<BTreeMap<String, f64>> for Variation {
 }
 
 impl FromStr for Variation {
-    type Err = VariationError;
+    type Err = String;
 
     /// Reads `friction=10%,start=0.2`. All factors are `all=10%`, or `10%` by itself.
-    fn from_str(text: &str) -> Result<Self, VariationError> {
+    fn from_str(text: &str) -> Result<Self, String> {
         let mut amounts = [0.0; COUNT];
         if text.ends_with('%') && !text.contains('=') {
             return format!("{}={text}", Self::ALL).parse();
         }
         for part in text.split(',') {
-            let (name, amount) = part.split_once('=').ok_or_else(|| VariationError::NoAmount(part.to_owned()))?;
+            let (name, amount) = part.split_once('=').ok_or_else(|| no_amount(part))?;
             if name.trim() == Self::ALL {
                 amounts[..FACTORS].fill(read_amount(Self::ALL, amount.trim())?);
                 continue;
@@ -170,31 +169,20 @@ impl FromStr for Variation {
     }
 }
 
-fn read_amount(name: &str, text: &str) -> Result<f64, VariationError> {
+fn read_amount(name: &str, text: &str) -> Result<f64, String> {
     let number = match text.strip_suffix('%') {
         Some(percent) => percent.parse::<f64>().map(|percent| percent / 100.0),
         None => text.parse(),
     };
     let is_possible = |amount: &f64| (0.0..=Variation::most(name)).contains(amount);
-    number.ok().filter(is_possible).ok_or_else(|| out_of_range(name, text))
-}
-
-fn out_of_range(name: &str, text: &str) -> VariationError {
-    VariationError::Amount { name: name.to_owned(), found: text.to_owned(), most: Variation::most(name) }
+    number.ok().filter(is_possible).ok_or_else(|| variation_amount(name, text, Variation::most(name)))
 }
 
 impl fmt::Display for Variation {
     /// The quantities that vary: `friction 10 %, start 0.2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let changes = Self::NAMES.iter().zip(self.amounts).filter(|(_, amount)| *amount > 0.0);
-        let words: Vec<String> = changes
-            .map(|(name, amount)| match *name {
-                "start" => format!("{name} {}", rounded(amount)),
-                _ => format!("{name} {} %", rounded(amount * 100.0)),
-            })
-            .collect();
-        f.write_str(if words.is_empty() { "nothing" } else { "" })?;
-        f.write_str(&words.join(", "))
+        let words = self.words(" ", " %");
+        if words.is_empty() { f.write_str("nothing") } else { f.write_str(&words.join(", ")) }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What can be wrong with bodies, materials, patterns and simulations, as data, and how it is worded.
+//! Messages about bodies, materials, patterns and simulations.
 
 use std::error::Error;
 use std::fmt;
@@ -10,48 +10,11 @@ use super::ImageSize;
 /// The reason why rows of text are not a body.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum BodyError {
-    /// No rows, or rows without columns.
     Empty,
-    /// Rows of different width.
-    Ragged {
-        /// The row, from 1.
-        row: usize,
-        /// Its width.
-        found: usize,
-        /// The first row's width.
-        expected: usize,
-    },
-    /// A character that is not a material code of the palette.
-    UnknownCode {
-        /// The row, from 1.
-        row: usize,
-        /// The column, from 1.
-        column: usize,
-        /// The character found.
-        digit: char,
-        /// The highest valid code.
-        highest: char,
-    },
-    /// A number that is not a material code of the palette.
-    CodeRange {
-        /// The row, from 1.
-        row: usize,
-        /// The column, from 1.
-        column: usize,
-        /// The number found.
-        code: u8,
-        /// The highest valid code.
-        highest: u8,
-    },
-    /// More rows or columns than allowed.
-    TooLarge {
-        /// Columns.
-        width: usize,
-        /// Rows.
-        height: usize,
-        /// The most rows or columns.
-        most: usize,
-    },
+    Ragged { row: usize, found: usize, expected: usize },
+    UnknownCode { row: usize, column: usize, digit: char, highest: char },
+    CodeRange { row: usize, column: usize, code: u8, highest: u8 },
+    TooLarge { width: usize, height: usize, most: usize },
 }
 
 impl fmt::Display for BodyError {
@@ -80,44 +43,11 @@ impl Error for BodyError {}
 /// The reason why a text is not ground of Evolution Gym.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum GroundFileError {
-    /// Not JSON, or not that of a world.
-    NotWorld {
-        /// The first error in it.
-        reason: String,
-    },
-    /// An object with more or fewer codes than cells.
-    Uneven {
-        /// The object.
-        object: String,
-        /// The number of its cells.
-        cells: usize,
-        /// The number of its codes.
-        codes: usize,
-    },
-    /// An object with voxels that move.
-    NotFixed {
-        /// The object.
-        object: String,
-    },
-    /// A number that is not a cell.
-    Cell {
-        /// The object.
-        object: String,
-        /// The number.
-        cell: String,
-    },
-    /// A voxel too far from the lower left corner.
-    TooLarge {
-        /// The voxel's column, from 0.
-        column: usize,
-        /// Its row, from 0.
-        row: usize,
-        /// The most columns.
-        most_columns: usize,
-        /// The most rows.
-        most_rows: usize,
-    },
-    /// No voxels.
+    NotWorld { reason: String },
+    Uneven { object: String, cells: usize, codes: usize },
+    NotFixed { object: String },
+    Cell { object: String, cell: String },
+    TooLarge { column: usize, row: usize, most_columns: usize, most_rows: usize },
     Empty,
 }
 
@@ -144,124 +74,37 @@ impl fmt::Display for GroundFileError {
 
 impl Error for GroundFileError {}
 
-/// The reason why values are not an image.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum ImageError {
-    /// Too many rows or columns, or none.
-    Size {
-        /// The number of rows.
-        rows: usize,
-        /// The number of columns.
-        columns: usize,
-        /// The most of each.
-        most: usize,
-    },
-    /// Rows of different length.
-    Ragged {
-        /// The row, from 1.
-        row: usize,
-        /// The number of its pixels.
-        found: usize,
-        /// The first row's number.
-        expected: usize,
-    },
-    /// Another number of pixels than rows and columns have.
-    Pixels {
-        /// The number of pixels.
-        found: usize,
-        /// The number of rows.
-        rows: usize,
-        /// The number of columns.
-        columns: usize,
-    },
-    /// A pixel that is not from 0 to 1.
-    Range {
-        /// The row, from 1.
-        row: usize,
-        /// The column, from 1.
-        column: usize,
-        /// The pixel.
-        found: String,
-    },
+pub(super) fn image_size(rows: usize, columns: usize) -> String {
+    let most = ImageSize::MAX_SIDE;
+    format!("the image has {rows} rows and {columns} columns, expected 1 to {most} of each")
 }
 
-impl fmt::Display for ImageError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Size { rows, columns, most } => {
-                write!(f, "the image has {rows} rows and {columns} columns, expected 1 to {most} of each")
-            }
-            Self::Ragged { row, found, expected } => {
-                write!(f, "row {row} has {found} pixels, expected {expected} as in row 1")
-            }
-            Self::Pixels { found, rows, columns } => {
-                write!(
-                    f,
-                    "the image has {found} pixels, expected {} in {rows} rows and {columns} columns",
-                    rows * columns
-                )
-            }
-            Self::Range { row, column, found } => {
-                write!(f, "row {row}, column {column}: the pixel is {found}, expected 0 to 1")
-            }
-        }
-    }
+pub(super) fn ragged_image(row: usize, found: usize, expected: usize) -> String {
+    format!("row {row} has {found} pixels, expected {expected} as in row 1")
 }
 
-impl Error for ImageError {}
+pub(super) fn image_pixels(found: usize, rows: usize, columns: usize) -> String {
+    format!("the image has {found} pixels, expected {} in {rows} rows and {columns} columns", rows * columns)
+}
+
+/// Row and column are counted from 1.
+pub(super) fn pixel_range(row: usize, column: usize, found: f64) -> String {
+    format!("row {row}, column {column}: the pixel is {found}, expected 0 to 1")
+}
 
 /// The reason why a file is not one of images.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ImageFileError {
-    /// A name of another ending.
     Format,
-    /// A PNG, in a program without them.
     NoPng,
-    /// No images.
     Empty,
-    /// A file of rows that is not text.
     NotText,
-    /// A row of another number of values.
-    Row {
-        /// The line, from 1.
-        line: usize,
-        /// The number of values.
-        found: usize,
-        /// The number of pixels.
-        expected: usize,
-    },
-    /// A value that is not a number.
-    Value {
-        /// The line, from 1.
-        line: usize,
-        /// The value.
-        text: String,
-    },
-    /// A number that is below 0, or above that which stands for 1.
-    Range {
-        /// The line, from 1, in a file of rows.
-        line: Option<usize>,
-        /// The number.
-        found: String,
-        /// The number that stands for 1.
-        white: String,
-    },
-    /// Images of another size.
-    Size {
-        /// Theirs.
-        found: ImageSize,
-        /// That of the stimulus.
-        expected: ImageSize,
-    },
-    /// A file that ends too early, or does not begin as its format does.
-    Damaged {
-        /// The name of the format.
-        format: &'static str,
-        /// The part that is missing.
-        what: &'static str,
-    },
-    /// Values that are not an image.
-    Image(ImageError),
+    Row { line: usize, found: usize, expected: usize },
+    Value { line: usize, text: String },
+    Range { line: Option<usize>, found: String, white: String },
+    Size { found: ImageSize, expected: ImageSize },
+    Damaged { format: &'static str, what: &'static str },
+    Image(String),
 }
 
 impl fmt::Display for ImageFileError {
@@ -287,217 +130,60 @@ impl fmt::Display for ImageFileError {
                 let verb = if what.ends_with('s') { "are" } else { "is" };
                 write!(f, "it is a damaged {format} file: {what} {verb} not complete")
             }
-            Self::Image(error) => error.fmt(f),
+            Self::Image(words) => f.write_str(words),
         }
     }
 }
 
 impl Error for ImageFileError {}
 
-/// The reason why materials are not a palette.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PaletteError {
-    /// No materials, or more than codes can name.
-    Size {
-        /// The number of materials.
-        found: usize,
-        /// The most materials.
-        most: usize,
-    },
-    /// Two materials of one name.
-    Twice(String),
-    /// A name that the language could not write.
-    Name(String),
+pub(super) fn palette_size(found: usize, most: usize) -> String {
+    format!("{found} materials, expected 1 to {most}")
 }
 
-impl fmt::Display for PaletteError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Size { found, most } => write!(f, "{found} materials, expected 1 to {most}"),
-            Self::Twice(name) => write!(f, "two materials are called `{name}`"),
-            Self::Name(name) => {
-                write!(f, "`{name}` is not the name of a material; expected a letter, then letters, digits and `_`")
-            }
-        }
-    }
+pub(super) fn same_material(name: &str) -> String {
+    format!("two materials are called `{name}`")
 }
 
-impl Error for PaletteError {}
-
-/// The reason why fields are not a material.
-#[derive(Clone, Debug, PartialEq)]
-pub enum MaterialError {
-    /// A field that the kind needs is missing.
-    Missing {
-        /// The material's name.
-        material: String,
-        /// The field, as it is written in the language.
-        field: &'static str,
-    },
-    /// A field that this kind does not have.
-    Foreign {
-        /// The material's name.
-        material: String,
-        /// The field, as it is written in the language.
-        field: &'static str,
-    },
-    /// A number that a material cannot have.
-    OutOfRange {
-        /// The material's name.
-        material: String,
-        /// The field, as it is written in the language.
-        field: &'static str,
-        /// Its value.
-        found: String,
-        /// The valid values.
-        expected: MaterialNumber,
-    },
+pub(super) fn material_name(name: &str) -> String {
+    format!("`{name}` is not the name of a material; expected a letter, then letters, digits and `_`")
 }
 
-/// The valid values of a number of a material.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum MaterialNumber {
-    /// A period in env steps.
-    Period {
-        /// The longest.
-        most: u32,
-    },
-    /// A phase in degrees.
-    Phase,
-    /// The smallest and the largest width.
-    Widths,
-    /// The number of a stimulus.
-    Stimulus {
-        /// The highest.
-        most: usize,
-    },
-    /// A width.
-    Width,
-    /// The rows and the columns of an image.
-    Image {
-        /// The most of each.
-        most: usize,
-    },
+pub(super) fn missing_field(material: &str, field: &str) -> String {
+    format!("the material `{material}` lacks the field `{field}`")
 }
 
-impl fmt::Display for MaterialNumber {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Period { most } => write!(f, "1 to {most} env steps"),
-            Self::Phase => f.write_str("a finite number of degrees"),
-            Self::Widths => f.write_str("widths from 0.6 to 1.6, the smallest first"),
-            Self::Stimulus { most } => write!(f, "1 to {most}"),
-            Self::Width => f.write_str("a width from 0.6 to 1.6"),
-            Self::Image { most } => write!(f, "1 to {most} rows and columns"),
-        }
-    }
+pub(super) fn foreign_field(material: &str, field: &str) -> String {
+    format!("the material `{material}` cannot have the field `{field}`, because its kind has none")
 }
 
-impl fmt::Display for MaterialError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Missing { material, field } => write!(f, "the material `{material}` lacks the field `{field}`"),
-            Self::Foreign { material, field } => {
-                write!(f, "the material `{material}` cannot have the field `{field}`, because its kind has none")
-            }
-            Self::OutOfRange { material, field, found, expected } => {
-                write!(f, "the material `{material}` has `{field}: {found}`, expected {expected}")
-            }
-        }
-    }
+/// `expected` follows the word "expected".
+pub(super) fn material_number(material: &str, field: &str, found: &str, expected: &str) -> String {
+    format!("the material `{material}` has `{field}: {found}`, expected {expected}")
 }
 
-impl Error for MaterialError {}
-
-/// A word that is not a behavior.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct BehaviorError(pub(super) String);
-
-impl fmt::Display for BehaviorError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "`{}` is not a behavior; expected four letters L or R such as `RRRL`, or eight for three stimuli",
-            self.0
-        )
-    }
+pub(super) fn not_behavior(word: &str) -> String {
+    format!("`{word}` is not a behavior; expected four letters L or R such as `RRRL`, or eight for three stimuli")
 }
 
-impl Error for BehaviorError {}
-
-/// A number of displacements that are not one for each pattern.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct DisplacementsError(pub(super) usize);
-
-impl fmt::Display for DisplacementsError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} displacements, expected 4 of a body with two stimuli or 8 of one with three", self.0)
-    }
+pub(super) fn displacement_count(found: usize) -> String {
+    format!("{found} displacements, expected 4 of a body with two stimuli or 8 of one with three")
 }
 
-impl Error for DisplacementsError {}
-
-/// A text that is not a pattern.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PatternError {
-    /// Not a pattern of any number of stimuli.
-    Digits {
-        /// The text.
-        found: String,
-        /// The most stimuli.
-        most: usize,
-    },
-    /// Not a pattern of two or three stimuli.
-    Senses {
-        /// The text.
-        found: String,
-    },
+pub(super) fn not_pattern(found: &str, most: usize) -> String {
+    format!("`{found}` is not a pattern; expected a digit 0 or 1 for each of at most {most} stimuli, such as `01`")
 }
 
-impl fmt::Display for PatternError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Digits { found, most } => write!(
-                f,
-                "`{found}` is not a pattern; expected a digit 0 or 1 for each of at most {most} stimuli, such as `01`"
-            ),
-            Self::Senses { found } => {
-                write!(f, "`{found}` is not a pattern; expected two digits 0 or 1, or three for three stimuli")
-            }
-        }
-    }
+pub(super) fn not_gate_pattern(found: &str) -> String {
+    format!("`{found}` is not a pattern; expected two digits 0 or 1, or three for three stimuli")
 }
-
-impl Error for PatternError {}
 
 /// The reason why a body cannot stand on a ground.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SettingError {
-    /// A ground that is too wide.
-    WideWorld {
-        /// Its voxels.
-        width: usize,
-        /// The most voxels.
-        most: usize,
-    },
-    /// A ground narrower than the body.
-    NarrowWorld {
-        /// Its voxels.
-        width: usize,
-        /// The body's columns.
-        columns: usize,
-    },
-    /// A start beyond the ground.
-    OffGround {
-        /// The start column.
-        start: usize,
-        /// The last valid one.
-        most: usize,
-        /// The body's columns.
-        columns: usize,
-        /// The ground's voxels.
-        width: usize,
-    },
+    WideWorld { width: usize, most: usize },
+    NarrowWorld { width: usize, columns: usize },
+    OffGround { start: usize, most: usize, columns: usize, width: usize },
 }
 
 impl fmt::Display for SettingError {
@@ -520,39 +206,17 @@ impl fmt::Display for SettingError {
 
 impl Error for SettingError {}
 
-/// The reason why a text is not a variation of worlds.
-#[derive(Clone, Debug, PartialEq)]
-pub enum VariationError {
-    /// A part without `=`.
-    NoAmount(String),
-    /// A quantity that worlds do not have, and those that they have.
-    Unknown(String, &'static [&'static str]),
-    /// An amount that is not a number in its range.
-    Amount {
-        /// The quantity.
-        name: String,
-        /// The text.
-        found: String,
-        /// The largest amount.
-        most: f64,
-    },
+pub(super) fn no_amount(part: &str) -> String {
+    format!("`{part}` has no amount; expected a change such as `friction=10%`")
 }
 
-impl fmt::Display for VariationError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::NoAmount(part) => write!(f, "`{part}` has no amount; expected a change such as `friction=10%`"),
-            Self::Unknown(name, known) => {
-                write!(f, "`{name}` does not vary; expected `all`, `{}`", known.join("`, `"))
-            }
-            Self::Amount { name, found, most } => {
-                write!(f, "`{found}` is not an amount of `{name}`; expected a number from 0 to {most}, or percent")
-            }
-        }
-    }
+pub(super) fn does_not_vary(name: &str, known: &[&str]) -> String {
+    format!("`{name}` does not vary; expected `all`, `{}`", known.join("`, `"))
 }
 
-impl Error for VariationError {}
+pub(super) fn variation_amount(name: &str, found: &str, most: f64) -> String {
+    format!("`{found}` is not an amount of `{name}`; expected a number from 0 to {most}, or percent")
+}
 
 /// The reason why a simulation failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -567,7 +231,6 @@ pub enum FaultKind {
 }
 
 impl fmt::Display for FaultKind {
-    /// What became of the robot.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Unstable => "became unstable",

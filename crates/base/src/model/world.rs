@@ -8,11 +8,8 @@ use super::GroundProfile;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PhysicsWorld {
-    /// The numbers of its physics, as factors of the paper's.
     pub factors: WorldFactors,
-    /// What goes wrong for each robot by itself.
     pub noise: WorldNoise,
-    /// What the robots stand on.
     #[serde(default, skip_serializing_if = "GroundProfile::is_flat")]
     pub ground: GroundProfile,
 }
@@ -25,7 +22,6 @@ pub struct WorldFactors {
     pub friction: f64,
     /// Downward acceleration.
     pub gravity: f64,
-    /// Stiffness of all springs.
     pub stiffness: f64,
     /// Viscous drag on the points of a body.
     pub drag: f64,
@@ -47,7 +43,6 @@ pub struct WorldNoise {
     pub weak: f64,
     /// The probability that an actuator or sensor never moves.
     pub dead: f64,
-    /// The seed of all that is drawn.
     pub seed: u64,
 }
 
@@ -58,7 +53,6 @@ impl Default for WorldFactors {
 }
 
 impl WorldFactors {
-    /// The smallest and the largest factor.
     pub const RANGE: std::ops::RangeInclusive<f64> = 0.1..=10.0;
 }
 
@@ -68,12 +62,10 @@ impl WorldNoise {
 }
 
 impl PhysicsWorld {
-    /// Whether it is the paper's world.
     pub fn is_paper(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Whether all its numbers are in their ranges.
     pub fn is_possible(&self) -> bool {
         let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = self.factors;
         let factors = [friction, gravity, stiffness, drag, damping, swelling];
@@ -84,12 +76,9 @@ impl PhysicsWorld {
     }
 }
 
-/// A world with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NamedWorld {
-    /// What `world:` and `in` call it.
     pub name: String,
-    /// How its physics differs from the paper's.
     pub world: PhysicsWorld,
 }
 
@@ -99,7 +88,6 @@ impl NamedWorld {
 }
 
 impl Default for NamedWorld {
-    /// The paper's.
     fn default() -> Self {
         Self { name: Self::DEFAULT.to_owned(), world: PhysicsWorld::default() }
     }

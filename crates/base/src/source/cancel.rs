@@ -18,12 +18,10 @@ impl From<Arc<AtomicBool>> for CancelFlag {
 }
 
 impl CancelFlag {
-    /// Ends the work that has this flag, and that which will start.
     pub fn raise(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
 
-    /// Whether the work is to end.
     pub fn is_raised(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }

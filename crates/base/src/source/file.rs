@@ -7,7 +7,6 @@ use super::{FileId, Span};
 pub struct LineStarts(Vec<u32>);
 
 impl LineStarts {
-    /// The lines of a text.
     pub fn of(text: &str) -> Self {
         let bytes = text.as_bytes();
         let ends = |at: &usize| bytes[*at] == b'\n' || bytes[*at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
@@ -28,11 +27,9 @@ impl LineStarts {
 /// A source file: its name as the user wrote it, and its text.
 #[derive(Clone, Debug)]
 pub struct SourceFile {
-    /// The number of the file.
     pub id: FileId,
     /// The path as given, for messages.
     pub name: String,
-    /// The whole text of the file.
     pub text: String,
     lines: LineStarts,
 }
@@ -40,14 +37,11 @@ pub struct SourceFile {
 /// A place for people; both numbers start at 1, and the column counts characters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 pub struct LineColumn {
-    /// The line, from 1.
     pub line: usize,
-    /// The column in characters, from 1.
     pub column: usize,
 }
 
 impl SourceFile {
-    /// The first bytes of its lines.
     pub fn lines(&self) -> &LineStarts {
         &self.lines
     }
@@ -69,12 +63,7 @@ pub struct Sources {
 }
 
 impl Sources {
-    /// Adds a file and returns its number.
-    ///
     /// A byte-order mark at its start, which some editors write, is no part of it.
-    ///
-    /// # Panics
-    /// When there are 2^32 files already.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
         let id = FileId(u32::try_from(self.files.len()).expect("fewer than 2^32 source files"));
         let mut text = text.into();
@@ -83,17 +72,14 @@ impl Sources {
         id
     }
 
-    /// The file with this number, which must come from [`Sources::add`] of this value.
     pub fn file(&self, id: FileId) -> &SourceFile {
         &self.files[id.0 as usize]
     }
 
-    /// The text of a span, which must be a span of these sources.
     pub fn text(&self, span: Span) -> &str {
         &self.file(span.file).text[span.range()]
     }
 
-    /// The files in the order in which they were added.
     pub fn iter(&self) -> impl Iterator<Item = &SourceFile> {
         self.files.iter()
     }

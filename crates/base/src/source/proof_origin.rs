@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use crate::diag::grouped;
+
 use super::verilog::{SecondReading, VerilogModules};
 
 /// A circuit of another tool's file that a program uses, and what its proof begins with.
@@ -9,28 +11,21 @@ use super::verilog::{SecondReading, VerilogModules};
 pub struct ForeignCircuit {
     /// The file, or several of one design.
     pub file: String,
-    /// The name of the circuit.
     pub circuit: String,
-    /// What its proof begins with.
     pub origin: ProofOrigin,
 }
 
-/// What a proof begins with: a file, or what a translator made of it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ProofOrigin {
-    /// The file itself.
     File,
     /// The netlist that slang made of a Verilog file, in Yosys.
     Slang {
-        /// The version of Yosys.
         version: String,
-        /// What Yosys' own reader has made of the file.
         second: SecondReading,
     },
 }
 
 impl VerilogModules {
-    /// What a proof of one of the modules begins with.
     pub fn origin(&self, module: usize) -> ProofOrigin {
         ProofOrigin::Slang { version: self.version.clone(), second: self.modules[module].second }
     }
@@ -42,7 +37,7 @@ impl fmt::Display for ProofOrigin {
         match second {
             SecondReading::Alike => formatter.write_str("the file, read alike by slang and by yosys"),
             SecondReading::Equal(steps) => {
-                let steps = grouped(*steps);
+                let steps = grouped(*steps as u64);
                 write!(formatter, "slang's reading of the file, equal to yosys' in {steps} random steps")
             }
             SecondReading::Different => {
@@ -54,13 +49,6 @@ impl fmt::Display for ProofOrigin {
             SecondReading::None => formatter.write_str("slang's reading of the file, which yosys cannot read"),
         }
     }
-}
-
-/// A number with commas, such as 4,096.
-fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));
-    groups.collect::<Vec<_>>().join(",")
 }
 
 #[cfg(test)]

@@ -7,34 +7,24 @@ pub struct FileId(pub u32);
 /// A half-open range of bytes of one source file; twelve bytes, so that every node of a tree can carry one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Span {
-    /// The file that has the bytes.
     pub file: FileId,
-    /// The first byte, counted from 0.
     pub start: u32,
     /// The end: one past the last byte.
     pub end: u32,
 }
 
 impl Span {
-    /// The range `start..end` of `file`, in bytes.
-    ///
-    /// # Panics
-    /// When an offset is 4 GiB or more.
     pub fn new(file: FileId, start: usize, end: usize) -> Self {
         let narrow = |offset: usize| u32::try_from(offset).expect("source files are smaller than 4 GiB");
         Self { file, start: narrow(start), end: narrow(end) }
     }
 
     /// The smallest span that covers `self` and `other`.
-    ///
-    /// # Panics
-    /// When they are in different files.
     pub fn to(self, other: Self) -> Self {
         assert_eq!(self.file, other.file, "a span covers one file only");
         Self { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 
-    /// The range of bytes, as an index of the file's text.
     pub fn range(self) -> std::ops::Range<usize> {
         self.start as usize..self.end as usize
     }

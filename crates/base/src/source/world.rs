@@ -6,21 +6,16 @@ use std::sync::Arc;
 
 use super::{CancelFlag, FileError, VerilogError, VerilogFiles, VerilogModules};
 
-/// What can be at a path.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EntryKind {
-    /// A file.
     File,
-    /// A folder.
     Folder,
 }
 
 /// The source of everything that the core reads: programs and robot files.
 pub trait SourceWorld {
-    /// The text of the file at `path`.
     fn read(&self, path: &str) -> Result<String, FileError>;
 
-    /// The bytes of the file at `path`.
     fn read_bytes(&self, path: &str) -> Result<Vec<u8>, FileError> {
         self.read(path).map(String::into_bytes)
     }
@@ -105,7 +100,6 @@ impl MemoryWorld {
         self.files.insert(path.into(), text.into());
     }
 
-    /// Removes the file at `path`, if there is one.
     pub fn remove(&mut self, path: &str) {
         self.files.remove(path);
     }
@@ -135,7 +129,6 @@ pub struct OverlayWorld<W> {
 }
 
 impl<W: SourceWorld> OverlayWorld<W> {
-    /// A world without texts over it.
     pub fn new(under: W) -> Self {
         Self { over: MemoryWorld::default(), under }
     }

@@ -1,13 +1,14 @@
 //! Memories of environments: what reads and writes them becomes ports of the module, after those that are declared. The
 //! words read are inputs; the addresses, and the words written, are outputs.
 
+use std::ops::Range;
+
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::memory_ports::MemoryPorts;
+use crate::elaborate::module::MemoryPorts;
 use nbc_base::budget::Limit;
 use nbc_base::model::NetSlot;
 
 impl ModuleBuilder<'_, '_> {
-    /// Makes the accesses to memories ports of the module.
     pub(super) fn memory_ports(&mut self) {
         let circuit = self.circuit;
         for (at, memory) in circuit.memories.iter().enumerate() {
@@ -42,8 +43,7 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// Makes a net a port; returns its bits among those of all inputs or outputs.
-    fn access(&mut self, slot: NetSlot, frame: u32, is_input: bool) -> Option<std::ops::Range<usize>> {
+    fn access(&mut self, slot: NetSlot, frame: u32, is_input: bool) -> Option<Range<usize>> {
         let net = self.net(slot, frame);
         let Some(width) = self.declared_width(slot, frame) else {
             self.failed = true;

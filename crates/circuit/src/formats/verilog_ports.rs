@@ -1,17 +1,13 @@
-//! The ports of a Verilog module: bits with all their numbers are one port.
+//! Names in Verilog, and the ports of a module: bits with all their numbers are one port.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::NetId;
 use crate::formats::buses::{Bus, bit_number, buses};
 use crate::formats::design::Design;
-use crate::formats::verilog_names::escaped;
 
-/// The ports of several bits.
 pub(super) struct VerilogPorts {
-    /// The port and the number of each bit.
     bits: BTreeMap<NetId, (String, i64)>,
-    /// The ports whose leftmost bit has the lowest number.
     ascending: BTreeSet<String>,
 }
 
@@ -45,12 +41,10 @@ impl VerilogPorts {
         Self { bits, ascending: design.ascending.clone() }
     }
 
-    /// The names of the ports of several bits.
     pub(super) fn names(&self) -> BTreeSet<&str> {
         self.bits.values().map(|(name, _)| name.as_str()).collect()
     }
 
-    /// A bit of a port, such as `count[0]`.
     pub(super) fn bit(&self, id: NetId) -> Option<String> {
         self.bits.get(&id).map(|(port, bit)| format!("{}[{bit}]", escaped(port)))
     }
@@ -75,9 +69,45 @@ impl VerilogPorts {
     }
 }
 
-/// Whether a name can be written as it is.
 fn is_visible(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic())
+}
+
+/// A name in Verilog; escaped with a backslash and a space if it is not a plain word.
+pub(super) fn escaped(name: &str) -> String {
+    if is_plain(name) { name.to_owned() } else { format!("\\{name} ") }
+}
+
+/// A name of letters, digits and `_`, for modules and instances: some readers know no other names of theirs.
+pub(super) fn plain(name: &str) -> String {
+    let letters: String = name.chars().map(|c: char| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
+    if letters.starts_with(|c: char| c.is_ascii_digit()) { format!("_{letters}") } else { letters }
+}
+
+const RESERVED: &str = "\
+    accept_on alias always always_comb always_ff always_latch and assert assign assume automatic before begin bind \
+    bins binsof bit break buf bufif0 bufif1 byte case casex casez cell chandle checker class clocking cmos config \
+    const constraint context continue cover covergroup coverpoint cross deassign default defparam design disable dist \
+    do edge else end endcase endchecker endclass endclocking endconfig endfunction endgenerate endgroup endinterface \
+    endmodule endpackage endprimitive endprogram endproperty endsequence endspecify endtable endtask enum event \
+    eventually expect export extends extern final first_match for force foreach forever fork forkjoin function \
+    generate genvar global highz0 highz1 if iff ifnone ignore_bins illegal_bins implements implies import incdir \
+    include initial inout input inside instance int integer interconnect interface intersect join join_any join_none \
+    large let liblist library local localparam logic longint macromodule matches medium modport module nand negedge \
+    nettype new nexttime nmos nor noshowcancelled not notif0 notif1 null or output package packed parameter pmos \
+    posedge primitive priority program property protected pull0 pull1 pulldown pullup pulsestyle_ondetect \
+    pulsestyle_onevent pure rand randc randcase randsequence rcmos real realtime ref reg reject_on release repeat \
+    restrict return rnmos rpmos rtran rtranif0 rtranif1 s_always s_eventually s_nexttime s_until s_until_with \
+    scalared sequence shortint shortreal showcancelled signed small soft solve specify specparam static string strong \
+    strong0 strong1 struct super supply0 supply1 sync_accept_on sync_reject_on table tagged task this throughout time \
+    timeprecision timeunit tran tranif0 tranif1 tri tri0 tri1 triand trior trireg type typedef union unique unique0 \
+    unsigned until until_with untyped use uwire var vectored virtual void wait wait_order wand weak weak0 weak1 while \
+    wildcard wire with within wor xnor xor";
+
+fn is_plain(name: &str) -> bool {
+    name.starts_with(|c: char| !c.is_ascii_digit())
+        && name.chars().all(|c: char| c.is_ascii_alphanumeric() || c == '_')
+        && !RESERVED.split(' ').any(|word| word == name)
 }
 
 #[cfg(test)]
@@ -121,5 +151,12 @@ mod tests {
         check(&["a[0]", "a[2]"], &["q[0]"], &["input \\a[0] ", "input \\a[2] ", "output [0:0] q"]);
         check(&["q[0]"], &["q[0]"], &["input \\q[0] ", "output \\q[0] "]);
         check(&["q[0]", "q"], &["r"], &["input \\q[0] ", "input q", "output r"]);
+    }
+
+    #[test]
+    fn odd_names_are_escaped() {
+        assert_eq!(escaped("a[3]"), "\\a[3] ");
+        assert_eq!(escaped("and"), "\\and ");
+        assert_eq!(escaped("q_1"), "q_1");
     }
 }

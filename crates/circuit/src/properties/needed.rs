@@ -2,10 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use crate::clause::ValuedBit;
-use crate::properties::cubes::Cube;
 use crate::properties::solver::Solved;
-use crate::properties::system::TransitionSystem;
+use crate::properties::system::{Cube, TransitionSystem};
 use crate::properties::unrolled::Unrolled;
 use nbc_base::source::CancelFlag;
 
@@ -30,8 +28,7 @@ pub(super) fn needed(
     for cube in &cubes {
         let this = step.solver.fresh();
         let mut clause = vec![!this];
-        clause
-            .extend(cube.iter().map(|&(at, value)| step.literal(system, 0, system.register(at) ^ usize::from(value))));
+        clause.extend(cube.iter().map(|&bit| !step.literal(system, 0, system.has(bit))));
         step.solver.clause(&clause);
         active.push(this);
     }
@@ -46,8 +43,7 @@ pub(super) fn needed(
         let used: Vec<usize> = (0..cubes.len()).filter(|&at| step.solver.is_needed(active[at])).collect();
         for at in used {
             if kept.insert(at) {
-                let next = |&(at, value): &ValuedBit| system.registers[at].next ^ usize::from(!value);
-                open.push(cubes[at].iter().map(|one| step.literal(system, 0, next(one))).collect());
+                open.push(cubes[at].iter().map(|&bit| step.literal(system, 0, system.gets(bit))).collect());
             }
         }
     }

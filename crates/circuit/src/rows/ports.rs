@@ -1,16 +1,46 @@
-//! The ports that the columns of a file are.
+//! The rows of a file, and the ports that its columns are.
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::file::RowFile;
-use super::wording::RowFileError;
+use super::wording;
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Column, bit_parts};
+use nbc_base::source::Span;
 
-/// The inputs and the outputs of the circuit that the rows of a file describe.
 pub type RowPorts = (Vec<Column>, Vec<Column>);
 
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowColumn {
+    pub name: String,
+    pub width: usize,
+    /// Whether it is an output, if the format says so.
+    pub is_output: Option<bool>,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct FileRow {
+    /// The bits of the columns in order, the most significant of a column first; `None` is any.
+    pub bits: Vec<Option<bool>>,
+    pub span: Span,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RowFile {
+    pub columns: Vec<RowColumn>,
+    pub rows: Vec<FileRow>,
+}
+
 impl RowFile {
+    /// For each column, the place of its first bit in a row.
+    pub fn starts(&self) -> Vec<usize> {
+        let start = |next: &mut usize, column: &RowColumn| {
+            *next += column.width;
+            Some(*next - column.width)
+        };
+        self.columns.iter().scan(0, start).collect()
+    }
+
     /// The ports of the columns: the inputs, then the outputs. Columns `x[0]`, `x[1]`, … without a gap are one port.
     /// `outputs` names the outputs; by default they are those that the format says, or the last port.
     pub fn ports(&self, outputs: &[String]) -> Result<RowPorts, Diagnostic> {
@@ -26,7 +56,7 @@ impl RowFile {
         let names: Vec<&str> = ports.iter().map(|(port, _)| port.name.as_str()).collect();
         if let Some(output) = outputs.iter().find(|output| !names.contains(&output.as_str())) {
             let meant = Suggestion::of(output, names.iter().copied());
-            return Err(RowFileError::NoOutput { output: output.clone(), meant }.without_place());
+            return Err(wording::no_output(output, &meant));
         }
         let last = ports.len() - 1;
         let is_output = |at: usize, (port, said): &(Column, Option<bool>)| match said {
@@ -39,7 +69,7 @@ impl RowFile {
         let columns =
             |ports: Vec<(usize, (Column, Option<bool>))>| ports.into_iter().map(|(_, (port, _))| port).collect();
         if inputs.is_empty() {
-            return Err(RowFileError::NoInputs.at(self.columns[0].span));
+            return Err(wording::no_inputs(self.columns[0].span));
         }
         Ok((columns(inputs), columns(found)))
     }
@@ -52,11 +82,8 @@ impl RowFile {
             let (bits, highest) = buses.entry(name).or_default();
             (*bits, *highest) = (*bits + 1, bit.max(*highest));
         }
-        buses
-            .into_iter()
-            .filter(|(_, (bits, highest))| bits == &(highest + 1))
-            .map(|(name, (bits, _))| (name, bits))
-            .collect()
+        let whole = buses.into_iter().filter(|(_, (bits, highest))| *bits == highest + 1);
+        whole.map(|(name, (bits, _))| (name, bits)).collect()
     }
 }
 

@@ -22,11 +22,9 @@ const JUNK_LINES: u64 = 8;
 /// A worker is refused after wrong results of so many tasks. Anybody who can use the server can send one in its name.
 const MOST_WRONG: usize = 3;
 
-/// The trust in each worker, and the checks in progress.
 pub struct Checker {
     handle: Handle,
     log: Log,
-    /// Whether all workers are trusted.
     is_trusting: bool,
     workers: BTreeMap<String, Known>,
     /// A worker whose results were used and that was wrong.
@@ -38,7 +36,6 @@ pub struct Checker {
     spent: Duration,
 }
 
-/// The history of a worker.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Known {
     standing: Standing,
@@ -48,10 +45,8 @@ struct Known {
     wrong: BTreeSet<TaskKey>,
 }
 
-/// Whether a worker can be trusted.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Standing {
-    /// It has no result yet.
     #[default]
     Unknown,
     /// Its first result is being checked.
@@ -62,24 +57,20 @@ enum Standing {
     Refused,
 }
 
-/// A task that was done here.
 pub struct Check {
     pub key: TaskKey,
-    /// What workers claimed.
     claims: Vec<(String, TaskResult)>,
     pub correct: TaskResult,
     took: Duration,
 }
 
 impl Check {
-    /// The workers whose claims were wrong.
     pub fn wrong(&self) -> impl Iterator<Item = &str> {
         self.claims.iter().filter(|(_, claim)| *claim != self.correct).map(|(worker, _)| worker.as_str())
     }
 }
 
 impl Checker {
-    /// A checker without workers.
     pub fn new(handle: Handle, is_trusting: bool, log: Log) -> Self {
         Self {
             handle,
@@ -134,7 +125,6 @@ impl Checker {
         Some(check)
     }
 
-    /// Whether results of the worker can be used.
     pub fn trusts(&self, worker: &str) -> bool {
         self.is_trusting || self.standing(worker) == Standing::Passed
     }
@@ -149,17 +139,14 @@ impl Checker {
         workers.into_iter().for_each(|worker| self.known(&worker).is_used = true);
     }
 
-    /// Whether answers of the worker are ignored.
     pub fn is_refused(&self, worker: &str) -> bool {
         self.standing(worker) == Standing::Refused
     }
 
-    /// The number of workers whose answers are ignored.
     pub fn refused(&self) -> usize {
         self.workers.values().filter(|known| known.standing == Standing::Refused).count()
     }
 
-    /// Ignores the answers of a worker from now on.
     pub fn refuse(&mut self, worker: &str, reason: &str) {
         let known = self.known(worker);
         if known.standing != Standing::Refused {

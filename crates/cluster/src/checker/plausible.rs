@@ -4,7 +4,6 @@ use nbc_base::model::{CYCLE_STEPS, SearchObjective};
 use nbc_swarm::evolve::{CandidateOutcome, Scores};
 use nbc_swarm::{Evaluated, EvaluationProtocol, EvaluationTask, Measurement, Task, TaskResult, full_steps};
 
-/// Whether the task can have this result.
 pub fn is_plausible(result: &TaskResult, task: &Task) -> bool {
     match (result, task) {
         (TaskResult::Evaluation(evaluated), Task::Evaluation(protocol, task)) => can_be(evaluated, protocol, task),
@@ -34,6 +33,7 @@ fn is_possible(Measurement { displacement, behavior, character }: &Measurement) 
         && displacement.behavior() == *behavior
         && rates.iter().all(|rate| (0.0..=1.0).contains(rate))
         && !character.margin.is_nan()
+        && character.radius.is_none()
         && character.settle.len() == transitions(behavior.stimuli())
 }
 
@@ -43,7 +43,6 @@ fn transitions(stimuli: usize) -> usize {
     patterns * (patterns - 1)
 }
 
-/// Whether an evaluation of the task by the protocol can have this result.
 fn can_be(evaluated: &Evaluated, protocol: &EvaluationProtocol, task: &EvaluationTask) -> bool {
     let steps = evaluated.work.env_steps.checked_add(evaluated.work.left_out);
     let is_complete = steps == Some(full_steps(protocol));

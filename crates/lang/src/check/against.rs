@@ -1,7 +1,7 @@
 //! Tests against another circuit: which of its ports belong together with those of the tested one. Ports of the same
 //! names do, whatever their order; where no name is the same, their order decides.
 
-use crate::check::wording::CircuitError;
+use crate::check::wording;
 use crate::syntax::tree::{self, NameSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
@@ -10,10 +10,8 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// The input and the output ports of a circuit.
 pub(crate) type PortLists<'a> = (&'a [Column], &'a [Column]);
 
-/// A port of another circuit, which is named at `place`, as a port of one with this body.
 pub(crate) fn port(column: &Column, place: Span, body: &mut tree::BodySyntax) -> tree::Port {
     let mut size = |value: usize| {
         body.sizes.push(tree::SizeSyntax { kind: tree::SizeSyntaxKind::Literal(value.to_string()), span: place });
@@ -24,28 +22,25 @@ pub(crate) fn port(column: &Column, place: Span, body: &mut tree::BodySyntax) ->
     tree::Port { words, ..tree::Port::new(NameSyntax { text: column.name.clone(), span: place }, Some(width)) }
 }
 
-/// The reference of a test against another circuit, with the ports of the tested one: a call of that other circuit with
-/// these values of its parameters.
+/// A call of another circuit with the tested circuit's ports: the reference of a test.
 pub(crate) fn reference(
     [tested, other]: [&NameSyntax; 2],
     own: PortLists<'_>,
     (circuit, arguments): (CircuitId, &[Option<u64>]),
     theirs: PortLists<'_>,
 ) -> Result<Circuit, Diagnostic> {
-    let names = || [tested, other].map(|name| name.text.clone());
     let pair = |kind, own, theirs| {
         paired(own, theirs).map_err(|mix| match mix {
-            None => CircuitError::DifferentPorts { circuits: names(), first: tested.span }.at(other.span),
-            Some(ports) => {
-                CircuitError::MixedPorts { circuits: names(), kind, ports, first: tested.span }.at(other.span)
-            }
+            None => wording::different_ports([tested, other]),
+            Some(ports) => wording::mixed_ports([tested, other], kind, &ports),
         })
     };
-    let (inputs, outputs) = (pair("inputs", own.0, theirs.0)?, pair("outputs", own.1, theirs.1)?);
+    let inputs = pair("inputs", own.0, theirs.0)?;
+    let outputs = pair("outputs", own.1, theirs.1)?;
     Ok(call(format!("{} as a reference", other.text), tested.span, own, (circuit, arguments), [inputs, outputs]))
 }
 
-/// For each port of the other circuit, the place of its partner.
+/// For each port of the other circuit, the index of its partner.
 fn paired(own: &[Column], theirs: &[Column]) -> Result<Vec<usize>, Option<[Vec<String>; 2]>> {
     let has = |ports: &[Column], name: &str| ports.iter().any(|port| port.name == name);
     let alone = |ports: &[Column], others: &[Column]| -> Vec<String> {
@@ -64,7 +59,6 @@ fn paired(own: &[Column], theirs: &[Column]) -> Result<Vec<usize>, Option<[Vec<S
     if fit { Ok(places) } else { Err(None) }
 }
 
-/// A circuit with the ports of another that does nothing but call a circuit with them.
 fn call(
     name: String,
     span: Span,

@@ -7,29 +7,23 @@ use nbc_base::model::{Instance, Program};
 use nbc_base::source::ForeignCircuit;
 use nbc_circuit::NetWidths;
 
-/// A program and its diagnostics.
 #[derive(Clone, Debug, Default)]
 pub struct Analysis {
-    /// The program, complete only if there are no errors.
+    /// Complete only if there are no errors.
     pub program: Program,
-    /// Errors and warnings, ordered by place.
+    /// Ordered by place.
     pub diagnostics: Vec<Diagnostic>,
-    /// The names with a meaning.
     pub uses: NameUses,
-    /// The widths of the nets that were built.
     pub widths: NetWidths,
-    /// The trees of the files, the checked file's last.
+    /// The checked file's is the last.
     pub trees: Vec<Tree>,
-    /// The circuits that were built, with the values of their parameters, those of the prelude included.
+    /// Those of the prelude included.
     pub instances: Vec<Instance>,
-    /// The circuits of other tools' files, and what their proofs begin with.
     pub foreign: Vec<ForeignCircuit>,
-    /// Whether nobody waited for the result any more, so that a part of it is missing.
     pub is_cancelled: bool,
 }
 
 impl Analysis {
-    /// Whether a diagnostic is an error, so that the program cannot be built.
     pub fn has_errors(&self) -> bool {
         self.diagnostics.iter().any(Diagnostic::is_error)
     }

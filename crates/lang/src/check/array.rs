@@ -4,7 +4,7 @@
 use crate::check::circuit::{Binding, CircuitChecker};
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::check::wording::ArrayError;
+use crate::check::wording;
 use crate::syntax::tree::{
     self, ExpressionSyntaxId, ExpressionSyntaxKind, Index, IndexKind, Infix, SizeSyntaxId, SizeSyntaxKind,
 };
@@ -14,17 +14,15 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// A word of an array that a value selects, and that a register writes.
+/// A word of an array, selected by a value and written by a register.
 pub(crate) struct WrittenWord {
     net: NetSlot,
     index: Index,
     span: Span,
 }
 
-/// The word and the bits that integers select of a net.
 type SelectedPart = (Option<SizeId>, Option<(SizeId, SizeId)>);
 
-/// The standard circuit that writes words.
 const REGISTER: &str = "register";
 
 impl CircuitChecker<'_> {
@@ -36,7 +34,7 @@ impl CircuitChecker<'_> {
         self.circuit.memories.iter().position(|memory| memory.net == net)
     }
 
-    /// Whether a value of nets selects, and not an integer.
+    /// Whether the index is a value of nets rather than an integer.
     fn is_value(&self, index: &Index) -> bool {
         match index.kind {
             IndexKind::Value(_) => true,
@@ -53,13 +51,12 @@ impl CircuitChecker<'_> {
         })
     }
 
-    /// The word and the bits that integers in brackets select of a net.
     pub(crate) fn constant_bits(&mut self, net: NetSlot, [first, second]: [Option<&Index>; 2]) -> Option<SelectedPart> {
         let name = self.circuit.nets[net.0 as usize].name.clone();
         let Some(first) = first else { return Some((None, None)) };
         if !self.is_array(net) {
             if let Some(second) = second {
-                self.diagnostics.push(ArrayError::NoArray { net: name }.at(second.span));
+                self.diagnostics.push(wording::no_array(&name, second.span));
                 return None;
             }
             return Some((None, Some(self.bits_of(first)?)));
@@ -67,20 +64,20 @@ impl CircuitChecker<'_> {
         match first.kind {
             IndexKind::One(word) => {
                 let word = self.size(word);
-                let bits = match second {
-                    Some(second) => Some(self.bits_of(second)?),
-                    None => None,
-                };
-                Some((Some(word), bits))
+                Some((Some(word), self.second_bits(second)?))
             }
             _ => {
-                self.diagnostics.push(ArrayError::SeveralWords { net: name }.at(first.span));
+                self.diagnostics.push(wording::several_words(&name, first.span));
                 None
             }
         }
     }
 
-    /// The highest and the lowest bit in brackets.
+    /// Bits of a word, if there are any in brackets.
+    fn second_bits(&mut self, second: Option<&Index>) -> Option<Option<(SizeId, SizeId)>> {
+        second.map_or(Some(None), |second| self.bits_of(second).map(Some))
+    }
+
     fn bits_of(&mut self, index: &Index) -> Option<(SizeId, SizeId)> {
         match index.kind {
             IndexKind::One(bit) => {
@@ -92,13 +89,13 @@ impl CircuitChecker<'_> {
                 Some((high, self.size(low)))
             }
             IndexKind::Value(_) => {
-                self.diagnostics.push(ArrayError::ValueForBits.at(index.span));
+                self.diagnostics.push(wording::value_for_bits(index.span));
                 None
             }
         }
     }
 
-    /// A net in an expression, with what is in brackets after it; the values among these are the last of `done`.
+    /// The values in its brackets are the last of `done`.
     pub(crate) fn reference(
         &mut self,
         name: &tree::NameSyntax,
@@ -127,17 +124,13 @@ impl CircuitChecker<'_> {
         index.and_then(|index| self.element(net, index, second)).unwrap_or(nothing)
     }
 
-    /// The word or bit of a net that a value selects.
     fn element(&mut self, net: NetSlot, index: ExpressionId, second: Option<&Index>) -> Option<ExpressionKind> {
         if let (Some(second), false) = (second, self.is_array(net)) {
             let name = self.circuit.nets[net.0 as usize].name.clone();
-            self.diagnostics.push(ArrayError::NoArray { net: name }.at(second.span));
+            self.diagnostics.push(wording::no_array(&name, second.span));
             return None;
         }
-        let bits = match second {
-            Some(second) => Some(self.bits_of(second)?),
-            None => None,
-        };
+        let bits = self.second_bits(second)?;
         let Some(memory) = self.memory_of(net) else { return Some(ExpressionKind::Element { net, index, bits }) };
         let read = self.read(memory, index);
         Some(match bits {
@@ -146,19 +139,18 @@ impl CircuitChecker<'_> {
         })
     }
 
-    /// The value in brackets as an expression; `value` is it if it is no integer.
+    /// `value` is the expression in the brackets, unless they hold an integer.
     fn value_of(&mut self, index: &Index, value: Option<ExpressionId>) -> Option<ExpressionId> {
         match index.kind {
             IndexKind::Value(_) => value,
             IndexKind::One(size) => self.size_as_value(size),
             IndexKind::Slice(..) => {
-                self.diagnostics.push(ArrayError::ValueForBits.at(index.span));
+                self.diagnostics.push(wording::value_for_bits(index.span));
                 None
             }
         }
     }
 
-    /// An integer expression as an expression of nets.
     fn size_as_value(&mut self, root: SizeSyntaxId) -> Option<ExpressionId> {
         let body = self.body;
         let mut done: Vec<ExpressionId> = Vec::new();
@@ -183,14 +175,14 @@ impl CircuitChecker<'_> {
                         SizeOperator::Subtract => Infix::Subtract,
                         SizeOperator::Multiply => Infix::Multiply,
                         _ => {
-                            self.diagnostics.push(ArrayError::NoValue { operator: operator.sign() }.at(size.span));
+                            self.diagnostics.push(wording::operator_of_integers(operator.sign(), size.span));
                             return None;
                         }
                     };
                     self.infix(infix, size.span, operands)
                 }
                 SizeSyntaxKind::Log2(_) => {
-                    self.diagnostics.push(ArrayError::NoValue { operator: "log2" }.at(size.span));
+                    self.diagnostics.push(wording::operator_of_integers("log2", size.span));
                     return None;
                 }
             };
@@ -202,7 +194,6 @@ impl CircuitChecker<'_> {
 
     // ---- words that registers write ----
 
-    /// The word of an array that a statement drives, if a value selects it.
     pub(crate) fn written_word(&mut self, target: &tree::TargetSyntax) -> Option<WrittenWord> {
         let Some(Binding::Net(net)) = self.lookup(&target.name.text) else { return None };
         let index = target.index.filter(|index| self.is_array(net) && self.is_value(index))?;
@@ -211,29 +202,31 @@ impl CircuitChecker<'_> {
         Some(WrittenWord { net, index, span: target.span })
     }
 
-    /// `words[address] = register(d, clk, enable: e)`: each word is a register that takes the value where the address
-    /// is its own.
+    /// `words[address] = register(d, clk, enable: e)`: each word is a register that takes the value if the address is
+    /// its own.
     pub(crate) fn write_word(&mut self, written: WrittenWord, value: ExpressionSyntaxId) -> Option<Statement> {
         let first = self.circuit.nets.len() as u32;
         let array = self.circuit.nets[written.net.0 as usize].name.clone();
         let span = written.span;
         let root = self.expression(value, 1);
-        let register = self.declared.circuits.find(REGISTER, Home::Prelude).expect("the prelude declares registers");
+        let register =
+            self.declared.names.circuits.find(REGISTER, Home::Prelude).expect("the prelude declares registers");
         let register = CircuitId(register as u32);
         let kind = self.circuit.expressions[root.0 as usize].kind.clone();
         let is_call = matches!(self.body.expressions[value.0 as usize].kind, ExpressionSyntaxKind::Call { .. });
-        let ExpressionKind::Call { circuit, arguments, operands } = kind else {
-            self.diagnostics.push(ArrayError::NoRegister { net: array }.at(span));
+        let found = match kind {
+            ExpressionKind::Call { circuit, arguments, operands } if circuit == register && is_call => {
+                match operands[..] {
+                    [Some(data), Some(clk), enable, None] => Some((arguments, data, clk, enable)),
+                    _ => None,
+                }
+            }
+            _ => None,
+        };
+        let Some((arguments, data, clk, enable)) = found else {
+            self.diagnostics.push(wording::no_register(&array, span));
             return None;
         };
-        let [Some(data), Some(clk), enable, None] = operands[..] else {
-            self.diagnostics.push(ArrayError::NoRegister { net: array }.at(span));
-            return None;
-        };
-        if circuit != register || !is_call {
-            self.diagnostics.push(ArrayError::NoRegister { net: array }.at(span));
-            return None;
-        }
         let address = match written.index.kind {
             IndexKind::Value(value) => self.expression(value, 1),
             IndexKind::One(size) => self.size_as_value(size)?,
@@ -258,17 +251,13 @@ impl CircuitChecker<'_> {
         });
         self.circuit.nets[nets[0].0.0 as usize].selects = Some(written.net);
         let last = self.circuit.nets.len() as u32;
-        let drive = |(net, value): (NetSlot, ExpressionId)| {
-            let target = Target { net: Some(net), word: None, bits: None, start: None, span };
-            Statement::Drive { targets: vec![target], joined: false, value }
-        };
-        let mut statements: Vec<Statement> = std::mem::take(&mut self.reads).into_iter().map(drive).collect();
-        statements.extend(nets.map(drive));
+        let reads = std::mem::take(&mut self.reads).into_iter();
+        let mut statements: Vec<Statement> = reads.chain(nets).map(|(net, value)| drive(net, value, span)).collect();
         let [(address, _), (data, _), (enable, _), (clk, _)] = nets;
         match memory {
             Some(memory) => {
                 if arguments.iter().any(Option::is_some) {
-                    self.diagnostics.push(ArrayError::StartOfMemory { net: array }.at(span));
+                    self.diagnostics.push(wording::start_of_memory(&array, span));
                 }
                 self.circuit.memories[memory].writes.push(MemoryWrite { address, data, enable, clk });
             }
@@ -289,7 +278,6 @@ impl CircuitChecker<'_> {
         Some(Statement::Scope(Block { nets: first..last, statements }))
     }
 
-    /// The register of the word `place`.
     fn register_of(
         &mut self,
         circuit: CircuitId,
@@ -313,22 +301,21 @@ impl CircuitChecker<'_> {
 
     // ---- memories of environments ----
 
-    /// Makes a declared array of an environment a memory.
     pub(crate) fn memory(&mut self, net: NetSlot, port: &tree::Port) {
-        let contents = port.contents.as_ref().and_then(|name| match self.declared.files.resolve(name, self.home) {
-            Ok(file) => Some(file),
-            Err(fault) => {
-                self.diagnostics.push(fault);
-                None
-            }
-        });
+        let contents =
+            port.contents.as_ref().and_then(|name| match self.declared.names.files.resolve(name, self.home) {
+                Ok(file) => Some(file),
+                Err(fault) => {
+                    self.diagnostics.push(fault);
+                    None
+                }
+            });
         let declared = &mut self.circuit.nets[net.0 as usize];
         let (Some(words), Some(width)) = (declared.words.take(), declared.width.take()) else { return };
         self.driven[net.0 as usize] = true;
         self.circuit.memories.push(MemoryArray { net, words, width, contents, reads: Vec::new(), writes: Vec::new() });
     }
 
-    /// The number of words and the width of an array.
     fn shape(&self, net: NetSlot, span: Span) -> (SizeId, Option<SizeId>) {
         let declared = &self.circuit.nets[net.0 as usize];
         match self.memory_of(net) {
@@ -347,7 +334,6 @@ impl CircuitChecker<'_> {
         self.push_size(SizeKind::Log2(places), span)
     }
 
-    /// The net with the word of a memory that a value selects.
     fn read(&mut self, memory: usize, index: ExpressionId) -> NetSlot {
         let span = self.circuit.expressions[index.0 as usize].span;
         let name = self.circuit.nets[self.circuit.memories[memory].net.0 as usize].name.clone();
@@ -366,19 +352,20 @@ impl CircuitChecker<'_> {
         data
     }
 
-    /// The statement with the nets of the memories that it reads, which were declared from `first` on.
+    /// Adds the drivers of the addresses of memories that a statement reads; their nets begin at `first`.
     pub(crate) fn with_reads(&mut self, first: u32, statement: Option<Statement>) -> Option<Statement> {
         let reads = std::mem::take(&mut self.reads);
         let statement = statement?;
         let Some(&(_, value)) = reads.first() else { return Some(statement) };
         let span = self.circuit.expressions[value.0 as usize].span;
-        let drive = |(net, value): (NetSlot, ExpressionId)| {
-            let target = Target { net: Some(net), word: None, bits: None, start: None, span };
-            Statement::Drive { targets: vec![target], joined: false, value }
-        };
-        let mut statements: Vec<Statement> = reads.into_iter().map(drive).collect();
+        let mut statements: Vec<Statement> = reads.into_iter().map(|(net, value)| drive(net, value, span)).collect();
         statements.push(statement);
         let last = self.circuit.nets.len() as u32;
         Some(Statement::Scope(Block { nets: first..last, statements }))
     }
+}
+
+fn drive(net: NetSlot, value: ExpressionId, span: Span) -> Statement {
+    let target = Target { net: Some(net), word: None, bits: None, start: None, span };
+    Statement::Drive { targets: vec![target], joined: false, value }
 }

@@ -3,29 +3,25 @@
 use std::num::IntErrorKind;
 
 use crate::check::constant;
-use crate::check::wording::CellError;
+use crate::check::wording;
 use crate::syntax::tree::NameSyntax;
 use nbc_base::diag::{Diagnostic, counted};
 use nbc_base::model::{Base, Column};
 
-/// A value of a row, as bits with the most significant first.
+/// Most significant bit first.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum RowCell {
-    /// The bits, or `None` for `-`, and the text as written.
+    /// `None` is `-`.
     Bits(Vec<Option<bool>>, Base),
     /// A rising edge: 0, then 1.
     Pulse,
 }
 
-/// Reads a value for a column.
 pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
     match word.text.as_str() {
         "-" => return Ok(RowCell::Bits(vec![None; column.width], Base::of_port(column))),
         "^" if column.width == 1 => return Ok(RowCell::Pulse),
-        "^" => {
-            let error = CellError::WidePulse { column: column.name.clone(), width: column.width };
-            return Err(error.at(word.span));
-        }
+        "^" => return Err(wording::wide_pulse(&column.name, column.width, word.span)),
         _ => {}
     }
     if let Some(bits) = member(word, column) {
@@ -46,13 +42,12 @@ pub(crate) fn cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagno
     }
 }
 
-/// The bits of the member of the column's enumeration with that name.
 fn member(word: &NameSyntax, column: &Column) -> Option<Vec<bool>> {
     let members = column.members.as_ref()?;
     Some(members.bits(members.member(&word.text)?.value))
 }
 
-/// The bits of a number without a width, if the word is one. Several digits of 0 and 1 are bits.
+/// Several digits of 0 and 1 are bits, not a number.
 fn number(word: &NameSyntax, column: &Column) -> Result<Option<Vec<Option<bool>>>, Diagnostic> {
     let is_bits = word.text.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'_'));
     if is_bits && (word.text.len() != 1 || column.width == 1) {
@@ -60,21 +55,21 @@ fn number(word: &NameSyntax, column: &Column) -> Result<Option<Vec<Option<bool>>
     }
     let Some(value) = constant::unsized_number(&word.text) else { return Ok(None) };
     if column.width < 128 && value >> column.width != 0 {
-        return Err(CellError::Unfitting { value, width: column.width }.at(word.span));
+        return Err(wording::unfitting(value, column.width, word.span));
     }
     Ok(Some((0..column.width).rev().map(|bit| Some(bit < 128 && value >> bit & 1 == 1)).collect()))
 }
 
-/// As [`cell`], for an input, whose bits are all known.
+/// As [`cell`], but every bit of an input is known.
 pub(crate) fn input_cell(word: &NameSyntax, column: &Column) -> Result<RowCell, Diagnostic> {
     let is_value = member(word, column).is_some() || constant::unsized_number(&word.text).is_some();
     if !is_value && (constant::is_unknown(&word.text) || with_any_bits(&word.text).is_some()) {
-        return Err(CellError::NotAnInput { word: word.text.clone() }.at(word.span));
+        return Err(wording::not_an_input(word));
     }
     cell(word, column)
 }
 
-/// Bits with unknown ones, as this language writes them.
+/// Writes the `x` and `z` of other languages as `-`.
 fn with_any_bits(word: &str) -> Option<String> {
     let any = |c: char| matches!(c, 'x' | 'X' | 'z' | 'Z');
     let is_pattern = word.contains(any) && word.chars().all(|c| matches!(c, '0' | '1' | '-') || any(c));
@@ -87,11 +82,10 @@ fn wrong_width(word: &NameSyntax, found: &str, column: &Column) -> Diagnostic {
     let meant = if is_bits { None } else { meant(&word.text, column.width) };
     let number = word.text.parse::<u128>().ok().filter(|value| column.width >= 128 || value >> column.width == 0);
     let number = number.filter(|_| is_bits && word.text.len() > 1).map(|value| format!("{}'d{value}", column.width));
-    CellError::Width { found: found.to_owned(), column: column.name.clone(), width: column.width, meant, number }
-        .at(word.span)
+    wording::value_width(found, &column.name, column.width, [meant, number], word.span)
 }
 
-/// How a value of another language is written for a column of that width.
+/// How a value of another language is written for a column of this width.
 fn meant(word: &str, width: usize) -> Option<String> {
     if let Some(bit) = constant::truth(word).filter(|_| width == 1) {
         return Some(u8::from(bit).to_string());
@@ -116,7 +110,6 @@ fn meant(word: &str, width: usize) -> Option<String> {
     fits.then(|| if width == 1 { value.to_string() } else { format!("{width}'{base}{digits}") })
 }
 
-/// A number with the given width in bits.
 fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Result<Vec<Option<bool>>, Diagnostic> {
     let mut digits = constant.chars();
     let radix = digits.next().and_then(constant::radix).ok_or_else(|| no_value(word, column))?;
@@ -124,12 +117,12 @@ fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Res
         return Err(no_value(word, column));
     }
     let value = constant::value(digits.as_str(), radix).map_err(|error| match error {
-        IntErrorKind::PosOverflow => CellError::TooLarge.at(word.span),
+        IntErrorKind::PosOverflow => wording::large_value(word.span),
         _ => no_value(word, column),
     })?;
     let width = match width.parse() {
         Ok(width) if width < 128 && value >> width != 0 => {
-            return Err(CellError::Unfitting { value, width }.at(word.span));
+            return Err(wording::unfitting(value, width, word.span));
         }
         Ok(width) if width == column.width => width,
         Ok(width) => return Err(wrong_width(word, &counted(width, "bit"), column)),
@@ -139,5 +132,5 @@ fn sized(word: &NameSyntax, width: &str, constant: &str, column: &Column) -> Res
 }
 
 fn no_value(word: &NameSyntax, column: &Column) -> Diagnostic {
-    CellError::NotAValue { word: word.text.clone(), meant: meant(&word.text, column.width) }.at(word.span)
+    wording::not_a_value(word, meant(&word.text, column.width))
 }

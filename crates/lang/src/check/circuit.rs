@@ -4,10 +4,10 @@
 use std::collections::BTreeMap;
 
 use crate::check::constant;
-use crate::check::names::{Home, duplicate};
+use crate::check::names::Home;
 use crate::check::uses::{NameKind, NameUse};
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::{CircuitError, EnumerationError, NameError};
+use crate::check::wording;
 use crate::syntax::tree;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, suggest};
 use nbc_base::model::{
@@ -16,17 +16,15 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// The kind of an output of an environment that writes text, and its width: whether it writes, and the character.
+/// The kind of an environment's output that prints text, and its width: whether it prints, and the character.
 const TEXT: &str = "text";
 const TEXT_BITS: i128 = 9;
 
-/// The interface of circuits, enough to check calls.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Headers {
     pub(crate) circuits: Vec<Header>,
 }
 
-/// The interface of a circuit.
 #[derive(Clone, Debug)]
 pub(crate) struct Header {
     pub(crate) name: String,
@@ -35,7 +33,7 @@ pub(crate) struct Header {
     /// For each input, whether a call may leave it out.
     pub(crate) optional: Vec<bool>,
     pub(crate) outputs: Vec<String>,
-    /// The places of the parameters, and of the ports in order.
+    /// Those of the parameters, and those of the ports in order.
     pub(crate) places: [Vec<Span>; 2],
 }
 
@@ -55,19 +53,16 @@ impl Header {
         }
     }
 
-    /// The parameter that an argument names.
     pub(crate) fn parameter(&self, name: &tree::NameSyntax) -> Option<NameUse> {
         let at = self.parameters.iter().position(|known| *known == name.text)?;
         Some(NameUse { place: name.span, declared: self.places[0][at], kind: NameKind::Number })
     }
 
-    /// The port that a column names.
     pub(crate) fn port(&self, name: &tree::NameSyntax) -> Option<NameUse> {
         let at = self.inputs.iter().chain(&self.outputs).position(|known| *known == name.text)?;
         Some(NameUse { place: name.span, declared: self.places[1][at], kind: NameKind::Net })
     }
 
-    /// The interface as declared, without widths.
     pub(crate) fn signature(&self) -> String {
         let input = |(name, optional): (&String, &bool)| if *optional { format!("{name}?") } else { name.clone() };
         let inputs: Vec<String> = self.inputs.iter().zip(&self.optional).map(input).collect();
@@ -75,29 +70,25 @@ impl Header {
     }
 }
 
-/// The meaning of a name in a circuit.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Binding {
     Variable(u32, Span),
     Net(NetSlot),
 }
 
-/// A circuit that is being checked.
 pub(crate) struct CircuitChecker<'a> {
     pub(crate) body: &'a tree::BodySyntax,
     pub(crate) declared: Vocabulary<'a>,
     pub(crate) headers: &'a Headers,
     pub(crate) home: Home,
     pub(crate) is_environment: bool,
-    /// The clock of `before`, if there is one.
+    /// The clock of `before`.
     pub(crate) steps: Option<NetSlot>,
     pub(crate) circuit: Circuit,
     pub(crate) scopes: Vec<BTreeMap<&'a str, Binding>>,
-    /// For each net, whether it is read.
     pub(crate) used: Vec<bool>,
-    /// For each net, whether it is driven.
     pub(crate) driven: Vec<bool>,
-    /// The integers with names that have no statement yet, by the slots of their values.
+    /// The values of named integers whose statements come later, by their slots.
     integers: BTreeMap<u32, SizeId>,
     /// The addresses of the memories that the statement reads, each with its value.
     pub(crate) reads: Vec<(NetSlot, ExpressionId)>,
@@ -106,7 +97,6 @@ pub(crate) struct CircuitChecker<'a> {
     pub(crate) uses: Vec<NameUse>,
 }
 
-/// A checked circuit with its diagnostics and the circuits it calls.
 pub(crate) struct CheckedCircuit {
     pub(crate) circuit: Circuit,
     pub(crate) calls: Vec<(CircuitId, Span)>,
@@ -114,23 +104,14 @@ pub(crate) struct CheckedCircuit {
     pub(crate) uses: Vec<NameUse>,
 }
 
-/// Checks one circuit.
-pub(crate) fn circuit(
-    source: &tree::CircuitSyntax,
-    home: Home,
-    declared: Vocabulary<'_>,
-    headers: &Headers,
-) -> CheckedCircuit {
-    checked(source, home, declared, headers, None)
-}
-
-/// Checks what is said of the steps of a circuit: `before` is a register, whose clock is the last input.
+/// Checks properties of steps, in which `before` is a register clocked by the last input.
 pub(crate) fn monitor(source: &tree::CircuitSyntax, declared: Vocabulary<'_>, headers: &Headers) -> CheckedCircuit {
     let clock = NetSlot(source.inputs.len() as u32 - 1);
-    checked(source, Home::Own, declared, headers, Some(clock))
+    circuit(source, Home::Own, declared, headers, Some(clock))
 }
 
-fn checked(
+/// `steps` is the clock of `before`.
+pub(crate) fn circuit(
     source: &tree::CircuitSyntax,
     home: Home,
     declared: Vocabulary<'_>,
@@ -206,7 +187,6 @@ impl<'a> CircuitChecker<'a> {
         slot
     }
 
-    /// Declares a port or a net with what is written after its name.
     fn port(&mut self, port: &'a tree::Port, is_output: bool) -> NetSlot {
         let width = port.width.map(|size| self.size(size));
         let is_text = port.members.as_ref().is_some_and(|name| name.text == TEXT) && is_output && self.is_environment;
@@ -216,7 +196,7 @@ impl<'a> CircuitChecker<'a> {
             None if is_text => Some(self.push_size(SizeKind::Literal(TEXT_BITS), port.name.span)),
             Some((_, bits)) => {
                 if port.width.is_some() {
-                    self.diagnostics.push(EnumerationError::Width { net: port.name.text.clone() }.at(port.name.span));
+                    self.diagnostics.push(wording::enumeration_and_width(&port.name));
                 }
                 Some(self.push_size(SizeKind::Literal(bits.into()), port.name.span))
             }
@@ -231,9 +211,8 @@ impl<'a> CircuitChecker<'a> {
         slot
     }
 
-    /// The enumeration of that name, and its width.
     fn members(&mut self, name: &tree::NameSyntax) -> Option<(usize, u32)> {
-        match self.declared.enumerations.resolve(name, self.home) {
+        match self.declared.names.enumerations.resolve(name, self.home) {
             Ok(place) => Some((place, self.declared.all.get(place)?.width)),
             Err(fault) => {
                 self.diagnostics.push(fault);
@@ -248,7 +227,6 @@ impl<'a> CircuitChecker<'a> {
         slot
     }
 
-    /// Adds a net that no name refers to yet.
     pub(crate) fn add_net(&mut self, name: String, span: Span, width: Option<SizeId>) -> NetSlot {
         let slot = NetSlot(self.circuit.nets.len() as u32);
         let is_quiet = name.starts_with('_');
@@ -274,11 +252,10 @@ impl<'a> CircuitChecker<'a> {
                 Binding::Variable(_, span) => span,
                 Binding::Net(slot) => self.circuit.nets[slot.0 as usize].span,
             };
-            self.diagnostics.push(duplicate("name", name, first));
+            self.diagnostics.push(wording::duplicate("name", name, first));
         }
     }
 
-    /// Notes the use of a name.
     pub(crate) fn refer(&mut self, place: Span, binding: Binding) {
         let (declared, kind) = match binding {
             Binding::Variable(_, declared) => (declared, NameKind::Number),
@@ -299,7 +276,7 @@ impl<'a> CircuitChecker<'a> {
         Block { nets: first..last, statements }
     }
 
-    /// Nets may be used before they are driven, so the nets of a block are declared before its statements are read.
+    /// Nets may be used before they are driven, so a block's nets are declared before its statements are read.
     fn declare_nets(&mut self, statements: &'a [tree::StatementSyntax]) {
         for statement in statements {
             match &statement.kind {
@@ -335,7 +312,7 @@ impl<'a> CircuitChecker<'a> {
         if self.is_environment && port.words.is_some() {
             self.memory(slot, port);
         } else if let Some(contents) = &port.contents {
-            self.diagnostics.push(CircuitError::ContentsOfNet { net: port.name.text.clone() }.at(contents.span));
+            self.diagnostics.push(wording::contents_of_net(&port.name.text, contents.span));
         }
     }
 
@@ -416,7 +393,7 @@ impl<'a> CircuitChecker<'a> {
         let slot = match binding {
             Binding::Net(slot) => slot,
             Binding::Variable(_, first) => {
-                self.diagnostics.push(duplicate("name", &target.name, first));
+                self.diagnostics.push(wording::duplicate("name", &target.name, first));
                 return None;
             }
         };
@@ -433,31 +410,27 @@ impl<'a> CircuitChecker<'a> {
         let net = &self.circuit.nets[slot.0 as usize];
         let slot = slot.0 as usize;
         if slot < self.circuit.inputs {
-            let error = CircuitError::DrivenInput { net: net.name.clone(), declared: net.span };
-            return Some(error.at(target.span));
+            return Some(wording::driven_input(&net.name, net.span, target.span));
         }
         let is_port = slot < self.circuit.inputs + self.circuit.outputs;
         let open = target.index.is_some() && net.width.is_none() && !is_port;
-        open.then(|| CircuitError::UnknownWidth { net: net.name.clone() }.at(target.span))
+        open.then(|| wording::unknown_width(&net.name, target.span))
     }
 
-    /// Reports nets that are never driven and nets that are never read.
     fn loose_ends(&mut self) {
         // After an unknown name it is not certain which nets are read.
         let typo = self.diagnostics.iter().any(|fault| fault.code == Code::Unknown);
         for (slot, net) in self.circuit.nets.iter().enumerate() {
-            let name = net.name.clone();
             if !self.driven[slot] {
                 let what = if slot < self.circuit.inputs + self.circuit.outputs { "output" } else { "net" };
-                self.diagnostics.push(CircuitError::Undriven { what, net: name }.at(net.span));
+                self.diagnostics.push(wording::undriven(what, &net.name, net.span));
             } else if !self.used[slot] && !typo && !matches!(self.home, Home::Prelude | Home::Foreign) {
                 let what = if slot < self.circuit.inputs { "input" } else { "net" };
-                self.diagnostics.push(CircuitError::Unused { what, net: name }.at(net.span));
+                self.diagnostics.push(wording::unused(what, &net.name, net.span));
             }
         }
     }
 
-    /// The net for a name in an expression.
     pub(crate) fn net(&mut self, name: &tree::NameSyntax) -> Option<NetSlot> {
         match self.lookup(&name.text) {
             Some(binding @ Binding::Net(slot)) => {
@@ -466,7 +439,7 @@ impl<'a> CircuitChecker<'a> {
                 Some(slot)
             }
             Some(Binding::Variable(..)) => {
-                self.diagnostics.push(NameError::NumberForNet { name: name.text.clone() }.at(name.span));
+                self.diagnostics.push(wording::number_for_net(name));
                 None
             }
             None => {
@@ -476,7 +449,7 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    /// What a name in an expression stands for if it is no net: an integer or a member of an enumeration.
+    /// An integer or a member of an enumeration.
     pub(crate) fn named_constant(&mut self, name: &tree::NameSyntax) -> Option<ExpressionKind> {
         let declared = self.declared;
         match self.lookup(&name.text) {
@@ -488,11 +461,11 @@ impl<'a> CircuitChecker<'a> {
             Some(Binding::Net(_)) => None,
             None => {
                 if let Some((place, member)) = declared.member(&name.text, self.home) {
-                    declared.members.refer_to(&name.text, name.span, self.home);
+                    declared.names.members.refer_to(&name.text, name.span, self.home);
                     return Some(ExpressionKind::Bits(declared.all[place].bits(member.value)));
                 }
-                let value = declared.integers.find(&name.text, self.home)?;
-                declared.integers.refer_to(&name.text, name.span, self.home);
+                let value = declared.names.integers.find(&name.text, self.home)?;
+                declared.names.integers.refer_to(&name.text, name.span, self.home);
                 let size = self.push_size(SizeKind::Literal(value), name.span);
                 Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
             }
@@ -500,21 +473,21 @@ impl<'a> CircuitChecker<'a> {
     }
 
     fn unknown_net(&self, name: &tree::NameSyntax) -> Diagnostic {
-        let circuit = self.declared.circuits.find(&name.text, self.home);
-        let circuit = circuit.map(|circuit| self.headers.circuits[circuit].signature());
-        if let (None, Some(bit)) = (&circuit, constant::truth(&name.text)) {
-            return NameError::Truth { word: name.text.clone(), bit }.at(name.span);
+        if let Some(circuit) = self.declared.names.circuits.find(&name.text, self.home) {
+            return wording::circuit_for_net(name, &self.headers.circuits[circuit].signature());
         }
-        let meant = if circuit.is_some() || self.diagnostics.len() >= suggest::MOST {
+        if let Some(bit) = constant::truth(&name.text) {
+            return wording::truth(name, bit);
+        }
+        let meant = if self.diagnostics.len() >= suggest::MOST {
             Suggestion::None
         } else {
-            let members = self.declared.members.all().collect::<Vec<_>>();
-            Suggestion::of(&name.text, self.nets_in_scope().chain(members))
+            Suggestion::of(&name.text, self.nets_in_scope().chain(self.declared.names.members.all()))
         };
-        if circuit.is_none() && !matches!(meant, Suggestion::Near(_)) && constant::is_unknown(&name.text) {
-            return NameError::UnknownBit { word: name.text.clone() }.at(name.span);
+        if !matches!(meant, Suggestion::Near(_)) && constant::is_unknown(&name.text) {
+            return wording::unknown_bit(name);
         }
-        NameError::UnknownNet { name: name.text.clone(), circuit, meant }.at(name.span)
+        wording::unknown("net", name, &meant)
     }
 
     fn nets_in_scope(&self) -> impl Iterator<Item = &'a str> {

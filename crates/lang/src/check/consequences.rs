@@ -7,9 +7,9 @@ use crate::check::load::Loaded;
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::source::{Sources, Span};
 
-/// Forgets what follows from parts that could not be parsed: in their declaration, names that they mention, nets that
-/// nothing drives, and fields and rows that are missing; everywhere, the names of declarations that are lost. In a file
-/// that uses another one that could not be read, unknown names that resemble no known one may be declared there.
+/// Drops errors that follow from text that could not be parsed: in the same declaration, names that it mentions,
+/// undriven nets, and missing fields and rows; everywhere, the names of lost declarations. If a used file could not be
+/// read, unknown names without a near one may be declared there.
 pub(crate) fn forget(diagnostics: &mut Vec<Diagnostic>, sources: &Sources, loaded: &Loaded) {
     let broken: Vec<_> = loaded.trees.iter().flat_map(|(_, tree)| &tree.broken).collect();
     let lost: BTreeSet<&str> = broken

@@ -6,12 +6,10 @@ use crate::check::names::Home;
 use crate::syntax::tree::{self, DeclarationKind, RecordDeclaration, RecordKeyword, Tree};
 use nbc_base::source::{FileId, Sources, Span};
 
-/// The trees of all files, and their texts.
 pub(crate) struct Declarations<'a> {
     trees: &'a [(Home, Tree)],
-    /// The declarations that have lost a part: where they begin and end.
+    /// Starts and ends of declarations that have lost a part.
     broken: BTreeMap<(FileId, u32), u32>,
-    /// The texts of the files.
     pub(crate) sources: &'a Sources,
 }
 
@@ -22,17 +20,14 @@ impl<'a> Declarations<'a> {
         Self { trees, broken, sources }
     }
 
-    /// Every declaration.
     pub(crate) fn all(&self) -> impl Iterator<Item = (Home, &'a tree::Declaration)> + use<'a> {
         self.trees.iter().flat_map(|(home, tree)| tree.declarations.iter().map(|declaration| (*home, declaration)))
     }
 
-    /// The declarations of the checked file.
     pub(crate) fn own(&self) -> impl Iterator<Item = &'a tree::Declaration> + use<'a> {
         self.all().filter(|(home, _)| *home == Home::Own).map(|(_, declaration)| declaration)
     }
 
-    /// The records of a kind.
     pub(crate) fn records(&self, keyword: RecordKeyword) -> Vec<(Home, &'a RecordDeclaration)> {
         let record = |(home, declaration): (Home, &'a tree::Declaration)| match &declaration.kind {
             DeclarationKind::Record(record) if record.keyword == keyword => Some((home, record)),
@@ -41,7 +36,6 @@ impl<'a> Declarations<'a> {
         self.all().filter_map(record).collect()
     }
 
-    /// The tests of the checked file.
     pub(crate) fn own_tests(&self) -> impl Iterator<Item = (Span, &'a tree::Test)> + use<'a> {
         self.own().filter_map(|declaration| match &declaration.kind {
             DeclarationKind::Test(test) => Some((declaration.span, test)),
@@ -49,7 +43,6 @@ impl<'a> Declarations<'a> {
         })
     }
 
-    /// The claims of the checked file.
     pub(crate) fn own_claims(&self) -> impl Iterator<Item = (Span, &'a tree::Prove)> + use<'a> {
         self.own().filter_map(|declaration| match &declaration.kind {
             DeclarationKind::Prove(claim) => Some((declaration.span, claim)),
@@ -57,13 +50,11 @@ impl<'a> Declarations<'a> {
         })
     }
 
-    /// Whether the declaration at a place has lost a part.
     pub(crate) fn is_broken(&self, place: Span) -> bool {
         let before = self.broken.range(..=(place.file, place.start)).next_back();
         before.is_some_and(|(&(file, _), &end)| file == place.file && place.end <= end)
     }
 
-    /// The file and the line of a place.
     pub(crate) fn line(&self, place: Span) -> (String, usize) {
         let file = self.sources.file(place.file);
         (file.name.clone(), file.line_column(place.start as usize).line)

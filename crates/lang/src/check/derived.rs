@@ -2,23 +2,21 @@
 
 use crate::check::fields;
 use crate::check::names::{Home, NameTable};
-use crate::check::wording::{Expected, NameError};
+use crate::check::wording;
 use crate::syntax::tree::{RecordDeclaration, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 
-/// The state of checking a record.
 #[derive(Clone, Debug)]
 pub(crate) enum CheckState<T> {
-    /// Not yet checked. If another record takes its fields from it at this time, the two form a circle.
+    /// Not checked yet. A record that names it now closes a circle.
     Open,
-    /// Invalid; its errors are already reported.
+    /// Its errors are already reported.
     Faulty,
-    /// Valid.
     Sound(Box<T>),
 }
 
 /// The positions of records, each after the one named by its `from`, or else after that of the `usual` name, as far as
-/// such an order exists. What the usual one is made from comes before it.
+/// such an order exists. What the usual one derives from comes before it.
 pub(crate) fn order(
     sources: &[(Home, &RecordDeclaration)],
     names: &NameTable,
@@ -36,9 +34,8 @@ pub(crate) fn order(
             chain.push(place);
             let (home, source) = sources[place];
             let from = source.record.field("from");
-            let word = |value| fields::word(value, Expected::Name(names.kind().word())).ok();
             let name = match from {
-                Some(field) => word(&field.value).map(|name| name.text.as_str()),
+                Some(field) => fields::name(&field.value, names.kind.word()).ok().map(|name| name.text.as_str()),
                 None => usual,
             };
             at = name.and_then(|name| names.find(name, home));
@@ -48,18 +45,17 @@ pub(crate) fn order(
     order
 }
 
-/// The record named by `from`, of those in `checked`.
 pub(crate) fn base<'a, T>(
     value: &ValueSyntax,
     home: Home,
     names: &NameTable,
     checked: &'a [CheckState<T>],
 ) -> Result<&'a CheckState<T>, Diagnostic> {
-    let kind = names.kind().word();
-    let name = fields::word(value, Expected::Name(kind))?;
+    let kind = names.kind.word();
+    let name = fields::name(value, kind)?;
     let found = &checked[names.resolve(name, home)?];
     if matches!(found, CheckState::Open) {
-        return Err(NameError::Circular { kind, name: name.text.clone() }.at(name.span));
+        return Err(wording::circular_record(kind, name));
     }
     Ok(found)
 }

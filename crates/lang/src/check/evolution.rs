@@ -8,7 +8,7 @@ use crate::check::fields::{self, Fields};
 use crate::check::library;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
-use crate::check::wording::{EvolutionError, Expected, ImagesError, NameError};
+use crate::check::wording;
 use crate::check::world::{self, Worlds};
 use crate::syntax::tree::{NameSyntax, Number, Quantity, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
@@ -20,19 +20,15 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// The largest width and height of a body's box, in voxels.
+/// In voxels.
 const MAX_BOX: u32 = 64;
 
-/// The most seeds of a range.
 const MAX_SEEDS: u32 = 10_000;
 
-/// The declarations that an evolution may refer to.
 pub(crate) struct Known<'a> {
     pub(crate) program: &'a Program,
     pub(crate) names: &'a Names,
-    /// The worlds by the position of their names.
     pub(crate) worlds: Worlds<'a>,
-    /// The evolutions by the position of their names, as far as they are checked.
     pub(crate) checked: &'a [CheckState<NamedEvolution>],
 }
 
@@ -40,14 +36,14 @@ pub(crate) struct Known<'a> {
 #[derive(Clone, Debug)]
 pub(crate) struct NamedEvolution {
     evolution: Evolution,
-    /// The world that it or the one it is made from names.
+    /// The world that it, or the evolution it derives from, names.
     world: Option<PhysicsWorld>,
-    /// The stimuli of its schedule, two or three, as indices of [`Program::stimuli`], in ascending order.
+    /// The two or three stimuli of its schedule, as ascending indices of [`Program::stimuli`].
     stimuli: Vec<usize>,
 }
 
 impl NamedEvolution {
-    /// The evolution by itself: its stimuli are the first two or three of its bodies.
+    /// Renumbers the stimuli of its materials from 0.
     pub(crate) fn into_evolution(self) -> Evolution {
         let Self { evolution, stimuli, .. } = self;
         let own = |material: &Material| match material.kind {
@@ -61,7 +57,6 @@ impl NamedEvolution {
         Evolution { palette, ..evolution }
     }
 
-    /// The first sensor whose stimulus the schedule never gives.
     fn deaf_sensor(&self) -> Option<(&Material, usize)> {
         self.evolution.palette.materials().iter().find_map(|material| match material.kind {
             MaterialKind::Sensor(Response { stimulus, .. }) if !self.stimuli.contains(&stimulus) => {
@@ -72,7 +67,6 @@ impl NamedEvolution {
     }
 }
 
-/// Checks an evolution.
 pub(crate) fn evolution(
     source: &RecordDeclaration,
     home: Home,
@@ -138,7 +132,6 @@ pub(crate) fn evolution(
     if sound && fits { CheckState::Sound(Box::new(checked)) } else { CheckState::Faulty }
 }
 
-/// The error of a schedule, materials or behaviors that do not belong together.
 fn misfit(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
     other_objective(source, checked)
         .or_else(|| deaf_sensor(source, checked, program))
@@ -146,16 +139,16 @@ fn misfit(source: &RecordDeclaration, checked: &NamedEvolution, program: &Progra
         .or_else(|| foreign_behavior(source, checked))
 }
 
-/// The error of images without their objective, and of the objective without images.
 fn other_objective(source: &RecordDeclaration, checked: &NamedEvolution) -> Option<Diagnostic> {
     let Evolution { variable, objective, .. } = &checked.evolution;
     let shows = variable.spells.iter().any(|spell| spell.image.is_some());
     let fits = shows == (*objective == SearchObjective::Images);
-    (!fits).then(|| ImagesError::Objective { shows }.at(chosen(source, &["variable", "objective"])))
+    let at = chosen(source, &["variable", "objective"]);
+    let error = if shows { wording::images_without_objective } else { wording::objective_without_images };
+    (!fits).then(|| error(at))
 }
 
-/// The error of a third stimulus that no material senses, at the field that chose the schedule or the materials. The
-/// paper's two may be unsensed.
+/// The paper's two stimuli may be unsensed; a third one, or an image, may not.
 fn unsensed(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
     let is_sensed = |stimulus: usize| {
         let kinds = checked.evolution.palette.materials().iter().map(|material| material.kind);
@@ -164,31 +157,27 @@ fn unsensed(source: &RecordDeclaration, checked: &NamedEvolution, program: &Prog
     let unsensed = checked.stimuli.iter().copied().find(|&stimulus| !is_sensed(stimulus));
     let shows = checked.evolution.objective == SearchObjective::Images;
     let stimulus = unsensed.filter(|_| checked.stimuli.len() > 2 || shows)?;
-    let error = EvolutionError::Unsensed { stimulus: program.stimuli.get(stimulus)?.clone(), shows };
-    Some(error.at(chosen(source, &["materials", "variable"])))
+    let error = if shows { wording::unsensed_image } else { wording::unsensed_stimulus };
+    Some(error(program.stimuli.get(stimulus)?, chosen(source, &["materials", "variable"])))
 }
 
-/// The error of a behavior of another number of stimuli than the schedule's.
 fn foreign_behavior(source: &RecordDeclaration, checked: &NamedEvolution) -> Option<Diagnostic> {
     let stimuli = checked.stimuli.len();
     let behavior = checked.evolution.behaviors.iter().find(|behavior| behavior.stimuli() != stimuli)?;
-    let error = EvolutionError::ForeignBehavior { behavior: behavior.to_string(), found: behavior.stimuli(), stimuli };
-    Some(error.at(chosen(source, &["behaviors", "variable"])))
+    let at = chosen(source, &["behaviors", "variable"]);
+    Some(wording::foreign_behavior(&behavior.to_string(), behavior.stimuli(), stimuli, at))
 }
 
-/// The place of the first of these fields that a declaration has, or else of its name.
 fn chosen(source: &RecordDeclaration, fields: &[&str]) -> Span {
     let field = fields.iter().find_map(|field| source.record.field(field));
     field.map_or(source.name.span, |field| field.value.span)
 }
 
-/// The error of a sensor whose stimulus is never given, at the field that chose the schedule or the materials.
 fn deaf_sensor(source: &RecordDeclaration, checked: &NamedEvolution, program: &Program) -> Option<Diagnostic> {
     let (material, stimulus) = checked.deaf_sensor()?;
-    let name = |stimulus: usize| program.stimuli.get(stimulus).cloned();
-    let given = checked.stimuli.iter().filter_map(|&stimulus| name(stimulus)).collect();
-    let error = EvolutionError::DeafSensor { material: material.name.clone(), stimulus: name(stimulus)?, given };
-    Some(error.at(chosen(source, &["variable", "materials"])))
+    let name = |stimulus: usize| program.stimuli.get(stimulus).map(String::as_str);
+    let given: Vec<&str> = checked.stimuli.iter().filter_map(|&stimulus| name(stimulus)).collect();
+    Some(wording::deaf_sensor(&material.name, name(stimulus)?, &given, chosen(source, &["variable", "materials"])))
 }
 
 /// The paper's evolution without its materials and stimuli, which the prelude declares.
@@ -219,19 +208,17 @@ fn paper() -> Evolution {
     }
 }
 
-/// The niches that one evaluation may enter. What a body does before one image says nothing about others.
+/// What a body does before one image says nothing about others.
 fn symmetry(fields: &mut Fields<'_>, base: Symmetry, objective: SearchObjective) -> Symmetry {
     let words = [("none", Symmetry::None), ("npn", Symmetry::Npn)];
     let symmetry = fields.read("symmetry", base, |value| fields::choice(value, &words));
     if objective == SearchObjective::Images { Symmetry::None } else { symmetry }
 }
 
-/// Whether an objective is about gates.
 fn is_of_gates(objective: SearchObjective) -> bool {
     matches!(objective, SearchObjective::Gate | SearchObjective::Wave)
 }
 
-/// The behaviors that gates are searched for.
 fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObjective) -> Vec<Behavior> {
     let mut behaviors = fields.read_list("behaviors", library::behavior).unwrap_or(base);
     behaviors.sort_unstable_by_key(|behavior| behavior.function());
@@ -239,7 +226,7 @@ fn behaviors(fields: &mut Fields<'_>, base: Vec<Behavior>, objective: SearchObje
     if is_of_gates(objective) { behaviors } else { Vec::new() }
 }
 
-/// What a run follows where the paper's text and its code differ: a word or several.
+/// What a run follows where the paper's text and its code differ.
 fn rules(fields: &mut Fields<'_>, base: Rules, genome: Genome) -> Rules {
     let whole = [("paper", Rules::PAPER), ("code", Rules::CODE)].into_iter();
     let parts = Matter::WORDS.into_iter().map(|(word, matter)| (word, Rules::from(matter)));
@@ -247,14 +234,13 @@ fn rules(fields: &mut Fields<'_>, base: Rules, genome: Genome) -> Rules {
     let read = fields.read_list("as", |value| match fields::choice(value, &words)? {
         // Of these matters, only the sensors are those of other bodies than networks make.
         rules if !genome.is_cppn() && rules != Rules::PAPER && !rules.follow_code(Matter::Sensors) => {
-            Err(EvolutionError::MatterOfNetworks.at(value.span))
+            Err(wording::matter_of_networks(value.span))
         }
         rules => Ok(rules),
     });
     read.map_or(base, |rules| rules.into_iter().fold(Rules::PAPER, Rules::and))
 }
 
-/// The other worlds of the gate objective; none if nothing varies.
 fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: SearchObjective) -> Option<SampledWorlds> {
     let usual = base.map_or(Variation::default(), |base| base.vary);
     let before = fields.faults.len();
@@ -271,7 +257,7 @@ fn sample(fields: &mut Fields<'_>, base: Option<SampledWorlds>, objective: Searc
     is_used.then_some(SampledWorlds { worlds, vary })
 }
 
-/// The library with which a search begins; only voxels need no network.
+/// Only bodies of voxels can start from a library.
 fn start(
     fields: &mut Fields<'_>,
     base: Option<StartBodies>,
@@ -280,14 +266,14 @@ fn start(
     known: &Known<'_>,
 ) -> Option<StartBodies> {
     let start = fields.read("start", base, |value| {
-        let name = fields::word(value, Expected::Name("library"))?;
+        let name = fields::name(value, "library")?;
         known.names.libraries.resolve(name, home)?;
         Ok(Some(StartBodies { library: name.text.clone(), bodies: Vec::new() }))
     });
     start.filter(|_| !genome.is_cppn())
 }
 
-/// What bodies are made from; only voxels can be crossed.
+/// Only voxels can be crossed.
 fn genome(fields: &mut Fields<'_>, base: Genome) -> Genome {
     let usual = match base {
         Genome::Cppn => 0.0,
@@ -301,7 +287,7 @@ fn genome(fields: &mut Fields<'_>, base: Genome) -> Genome {
 
 fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {
     let ValueKind::Product(width, height) = &value.kind else {
-        return Err(quantity::wrong_kind(Expected::Box, value.span));
+        return Err(wording::wrong_kind(wording::BOX, value.span));
     };
     let side = |side: &Number| {
         let found = quantity::whole(quantity::number(side)?, 1..=MAX_BOX, side.span, "voxels")?;
@@ -309,7 +295,7 @@ fn area(value: &ValueSyntax) -> Result<(usize, usize), Diagnostic> {
     };
     let (columns, rows) = (side(width)?, side(height)?);
     if columns * rows < LEAST_ACTUATORS {
-        return Err(EvolutionError::SmallBox { columns, rows, least: LEAST_ACTUATORS }.at(value.span));
+        return Err(wording::small_box(columns, rows, LEAST_ACTUATORS, value.span));
     }
     Ok((columns, rows))
 }
@@ -318,44 +304,39 @@ fn palette(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<Arc<Pal
     let mut materials: Vec<Material> = Vec::new();
     let values = fields::list(value);
     if values.is_empty() || values.len() > Palette::MAX_MATERIALS {
-        let error = EvolutionError::PaletteSize { materials: values.len(), most: Palette::MAX_MATERIALS };
-        return Err(error.at(value.span));
+        return Err(wording::palette_size(values.len(), Palette::MAX_MATERIALS, value.span));
     }
     for value in values {
-        let name = fields::word(value, Expected::Name("material"))?;
+        let name = fields::name(value, "material")?;
         let material = known.names.materials.resolve(name, home)?.map(|at| &known.program.materials[at]);
-        let twice = materials.iter().any(|known| known.name == name.text);
-        if twice {
-            return Err(NameError::RepeatedMaterial { name: name.text.clone() }.at(name.span));
+        if materials.iter().any(|known| known.name == name.text) {
+            return Err(wording::repeated_material(name));
         }
         materials.extend(material.cloned());
     }
     // The kind of a material with errors is unknown.
     let are_known = materials.len() == values.len();
     if are_known && !materials.iter().any(|material| matches!(material.kind, MaterialKind::Actuator(_))) {
-        return Err(EvolutionError::NoActuator { least: LEAST_ACTUATORS }.at(value.span));
+        return Err(wording::no_actuator(LEAST_ACTUATORS, value.span));
     }
     Ok(Arc::new(Palette::new(materials)))
 }
 
-/// A schedule of two or three stimuli: which ones, and the schedule as one of the first two or three. Or one of images,
-/// as it is.
+/// The stimuli of a schedule, ascending, and the schedule in terms of them; one of images stays as it is.
 fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<usize>, Schedule), Diagnostic> {
-    let name = fields::word(value, Expected::Name("schedule"))?;
+    let name = fields::name(value, "schedule")?;
     let Some(found) = known.names.schedules.resolve(name, home)?.map(|at| &known.program.schedules[at]) else {
         return Ok(Default::default());
     };
     if !found.sets.is_empty() {
-        let one = ImagesError::OneSet { schedule: name.text.clone() };
         return if found.sets.len() > 1 {
             Ok((found.stimuli.clone(), found.schedule.clone()))
         } else {
-            Err(one.at(name.span))
+            Err(wording::one_set(name))
         };
     }
     if !(2..=Function::MOST_INPUTS).contains(&found.stimuli.len()) {
-        let error = EvolutionError::WrongStimuli { schedule: name.text.clone(), stimuli: found.stimuli.len() };
-        return Err(error.at(name.span));
+        return Err(wording::wrong_stimuli(name, found.stimuli.len()));
     }
     if let Some(fault) = missing_patterns(found, name) {
         return Err(fault);
@@ -367,7 +348,6 @@ fn schedule(value: &ValueSyntax, home: Home, known: &Known<'_>) -> Result<(Vec<u
     Ok((stimuli, schedule))
 }
 
-/// Which of these stimuli are present in a pattern, in their order.
 fn restricted(pattern: Pattern, stimuli: &[usize]) -> Pattern {
     Pattern::new(&stimuli.iter().map(|&stimulus| pattern.has(stimulus)).collect::<Vec<_>>())
 }
@@ -379,32 +359,29 @@ fn missing_patterns(schedule: &NamedSchedule, name: &NameSyntax) -> Option<Diagn
     let stimuli = schedule.stimuli.len();
     let missing = Pattern::all(stimuli).filter(|&pattern| !shown(pattern));
     let missing: Vec<String> = missing.map(|pattern| pattern.digits(stimuli)).collect();
-    if missing.is_empty() {
-        return None;
-    }
-    Some(EvolutionError::MissingPatterns { schedule: name.text.clone(), missing }.at(name.span))
+    (!missing.is_empty()).then(|| wording::missing_patterns(name, &missing))
 }
 
 fn steps(value: &ValueSyntax) -> Result<u32, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => quantity::steps(quantity),
-        _ => Err(quantity::wrong_kind(Expected::Time("10 cycles"), value.span)),
+        _ => Err(wording::wrong_kind(&wording::time_such_as("10 cycles"), value.span)),
     }
 }
 
 fn axis(value: &ValueSyntax) -> Result<Axis, Diagnostic> {
     let ValueKind::Bins(name, bins) = &value.kind else {
-        return match fields::word(value, Expected::Axis) {
+        return match fields::word(value, wording::AXIS) {
             Ok(name) if name.text == "behavior" => Ok(Axis::Behavior),
             Ok(name) if name.text == "class" => Ok(Axis::Class),
-            _ => Err(fields::not_one_of(value, Expected::Axis, &["behavior", "class"])),
+            _ => Err(fields::not_one_of(value, wording::AXIS, &["behavior", "class"])),
         };
     };
     let of = match name.text.as_str() {
         "voxels" => Count::Voxels,
         "active" => Count::Active,
         "sensory" => Count::Sensory,
-        _ => return Err(fields::unknown_word(name, Expected::Axis, &["voxels", "active", "sensory"])),
+        _ => return Err(fields::unknown_word(name, wording::AXIS, &["voxels", "active", "sensory"])),
     };
     let bins = quantity::whole(quantity::number(bins)?, 1..=1000, bins.span, "bins")?;
     Ok(Axis::Count { of, bins: bins as usize })
@@ -418,12 +395,12 @@ fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
     let mut known = BTreeMap::new();
     fields.read_list("seed", |value| {
         let ValueKind::Quantity(seed) = &value.kind else {
-            return Err(quantity::wrong_kind(Expected::Number, value.span));
+            return Err(wording::wrong_kind(wording::NUMBER, value.span));
         };
         let seed = quantity::seed(seed)?;
         match known.insert(seed, value.span) {
             None => Ok(seed),
-            Some(first) => Err(NameError::RepeatedSeed { seed, first }.at(value.span)),
+            Some(first) => Err(wording::repeated_seed(seed, first, value.span)),
         }
     })
 }
@@ -431,7 +408,7 @@ fn seeds(fields: &mut Fields<'_>) -> Option<Vec<u64>> {
 fn range_of_seeds(first: &Quantity, last: &Quantity, span: Span) -> Result<Vec<u64>, Diagnostic> {
     let (first, last) = (quantity::seed(first)?, quantity::seed(last)?);
     if first > last || last - first >= u64::from(MAX_SEEDS) {
-        return Err(EvolutionError::SeedRange { most: MAX_SEEDS }.at(span));
+        return Err(wording::seed_range(MAX_SEEDS, span));
     }
     Ok((first..=last).collect())
 }
@@ -442,16 +419,16 @@ fn niche(value: &ValueSyntax) -> Result<Niche, Diagnostic> {
             Ok(Niche::Pareto(quantity::count(&size[0], 1..=1000)? as usize))
         }
         ValueKind::Applied(name, _) if name.text != "pareto" => {
-            Err(fields::unknown_word(name, Expected::Niche, &["pareto"]))
+            Err(fields::unknown_word(name, wording::NICHE, &["pareto"]))
         }
         _ => fields::choice(value, &[("dominance", Niche::Dominance)])
-            .map_err(|_| fields::not_one_of(value, Expected::Niche, &["dominance", "pareto"])),
+            .map_err(|_| fields::not_one_of(value, wording::NICHE, &["dominance", "pareto"])),
     }
 }
 
 fn mutation(value: &ValueSyntax) -> Result<MutationWeights, Diagnostic> {
     let ValueKind::Record(record) = &value.kind else {
-        return Err(quantity::wrong_kind(Expected::Weights, value.span));
+        return Err(wording::wrong_kind(wording::WEIGHTS, value.span));
     };
     let mut fields = Fields::inner("mutation", value.span, record);
     let weights = MutationWeights {
@@ -466,7 +443,7 @@ fn mutation(value: &ValueSyntax) -> Result<MutationWeights, Diagnostic> {
     let all = [add_node, remove_node, add_link, remove_link, change_activation, change_weight];
     match fields.finish().into_iter().next() {
         Some(fault) => Err(fault),
-        None if all.iter().all(|weight| *weight == 0.0) => Err(EvolutionError::NoMutation.at(value.span)),
+        None if all.iter().all(|weight| *weight == 0.0) => Err(wording::no_mutation(value.span)),
         None => Ok(weights),
     }
 }
@@ -474,6 +451,6 @@ fn mutation(value: &ValueSyntax) -> Result<MutationWeights, Diagnostic> {
 fn weight(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => quantity::within(quantity::bare(quantity)?, 0.0..=1e6, value.span),
-        _ => Err(quantity::wrong_kind(Expected::Weight, value.span)),
+        _ => Err(wording::wrong_kind(wording::WEIGHT, value.span)),
     }
 }

@@ -6,7 +6,7 @@ use std::num::IntErrorKind;
 use crate::check::circuit::{CircuitChecker, Header};
 use crate::check::constant;
 use crate::check::names::Home;
-use crate::check::wording::{CircuitError, NameError, OperandError, PropertyError};
+use crate::check::wording;
 use crate::syntax::tree::{self, Infix};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{
@@ -14,13 +14,11 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// The call of a value as it was in the step before, in what is said of the steps of a circuit.
+/// The value of the step before, in properties.
 pub(crate) const BEFORE: &str = "before";
 
-/// The operators that can be written as calls.
 const OPERATORS: [&str; 7] = ["and", "or", "xor", "nand", "nor", "xnor", "not"];
 
-/// The prelude's circuit for an operator.
 fn circuit_of(infix: Infix) -> &'static str {
     match infix {
         Infix::Add => "add",
@@ -39,7 +37,7 @@ fn circuit_of(infix: Infix) -> &'static str {
 }
 
 impl<'a> CircuitChecker<'a> {
-    /// Resolves an expression from its leaves to its root without recursion. The root has so many values.
+    /// Resolves an expression from its leaves to its root without recursion. The root has `values` values.
     pub(crate) fn expression(&mut self, root: tree::ExpressionSyntaxId, values: usize) -> ExpressionId {
         let body = self.body;
         let mut done: Vec<ExpressionId> = Vec::new();
@@ -56,7 +54,7 @@ impl<'a> CircuitChecker<'a> {
         done.pop().expect("an expression has a value")
     }
 
-    /// Several targets need a call of a circuit with the same number of outputs. The circuit may be unknown.
+    /// Several targets need a call of a circuit with as many outputs. The circuit may be unknown.
     pub(crate) fn value_count(
         &self,
         root: tree::ExpressionSyntaxId,
@@ -69,8 +67,8 @@ impl<'a> CircuitChecker<'a> {
         if targets.len() == 1 || is_call {
             return None;
         }
-        let nets = targets.iter().map(|target| target.name.text.clone()).collect();
-        Some(OperandError::OneValue { nets }.at(span))
+        let nets: Vec<&str> = targets.iter().map(|target| target.name.text.as_str()).collect();
+        Some(wording::one_value(&nets, span))
     }
 
     fn kind(
@@ -123,22 +121,20 @@ impl<'a> CircuitChecker<'a> {
         let width = self.size(width);
         let radix = constant::radix(base).expect("the grammar lets the three bases through only");
         let value = constant::value(digits, radix).unwrap_or_else(|error| {
-            let error = match error {
-                IntErrorKind::PosOverflow => CircuitError::ConstantTooLarge,
-                _ => CircuitError::WrongDigits { digits: digits.to_owned(), radix },
-            };
-            self.diagnostics.push(error.at(span));
+            self.diagnostics.push(match error {
+                IntErrorKind::PosOverflow => wording::large_constant(span),
+                _ => wording::wrong_digits(digits, radix, span),
+            });
             0
         });
         ExpressionKind::Number { width, value }
     }
 
-    /// A number without a width.
     fn digits(&mut self, digits: &str, span: Span) -> ExpressionKind {
         match constant::unsized_number(digits) {
             Some(value) => ExpressionKind::Unsized(FreeNumber::Literal(value)),
             None => {
-                self.diagnostics.push(CircuitError::ConstantTooLarge.at(span));
+                self.diagnostics.push(wording::large_constant(span));
                 ExpressionKind::Bits(vec![false])
             }
         }
@@ -167,14 +163,15 @@ impl<'a> CircuitChecker<'a> {
             return self.shift_by(infix, place, *value, number);
         }
         let name = circuit_of(infix);
-        let circuit = self.declared.circuits.find(name, Home::Prelude).expect("the prelude declares the operators");
+        let circuit =
+            self.declared.names.circuits.find(name, Home::Prelude).expect("the prelude declares the operators");
         let circuit = CircuitId(circuit as u32);
         self.calls.push((circuit, place));
         let arguments = vec![None; self.headers.circuits[circuit.0 as usize].parameters.len()];
         ExpressionKind::Call { circuit, arguments, operands: operands.into_iter().map(Some).collect() }
     }
 
-    /// An operation on integers, which is one itself.
+    /// An operation on integers is one itself.
     fn folded(&mut self, infix: Infix, operands: &[ExpressionId]) -> Option<ExpressionKind> {
         let operator = match infix {
             Infix::Add => SizeOperator::Add,
@@ -195,7 +192,7 @@ impl<'a> CircuitChecker<'a> {
         Some(ExpressionKind::Unsized(FreeNumber::Size(size)))
     }
 
-    /// Replaces a number that became a part of an integer, and is no part of the expression any more.
+    /// Replaces a number that has become part of an integer.
     fn forget(&mut self, number: ExpressionId) {
         self.circuit.expressions[number.0 as usize].kind = ExpressionKind::Bits(vec![false]);
     }
@@ -207,10 +204,9 @@ impl<'a> CircuitChecker<'a> {
         }
     }
 
-    /// A shift by an integer.
     fn shift_by(&mut self, infix: Infix, place: Span, value: ExpressionId, number: FreeNumber) -> ExpressionKind {
         let name = if infix == Infix::ShiftLeft { "shift_left_by" } else { "shift_right_by" };
-        let circuit = self.declared.circuits.find(name, Home::Prelude).expect("the prelude declares the shifts");
+        let circuit = self.declared.names.circuits.find(name, Home::Prelude).expect("the prelude declares the shifts");
         let circuit = CircuitId(circuit as u32);
         self.calls.push((circuit, place));
         let by = self.size_of_number((number, place)).unwrap_or_else(|| self.one(place));
@@ -224,11 +220,10 @@ impl<'a> CircuitChecker<'a> {
             _ => ("two operands or more", count >= 2),
         };
         if !fits {
-            let error = match operator {
-                Operator::Xnor if count > 2 => OperandError::WideXnor { found: count },
-                _ => OperandError::OperatorOperands { operator: operator.word(), found: count, expected },
-            };
-            self.diagnostics.push(error.at(span));
+            self.diagnostics.push(match operator {
+                Operator::Xnor if count > 2 => wording::wide_xnor(count, span),
+                _ => wording::operator_operands(operator.word(), count, expected, span),
+            });
         }
     }
 
@@ -244,11 +239,11 @@ impl<'a> CircuitChecker<'a> {
         if let Some(clock) = self.steps.filter(|_| name.text == BEFORE) {
             return self.before(name, operands, values, clock);
         }
-        let circuit = match self.declared.circuits.resolve_beside(name, self.home, &OPERATORS) {
+        let circuit = match self.declared.names.circuits.resolve_beside(name, self.home, &OPERATORS) {
             Ok(circuit) => circuit,
             Err(fault) => {
                 self.diagnostics.push(match Operator::parse(&name.text.to_lowercase()) {
-                    Some(_) => NameError::Operator { name: name.text.clone() }.at(name.span),
+                    Some(_) => wording::upper_case_operator(name),
                     None => fault,
                 });
                 return ExpressionKind::Bits(vec![false]);
@@ -267,7 +262,6 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Call { circuit: CircuitId(circuit as u32), arguments, operands }
     }
 
-    /// A value as it was in the step before.
     fn before(
         &mut self,
         name: &tree::NameSyntax,
@@ -276,13 +270,14 @@ impl<'a> CircuitChecker<'a> {
         clock: NetSlot,
     ) -> ExpressionKind {
         let &[value] = values else {
-            self.diagnostics.push(PropertyError::OperandsOfBefore { found: values.len() }.at(name.span));
+            self.diagnostics.push(wording::operands_of_before(Some(values.len()), name.span));
             return ExpressionKind::Bits(vec![false]);
         };
         if let Some(port) = operands.iter().find_map(|operand| operand.name.as_ref()) {
-            self.diagnostics.push(PropertyError::OperandsOfBefore { found: 1 }.at(port.span));
+            self.diagnostics.push(wording::operands_of_before(None, port.span));
         }
-        let register = self.declared.circuits.find("register", Home::Prelude).expect("the prelude declares registers");
+        let register =
+            self.declared.names.circuits.find("register", Home::Prelude).expect("the prelude declares registers");
         self.calls.push((CircuitId(register as u32), name.span));
         let header = &self.headers.circuits[register];
         let arguments = vec![None; header.parameters.len()];
@@ -292,7 +287,7 @@ impl<'a> CircuitChecker<'a> {
         ExpressionKind::Call { circuit: CircuitId(register as u32), arguments, operands: given }
     }
 
-    /// The operands in the order of the ports. One without a name is for the port at its own place.
+    /// In the order of the ports. An operand without a name is for the port at its own place.
     fn operands(
         &mut self,
         name: &tree::NameSyntax,
@@ -310,9 +305,7 @@ impl<'a> CircuitChecker<'a> {
                         Some(place) => place,
                         None => {
                             let meant = Suggestion::of(&port.text, header.inputs.iter().map(String::as_str));
-                            let (circuit, name) = (name.text.clone(), port.text.clone());
-                            let error = NameError::UnknownInput { circuit, name, is_output: false, meant };
-                            self.diagnostics.push(error.at(port.span));
+                            self.diagnostics.push(wording::unknown_port(&name.text, "input", port, &meant));
                             continue;
                         }
                     }
@@ -320,14 +313,13 @@ impl<'a> CircuitChecker<'a> {
             };
             if operands[place].replace(value).is_some() {
                 let span = self.circuit.expressions[value.0 as usize].span;
-                let port = header.inputs.get(place).cloned().unwrap_or_default();
-                self.diagnostics.push(OperandError::TwoOperands { circuit: name.text.clone(), port }.at(span));
+                let port = header.inputs.get(place).map_or("", String::as_str);
+                self.diagnostics.push(wording::two_operands(&name.text, port, span));
             }
         }
         operands
     }
 
-    /// Counts the operands and outputs of a call.
     fn call_counts(
         &mut self,
         name: &tree::NameSyntax,
@@ -336,19 +328,15 @@ impl<'a> CircuitChecker<'a> {
         [operands, outputs]: [usize; 2],
         span: Span,
     ) {
-        let (circuit, signature) = (name.text.clone(), header.signature());
+        let (circuit, signature) = (&name.text, header.signature());
         let missing = given.iter().zip(&header.optional).any(|(given, optional)| given.is_none() && !optional);
-        let error = if missing || given.len() != header.inputs.len() {
-            OperandError::CallOperands { circuit, expected: header.inputs.len(), found: operands, signature }
+        if missing || given.len() != header.inputs.len() {
+            self.diagnostics.push(wording::call_operands(circuit, header.inputs.len(), operands, &signature, span));
         } else if outputs != header.outputs.len() {
-            OperandError::CallOutputs { circuit, expected: header.outputs.len(), found: outputs, signature }
-        } else {
-            return;
-        };
-        self.diagnostics.push(error.at(span));
+            self.diagnostics.push(wording::call_outputs(circuit, header.outputs.len(), outputs, &signature, span));
+        }
     }
 
-    /// Parameters given by position or by name, in the order of the circuit's parameters.
     fn arguments(
         &mut self,
         name: &tree::NameSyntax,
@@ -367,7 +355,6 @@ impl<'a> CircuitChecker<'a> {
     }
 }
 
-/// The parameter of an argument.
 pub(crate) fn parameter_place(
     circuit: &tree::NameSyntax,
     parameters: &[String],
@@ -377,14 +364,10 @@ pub(crate) fn parameter_place(
     match &argument.name {
         Some(name) => parameters.iter().position(|known| *known == name.text).ok_or_else(|| {
             let meant = Suggestion::of(&name.text, parameters.iter().map(String::as_str));
-            let (circuit, parameter) = (circuit.text.clone(), name.text.clone());
-            NameError::UnknownParameter { circuit, name: parameter, meant }.at(name.span)
+            wording::unknown_parameter(&circuit.text, name, &meant)
         }),
         None if place < parameters.len() => Ok(place),
-        None => {
-            let (circuit, parameters) = (circuit.text.clone(), parameters.len());
-            Err(OperandError::TooManyParameters { circuit, parameters }.at(argument.span))
-        }
+        None => Err(wording::many_parameters(&circuit.text, parameters.len(), argument.span)),
     }
 }
 
@@ -396,7 +379,6 @@ fn take(done: &mut Vec<ExpressionId>, count: usize) -> Vec<ExpressionId> {
     done.split_off(done.len() - count)
 }
 
-/// The outputs of a table that are expressions.
 fn table_values(rows: &[tree::TableRowSyntax]) -> impl Iterator<Item = tree::ExpressionSyntaxId> {
     rows.iter().filter_map(|row| match row.output {
         tree::TableOutputSyntax::Value(value) => Some(value),

@@ -1,63 +1,47 @@
 //! The fields of a record: no duplicates, no unknown fields, all required fields present.
 
-use crate::check::applies::{Fact, needs};
-use crate::check::names::duplicate;
-use crate::check::quantity::wrong_kind;
-use crate::check::wording::{self, Expected, FieldError, ValueError};
+use crate::check::record_fields::{Fact, RecordField, record_fields};
+use crate::check::wording;
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, RecordSyntax, ValueKind, ValueSyntax};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::source::Span;
 
-/// A record while it is read.
 pub(crate) struct Fields<'a> {
-    /// The owner of the fields, for messages.
-    what: wording::Record,
+    /// How messages call the record.
+    what: String,
+    rules: &'static [RecordField],
     place: Span,
     record: &'a RecordSyntax,
-    known: Vec<&'static str>,
-    /// What decides which fields have an effect.
+    /// Facts that decide which fields have an effect.
     facts: Vec<Fact>,
-    /// Whether an error hides some of these.
+    /// Whether an error hides a fact.
     is_vague: bool,
-    /// The required fields that are missing, each with an example.
+    /// Each missing required field with an example.
     missing: Vec<[&'static str; 2]>,
     pub(crate) faults: Vec<Diagnostic>,
 }
 
 impl<'a> Fields<'a> {
-    /// The fields of a declaration of that kind.
-    pub(crate) fn new(kind: &'static str, source: &'a RecordDeclaration) -> Self {
-        let what = wording::Record { kind, name: Some(source.name.text.clone()) };
-        Self {
-            what,
-            place: source.name.span,
-            record: &source.record,
-            known: Vec::new(),
-            facts: Vec::new(),
-            is_vague: false,
-            missing: Vec::new(),
-            faults: Vec::new(),
-        }
+    pub(crate) fn new(kind: &str, source: &'a RecordDeclaration) -> Self {
+        let what = wording::record(kind, Some(&source.name.text));
+        Self { what, place: source.name.span, ..Self::inner(kind, source.record.span, &source.record) }
     }
 
-    /// The fields of a record of that kind inside another.
-    pub(crate) fn inner(kind: &'static str, place: Span, record: &'a RecordSyntax) -> Self {
-        let what = wording::Record { kind, name: None };
-        let (known, facts, missing, faults) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
-        Self { what, place, record, known, facts, is_vague: false, missing, faults }
+    pub(crate) fn inner(kind: &str, place: Span, record: &'a RecordSyntax) -> Self {
+        let (what, rules) = (wording::record(kind, None), record_fields(kind));
+        let (facts, missing, faults) = (Vec::new(), Vec::new(), Vec::new());
+        Self { what, rules, place, record, facts, is_vague: false, missing, faults }
     }
 
-    /// Notes what the record is or has, on which the effect of other fields depends.
     pub(crate) fn note(&mut self, field: &'static str, word: &'static str) {
         self.facts.push((field, word));
     }
 
-    /// Notes that it is unknown which fields have an effect.
     pub(crate) fn note_fault(&mut self) {
         self.is_vague = true;
     }
 
-    /// A field with one word of a set, on which the effect of other fields depends.
+    /// Reads one word of a set and notes it as a fact.
     pub(crate) fn choose<T: Copy + PartialEq>(
         &mut self,
         field: &'static str,
@@ -71,17 +55,11 @@ impl<'a> Fields<'a> {
         chosen
     }
 
-    /// The value of a field.
     pub(crate) fn value(&mut self, field: &'static str) -> Option<&'a ValueSyntax> {
-        // A field that has several forms is read once for each.
-        if !self.known.contains(&field) {
-            debug_assert!(needs(self.what.kind, field).is_some(), "{field} of a {} has a rule", self.what.kind);
-            self.known.push(field);
-        }
+        debug_assert!(self.rules.iter().any(|rule| rule.name == field), "{field} of {} has a rule", self.what);
         self.record.field(field).map(|given| &given.value)
     }
 
-    /// A field read by `read`, or `default` if it is missing or invalid.
     pub(crate) fn read<T>(
         &mut self,
         field: &'static str,
@@ -98,7 +76,7 @@ impl<'a> Fields<'a> {
         }
     }
 
-    /// A field with a list of at least one entry, each read by `read`. Every invalid entry is reported.
+    /// Reads a list of at least one entry; every invalid entry is reported.
     pub(crate) fn read_list<T>(
         &mut self,
         field: &'static str,
@@ -108,12 +86,11 @@ impl<'a> Fields<'a> {
         let (entries, faults): (Vec<_>, Vec<_>) = list(value).iter().map(read).partition(Result::is_ok);
         self.faults.extend(faults.into_iter().filter_map(Result::err));
         if list(value).is_empty() {
-            self.faults.push(ValueError::EmptyList { field }.at(value.span));
+            self.faults.push(wording::empty_list(field, value.span));
         }
         Some(entries.into_iter().filter_map(Result::ok).collect())
     }
 
-    /// A required field, read by `read`.
     pub(crate) fn need<T>(
         &mut self,
         field: &'static str,
@@ -127,89 +104,88 @@ impl<'a> Fields<'a> {
         None
     }
 
-    /// The errors of the fields where it is not known which others are allowed.
+    /// The errors if it is unknown which fields are allowed.
     pub(crate) fn abandon(self) -> Vec<Diagnostic> {
         self.errors(false)
     }
 
-    /// All errors of the fields; call it after all allowed fields were read.
+    /// Call it after all allowed fields were read.
     pub(crate) fn finish(self) -> Vec<Diagnostic> {
         self.errors(true)
     }
 
-    /// The facts of which a field needs one, if none of them holds.
-    fn idle(&self, field: &str) -> Option<&'static [Fact]> {
-        let facts = needs(self.what.kind, field)?;
-        (!self.is_vague && !facts.is_empty() && !facts.iter().any(|fact| self.facts.contains(fact))).then_some(facts)
-    }
-
-    /// The errors; if not `all` allowed fields were read, an unknown field may be one of these.
+    /// If not `all` allowed fields were read, an unknown field may be one of them.
     fn errors(mut self, all: bool) -> Vec<Diagnostic> {
+        let known = self.rules.iter().filter(|rule| rule.is_listed(&self.facts)).map(|rule| rule.name);
+        let known: Vec<&str> = known.collect();
         for (at, field) in self.record.fields.iter().enumerate() {
-            let name = &field.name;
-            if let Some(first) = self.record.fields[..at].iter().find(|first| first.name.text == name.text) {
-                self.faults.push(duplicate("field", name, first.name.span));
-            } else if let Some(with) = self.idle(&name.text).filter(|_| all) {
-                let (record, field) = (self.what.clone(), name.text.clone());
-                self.faults.push(FieldError::NoEffect { record, field, with }.at(name.span));
-            } else if !self.known.contains(&name.text.as_str()) {
-                let left = self.known.iter().copied().filter(|known| self.record.field(known).is_none());
-                let meant = Suggestion::near(&name.text, left);
+            let NameSyntax { text: name, span } = &field.name;
+            let rule = self.rules.iter().find(|rule| rule.name == *name);
+            if let Some(first) = self.record.fields[..at].iter().find(|first| first.name.text == *name) {
+                self.faults.push(wording::duplicate("field", &field.name, first.name.span));
+            } else if let Some(needs) = rule.filter(|_| all && !self.is_vague).and_then(|rule| rule.lacks(&self.facts))
+            {
+                self.faults.push(wording::idle_field(&self.what, name, needs, *span));
+            } else if !known.contains(&name.as_str()) {
+                let left = known.iter().copied().filter(|known| self.record.field(known).is_none());
+                let meant = Suggestion::near(name, left);
                 if all || meant != Suggestion::None {
                     // A misspelled field is not missing, too.
                     self.missing.retain(|[field, _]| meant != Suggestion::Near((*field).to_owned()));
-                    let (record, field, known) = (self.what.clone(), name.text.clone(), self.known.clone());
-                    self.faults.push(FieldError::Unknown { record, field, known, meant }.at(name.span));
+                    self.faults.push(wording::unknown_field(&self.what, name, &known, &meant, *span));
                 }
             }
         }
-        for [field, example] in self.missing {
-            self.faults.push(FieldError::Missing { record: self.what.clone(), field, example }.at(self.place));
-        }
+        let missing = self.missing.iter();
+        let missing = missing.map(|[field, example]| wording::missing_field(&self.what, field, example, self.place));
+        self.faults.extend(missing);
         self.faults
     }
 }
 
-/// A single word.
-pub(crate) fn word(value: &ValueSyntax, expected: Expected) -> Result<&NameSyntax, Diagnostic> {
+pub(crate) fn word<'v>(value: &'v ValueSyntax, expected: &str) -> Result<&'v NameSyntax, Diagnostic> {
+    single(value).ok_or_else(|| wording::wrong_kind(expected, value.span))
+}
+
+/// The name of a declaration of this kind.
+pub(crate) fn name<'v>(value: &'v ValueSyntax, kind: &str) -> Result<&'v NameSyntax, Diagnostic> {
+    single(value).ok_or_else(|| wording::wrong_kind(&wording::name_of(kind), value.span))
+}
+
+fn single(value: &ValueSyntax) -> Option<&NameSyntax> {
     match &value.kind {
-        ValueKind::Instance(instance) if instance.arguments.is_empty() => Ok(&instance.name),
-        _ => Err(wrong_kind(expected, value.span)),
+        ValueKind::Instance(instance) if instance.arguments.is_empty() => Some(&instance.name),
+        _ => None,
     }
 }
 
 /// One word of a set.
 pub(crate) fn choice<T: Copy>(value: &ValueSyntax, choices: &[(&'static str, T)]) -> Result<T, Diagnostic> {
-    let words: Vec<_> = choices.iter().map(|(word, _)| *word).collect();
-    let expected = Expected::OneOf(words.clone());
-    let name = word(value, expected.clone())?;
-    choices
-        .iter()
-        .find(|(word, _)| *word == name.text)
-        .map(|(_, choice)| *choice)
-        .ok_or_else(|| unknown_word(name, expected, &words))
+    let found = single(value).and_then(|name| choices.iter().find(|(word, _)| *word == name.text));
+    found.map(|(_, choice)| *choice).ok_or_else(|| {
+        let words: Vec<&str> = choices.iter().map(|(word, _)| *word).collect();
+        not_one_of(value, &wording::one_of(&words), &words)
+    })
 }
 
-/// The word of a choice.
 pub(crate) fn word_of<T: PartialEq>(choices: &[(&'static str, T)], choice: T) -> &'static str {
     choices.iter().find(|(_, known)| *known == choice).map_or("", |(word, _)| word)
 }
 
-/// The error for a word that is not one of `words`, perhaps with the one that is meant.
-pub(crate) fn unknown_word(name: &NameSyntax, expected: Expected, words: &[&str]) -> Diagnostic {
+pub(crate) fn unknown_word(name: &NameSyntax, expected: &str, words: &[&str]) -> Diagnostic {
     let meant = Suggestion::near(&name.text, words.iter().copied().filter(|word| *word != name.text));
-    ValueError::UnknownChoice { found: name.text.clone(), expected, meant }.at(name.span)
+    wording::unknown_choice(&name.text, expected, &meant, name.span)
 }
 
 /// As [`unknown_word`], for a value that may be something else than a word.
-pub(crate) fn not_one_of(value: &ValueSyntax, expected: Expected, words: &[&str]) -> Diagnostic {
-    match word(value, expected.clone()) {
-        Ok(name) => unknown_word(name, expected, words),
-        Err(error) => error,
+pub(crate) fn not_one_of(value: &ValueSyntax, expected: &str, words: &[&str]) -> Diagnostic {
+    match single(value) {
+        Some(name) => unknown_word(name, expected, words),
+        None => wording::wrong_kind(expected, value.span),
     }
 }
 
-/// The values of a list; a single value is a list of one.
+/// A single value is a list of one.
 pub(crate) fn list(value: &ValueSyntax) -> &[ValueSyntax] {
     match &value.kind {
         ValueKind::List(values) => values,

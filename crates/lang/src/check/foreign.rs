@@ -1,48 +1,40 @@
 //! Circuits of other tools' files, translated to source text of the language.
 
 use crate::check::verilog_files::verilog_files;
-use crate::check::wording::{LoadError, at_use};
+use crate::check::wording::{self, at_use};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::source::{ForeignCircuit, SourceFile, SourceWorld, Span, VerilogModule};
 use nbc_circuit::correspondence;
 use nbc_circuit::formats::{CircuitSource, Design, Register, aiger, bench, blif, is_word, nb, pla, verilog_module};
 
-/// A file of another tool that a program uses.
 pub(super) struct Foreign<'a> {
     pub(super) world: &'a dyn SourceWorld,
     pub(super) format: CircuitSource,
     pub(super) name: &'a str,
-    /// The path in the program.
     pub(super) place: Span,
 }
 
-/// The circuits of Verilog files.
 pub(super) struct ForeignDesign {
-    /// Source text of the language.
     pub(super) text: String,
     pub(super) warnings: Vec<Diagnostic>,
     pub(super) circuits: Vec<ForeignCircuit>,
 }
 
 impl Foreign<'_> {
-    /// The circuit of a .bench file as source text of the language.
     pub(super) fn bench(&self, source: &SourceFile) -> Result<String, Vec<Diagnostic>> {
         self.circuit(&self.titled(bench::read(&source.text, source.id, Some(Register::CLOCK))?))
     }
 
-    /// The circuit of a BLIF file as source text of the language, and warnings.
     pub(super) fn blif(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
         let text = self.circuit(&blif::read(&source.text, source.id, Some(Register::CLOCK))?)?;
         Ok((text, blif::ignored(&source.text, source.id)))
     }
 
-    /// The circuit of a PLA file as source text of the language, and warnings.
     pub(super) fn pla(&self, source: &SourceFile) -> Result<(String, Vec<Diagnostic>), Vec<Diagnostic>> {
         let text = self.circuit(&self.titled(pla::read(&source.text, source.id)?))?;
         Ok((text, pla::opened(&source.text, source.id)))
     }
 
-    /// The circuits of Verilog files.
     pub(super) fn verilog(&self, files: &[&SourceFile]) -> Result<ForeignDesign, Vec<Diagnostic>> {
         let here = |faults: Vec<Diagnostic>| faults.into_iter().map(|fault| at_use(fault, self.place)).collect();
         let modules = self.world.read_verilog(&verilog_files(self.world, files));
@@ -61,17 +53,14 @@ impl Foreign<'_> {
         })
     }
 
-    /// The circuit of an AIGER file as source text of the language.
     pub(super) fn aiger(&self) -> Result<String, Vec<Diagnostic>> {
-        let file = self.name.to_owned();
-        let bytes = self.world.read_bytes(self.name);
-        let meant = Suggestion::None;
-        let bytes = bytes.map_err(|error| self.fault(LoadError::Unreadable { file, error, meant }))?;
+        let unreadable = |error| vec![wording::unreadable_use(self.name, &error, &Suggestion::None, self.place)];
+        let bytes = self.world.read_bytes(self.name).map_err(unreadable)?;
         let design = aiger::read(&bytes, Some(Register::CLOCK)).map_err(|fault| vec![at_use(fault, self.place)])?;
         self.circuit(&self.titled(design))
     }
 
-    /// Names a design after its file, for formats without names of circuits.
+    /// For formats without names of circuits.
     fn titled(&self, mut design: Design) -> Design {
         let file = self.name.rsplit('/').next().unwrap_or(self.name);
         design.logic.name = file.rsplit_once('.').map_or(file, |(stem, _)| stem).to_owned();
@@ -88,12 +77,11 @@ impl Foreign<'_> {
         let name = &design.logic.name;
         self.legal(name)?;
         if design.outputs() == 0 {
-            return Err(self.fault(LoadError::NoOutputs { circuit: name.clone() }));
+            return Err(vec![wording::no_outputs(name, self.place)]);
         }
         Ok(nb::write(&correspondence::reduce(design).0))
     }
 
-    /// Rejects the name of a circuit that the language cannot call.
     fn legal(&self, circuit: &str) -> Result<(), Vec<Diagnostic>> {
         if is_word(circuit) {
             return Ok(());
@@ -105,10 +93,6 @@ impl Foreign<'_> {
             CircuitSource::Blif => "write another name after `.model`",
             CircuitSource::Verilog => "rename the module",
         };
-        Err(self.fault(LoadError::CircuitName { circuit: circuit.to_owned(), rename }))
-    }
-
-    fn fault(&self, error: LoadError) -> Vec<Diagnostic> {
-        vec![error.at(self.place)]
+        Err(vec![wording::circuit_name(circuit, rename, self.place)])
     }
 }

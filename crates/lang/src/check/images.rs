@@ -7,17 +7,15 @@ use crate::check::fields::{self, Fields};
 use crate::check::load::beside;
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::{Expected, ImagesError, ValueError};
+use crate::check::wording;
 use crate::check::world::ProgramFiles;
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{ImageFile, ImageSize, LabeledImage, NamedImages};
 use nbc_base::source::{FileError, Span};
 
-/// The most images of a set.
 const MOST_IMAGES: u32 = 100_000;
 
-/// The stimuli that a program declares: their names, and the sizes of those that are images.
 #[derive(Clone, Copy)]
 pub(crate) struct Stimuli<'a> {
     pub(crate) names: &'a NameTable,
@@ -25,14 +23,12 @@ pub(crate) struct Stimuli<'a> {
 }
 
 impl Stimuli<'_> {
-    /// The number of a stimulus, and its rows and columns if it is an image.
     pub(crate) fn resolve(self, name: &NameSyntax, home: Home) -> Result<(usize, Option<ImageSize>), Diagnostic> {
         let stimulus = self.names.resolve(name, home)?;
         Ok((stimulus, self.image_sizes.get(&stimulus).copied()))
     }
 }
 
-/// Checks a set of images.
 pub(crate) fn images(
     source: &RecordDeclaration,
     home: Home,
@@ -42,15 +38,15 @@ pub(crate) fn images(
 ) -> Option<NamedImages> {
     let mut fields = Fields::new("images", source);
     let stimulus = fields.need("stimulus", "stimulus: digit", |value| {
-        let name = fields::word(value, Expected::Name("stimulus"))?;
+        let name = fields::name(value, "stimulus")?;
         match stimuli.resolve(name, home)? {
             (stimulus, Some(size)) => Ok((stimulus, size)),
-            (_, None) => Err(ImagesError::NoImage { stimulus: name.text.clone() }.at(name.span)),
+            (_, None) => Err(wording::no_image(name)),
         }
     });
     let from = fields.need("from", "from: \"digits.csv\"", |value| match &value.kind {
         ValueKind::Text(path) => Ok((path, value.span)),
-        _ => Err(quantity::wrong_kind(Expected::Path, value.span)),
+        _ => Err(wording::wrong_kind(wording::PATH, value.span)),
     });
     let white = fields.read("white", None, |value| white(value).map(Some));
     let label = fields.read("label", None, |value| label(value).map(Some));
@@ -65,7 +61,7 @@ pub(crate) fn images(
         let known = labels(&all);
         all.retain(|image| image.label.as_deref() == Some(label.as_str()));
         if all.is_empty() {
-            faults.push(ImagesError::NoLabel { label, known }.at(place));
+            faults.push(wording::no_label(&label, &known, place));
             return None;
         }
     }
@@ -73,7 +69,7 @@ pub(crate) fn images(
     let mut images: Vec<_> = all.into_iter().map(|labeled| Arc::new(labeled.image)).collect();
     if let Some((first, last, place)) = take {
         if last as usize > count {
-            faults.push(ImagesError::TooFew { last, count }.at(place));
+            faults.push(wording::few_images(last, count, place));
             return None;
         }
         images.truncate(last as usize);
@@ -82,7 +78,6 @@ pub(crate) fn images(
     Some(NamedImages { name: source.name.text.clone(), stimulus, images })
 }
 
-/// The images of a file.
 fn read(
     path: &str,
     span: Span,
@@ -90,17 +85,16 @@ fn read(
     files: ProgramFiles<'_>,
 ) -> Result<Vec<LabeledImage>, Diagnostic> {
     let name = beside(&files.sources.file(span.file).name, path);
-    let unreadable = |file: String, error| ImagesError::Unreadable { file, error }.at(span);
-    let bytes = files.world.read_bytes(&name).map_err(|error| unreadable(name.clone(), error))?;
+    let unreadable = |file: &str, error| wording::unreadable_value(file, &error, span);
+    let bytes = files.world.read_bytes(&name).map_err(|error| unreadable(&name, error))?;
     let labels = match ImageFile::labels_beside(&name).map(|path| (files.world.read_bytes(&path), path)) {
         None | Some((Err(FileError::NotFound), _)) => None,
-        Some((read, path)) => Some(read.map_err(|error| unreadable(path, error))?),
+        Some((read, path)) => Some(read.map_err(|error| unreadable(&path, error))?),
     };
     let file = ImageFile { name: &name, bytes: &bytes, labels: labels.as_deref(), size, white };
-    file.read().map_err(|error| ImagesError::File { file: name.clone(), error }.at(span))
+    file.read().map_err(|error| wording::image_file(&name, &error, span))
 }
 
-/// The different labels of images, a few of them.
 fn labels(images: &[LabeledImage]) -> Vec<String> {
     const SHOWN: usize = 12;
     let mut labels: Vec<String> = images.iter().filter_map(|image| image.label.clone()).collect();
@@ -110,25 +104,24 @@ fn labels(images: &[LabeledImage]) -> Vec<String> {
     labels
 }
 
-/// The number that stands for 1 in a file.
+/// The number in the file that stands for 1.
 fn white(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(given) => quantity::within(quantity::bare(given)?, 0.001..=1e6, value.span),
-        _ => Err(quantity::wrong_kind(Expected::Number, value.span)),
+        _ => Err(wording::wrong_kind(wording::NUMBER, value.span)),
     }
 }
 
-/// A label: a number, a word or a text.
 fn label(value: &ValueSyntax) -> Result<(String, Span), Diagnostic> {
     let text = match &value.kind {
         ValueKind::Quantity(number) if number.unit.is_none() => number.number.text.clone(),
         ValueKind::Text(text) => text.clone(),
-        _ => fields::word(value, Expected::Label)?.text.clone(),
+        _ => fields::word(value, wording::LABEL)?.text.clone(),
     };
     Ok((text, value.span))
 }
 
-/// The first and the last of the images that are taken, from 1.
+/// The first and the last image to take, from 1.
 fn take(value: &ValueSyntax) -> Result<(u32, u32, Span), Diagnostic> {
     let whole = |number: f64| quantity::whole(number, 1..=MOST_IMAGES, value.span, "images");
     match &value.kind {
@@ -137,7 +130,7 @@ fn take(value: &ValueSyntax) -> Result<(u32, u32, Span), Diagnostic> {
             if first <= last {
                 Ok((first, last, value.span))
             } else {
-                Err(ValueError::Descending { high: first.into(), low: last.into() }.at(value.span))
+                Err(wording::descending(first.into(), last.into(), value.span))
             }
         }
         _ => Ok((1, quantity::count(value, 1..=MOST_IMAGES)?, value.span)),

@@ -5,22 +5,24 @@ use crate::check::constant;
 use crate::check::expression::parameter_place;
 use crate::check::names::Home;
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::{NameError, OperandError, ValueError};
+use crate::check::wording;
 use crate::syntax::parse_instance;
 use crate::syntax::tree::{self, SizeSyntaxKind};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, Sources, Span};
 
-/// A circuit with numbers for its parameters.
 pub(crate) fn instance(
     source: &tree::InstanceSyntax,
     home: Home,
     declared: Vocabulary<'_>,
     headers: &Headers,
 ) -> Result<Instance, Diagnostic> {
-    let header = &headers.circuits[declared.circuits.resolve(&source.name, home)?];
-    declared.circuits.note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
+    let header = &headers.circuits[declared.names.circuits.resolve(&source.name, home)?];
+    declared
+        .names
+        .circuits
+        .note(source.arguments.iter().filter_map(|argument| header.parameter(argument.name.as_ref()?)));
     with_numbers(source, &header.name, &header.parameters, |name, place| declared.integer(name, place, home))
 }
 
@@ -30,13 +32,12 @@ pub fn named(program: &Program, sources: &Sources, file: FileId) -> Result<Insta
     let name = source.name.text.as_str();
     let circuit = program.circuit(name).ok_or_else(|| {
         let meant = Suggestion::of(name, program.circuits.iter().map(|circuit| circuit.name.as_str()));
-        NameError::Unknown { kind: "circuit", name: name.to_owned(), meant }.at(source.name.span)
+        wording::unknown("circuit", &source.name, &meant)
     })?;
     let parameters: Vec<String> = circuit.parameters.iter().map(|parameter| parameter.name.clone()).collect();
     with_numbers(&source, &circuit.name, &parameters, |_, _| None)
 }
 
-/// A circuit whose parameters have these names, with the given numbers for them; `named` has those with names.
 fn with_numbers(
     source: &tree::InstanceSyntax,
     circuit: &str,
@@ -54,9 +55,7 @@ fn with_numbers(
         Some(arguments) => Ok(Instance { circuit: circuit.to_owned(), arguments }),
         None => {
             let missing = values.iter().position(Option::is_none).unwrap_or_default();
-            let parameter = parameters[missing].clone();
-            let error = OperandError::MissingParameter { circuit: source.name.text.clone(), parameter };
-            Err(error.at(source.name.span))
+            Err(wording::missing_parameter(&source.name, &parameters[missing]))
         }
     }
 }
@@ -67,10 +66,10 @@ fn number(
 ) -> Result<u64, Diagnostic> {
     let named = match &size.kind {
         SizeSyntaxKind::Literal(digits) => {
-            return constant::integer(digits).ok_or_else(|| ValueError::TooLarge { bits: 64 }.at(size.span));
+            return constant::integer(digits).ok_or_else(|| wording::large_number(64, size.span));
         }
         SizeSyntaxKind::Name(name) => named(name, size.span).transpose()?,
         _ => None,
     };
-    named.and_then(|value| u64::try_from(value).ok()).ok_or_else(|| ValueError::NotANumber.at(size.span))
+    named.and_then(|value| u64::try_from(value).ok()).ok_or_else(|| wording::not_a_number(size.span))
 }

@@ -3,7 +3,7 @@
 use crate::check::fields::{self, Fields};
 use crate::check::load::beside;
 use crate::check::names::{Home, NameTable};
-use crate::check::wording::{Expected, LoadError, NameError};
+use crate::check::wording;
 use crate::syntax::tree::{
     DeclarationKind, RecordDeclaration, RecordKeyword, RecordSyntax, Tree, ValueKind, ValueSyntax,
 };
@@ -11,7 +11,6 @@ use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Behavior, Function, LibrarySource, Origin};
 use nbc_base::source::{SourceWorld, Sources, Span};
 
-/// Checks a library.
 pub(crate) fn library(
     source: &RecordDeclaration,
     home: Home,
@@ -27,7 +26,7 @@ pub(crate) fn library(
     Some(LibrarySource { name: source.name.text.clone(), span: source.name.span, from: from?, behaviors, without })
 }
 
-/// Folders of libraries that contain no robots.
+/// The errors of folders without robots.
 pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home, Tree)]) -> Vec<Diagnostic> {
     let declarations = trees.iter().flat_map(|(_, tree)| &tree.declarations);
     let records = declarations.filter_map(|declaration| match &declaration.kind {
@@ -41,19 +40,18 @@ pub(crate) fn folders(world: &dyn SourceWorld, sources: &Sources, trees: &[(Home
 fn folder_fault(world: &dyn SourceWorld, sources: &Sources, value: &ValueSyntax) -> Option<Diagnostic> {
     let ValueKind::Text(path) = &value.kind else { return None };
     let folder = beside(&sources.file(value.span.file).name, path);
-    let error = match world.list(&folder) {
-        Ok(names) if names.iter().any(|name| name.ends_with(".yaml")) => return None,
-        Ok(_) => LoadError::EmptyLibrary { folder },
-        Err(error) => LoadError::UnreadableLibrary { folder, error },
-    };
-    Some(error.at(value.span))
+    match world.list(&folder) {
+        Ok(names) if names.iter().any(|name| name.ends_with(".yaml")) => None,
+        Ok(_) => Some(wording::empty_library(&folder, value.span)),
+        Err(error) => Some(wording::unreadable_library(&folder, &error, value.span)),
+    }
 }
 
 fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sources) -> Result<Origin, Diagnostic> {
     if let ValueKind::Text(folder) = &value.kind {
         return Ok(Origin::Folder(beside(&sources.file(value.span.file).name, folder)));
     }
-    let name = fields::word(value, Expected::Origin)?;
+    let name = fields::word(value, wording::ORIGIN)?;
     match name.text.as_str() {
         "shipped" => return Ok(Origin::Shipped),
         "three" => return Ok(Origin::Three),
@@ -62,22 +60,21 @@ fn origin(value: &ValueSyntax, home: Home, evolutions: &NameTable, sources: &Sou
     evolutions.resolve_beside(name, home, &["shipped", "three"]).map(|_| Origin::Evolution(name.text.clone()))
 }
 
-/// The name of a robot, also as text.
 fn robot(value: &ValueSyntax) -> Result<(String, Span), Diagnostic> {
     match &value.kind {
         ValueKind::Text(name) => Ok((name.clone(), value.span)),
-        _ => fields::word(value, Expected::Robot).map(|name| (name.text.clone(), name.span)),
+        _ => fields::name(value, "robot").map(|name| (name.text.clone(), name.span)),
     }
 }
 
 /// A function by its name, or a behavior by its four or eight letters.
 pub(crate) fn behavior(value: &ValueSyntax) -> Result<Behavior, Diagnostic> {
-    let name = fields::word(value, Expected::Behavior)?;
+    let name = fields::word(value, wording::BEHAVIOR)?;
     if let Some(function) = Function::parse(&name.text) {
         return Ok(function.into());
     }
     name.text.parse().map_err(|_| {
         let meant = Suggestion::near(&name.text, Function::named().map(Function::name));
-        NameError::UnknownBehavior { name: name.text.clone(), meant }.at(name.span)
+        wording::unknown_behavior(name, &meant)
     })
 }

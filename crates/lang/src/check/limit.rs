@@ -3,11 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::check::wording::LoadError;
+use crate::check::wording;
 use nbc_base::diag::{Diagnostic, Severity};
 use nbc_base::source::{FileId, Sources, Span};
 
-/// The most diagnostics of a file.
 pub(crate) const MOST: usize = 200;
 
 /// Keeps the first diagnostics of each file, all errors before any warning, and counts the others.
@@ -39,8 +38,8 @@ pub(crate) fn limit(diagnostics: Vec<Diagnostic>, sources: &Sources) -> Vec<Diag
         let (all, shown) = (counts[&Some(file)], counts[&Some(file)].shown());
         let [errors, warnings] = [all.errors - shown.errors, all.warnings - shown.warnings];
         let severity = if errors > 0 { Severity::Error } else { Severity::Warning };
-        let error = LoadError::MoreFaults { file: sources.file(file).name.clone(), errors, warnings };
-        kept.push(Diagnostic { severity, ..error.at(place) });
+        let error = wording::more_faults(&sources.file(file).name, errors, warnings, place);
+        kept.push(Diagnostic { severity, ..error });
     }
     kept
 }
@@ -49,7 +48,6 @@ fn file(diagnostic: &Diagnostic) -> Option<FileId> {
     diagnostic.labels.first().map(|label| label.span.file)
 }
 
-/// Diagnostics of a file.
 #[derive(Clone, Copy, Debug, Default)]
 struct Count {
     errors: usize,
@@ -57,7 +55,6 @@ struct Count {
 }
 
 impl Count {
-    /// How many of them are shown.
     fn shown(self) -> Self {
         let errors = self.errors.min(MOST);
         Self { errors, warnings: self.warnings.min(MOST - errors) }

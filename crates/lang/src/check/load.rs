@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::foreign::{Foreign, ForeignDesign};
 use crate::check::names::Home;
-use crate::check::wording::LoadError;
+use crate::check::wording;
 use crate::syntax::parse;
 use crate::syntax::tree::{DeclarationKind, TestKind, Text, Tree};
 use nbc_base::budget::Limit;
@@ -19,14 +19,13 @@ pub const PRELUDE: [(&str, &str); 2] = [
     ("standard.nb", include_str!("../../library/standard.nb")),
 ];
 
-/// The kind of a file, by its extension. Text of other files is never shown in messages.
+/// Decided by the extension. Text of any other file is never shown in messages.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum UsedKind {
     Program,
     Circuit(CircuitSource),
 }
 
-/// Whether a program can use a file of that name.
 pub fn is_usable(path: &str) -> bool {
     UsedKind::of_path(path).is_some()
 }
@@ -37,20 +36,18 @@ impl UsedKind {
     }
 }
 
-/// The trees of a program: the prelude's first, the checked file's last.
+/// The prelude's trees come first, the checked file's last.
 #[derive(Default)]
 pub(crate) struct Loaded {
     pub(crate) trees: Vec<(Home, Tree)>,
     pub(crate) faults: Vec<Diagnostic>,
-    /// The files that use others which cannot be read.
+    /// Files with a `use` that cannot be read.
     pub(crate) incomplete: BTreeSet<FileId>,
-    /// The circuits of other tools' files.
     pub(crate) foreign: Vec<ForeignCircuit>,
-    /// The files of rows of the checked file's tests, by the places of their paths.
+    /// By the places of their paths.
     pub(crate) rows: BTreeMap<Span, FileId>,
 }
 
-/// Reads a file named on the command line into `sources`.
 pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Result<FileId, Diagnostic> {
     match world.read(path) {
         Ok(text) => Ok(sources.add(path, text)),
@@ -58,7 +55,6 @@ pub fn open(world: &dyn SourceWorld, path: &str, sources: &mut Sources) -> Resul
     }
 }
 
-/// Parses a file and all files it uses.
 pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Loaded {
     let mut loader = Loader { world, loaded: Loaded::default(), open: Vec::new(), done: Vec::new() };
     for (name, text) in PRELUDE {
@@ -72,9 +68,9 @@ pub(crate) fn load(world: &dyn SourceWorld, sources: &mut Sources, file: FileId)
 struct Loader<'a> {
     world: &'a dyn SourceWorld,
     loaded: Loaded,
-    /// The files being loaded, outermost first: each with its identity and its path as written.
+    /// Outermost first: identity and path as written.
     open: Vec<(String, String)>,
-    /// The identities of the loaded files.
+    /// Identities.
     done: Vec<String>,
 }
 
@@ -90,8 +86,7 @@ impl Loader<'_> {
         let identity = self.world.identity(&name);
         let parsed = parse(sources, id);
         if home == Home::Own && parsed.tree.declarations.is_empty() && parsed.errors.is_empty() {
-            let file = sources.file(id).name.clone();
-            self.loaded.faults.push(LoadError::Empty { file }.at(Span::new(id, 0, 0)));
+            self.loaded.faults.push(wording::empty_file(&sources.file(id).name, Span::new(id, 0, 0)));
         }
         self.loaded.faults.extend(parsed.errors);
         self.open.push((identity, name));
@@ -110,13 +105,13 @@ impl Loader<'_> {
         self.loaded.trees.push((home, parsed.tree));
     }
 
-    /// Reads the rows of a test, once for all tests that name the file.
+    /// Once for all tests that name the file.
     fn rows(&mut self, sources: &mut Sources, from: FileId, path: &Text) {
         let name = beside(&sources.file(from).name, &path.text);
         let known = self.loaded.rows.values().copied().find(|&file| sources.file(file).name == name);
         let read = match known {
             Some(file) => Ok(file),
-            None if RowFormat::of_path(&name).is_none() => Err(vec![LoadError::NotRows { file: name }.at(path.span)]),
+            None if RowFormat::of_path(&name).is_none() => Err(vec![wording::not_rows(&name, path.span)]),
             None => self.text(sources, &name, path),
         };
         match read {
@@ -125,7 +120,7 @@ impl Loader<'_> {
         }
     }
 
-    /// Reads the files of a list. Those of Verilog, and folders of them, are one design.
+    /// The Verilog files of a list, and folders of them, are one design.
     fn list(&mut self, sources: &mut Sources, from: FileId, paths: &[Text]) {
         let is_of_design = |path: &&Text| {
             matches!(UsedKind::of_path(&path.text), None | Some(UsedKind::Circuit(CircuitSource::Verilog)))
@@ -139,7 +134,6 @@ impl Loader<'_> {
         }
     }
 
-    /// Reads the files of one design at their first use together.
     fn design(&mut self, sources: &mut Sources, from: FileId, paths: &[&Text]) {
         let own = sources.file(from).name.clone();
         let names: Vec<String> = paths.iter().map(|path| beside(&own, &path.text)).collect();
@@ -153,7 +147,7 @@ impl Loader<'_> {
         for ((name, identity), path) in names.iter().zip(&identities).zip(paths) {
             let found = self.design_files(name, identity);
             if found.is_empty() {
-                faults.push(LoadError::NotUsable { file: name.clone() }.at(path.span));
+                faults.push(wording::not_usable(name, path.span));
             }
             for file in found {
                 if !files.iter().any(|(known, _)| *known == file) {
@@ -165,7 +159,7 @@ impl Loader<'_> {
         self.finish(identity, from, result);
     }
 
-    /// The Verilog files at a path: one, or those of a folder.
+    /// One file, or those of a folder.
     fn design_files(&self, name: &str, identity: &str) -> Vec<String> {
         let is_verilog = |path| UsedKind::of_path(path) == Some(UsedKind::Circuit(CircuitSource::Verilog));
         if is_verilog(name) && is_verilog(identity) { vec![name.to_owned()] } else { self.verilog_of(name) }
@@ -176,30 +170,28 @@ impl Loader<'_> {
         let identity = self.world.identity(&name);
         if let Some(at) = self.open.iter().position(|(open, _)| *open == identity) {
             let open = &self.open[at..];
-            let circle = open.iter().chain(open.first()).map(|(_, name)| name.clone()).collect();
-            self.loaded.faults.push(LoadError::Circular { circle }.at(path.span));
+            let circle = open.iter().chain(open.first()).map(|(_, name)| name);
+            self.loaded.faults.push(wording::circular_use(circle, path.span));
         } else if Limit::Uses.permit(self.open.len() as u64 + 1).is_err() {
-            self.loaded.faults.push(LoadError::TooDeep { most: Limit::Uses.most() }.at(path.span));
+            self.loaded.faults.push(wording::deep_use(Limit::Uses.most(), path.span));
         } else if !self.done.contains(&identity) {
             self.read(sources, name, identity, path);
         }
     }
 
-    /// Reads and parses a file at its first use.
     fn read(&mut self, sources: &mut Sources, name: String, identity: String, path: &Text) {
         let kind = UsedKind::of_path(&name).filter(|&kind| UsedKind::of_path(&identity) == Some(kind));
         let result = match kind {
             Some(UsedKind::Program) => self.text(sources, &name, path).map(|file| self.file(sources, file, Home::Used)),
             Some(UsedKind::Circuit(format)) => self.circuits(sources, format, &name, path),
             None => match self.verilog_of(&name) {
-                files if files.is_empty() => Err(vec![LoadError::NotUsable { file: name }.at(path.span)]),
+                files if files.is_empty() => Err(vec![wording::not_usable(&name, path.span)]),
                 files => self.verilog(sources, &name, &files.into_iter().map(|file| (file, path)).collect::<Vec<_>>()),
             },
         };
         self.finish(identity, path.span.file, result);
     }
 
-    /// Notes that a file, or a design of several, was read, and its faults.
     fn finish(&mut self, identity: String, from: FileId, result: Result<(), Vec<Diagnostic>>) {
         self.done.push(identity);
         if result.is_err() {
@@ -213,17 +205,15 @@ impl Loader<'_> {
         }
     }
 
-    /// Adds the text of a used file to `sources`.
     fn text(&self, sources: &mut Sources, name: &str, path: &Text) -> Result<FileId, Vec<Diagnostic>> {
         let text = self.world.read(name).map_err(|error| {
             let meant = if error == FileError::NotFound { self.similar(name, path) } else { Suggestion::None };
-            LoadError::Unreadable { file: name.to_owned(), error, meant }
-        });
-        let text = text.and_then(|text| over_limits(sources, &text).map_or(Ok(text), Err));
-        Ok(sources.add(name, text.map_err(|error| vec![error.at(path.span)])?))
+            vec![wording::unreadable_use(name, &error, &meant, path.span)]
+        })?;
+        permit(sources, &text, path.span)?;
+        Ok(sources.add(name, text))
     }
 
-    /// The file that may have been meant, with the folder as it is written.
     fn similar(&self, name: &str, path: &Text) -> Suggestion {
         let Suggestion::Near(near) = similar_file(self.world, name) else { return Suggestion::None };
         let file = near.rsplit('/').next().unwrap_or_default();
@@ -231,7 +221,6 @@ impl Loader<'_> {
         Suggestion::Near(format!("{folder}{file}"))
     }
 
-    /// Translates another tool's file to circuits of the language, and parses them.
     fn circuits(
         &mut self,
         sources: &mut Sources,
@@ -243,15 +232,11 @@ impl Loader<'_> {
         let text = match format {
             CircuitSource::Aiger => foreign.aiger(),
             CircuitSource::Bench => self.text(sources, name, path).and_then(|file| foreign.bench(sources.file(file))),
-            CircuitSource::Blif => {
+            CircuitSource::Blif | CircuitSource::Pla => {
                 let file = self.text(sources, name, path)?;
-                let (text, warnings) = foreign.blif(sources.file(file))?;
-                self.loaded.faults.extend(warnings);
-                Ok(text)
-            }
-            CircuitSource::Pla => {
-                let file = self.text(sources, name, path)?;
-                let (text, warnings) = foreign.pla(sources.file(file))?;
+                let file = sources.file(file);
+                let is_pla = format == CircuitSource::Pla;
+                let (text, warnings) = if is_pla { foreign.pla(file)? } else { foreign.blif(file)? };
                 self.loaded.faults.extend(warnings);
                 Ok(text)
             }
@@ -268,15 +253,13 @@ impl Loader<'_> {
         Ok(())
     }
 
-    /// The Verilog files in a folder, in the order of their names.
     fn verilog_of(&self, folder: &str) -> Vec<String> {
         let names = self.world.list(folder).unwrap_or_default().into_iter();
         let is_verilog = |name: &String| CircuitSource::of_path(name) == Some(CircuitSource::Verilog);
         names.filter(is_verilog).map(|name| format!("{folder}/{name}")).collect()
     }
 
-    /// Translates Verilog files, each with the path of its use, as one design to circuits of the language, and parses
-    /// them.
+    /// The files are one design, each with the path of its use.
     fn verilog(&mut self, sources: &mut Sources, name: &str, files: &[(String, &Text)]) -> Result<(), Vec<Diagnostic>> {
         let ids = files.iter().map(|(file, path)| self.text(sources, file, path)).collect::<Result<Vec<_>, _>>()?;
         let path = files[0].1;
@@ -295,27 +278,24 @@ impl Loader<'_> {
         text: String,
         path: &Text,
     ) -> Result<(), Vec<Diagnostic>> {
-        if let Some(error) = over_limits(sources, &text) {
-            return Err(vec![error.at(path.span)]);
-        }
+        permit(sources, &text, path.span)?;
         let file = sources.add(format!("{name} (as circuits)"), text);
         self.parse(sources, file, Home::Foreign);
         Ok(())
     }
 }
 
-/// The error of adding one more file, if any.
-fn over_limits(sources: &Sources, text: &str) -> Option<LoadError> {
+/// Refuses a file that would be one too many, or too large with all others.
+fn permit(sources: &Sources, text: &str, at: Span) -> Result<(), Vec<Diagnostic>> {
     let bytes = sources.iter().map(|file| file.text.len()).sum::<usize>() + text.len();
     let files = sources.iter().count() - PRELUDE.len() + 1;
     if Limit::Files.permit(files as u64).is_err() {
-        return Some(LoadError::TooManyFiles { most: Limit::Files.most() });
+        return Err(vec![wording::many_files(Limit::Files.most(), at)]);
     }
     let size = Limit::ProgramBytes.permit(bytes as u64);
-    size.err().map(|_| LoadError::TooLarge { megabytes: Limit::ProgramBytes.most() >> 20 })
+    size.map_err(|_| vec![wording::large_program(Limit::ProgramBytes.most() >> 20, at)])
 }
 
-/// A path relative to the folder of another file.
 pub fn beside(file: &str, path: &str) -> String {
     match file.rfind(['/', '\\']) {
         Some(end) if !path.starts_with('/') => normal(&format!("{}/{path}", &file[..end])),
@@ -323,7 +303,7 @@ pub fn beside(file: &str, path: &str) -> String {
     }
 }
 
-/// A path without `.`, and without `..` where this does not depend on links. Paths of a [`SourceWorld`] have slashes on
+/// A path without `.`, and without `..` where that does not depend on links. Paths of a [`SourceWorld`] have slashes on
 /// every system, unlike those that `path-clean` cleans.
 fn normal(path: &str) -> String {
     let mut parts: Vec<&str> = Vec::new();

@@ -4,13 +4,13 @@ use crate::check::fields::{self, Fields};
 use crate::check::images::Stimuli;
 use crate::check::names::Home;
 use crate::check::quantity::{self, Measure};
-use crate::check::wording::{Expected, ValueError};
+use crate::check::wording;
 use crate::syntax::tree::{Quantity, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Drive, Material, MaterialKind, Response};
 use nbc_base::source::Span;
 
-/// The smallest and the largest width of a voxel, as a fraction of its rest width (docs/physics.md 3).
+/// Widths of a voxel as a fraction of its rest width (docs/physics.md 3).
 const WIDTHS: std::ops::RangeInclusive<f64> = 0.6..=1.6;
 
 #[derive(Clone, Copy, PartialEq)]
@@ -21,7 +21,6 @@ enum Kind {
     Sensor,
 }
 
-/// Checks a material.
 pub(crate) fn material(
     source: &RecordDeclaration,
     home: Home,
@@ -59,9 +58,8 @@ fn drive(fields: &mut Fields<'_>) -> Option<Drive> {
 }
 
 fn response(fields: &mut Fields<'_>, home: Home, stimuli: Stimuli<'_>) -> Option<Response> {
-    let stimulus = fields.need("stimulus", "stimulus: s1", |value| {
-        stimuli.resolve(fields::word(value, Expected::Name("stimulus"))?, home)
-    });
+    let stimulus =
+        fields.need("stimulus", "stimulus: s1", |value| stimuli.resolve(fields::name(value, "stimulus")?, home));
     let absent = fields.need("absent", "absent: 0.6", width);
     let present = fields.need("present", "present: 1.6", width);
     let (stimulus, image) = stimulus?;
@@ -71,7 +69,7 @@ fn response(fields: &mut Fields<'_>, home: Home, stimuli: Stimuli<'_>) -> Option
 fn quantity_of(value: &ValueSyntax) -> Result<&Quantity, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(quantity) => Ok(quantity),
-        _ => Err(quantity::wrong_kind(Expected::Quantity, value.span)),
+        _ => Err(wording::wrong_kind(wording::QUANTITY, value.span)),
     }
 }
 
@@ -82,17 +80,13 @@ fn width(value: &ValueSyntax) -> Result<f64, Diagnostic> {
 fn width_of(quantity: &Quantity, span: Span) -> Result<f64, Diagnostic> {
     let found = quantity::bare(quantity)?;
     let (least, most) = WIDTHS.into_inner();
-    if WIDTHS.contains(&found) { Ok(found) } else { Err(ValueError::WidthOutOfRange { found, least, most }.at(span)) }
+    if WIDTHS.contains(&found) { Ok(found) } else { Err(wording::width_outside(found, least, most, span)) }
 }
 
 fn range(value: &ValueSyntax) -> Result<(f64, f64), Diagnostic> {
     let ValueKind::Range(low, high) = &value.kind else {
-        return Err(quantity::wrong_kind(Expected::Range, value.span));
+        return Err(wording::wrong_kind(wording::RANGE, value.span));
     };
     let (first, last) = (width_of(low, low.span())?, width_of(high, high.span())?);
-    if first <= last {
-        Ok((first, last))
-    } else {
-        Err(ValueError::Descending { high: first, low: last }.at(value.span))
-    }
+    if first <= last { Ok((first, last)) } else { Err(wording::descending(first, last, value.span)) }
 }

@@ -3,7 +3,6 @@
 
 mod against;
 mod analysis;
-mod applies;
 mod array;
 mod cell;
 mod circuit;
@@ -25,6 +24,7 @@ mod material;
 mod names;
 mod program;
 mod quantity;
+mod record_fields;
 mod recursion;
 mod schedule;
 mod simulate;
@@ -42,13 +42,13 @@ mod world;
 pub use analysis::Analysis;
 pub use instance::named;
 pub use load::{PRELUDE, beside, is_usable, open};
+pub use record_fields::{Holds, RecordField, record_fields};
 pub use swarm::DEFAULT_LIBRARY;
 pub use uses::{NameKind, NameUse, NameUses};
 pub use verilog_files::verilog_files;
 
 use nbc_base::source::{FileId, SourceWorld, Sources};
 
-/// Checks a file of `sources`. The prelude and the files it uses are added to `sources`.
 pub fn check(world: &dyn SourceWorld, sources: &mut Sources, file: FileId) -> Analysis {
     let loaded = load::load(world, sources, file);
     let mut analysis = program::program(world, &loaded, sources);

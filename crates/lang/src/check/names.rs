@@ -4,32 +4,28 @@ use std::cell::{Cell, RefCell};
 use std::collections::BTreeMap;
 
 use crate::check::uses::{NameKind, NameUse};
-use crate::check::wording::NameError;
+use crate::check::wording;
 use crate::syntax::tree::NameSyntax;
 use nbc_base::diag::{Diagnostic, Suggestion, suggest};
 use nbc_base::source::Span;
 
-/// The origin of a declaration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Home {
-    /// The prelude, which files may redeclare.
+    /// Files may redeclare its names.
     Prelude,
-    /// A circuit file of another tool: it declares circuits, and calls those of the prelude only.
+    /// A circuit file of another tool, whose circuits call only those of the prelude.
     Foreign,
-    /// A file imported by another.
     Used,
-    /// The checked file.
     Own,
 }
 
-/// The names of one kind of declaration, with their meaning: mostly a position in the program.
+/// Names of one kind with their meaning, mostly a position in the program.
 pub(crate) struct NameTable<T = usize> {
-    kind: NameKind,
+    pub(crate) kind: NameKind,
     prelude: BTreeMap<String, Entry<T>>,
     files: BTreeMap<String, Entry<T>>,
-    /// The number of unknown names looked up so far.
+    /// The unknown names looked up so far.
     unknown: Cell<usize>,
-    /// The names declared and resolved so far.
     uses: RefCell<Vec<NameUse>>,
 }
 
@@ -44,16 +40,10 @@ impl<T: Copy> NameTable<T> {
         Self { kind, prelude: BTreeMap::new(), files: BTreeMap::new(), unknown: Cell::new(0), uses: RefCell::default() }
     }
 
-    /// What the names stand for.
-    pub(crate) fn kind(&self) -> NameKind {
-        self.kind
-    }
-
-    /// Adds a name, unless it is taken.
     pub(crate) fn declare(&mut self, name: &NameSyntax, meaning: T, home: Home) -> Result<(), Diagnostic> {
         let table = if home == Home::Prelude { &mut self.prelude } else { &mut self.files };
         match table.get(&name.text) {
-            Some(first) => Err(duplicate(self.kind.word(), name, first.span)),
+            Some(first) => Err(wording::duplicate(self.kind.word(), name, first.span)),
             None => {
                 table.insert(name.text.clone(), Entry { meaning, span: name.span });
                 self.refer(name.span, name.span);
@@ -62,7 +52,6 @@ impl<T: Copy> NameTable<T> {
         }
     }
 
-    /// The meaning of a name in a file, or in the prelude.
     pub(crate) fn find(&self, name: &str, home: Home) -> Option<T> {
         self.entry(name, home).map(|entry| entry.meaning)
     }
@@ -72,22 +61,19 @@ impl<T: Copy> NameTable<T> {
         file.or_else(|| self.prelude.get(name)).copied()
     }
 
-    /// The meaning of a name, or an error if it is unknown.
     pub(crate) fn resolve(&self, name: &NameSyntax, home: Home) -> Result<T, Diagnostic> {
         self.resolve_beside(name, home, &[])
     }
 
     /// As [`NameTable::resolve`], where words of the language may have been meant too.
     pub(crate) fn resolve_beside(&self, name: &NameSyntax, home: Home, words: &[&str]) -> Result<T, Diagnostic> {
-        let entry = self.entry(&name.text, home).ok_or_else(|| {
-            let meant = self.suggestion(&name.text, words);
-            NameError::Unknown { kind: self.kind.word(), name: name.text.clone(), meant }.at(name.span)
-        })?;
+        let entry = self
+            .entry(&name.text, home)
+            .ok_or_else(|| wording::unknown(self.kind.word(), name, &self.suggestion(&name.text, words)))?;
         self.refer(name.span, entry.span);
         Ok(entry.meaning)
     }
 
-    /// Notes the use of a name that [`NameTable::find`] found.
     pub(crate) fn refer_to(&self, name: &str, place: Span, home: Home) {
         if let Some(entry) = self.entry(name, home) {
             self.refer(place, entry.span);
@@ -98,66 +84,72 @@ impl<T: Copy> NameTable<T> {
         self.uses.borrow_mut().push(NameUse { place, declared, kind: self.kind });
     }
 
-    /// Whether a name that is declared at this place is used anywhere.
     pub(crate) fn is_used(&self, declared: Span) -> bool {
         self.uses.borrow().iter().any(|found| found.declared == declared && found.place != declared)
     }
 
-    /// Adds names that were resolved otherwise.
     pub(crate) fn note(&self, uses: impl Iterator<Item = NameUse>) {
         self.uses.borrow_mut().extend(uses);
     }
 
-    /// The names declared and resolved so far.
     pub(crate) fn take_uses(&self) -> Vec<NameUse> {
         self.uses.take()
     }
 
-    /// A suggestion for an unknown name, for the first unknown names only.
+    /// For the first unknown names only.
     fn suggestion(&self, name: &str, words: &[&str]) -> Suggestion {
         self.unknown.set(self.unknown.get() + 1);
         let known = words.iter().copied().chain(self.all());
         if self.unknown.get() <= suggest::MOST { Suggestion::of(name, known) } else { Suggestion::None }
     }
 
-    /// Every name, in order.
     pub(crate) fn all(&self) -> impl Iterator<Item = &str> {
         self.files.keys().chain(self.prelude.keys().filter(|name| !self.files.contains_key(*name))).map(String::as_str)
     }
 
-    /// Whether a file redeclares this name of the prelude.
     pub(crate) fn is_redeclared(&self, name: &str) -> bool {
         self.files.contains_key(name) && self.prelude.contains_key(name)
     }
 }
 
-/// A member's enumeration in the program, and its position there.
+impl NameTable<Option<usize>> {
+    /// Declares a name and adds what it stands for to a list, unless that has errors. Returns the error of the name.
+    pub(crate) fn add<T>(
+        &mut self,
+        name: &NameSyntax,
+        checked: Option<T>,
+        home: Home,
+        list: &mut Vec<T>,
+    ) -> Option<Diagnostic> {
+        let error = self.declare(name, checked.as_ref().map(|_| list.len()), home).err();
+        list.extend(checked);
+        error
+    }
+}
+
 #[derive(Clone, Copy)]
 pub(crate) struct MemberPlace {
     pub(crate) enumeration: usize,
     pub(crate) member: usize,
 }
 
-/// The names of all declarations. A material, set of images, schedule or swarm with errors has a name, but no position
-/// in the program.
+/// A material, set of images, schedule or swarm with errors has a name, but no position in the program.
 pub(crate) struct Names {
     pub(crate) stimuli: NameTable,
     pub(crate) materials: NameTable<Option<usize>>,
     pub(crate) images: NameTable<Option<usize>>,
     pub(crate) schedules: NameTable<Option<usize>>,
-    /// With positions among the declarations.
+    /// Positions among the declarations.
     pub(crate) evolutions: NameTable,
-    /// Nothing refers to a library but by its name.
     pub(crate) libraries: NameTable<()>,
     pub(crate) circuits: NameTable,
-    /// With positions in the program.
+    /// Positions in the program.
     pub(crate) enumerations: NameTable,
     pub(crate) members: NameTable<MemberPlace>,
-    /// With their values.
     pub(crate) integers: NameTable<i128>,
     pub(crate) files: NameTable,
     pub(crate) swarms: NameTable<Option<usize>>,
-    /// With positions among the declarations.
+    /// Positions among the declarations.
     pub(crate) worlds: NameTable,
 }
 
@@ -180,7 +172,6 @@ impl Names {
         }
     }
 
-    /// The names declared and resolved so far.
     pub(crate) fn take_uses(&self) -> Vec<NameUse> {
         let positions =
             [&self.stimuli, &self.evolutions, &self.circuits, &self.worlds, &self.enumerations, &self.files];
@@ -189,9 +180,4 @@ impl Names {
         let others = [self.libraries.take_uses(), self.members.take_uses(), self.integers.take_uses()];
         [positions.concat(), optional.concat(), others.concat()].concat()
     }
-}
-
-/// A name that is declared twice.
-pub(crate) fn duplicate(kind: &'static str, name: &NameSyntax, first: Span) -> Diagnostic {
-    NameError::Duplicate { kind, name: name.text.clone(), first }.at(name.span)
 }

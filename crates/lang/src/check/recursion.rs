@@ -1,19 +1,18 @@
 //! Circuits that contain themselves.
 
 use crate::check::circuit::Headers;
-use crate::check::wording::CircuitError;
+use crate::check::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::CircuitId;
 use nbc_base::source::Span;
 
-/// A circuit that waits for the circuits it contains.
 struct Open {
     circuit: usize,
     next: usize,
 }
 
-/// The errors of circuits that contain themselves, and for each circuit whether it and everything it contains are
-/// valid. It does not recurse, because a chain of circuits may be long.
+/// Also returns for each circuit whether it and everything it contains are valid. It does not recurse, because a chain
+/// of circuits may be long.
 pub(crate) fn look(
     calls: &[Vec<(CircuitId, Span)>],
     own_sound: &[bool],
@@ -59,7 +58,7 @@ pub(crate) fn look(
 
 fn recursion(path: &[Open], callee: usize, span: Span, headers: &Headers) -> Diagnostic {
     let first = path.iter().position(|open| open.circuit == callee).unwrap_or_default();
-    let name = |circuit: usize| headers.circuits[circuit].name.clone();
-    let through = path[first..].iter().skip(1).map(|open| name(open.circuit)).take(4).collect();
-    CircuitError::Recursion { circuit: name(callee), through }.at(span)
+    let name = |circuit: usize| headers.circuits[circuit].name.as_str();
+    let through: Vec<&str> = path[first..].iter().skip(1).map(|open| name(open.circuit)).take(4).collect();
+    wording::recursion(name(callee), &through, span)
 }

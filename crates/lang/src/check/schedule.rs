@@ -1,23 +1,20 @@
 //! Schedules of stimuli, and rows of bits in general.
 
 use crate::check::images::Stimuli;
-use crate::check::names::{Home, NameTable, duplicate};
+use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::{CellError, ImagesError, RowError};
+use crate::check::wording;
 use crate::syntax::tree;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{NamedImages, NamedSchedule, Pattern, Schedule, Spell};
 use nbc_base::source::Span;
 
-/// The sets of images of a program.
 #[derive(Clone, Copy)]
 pub(crate) struct DeclaredImages<'a> {
-    /// The position of each name in `declared`.
     pub(crate) names: &'a NameTable<Option<usize>>,
     pub(crate) declared: &'a [NamedImages],
 }
 
-/// Checks a schedule.
 pub(crate) fn schedule(
     source: &tree::ScheduleSyntax,
     home: Home,
@@ -36,7 +33,7 @@ pub(crate) fn schedule(
         match found {
             Ok(stimulus) if columns.contains(&stimulus) => {
                 let first = source.columns.iter().find(|first| first.text == name.text).expect("it was there before");
-                faults.push(duplicate("stimulus", name, first.span));
+                faults.push(wording::duplicate("stimulus", name, first.span));
             }
             Ok(stimulus) => columns.push(stimulus),
             Err(fault) => faults.push(fault),
@@ -44,7 +41,7 @@ pub(crate) fn schedule(
     }
     if let Some((name, stimulus)) = shown {
         if source.columns.len() > 1 {
-            faults.push(ImagesError::Beside { stimulus: name.text.clone() }.at(name.span));
+            faults.push(wording::image_beside_stimuli(name));
             return None;
         }
         return of_images(source, (name, stimulus), home, images, faults).filter(|_| faults.len() == before);
@@ -57,19 +54,14 @@ pub(crate) fn schedule(
             schedule.spells.push(Spell::of(pattern(&columns, &bits), steps));
         }
     }
-    check_rows(source, faults);
+    if source.spells.is_empty() {
+        faults.push(wording::empty_schedule(&source.name));
+    }
     let name = source.name.text.clone();
     (faults.len() == before).then_some(NamedSchedule { name, stimuli: columns, schedule, sets: Vec::new() })
 }
 
-/// Notes a schedule without rows.
-fn check_rows(source: &tree::ScheduleSyntax, faults: &mut Vec<Diagnostic>) {
-    if source.spells.is_empty() {
-        faults.push(RowError::EmptySchedule { schedule: source.name.text.clone() }.at(source.name.span));
-    }
-}
-
-/// A schedule of images: each row shows those of a set one after another, each for its time.
+/// Each row shows the images of a set one after another, each for its time.
 fn of_images(
     source: &tree::ScheduleSyntax,
     (column, stimulus): (&tree::NameSyntax, usize),
@@ -77,28 +69,29 @@ fn of_images(
     images: DeclaredImages<'_>,
     faults: &mut Vec<Diagnostic>,
 ) -> Option<NamedSchedule> {
-    check_rows(source, faults);
+    if source.spells.is_empty() {
+        faults.push(wording::empty_schedule(&source.name));
+    }
     let (name, stimuli) = (source.name.text.clone(), vec![stimulus]);
     let mut shown = NamedSchedule { name, stimuli, schedule: Schedule::default(), sets: Vec::new() };
     for spell in &source.spells {
         let steps = quantity::steps(&spell.length).map_err(|fault| faults.push(fault)).ok();
         let [cell] = &spell.cells[..] else {
-            faults.push(RowError::Width { values: spell.cells.len(), columns: 1 }.at(spell.span));
+            faults.push(wording::row_width(spell.cells.len(), 1, spell.span));
             continue;
         };
         let found = images.names.resolve(cell, home).map_err(|fault| faults.push(fault)).ok().flatten();
         // The error of a set that has one is already reported.
         let Some(set) = found.map(|at| &images.declared[at]) else { continue };
         if !shown.stimuli.contains(&set.stimulus) {
-            let stimulus = column.text.clone();
-            faults.push(ImagesError::OtherStimulus { set: cell.text.clone(), stimulus }.at(cell.span));
+            faults.push(wording::other_stimulus(cell, &column.text));
             continue;
         }
         let before = shown.sets.len();
         // The error of a row without a time is already reported.
         shown.show(set, steps.unwrap_or(1));
         if before == NamedSchedule::MOST_SETS && shown.sets.len() > before {
-            faults.push(ImagesError::TooManySets { most: before }.at(cell.span));
+            faults.push(wording::many_sets(before, cell.span));
         }
     }
     Some(shown)
@@ -119,7 +112,7 @@ fn row_of_bits(
     faults: &mut Vec<Diagnostic>,
 ) -> Option<Vec<bool>> {
     if cells.len() != columns {
-        faults.push(RowError::Width { values: cells.len(), columns }.at(span));
+        faults.push(wording::row_width(cells.len(), columns, span));
         return None;
     }
     let mut bits = Vec::new();
@@ -127,7 +120,7 @@ fn row_of_bits(
         match cell.text.as_str() {
             "0" => bits.push(false),
             "1" => bits.push(true),
-            word => faults.push(CellError::NotAStimulus { word: word.to_owned() }.at(cell.span)),
+            _ => faults.push(wording::not_a_stimulus(cell)),
         }
     }
     (bits.len() == columns).then_some(bits)

@@ -3,21 +3,18 @@
 use crate::check::cell::{RowCell, input_cell};
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::{CellError, ImagesError, NameError, RowError};
+use crate::check::wording;
 use crate::syntax::tree::{NameSyntax, SpellSyntax, With};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Base, CYCLE_STEPS, Column, InputSpell, NamedSchedule};
 use nbc_base::source::{Sources, Span};
 
-/// The schedules of a program.
 #[derive(Clone, Copy)]
 pub(crate) struct Schedules<'a> {
-    /// The position of each name in `declared`.
     pub(crate) names: &'a NameTable<Option<usize>>,
     pub(crate) declared: &'a [NamedSchedule],
 }
 
-/// The inputs of a simulation over time.
 pub(crate) fn spells(
     with: &With,
     swarm: Span,
@@ -45,7 +42,7 @@ pub(crate) fn spells(
     }
 }
 
-/// A schedule of stimuli as inputs; it needs as many stimuli as there are inputs, in order.
+/// There must be a stimulus for each bit of the inputs, in order.
 fn named(
     schedule: &NamedSchedule,
     span: Span,
@@ -54,12 +51,12 @@ fn named(
     faults: &mut Vec<Diagnostic>,
 ) -> Vec<InputSpell> {
     if !schedule.sets.is_empty() {
-        faults.push(ImagesError::Inputs { schedule: schedule.name.clone() }.at(span));
+        faults.push(wording::images_as_inputs(&schedule.name, span));
         return Vec::new();
     }
     let bits: usize = inputs.iter().map(|column| column.width).sum();
     if bits != schedule.stimuli.len() {
-        faults.push(RowError::Width { values: schedule.stimuli.len(), columns: bits }.at(span));
+        faults.push(wording::row_width(schedule.stimuli.len(), bits, span));
         return Vec::new();
     }
     let spell = |spell: &nbc_base::model::Spell| {
@@ -69,7 +66,7 @@ fn named(
     };
     let spells: Option<Vec<_>> = schedule.schedule.spells.iter().map(spell).collect();
     spells.unwrap_or_else(|| {
-        faults.push(RowError::PartOfCycle { schedule: schedule.name.clone() }.at(span));
+        faults.push(wording::part_of_cycle(&schedule.name, span));
         Vec::new()
     })
 }
@@ -81,7 +78,7 @@ fn places(columns: &[NameSyntax], swarm: Span, inputs: &[Column], faults: &mut V
             Some(place) => places.push(place),
             None => {
                 let meant = Suggestion::of(&name.text, inputs.iter().map(|input| input.name.as_str()));
-                faults.push(NameError::Unknown { kind: "input", name: name.text.clone(), meant }.at(name.span));
+                faults.push(wording::unknown("input", name, &meant));
             }
         }
     }
@@ -89,7 +86,7 @@ fn places(columns: &[NameSyntax], swarm: Span, inputs: &[Column], faults: &mut V
         && places.len() == columns.len()
     {
         let place = columns.last().map_or(swarm, |last| last.span);
-        faults.push(RowError::MissingInput { input: inputs[missing].name.clone() }.at(place));
+        faults.push(wording::missing_input(&inputs[missing].name, place));
     }
     places
 }
@@ -107,7 +104,7 @@ fn rows(
 ) -> Option<InputSpell> {
     let cycles = quantity::cycles(&spell.length).map_err(|fault| faults.push(fault)).ok();
     if spell.cells.len() != places.len() {
-        faults.push(RowError::Width { values: spell.cells.len(), columns: places.len() }.at(spell.span));
+        faults.push(wording::row_width(spell.cells.len(), places.len(), spell.span));
         return None;
     }
     let mut bits: Vec<Vec<bool>> = inputs.iter().map(|input| vec![false; input.width]).collect();
@@ -118,7 +115,7 @@ fn rows(
                 bits[place] = values.into_iter().flatten().collect();
                 bases[place] = base;
             }
-            Ok(_) => faults.push(CellError::NotAnInput { word: word.text.clone() }.at(word.span)),
+            Ok(_) => faults.push(wording::not_an_input(word)),
             Err(fault) => faults.push(fault),
         }
     }

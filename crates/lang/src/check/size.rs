@@ -2,7 +2,7 @@
 
 use crate::check::circuit::{Binding, CircuitChecker};
 use crate::check::constant;
-use crate::check::wording::{NameError, ValueError};
+use crate::check::wording;
 use crate::syntax::tree;
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Size, SizeId, SizeKind};
@@ -34,7 +34,7 @@ impl CircuitChecker<'_> {
         self.push_size(SizeKind::Literal(1), span)
     }
 
-    /// The same integer again, to be a part of another one.
+    /// Copies an integer so that it can be part of another one.
     pub(crate) fn copy_of_size(&mut self, size: SizeId) -> SizeId {
         let first = Size::first_part(&self.circuit.sizes, size);
         let shift = self.circuit.sizes.len() as u32 - first.0;
@@ -58,33 +58,29 @@ impl CircuitChecker<'_> {
 
     fn literal(&mut self, digits: &str, span: Span) -> SizeKind {
         let value = constant::integer(digits).unwrap_or_else(|| {
-            self.diagnostics.push(ValueError::TooLarge { bits: 127 }.at(span));
+            self.diagnostics.push(wording::large_number(127, span));
             1
         });
         SizeKind::Literal(value)
     }
 
     fn number(&mut self, name: &str, span: Span) -> SizeKind {
-        let name = name.to_owned();
-        let error = match self.lookup(&name) {
+        let error = match self.lookup(name) {
             Some(binding @ Binding::Variable(slot, _)) => {
                 self.refer(span, binding);
                 return SizeKind::Variable(slot);
             }
             Some(Binding::Net(slot)) => {
                 self.used[slot.0 as usize] = true;
-                NameError::NetForNumber { name }
+                wording::net_for_number(name, span)
             }
-            None => match self.declared.integer(&name, span, self.home) {
+            None => match self.declared.integer(name, span, self.home) {
                 Some(Ok(value)) => return SizeKind::Literal(value),
-                Some(Err(fault)) => {
-                    self.diagnostics.push(fault);
-                    return SizeKind::Literal(1);
-                }
-                None => NameError::UnknownNumber { meant: Suggestion::of(&name, self.numbers_in_scope()), name },
+                Some(Err(fault)) => fault,
+                None => wording::unknown_number(name, &Suggestion::of(name, self.numbers_in_scope()), span),
             },
         };
-        self.diagnostics.push(error.at(span));
+        self.diagnostics.push(error);
         SizeKind::Literal(1)
     }
 
@@ -94,12 +90,12 @@ impl CircuitChecker<'_> {
             .rev()
             .flatten()
             .filter_map(|(name, binding)| matches!(binding, Binding::Variable(..)).then_some(*name))
-            .chain(self.declared.integers.all())
-            .chain(self.declared.members.all())
+            .chain(self.declared.names.integers.all())
+            .chain(self.declared.names.members.all())
     }
 }
 
-/// The value of the last of some sizes, where only names that `known` knows are defined.
+/// The value of the last size; names have the values that `known` gives.
 pub(crate) fn value(
     sizes: &[tree::SizeSyntax],
     known: impl Fn(&str, Span) -> Option<Result<i128, Diagnostic>>,
@@ -109,14 +105,15 @@ pub(crate) fn value(
         let at = |id: tree::SizeSyntaxId| values[id.0 as usize];
         let value = match &size.kind {
             tree::SizeSyntaxKind::Literal(digits) => constant::integer(digits),
-            tree::SizeSyntaxKind::Name(name) => Some(known(name, size.span).ok_or_else(|| {
-                NameError::UnknownNumber { name: name.clone(), meant: Suggestion::None }.at(size.span)
-            })??),
+            tree::SizeSyntaxKind::Name(name) => match known(name, size.span) {
+                Some(value) => Some(value?),
+                None => return Err(wording::unknown_number(name, &Suggestion::None, size.span)),
+            },
             tree::SizeSyntaxKind::Log2(inner) => Some(SizeKind::log2(at(*inner))),
             tree::SizeSyntaxKind::Group(inner) => Some(at(*inner)),
             tree::SizeSyntaxKind::Binary(operator, left, right) => operator.apply(at(*left), at(*right)),
         };
-        values.push(value.ok_or_else(|| ValueError::TooLarge { bits: 127 }.at(size.span))?);
+        values.push(value.ok_or_else(|| wording::large_number(127, size.span))?);
     }
     Ok(*values.last().expect("an integer has a size"))
 }

@@ -1,12 +1,11 @@
 //! Start values of nets that are driven by a circuit with a start value of its own.
 
 use crate::check::circuit::{CircuitChecker, Header};
-use crate::check::wording::{CircuitError, StartEdit};
+use crate::check::wording;
 use crate::syntax::tree::{self, ExpressionSyntaxId, ExpressionSyntaxKind, SizeSyntaxId, SizeSyntaxKind};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Span;
 
-/// The parameter of a circuit with memory that is its start value.
 const START: &str = "start";
 
 impl CircuitChecker<'_> {
@@ -14,19 +13,17 @@ impl CircuitChecker<'_> {
     pub(crate) fn start_fault(&self, targets: &[tree::TargetSyntax], value: ExpressionSyntaxId) -> Option<Diagnostic> {
         let target = targets.iter().find(|target| target.start.is_some())?;
         let (name, arguments) = self.called(value)?;
-        let header = &self.headers.circuits[self.declared.circuits.find(&name.text, self.home)?];
+        let header = &self.headers.circuits[self.declared.names.circuits.find(&name.text, self.home)?];
         let place = header.parameters.iter().position(|parameter| parameter == START)?;
         let start = self.size_text(target.start?);
         let is_whole = targets.len() == 1 && target.index.is_none();
-        let edit = start.clone().filter(|_| is_whole).map(|start| StartEdit {
-            init: Span { start: target.name.span.end, ..target.span },
-            argument: argument_edit(name, header, place, arguments, &start),
+        let edit = start.filter(|_| is_whole).map(|start| {
+            let init = Span { start: target.name.span.end, ..target.span };
+            (init, argument_edit(name, header, place, arguments, start))
         });
-        let (net, circuit) = (target.name.text.clone(), name.text.clone());
-        Some(CircuitError::StartOfCall { net, circuit, start, edit }.at(target.span))
+        Some(wording::start_of_call(&target.name.text, &name.text, start, edit, target.span))
     }
 
-    /// The called circuit and its parameters, if the value is a call.
     fn called(&self, mut value: ExpressionSyntaxId) -> Option<(&tree::NameSyntax, &[tree::Argument])> {
         loop {
             match &self.body.expressions[value.0 as usize].kind {
@@ -37,16 +34,16 @@ impl CircuitChecker<'_> {
         }
     }
 
-    /// A size as it is written, if it is a single word.
-    pub(crate) fn size_text(&self, size: SizeSyntaxId) -> Option<String> {
+    /// `None` unless it is a single word.
+    fn size_text(&self, size: SizeSyntaxId) -> Option<&str> {
         match &self.body.sizes[size.0 as usize].kind {
-            SizeSyntaxKind::Literal(text) | SizeSyntaxKind::Name(text) => Some(text.clone()),
+            SizeSyntaxKind::Literal(text) | SizeSyntaxKind::Name(text) => Some(text),
             _ => None,
         }
     }
 }
 
-/// The place and the text of the parameter; `None` if the call gives it already.
+/// `None` if the call gives the parameter already.
 fn argument_edit(
     name: &tree::NameSyntax,
     header: &Header,

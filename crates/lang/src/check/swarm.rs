@@ -6,26 +6,24 @@ use crate::check::instance::instance;
 use crate::check::names::{Home, Names};
 use crate::check::quantity;
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::Expected;
+use crate::check::wording;
 use crate::check::world::Worlds;
 use crate::syntax::tree::{RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Hold, RegisterStyle, Swarm, WaveTimes};
 
-/// The default library of a swarm; the prelude declares it.
+/// The prelude declares it.
 pub const DEFAULT_LIBRARY: &str = "shipped";
 
-/// The largest window of an output, in cycles.
+/// In cycles.
 const MAX_WINDOW: u32 = 1000;
 
-/// What registers are made of, by name.
 const REGISTERS: [(&str, RegisterStyle); 3] =
     [("master_slave", RegisterStyle::MasterSlave), ("mux", RegisterStyle::Mux), ("waves", RegisterStyle::Waves)];
 
-/// The longest step of a wave machine, in cycles.
+/// In cycles.
 const MAX_STEP: u32 = 100_000;
 
-/// Checks a swarm.
 pub(crate) fn swarm(
     source: &RecordDeclaration,
     home: Home,
@@ -38,19 +36,14 @@ pub(crate) fn swarm(
     let mut fields = Fields::new("swarm", source);
     let circuit = fields.need("circuit", "circuit: d_latch", |value| match &value.kind {
         ValueKind::Instance(source) => instance(source, home, declared, headers),
-        _ => Err(quantity::wrong_kind(Expected::Name("circuit"), value.span)),
+        _ => Err(wording::wrong_kind(&wording::name_of("circuit"), value.span)),
     });
     let library = fields.read("library", DEFAULT_LIBRARY.to_owned(), |value| {
-        let name = fields::word(value, Expected::Name("library"))?;
+        let name = fields::name(value, "library")?;
         names.libraries.resolve(name, home).map(|_| name.text.clone())
     });
     let hold = fields.read("hold", Hold::Auto, hold);
-    let window = fields.read("window", 1, |value| match &value.kind {
-        ValueKind::Quantity(window) => {
-            quantity::whole(f64::from(quantity::cycles(window)?), 1..=MAX_WINDOW, value.span, "cycles")
-        }
-        _ => Err(quantity::wrong_kind(Expected::Time("3 cycles"), value.span)),
-    });
+    let window = fields.read("window", 1, |value| cycles(value, MAX_WINDOW, "3 cycles"));
     let registers = fields.choose("registers", RegisterStyle::MasterSlave, &REGISTERS);
     let waves = wave_times(&mut fields);
     let world = fields.read("world", worlds.default(home), |value| worlds.of(value, home));
@@ -59,25 +52,24 @@ pub(crate) fn swarm(
     Some(Swarm { name, span, circuit: circuit?, library, hold, window, registers, waves, world })
 }
 
-/// The times of a wave machine.
 fn wave_times(fields: &mut Fields<'_>) -> WaveTimes {
-    let mut time = |field, most| {
-        let read = |value: &ValueSyntax| match &value.kind {
-            ValueKind::Quantity(time) => {
-                let cycles = f64::from(quantity::cycles(time)?);
-                quantity::whole(cycles, 1..=most, value.span, "cycles").map(Some)
-            }
-            _ => Err(quantity::wrong_kind(Expected::Time("2 cycles"), value.span)),
-        };
-        fields.read(field, None, read)
-    };
+    let mut time = |field, most| fields.read(field, None, |value| cycles(value, most, "2 cycles").map(Some));
     WaveTimes { beat: time("beat", MAX_WINDOW), step: time("step", MAX_STEP) }
+}
+
+fn cycles(value: &ValueSyntax, most: u32, example: &str) -> Result<u32, Diagnostic> {
+    match &value.kind {
+        ValueKind::Quantity(time) => {
+            quantity::whole(f64::from(quantity::cycles(time)?), 1..=most, value.span, "cycles")
+        }
+        _ => Err(wording::wrong_kind(&wording::time_such_as(example), value.span)),
+    }
 }
 
 fn hold(value: &ValueSyntax) -> Result<Hold, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(hold) => quantity::cycles(hold).map(Hold::Cycles),
         _ => fields::choice(value, &[("auto", Hold::Auto)])
-            .map_err(|_| fields::not_one_of(value, Expected::Hold, &["auto"])),
+            .map_err(|_| fields::not_one_of(value, wording::HOLD, &["auto"])),
     }
 }

@@ -6,10 +6,10 @@ use crate::syntax::tree;
 use nbc_base::diag::Suggestion;
 use nbc_base::model::{ExpressionId, OutputValue, Table, TableOutput, TablePattern, TableRow};
 use nbc_base::source::Span;
-use nbc_circuit::elaborate::{TableError, table_fault};
+use nbc_circuit::elaborate::{not_a_pattern, table_fault, two_else};
 
 impl CircuitChecker<'_> {
-    /// The table of these rows; `values` are the outputs that are expressions.
+    /// `values` are the outputs that are expressions.
     pub(crate) fn table(&mut self, rows: &[tree::TableRowSyntax], values: &[ExpressionId], span: Span) -> Table {
         let mut table = Table { rows: Vec::new(), otherwise: None, span };
         let mut values = values.iter().enumerate();
@@ -48,18 +48,15 @@ impl CircuitChecker<'_> {
 
     fn otherwise(&mut self, table: &mut Table, output: TableOutput, span: Span) {
         match &table.otherwise {
-            Some(first) => {
-                self.diagnostics.push(TableError::TwoElse { first: first.span }.at(span));
-            }
+            Some(first) => self.diagnostics.push(two_else(first.span, span)),
             None => table.otherwise = Some(output),
         }
     }
 
-    /// A pattern: bits, a member of an enumeration, or a number.
     fn pattern(&mut self, word: &tree::NameSyntax) -> Option<TablePattern> {
         let declared = self.declared;
         if let Some((place, member)) = declared.member(&word.text, self.home) {
-            declared.members.refer_to(&word.text, word.span, self.home);
+            declared.names.members.refer_to(&word.text, word.span, self.home);
             let bits = declared.all[place].bits(member.value);
             return Some(TablePattern::Bits(bits.into_iter().map(Some).collect()));
         }
@@ -69,19 +66,18 @@ impl CircuitChecker<'_> {
         if let Some(value) = constant::unsized_number(&word.text) {
             return Some(TablePattern::Number(value));
         }
-        let meant = Suggestion::of(&word.text, declared.members.all());
-        self.diagnostics.push(TableError::NotAPattern { word: word.text.clone(), meant }.at(word.span));
+        let meant = Suggestion::of(&word.text, declared.names.members.all());
+        self.diagnostics.push(not_a_pattern(&word.text, &meant, word.span));
         None
     }
 
-    /// An output of digits: bits, or a number that is as wide as the others; a single digit is both.
+    /// Bits, or a number as wide as the other outputs; a single digit is both.
     fn output_value(&mut self, word: &tree::NameSyntax) -> Option<OutputValue> {
         match (constant::pattern(&word.text), constant::unsized_number(&word.text)) {
             (Some(bits), _) if bits.len() != 1 || bits[0].is_none() => Some(OutputValue::Bits(bits)),
             (_, Some(value)) => Some(OutputValue::Number(value)),
             _ => {
-                let error = TableError::NotAPattern { word: word.text.clone(), meant: Suggestion::None };
-                self.diagnostics.push(error.at(word.span));
+                self.diagnostics.push(not_a_pattern(&word.text, &Suggestion::None, word.span));
                 None
             }
         }

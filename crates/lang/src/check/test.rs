@@ -2,9 +2,8 @@
 
 use crate::check::cell::{RowCell, cell, input_cell};
 use crate::check::constant;
-use crate::check::names::duplicate;
 use crate::check::quantity;
-use crate::check::wording::{CellError, NameError, RowError};
+use crate::check::wording;
 use crate::syntax::tree::{self, NameSyntax, TestItem, TestTable, UntilSyntax};
 use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};
@@ -12,16 +11,15 @@ use nbc_base::model::{Base, Column, ScriptStep, TestRow, Until};
 use nbc_base::source::{SourceFile, Sources, Span};
 use nbc_circuit::rows::{PortRow, RowFormat};
 
-/// The ports of the circuit under test.
 pub(crate) struct Ports<'a> {
     pub(crate) circuit: &'a str,
     pub(crate) inputs: &'a [Column],
     pub(crate) outputs: &'a [Column],
-    /// The inputs that an environment gives, which have no columns.
+    /// Inputs that an environment gives, which have no columns.
     pub(crate) given: Vec<String>,
 }
 
-/// The steps of a test in so many worlds, as bits in order of the ports; they are counted before they are repeated.
+/// Rows are counted before they are repeated.
 pub(crate) fn steps(
     table: &TestTable,
     ports: &Ports<'_>,
@@ -34,7 +32,7 @@ pub(crate) fn steps(
     let outputs = ports.places(&table.outputs, false, faults);
     missing_inputs(table, ports, faults);
     if table.rows.is_empty() {
-        faults.push(RowError::EmptyTest.at(table.header));
+        faults.push(wording::empty_test(table.header));
     }
     if faults.len() > before {
         return Vec::new();
@@ -50,13 +48,12 @@ pub(crate) fn steps(
     steps
 }
 
-/// Counts rows of so many bits before they are made.
 pub(crate) fn take_rows(budget: &mut WorkBudget, rows: u64, bits: u64) -> Result<(), OverBudget> {
     budget.take(Limit::Rows, rows)?;
     budget.take(Limit::RowBits, rows.saturating_mul(bits))
 }
 
-/// The number of rows, those that are repeated counted each time; a row with a pulse is two.
+/// A repeated row counts each time, and one with a pulse is two rows.
 fn count(items: &[TestItem]) -> u64 {
     let rows = items.iter().map(|item| match item {
         TestItem::Row(row) => 1 + u64::from(row.inputs.iter().any(|word| word.text == "^")),
@@ -68,7 +65,6 @@ fn count(items: &[TestItem]) -> u64 {
     rows.fold(0, u64::saturating_add)
 }
 
-/// The rows of a file as those of a test in so many worlds.
 pub(crate) fn file_rows(
     source: &SourceFile,
     circuit: &str,
@@ -106,21 +102,20 @@ pub(crate) fn file_rows(
     Ok(rows.into_iter().enumerate().map(row).collect())
 }
 
-/// The most bits of a value that is shown as a decimal number.
+/// The most bits of a value that is shown in decimal.
 const FEW_BITS: usize = 16;
 
 impl Ports<'_> {
-    /// The port of each named column.
     fn places(&self, names: &[NameSyntax], inputs: bool, faults: &mut Vec<Diagnostic>) -> Vec<usize> {
         let own = if inputs { self.inputs } else { self.outputs };
         let mut places = Vec::new();
         for (at, name) in names.iter().enumerate() {
             if let Some(first) = names[..at].iter().find(|first| first.text == name.text) {
-                faults.push(duplicate("column", name, first.span));
+                faults.push(wording::duplicate("column", name, first.span));
             }
             match own.iter().position(|column| column.name == name.text) {
                 Some(_) if inputs && self.given.contains(&name.text) => {
-                    faults.push(RowError::GivenInput { input: name.text.clone() }.at(name.span));
+                    faults.push(wording::given_input(name));
                 }
                 Some(place) => places.push(place),
                 None => faults.push(self.no_port(name, inputs)),
@@ -129,16 +124,14 @@ impl Ports<'_> {
         places
     }
 
-    fn no_port(&self, name: &NameSyntax, inputs: bool) -> Diagnostic {
-        let (own, others) = if inputs { (self.inputs, self.outputs) } else { (self.outputs, self.inputs) };
-        let (circuit, name, span) = (self.circuit.to_owned(), name.text.clone(), name.span);
-        let meant = Suggestion::of(&name, own.iter().map(|column| column.name.as_str()));
-        let is_other = others.iter().any(|column| column.name == name);
-        let error = match inputs {
-            true => NameError::UnknownInput { circuit, name, is_output: is_other, meant },
-            false => NameError::UnknownOutput { circuit, name, is_input: is_other, meant },
-        };
-        error.at(span)
+    fn no_port(&self, name: &NameSyntax, is_input: bool) -> Diagnostic {
+        let (own, others) = if is_input { (self.inputs, self.outputs) } else { (self.outputs, self.inputs) };
+        let [kind, other] = if is_input { ["input", "output"] } else { ["output", "input"] };
+        if others.iter().any(|column| column.name == name.text) {
+            return wording::port_beside_bar(self.circuit, kind, name, other);
+        }
+        let meant = Suggestion::of(&name.text, own.iter().map(|column| column.name.as_str()));
+        wording::unknown_port(self.circuit, kind, name, &meant)
     }
 }
 
@@ -146,17 +139,15 @@ fn missing_inputs(table: &TestTable, ports: &Ports<'_>, faults: &mut Vec<Diagnos
     let missing: Vec<_> = ports
         .inputs
         .iter()
-        .map(|column| column.name.clone())
-        .filter(|input| !ports.given.contains(input))
+        .map(|column| column.name.as_str())
+        .filter(|input| !ports.given.iter().any(|given| given == input))
         .filter(|input| !table.inputs.iter().any(|name| name.text == *input))
         .collect();
     if !missing.is_empty() {
-        let error = RowError::MissingInputs { inputs: missing, circuit: ports.circuit.to_owned() };
-        faults.push(error.at(table.header));
+        faults.push(wording::missing_inputs(&missing, ports.circuit, table.header));
     }
 }
 
-/// The columns of a table as indices of the ports.
 struct Columns<'a> {
     ports: &'a Ports<'a>,
     inputs: &'a [usize],
@@ -165,7 +156,7 @@ struct Columns<'a> {
 }
 
 impl Columns<'_> {
-    /// The steps of rows and repeated rows; `number` is that of the last row.
+    /// `number` is that of the last row.
     fn items(&self, items: &[TestItem], number: &mut usize, steps: &mut Vec<ScriptStep>, faults: &mut Vec<Diagnostic>) {
         for item in items {
             match item {
@@ -180,7 +171,7 @@ impl Columns<'_> {
                 }
                 TestItem::Repeat { times, rows, .. } => {
                     let Some(times) = constant::integer::<usize>(&times.text).filter(|times| *times > 0) else {
-                        faults.push(RowError::NoTimes { text: times.text.clone() }.at(times.span));
+                        faults.push(wording::no_times(&times.text, times.span));
                         continue;
                     };
                     let mut once = Vec::new();
@@ -191,7 +182,6 @@ impl Columns<'_> {
         }
     }
 
-    /// When the repetition of a row ends.
     fn until(&self, source: &UntilSyntax) -> Result<Until, Diagnostic> {
         let name = &source.output;
         let place = self.ports.outputs.iter().position(|column| column.name == name.text);
@@ -199,22 +189,21 @@ impl Columns<'_> {
         let column = &self.ports.outputs[place];
         let bits = match &source.value {
             None if column.width == 1 => vec![Some(true)],
-            None => return Err(RowError::UntilWithoutValue { output: name.text.clone() }.at(name.span)),
+            None => return Err(wording::until_without_value(name)),
             Some(word) => match cell(word, column)? {
                 RowCell::Bits(bits, _) => bits,
-                RowCell::Pulse => return Err(CellError::PulsedOutput.at(word.span)),
+                RowCell::Pulse => return Err(wording::pulsed_output(word.span)),
             },
         };
         let most = constant::integer::<u64>(&source.most.text).filter(|most| *most > 0);
         let most = most.filter(|most| Limit::Repetitions.permit(*most).is_ok());
-        let most =
-            most.ok_or_else(|| RowError::TooManyRows { most: Limit::Repetitions.most() }.at(source.most.span))?;
+        let most = most.ok_or_else(|| wording::many_rows(Limit::Repetitions.most(), source.most.span))?;
         let most = most as usize;
         let first = self.ports.outputs[..place].iter().map(|column| column.width).sum();
         Ok(Until { first, bits, most, output: name.text.clone(), span: name.span })
     }
 
-    /// A row as bits; two rows for a rising edge of a clock.
+    /// A rising edge of a clock takes two rows.
     fn row(&self, number: usize, row: &tree::TestRowSyntax, faults: &mut Vec<Diagnostic>) -> Vec<TestRow> {
         if let Some(fault) = self.shape_fault(row) {
             faults.push(fault);
@@ -251,18 +240,17 @@ impl Columns<'_> {
         let values = row.inputs.len() + row.outputs.len();
         let columns = self.inputs.len() + self.outputs.len();
         if row.bars.len() > 1 {
-            return Some(RowError::TwoBars.at(row.bars[1]));
+            return Some(wording::two_bars(row.bars[1]));
         }
         if values != columns {
-            return Some(RowError::Width { values, columns }.at(row.span));
+            return Some(wording::row_width(values, columns, row.span));
         }
-        let Some(&bar) = row.bars.first() else { return Some(RowError::NoBar.at(row.span)) };
+        let Some(&bar) = row.bars.first() else { return Some(wording::no_bar(row.span)) };
         let inputs = self.inputs.len();
-        (row.inputs.len() != inputs).then(|| RowError::BarElsewhere { inputs }.at(bar))
+        (row.inputs.len() != inputs).then(|| wording::bar_elsewhere(inputs, bar))
     }
 }
 
-/// The values of a row in order of the ports, each read by `read`.
 fn cells(
     words: &[NameSyntax],
     places: &[usize],
@@ -280,7 +268,7 @@ fn cells(
 
 fn output_bits(cells: &[Option<RowCell>], words: &[NameSyntax], faults: &mut Vec<Diagnostic>) -> Vec<Option<bool>> {
     if let Some(word) = words.iter().find(|word| word.text == "^") {
-        faults.push(CellError::PulsedOutput.at(word.span));
+        faults.push(wording::pulsed_output(word.span));
     }
     let bits = |cell: &Option<RowCell>| match cell {
         Some(RowCell::Bits(bits, _)) => bits.clone(),
@@ -289,7 +277,6 @@ fn output_bits(cells: &[Option<RowCell>], words: &[NameSyntax], faults: &mut Vec
     cells.iter().flat_map(bits).collect()
 }
 
-/// The notation of a value.
 fn base(cell: &Option<RowCell>) -> Base {
     match cell {
         Some(RowCell::Bits(_, base)) => *base,
@@ -311,7 +298,7 @@ fn input_bits(
             Some(RowCell::Bits(bits, _)) => match bits.iter().copied().collect::<Option<Vec<bool>>>() {
                 Some(bits) => all.extend(bits),
                 None => {
-                    let fault = RowError::InputWithoutValue { input: port.name.clone() }.at(row);
+                    let fault = wording::input_without_value(&port.name, row);
                     if !faults.contains(&fault) {
                         faults.push(fault);
                     }

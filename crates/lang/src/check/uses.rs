@@ -2,41 +2,28 @@
 
 use nbc_base::source::{FileId, Span};
 
-/// The kind of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NameKind {
-    /// A stimulus of robots.
     Stimulus,
-    /// A material of voxels.
     Material,
-    /// A schedule of stimuli.
     Schedule,
-    /// A run of evolution.
     Evolution,
-    /// A set of images.
     Images,
-    /// A library of robots.
     Library,
-    /// A swarm: a circuit made of the robots of a library.
     Swarm,
-    /// A world to simulate in.
     World,
-    /// A circuit, with or without parameters.
     Circuit,
-    /// An enumeration of values.
     Enumeration,
-    /// A member of an enumeration.
     Member,
     /// A file that memories begin with.
     File,
-    /// A port or another net of a circuit.
+    /// A port or another net.
     Net,
     /// A parameter of a circuit, the variable of a loop, or an integer with a name.
     Number,
 }
 
 impl NameKind {
-    /// The word for it in messages.
     pub fn word(self) -> &'static str {
         match self {
             Self::Stimulus => "stimulus",
@@ -57,18 +44,15 @@ impl NameKind {
     }
 }
 
-/// A name at one place of a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct NameUse {
-    /// The place of the name. That of a declaration refers to itself.
+    /// A declaration's name refers to itself.
     pub place: Span,
-    /// The place of the name in its declaration.
+    /// The name in its declaration.
     pub declared: Span,
-    /// What the name stands for.
     pub kind: NameKind,
 }
 
-/// All names of a program that have a meaning.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NameUses {
     /// In order of place.
@@ -76,7 +60,6 @@ pub struct NameUses {
 }
 
 impl NameUses {
-    /// The uses in any order, of which some may be repeated.
     pub(crate) fn new(mut list: Vec<NameUse>) -> Self {
         list.sort_unstable();
         list.dedup();
@@ -90,12 +73,11 @@ impl NameUses {
         self.list[..end].last().filter(covers).copied()
     }
 
-    /// The places that refer to a declaration, the declaration's own included, in order.
+    /// The uses of a declaration in order, its own name included.
     pub fn of(&self, declared: Span) -> impl Iterator<Item = NameUse> + '_ {
         self.list.iter().copied().filter(move |found| found.declared == declared)
     }
 
-    /// All of a file, in order.
     pub fn of_file(&self, file: FileId) -> impl Iterator<Item = NameUse> + '_ {
         self.list.iter().copied().filter(move |found| found.place.file == file)
     }
@@ -103,21 +85,23 @@ impl NameUses {
 
 #[cfg(test)]
 mod tests {
+    use super::*;
     use crate::check;
     use nbc_base::source::{MemoryWorld, Sources};
 
-    /// The uses of the name at `at` of a source, as the text of their lines, the declaration first marked by `!`.
-    fn uses(text: &str, at: &str) -> Vec<String> {
+    /// The lines of the uses of the name at `at` of a source; `!` marks that of the declaration.
+    fn uses(text: &str, at: &str) -> String {
         let mut sources = Sources::default();
         let file = sources.add("a.nb", text);
         let analysis = check::check(&MemoryWorld::default(), &mut sources, file);
         let found = analysis.uses.at(file, text.find(at).unwrap()).expect("the name has a meaning");
-        let line = |place: nbc_base::source::Span| {
+        let uses = analysis.uses.of(found.declared).map(|NameUse { place, declared, .. }| {
             let source = sources.file(place.file);
-            let mark = if place == found.declared { "!" } else { "" };
-            format!("{mark}{}:{}", source.name, source.line_column(place.start as usize).line)
-        };
-        analysis.uses.of(found.declared).map(|found| line(found.place)).collect()
+            let (mark, line) =
+                (if place == declared { "!" } else { "" }, source.line_column(place.start as usize).line);
+            if place.file == file { format!("{mark}{line}") } else { format!("{mark}{}", source.name) }
+        });
+        uses.collect::<Vec<_>>().join(" ")
     }
 
     const PROGRAM: &str = "\
@@ -148,31 +132,18 @@ test half for all inputs {
 ";
 
     #[test]
-    fn circuits_are_used_in_calls_and_tests() {
-        assert_eq!(uses(PROGRAM, "half"), ["!a.nb:1", "a.nb:11", "a.nb:16", "a.nb:21"]);
-    }
-
-    #[test]
-    fn ports_are_used_in_bodies_and_tests() {
-        assert_eq!(uses(PROGRAM, "b) ->"), ["!a.nb:1", "a.nb:2", "a.nb:3", "a.nb:17", "a.nb:22", "a.nb:23"]);
-        assert_eq!(uses(PROGRAM, "c) {"), ["!a.nb:1", "a.nb:3", "a.nb:17", "a.nb:23"]);
-    }
-
-    #[test]
-    fn parameters_and_variables_are_used_in_sizes() {
-        assert_eq!(uses(PROGRAM, "n = 2](a"), ["!a.nb:6", "a.nb:6", "a.nb:7", "a.nb:8", "a.nb:14"]);
-        assert_eq!(uses(PROGRAM, "i in"), ["!a.nb:8", "a.nb:9", "a.nb:9"]);
-    }
-
-    #[test]
-    fn names_of_the_prelude_lead_to_it() {
-        let found = uses(PROGRAM, "latch(");
-        assert!(found.iter().any(|place| place.starts_with("!standard.nb:")), "{found:?}");
-    }
-
-    #[test]
-    fn members_and_outputs_are_used_in_the_rows_of_tests_and_simulations() {
-        let text = "\
+    fn names_are_used_in_bodies_calls_sizes_rows_and_fields() {
+        for (at, expected) in [
+            ("half", "!1 11 16 21"),
+            ("b) ->", "!1 2 3 17 22 23"),
+            ("c) {", "!1 3 17 23"),
+            ("n = 2](a", "!6 6 7 8 14"),
+            ("i in", "!8 9 9"),
+        ] {
+            assert_eq!(uses(PROGRAM, at), expected, "{at}");
+        }
+        assert!(uses(PROGRAM, "latch(").contains("!standard.nb"), "a name of the prelude leads to it");
+        let rows = "\
 enum mood { calm, busy }
 circuit turn(m: mood) -> (n: mood, ready) {
     n = if m == calm then busy else calm
@@ -189,23 +160,17 @@ test turn {
     }
 }
 ";
-        let calm = ["!a.nb:1", "a.nb:3", "a.nb:3", "a.nb:7", "a.nb:10", "a.nb:13"];
-        assert_eq!(uses(text, "calm"), calm);
-        assert_eq!(uses(text, "ready)"), ["!a.nb:2", "a.nb:4", "a.nb:11"]);
-        assert_eq!(uses(text, "n: mood"), ["!a.nb:2", "a.nb:3", "a.nb:9", "a.nb:13"]);
-    }
-
-    #[test]
-    fn fields_of_records_use_other_declarations() {
-        let text = "\
+        for (at, expected) in [("calm", "!1 3 3 7 10 13"), ("ready)", "!2 4 11"), ("n: mood", "!2 3 9 13")] {
+            assert_eq!(uses(rows, at), expected, "{at}");
+        }
+        let fields = "\
 material skin { kind: soft }
 schedule short(s1, s2) { 0 0 for 1 cycles 0 1 for 1 cycles 1 0 for 1 cycles 1 1 for 1 cycles }
 evolution walk { materials: [skin, bone], variable: short }
 library mine { from: walk }
 ";
-        for (name, lines) in [("skin", ["!a.nb:1", "a.nb:3"]), ("short", ["!a.nb:2", "a.nb:3"])] {
-            assert_eq!(uses(text, name), lines);
+        for (at, expected) in [("skin", "!1 3"), ("short", "!2 3"), ("walk", "!3 4")] {
+            assert_eq!(uses(fields, at), expected, "{at}");
         }
-        assert_eq!(uses(text, "walk"), ["!a.nb:3", "a.nb:4"]);
     }
 }

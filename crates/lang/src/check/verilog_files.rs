@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use nbc_base::budget::Limit;
 use nbc_base::source::{FileError, SourceFile, SourceWorld, VerilogFile, VerilogFiles};
 
-/// Files with their texts, and all files of a world below their folders that they name in quotes.
+/// Files with all files of a world that they name in quotes, if these are in or below their folders.
 pub fn verilog_files(world: &(impl SourceWorld + ?Sized), files: &[&SourceFile]) -> VerilogFiles {
     let mut found = VerilogFiles::default();
     let (mut looked, mut bytes) = (BTreeSet::new(), 0);
@@ -36,7 +36,6 @@ pub fn verilog_files(world: &(impl SourceWorld + ?Sized), files: &[&SourceFile])
     found
 }
 
-/// Whether a text in quotes can be the path of a file in a folder or below.
 fn is_path_inside(name: &&str) -> bool {
     let is_letter = |c: char| c.is_ascii_alphanumeric() || "._-+/".contains(c);
     let is_part = |part: &str| !part.is_empty() && part != "." && part != "..";
@@ -47,7 +46,7 @@ fn joined(folder: &str, name: &str) -> String {
     if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") }
 }
 
-/// The text of a file, unless a link leads out of the folder.
+/// A link must not lead out of the folder.
 fn read_inside(world: &(impl SourceWorld + ?Sized), folder: &str, path: &str) -> Result<String, FileError> {
     let root = world.identity(if folder.is_empty() { "." } else { folder });
     let is_inside = match root.as_str() {

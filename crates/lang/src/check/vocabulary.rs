@@ -1,54 +1,37 @@
 //! What the bodies of circuits can name beside nets and parameters.
 
-use crate::check::names::{Home, MemberPlace, NameTable, Names};
-use crate::check::wording::ValueError;
+use crate::check::names::{Home, MemberPlace, Names};
+use crate::check::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Enumeration, EnumerationMember, Program};
 use nbc_base::source::Span;
 
-/// What the bodies of circuits can name beside nets and parameters.
 #[derive(Clone, Copy)]
 pub(crate) struct Vocabulary<'a> {
-    pub(crate) circuits: &'a NameTable,
-    /// Enumerations by their position in the program.
-    pub(crate) enumerations: &'a NameTable,
-    /// Members by the positions of their enumeration and of themselves.
-    pub(crate) members: &'a NameTable<MemberPlace>,
-    pub(crate) integers: &'a NameTable<i128>,
-    /// Files by their position in the program.
-    pub(crate) files: &'a NameTable,
+    pub(crate) names: &'a Names,
     /// The enumerations of the program.
     pub(crate) all: &'a [Enumeration],
 }
 
 impl<'a> Vocabulary<'a> {
-    /// The names so far, with the enumerations of the program.
     pub(crate) fn of(names: &'a Names, program: &'a Program) -> Self {
-        Self {
-            circuits: &names.circuits,
-            enumerations: &names.enumerations,
-            members: &names.members,
-            integers: &names.integers,
-            files: &names.files,
-            all: &program.enumerations,
-        }
+        Self { names, all: &program.enumerations }
     }
 
-    /// The enumeration and the value of a member.
     pub(crate) fn member(&self, name: &str, home: Home) -> Option<(usize, &EnumerationMember)> {
-        let MemberPlace { enumeration, member } = self.members.find(name, home)?;
+        let MemberPlace { enumeration, member } = self.names.members.find(name, home)?;
         Some((enumeration, &self.all[enumeration].members[member]))
     }
 
-    /// The integer that a name stands for: that of a `let`, or the value of a member. `None` if it has no such name.
+    /// The integer of a `let` or the value of a member; `None` if there is no such name.
     pub(crate) fn integer(&self, name: &str, place: Span, home: Home) -> Option<Result<i128, Diagnostic>> {
         if let Some((_, member)) = self.member(name, home) {
-            self.members.refer_to(name, place, home);
-            let too_wide = |_| ValueError::WideMember { member: name.to_owned() }.at(place);
+            self.names.members.refer_to(name, place, home);
+            let too_wide = |_| wording::wide_member(name, place);
             return Some(i128::try_from(member.value).map_err(too_wide));
         }
-        let value = self.integers.find(name, home)?;
-        self.integers.refer_to(name, place, home);
+        let value = self.names.integers.find(name, home)?;
+        self.names.integers.refer_to(name, place, home);
         Some(Ok(value))
     }
 }

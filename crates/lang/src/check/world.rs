@@ -6,47 +6,41 @@ use crate::check::fields::{self, Fields};
 use crate::check::load::beside;
 use crate::check::names::{Home, NameTable};
 use crate::check::quantity;
-use crate::check::wording::{Expected, LoadError, ValueError};
+use crate::check::wording;
 use crate::syntax::tree::{NameSyntax, RecordDeclaration, ValueKind, ValueSyntax};
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{GroundProfile, NamedWorld, PhysicsWorld, Variation, WorldFactors, WorldNoise};
 use nbc_base::source::{SourceWorld, Sources, Span};
 
-/// The worlds that other declarations may name.
 #[derive(Clone, Copy)]
 pub(crate) struct Worlds<'a> {
     pub(crate) names: &'a NameTable,
-    /// The worlds by the position of their names.
     pub(crate) checked: &'a [CheckState<NamedWorld>],
 }
 
 impl Worlds<'_> {
-    /// The world that a field names.
     pub(crate) fn of(self, value: &ValueSyntax, home: Home) -> Result<NamedWorld, Diagnostic> {
-        self.named(fields::word(value, Expected::Name("world"))?, home)
+        self.named(fields::name(value, "world")?, home)
     }
 
-    /// The world of a declaration that names none.
     pub(crate) fn default(self, home: Home) -> NamedWorld {
         let declared = self.names.find(NamedWorld::DEFAULT, home).map(|place| &self.checked[place]);
         if let Some(CheckState::Sound(named)) = declared { NamedWorld::clone(named) } else { NamedWorld::default() }
     }
 
-    /// The world of that name. For one with errors, which are already reported, it is the paper's.
+    /// The paper's world if the named one has errors, which are already reported.
     pub(crate) fn named(self, name: &NameSyntax, home: Home) -> Result<NamedWorld, Diagnostic> {
         let found = &self.checked[self.names.resolve(name, home)?];
         Ok(if let CheckState::Sound(named) = found { NamedWorld::clone(named) } else { NamedWorld::default() })
     }
 }
 
-/// The files beside a program.
 #[derive(Clone, Copy)]
 pub(crate) struct ProgramFiles<'a> {
     pub(crate) world: &'a dyn SourceWorld,
     pub(crate) sources: &'a Sources,
 }
 
-/// Checks a world; `checked` are the worlds by the position of their names, as far as they are checked.
 pub(crate) fn world(
     source: &RecordDeclaration,
     home: Home,
@@ -79,7 +73,7 @@ pub(crate) fn world(
         dead: fields.read("dead", base.noise.dead, share),
         seed: fields.read("seed", base.noise.seed, |value| match &value.kind {
             ValueKind::Quantity(seed) => quantity::seed(seed),
-            _ => Err(quantity::wrong_kind(Expected::Number, value.span)),
+            _ => Err(wording::wrong_kind(wording::NUMBER, value.span)),
         }),
     };
     if !whole || !fields.faults.is_empty() {
@@ -99,10 +93,9 @@ pub(crate) fn world(
     if sound { CheckState::Sound(Box::new(named())) } else { CheckState::Faulty }
 }
 
-/// How much the worlds of a sample vary: a record of quantities and their largest changes.
 pub(crate) fn variation(value: &ValueSyntax) -> Result<Variation, Diagnostic> {
     let ValueKind::Record(record) = &value.kind else {
-        return Err(quantity::wrong_kind(Expected::Changes, value.span));
+        return Err(wording::wrong_kind(wording::CHANGES, value.span));
     };
     let mut fields = Fields::inner("variation", value.span, record);
     let all = fields.read(Variation::ALL, 0.0, |value| change(Variation::ALL, value));
@@ -116,23 +109,21 @@ pub(crate) fn variation(value: &ValueSyntax) -> Result<Variation, Diagnostic> {
     }
 }
 
-/// The largest change of a quantity.
 fn change(name: &str, value: &ValueSyntax) -> Result<f64, Diagnostic> {
     if name == "start" { voxels(value) } else { ratio(value, 0.0..=Variation::most(name)) }
 }
 
-/// The heights of the columns of the ground, one after another, or its cells in a file.
 fn ground(value: &ValueSyntax, files: ProgramFiles<'_>) -> Result<GroundProfile, Diagnostic> {
     match &value.kind {
         ValueKind::Text(path) => return ground_file(path, value.span, files),
-        ValueKind::Instance(_) => return Err(quantity::wrong_kind(Expected::Ground, value.span)),
+        ValueKind::Instance(_) => return Err(wording::wrong_kind(wording::GROUND, value.span)),
         _ => (),
     }
     let (values, most) = (fields::list(value), GroundProfile::MOST_HEIGHTS);
     match values.len() {
-        0 => return Err(ValueError::EmptyList { field: "ground" }.at(value.span)),
+        0 => return Err(wording::empty_list("ground", value.span)),
         entries if entries > most => {
-            return Err(ValueError::LongList { field: "ground", entries, most }.at(value.span));
+            return Err(wording::long_list("ground", entries, most, value.span));
         }
         _ => (),
     }
@@ -143,20 +134,14 @@ fn ground(value: &ValueSyntax, files: ProgramFiles<'_>) -> Result<GroundProfile,
 
 fn ground_file(path: &str, span: Span, files: ProgramFiles<'_>) -> Result<GroundProfile, Diagnostic> {
     let file = beside(&files.sources.file(span.file).name, path);
-    let error = match files.world.read(&file).map(|text| GroundProfile::of_file(&text)) {
-        Ok(Ok(profile)) => return Ok(profile),
-        Ok(Err(error)) => LoadError::Ground { file, error },
-        Err(error) => LoadError::UnreadableGround { file, error },
-    };
-    Err(error.at(span))
+    let text = files.world.read(&file).map_err(|error| wording::unreadable_value(&file, &error, span))?;
+    GroundProfile::of_file(&text).map_err(|error| wording::ground(&file, &error, span))
 }
 
-/// A factor of the paper's physics.
 fn factor(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     ratio(value, WorldFactors::RANGE)
 }
 
-/// A part of a whole, or a probability.
 pub(crate) fn share(value: &ValueSyntax) -> Result<f64, Diagnostic> {
     ratio(value, 0.0..=1.0)
 }
@@ -164,7 +149,7 @@ pub(crate) fn share(value: &ValueSyntax) -> Result<f64, Diagnostic> {
 fn ratio(value: &ValueSyntax, range: std::ops::RangeInclusive<f64>) -> Result<f64, Diagnostic> {
     match &value.kind {
         ValueKind::Quantity(given) => quantity::within(quantity::ratio(given)?, range, value.span),
-        _ => Err(quantity::wrong_kind(Expected::Ratio, value.span)),
+        _ => Err(wording::wrong_kind(wording::RATIO, value.span)),
     }
 }
 
@@ -173,6 +158,6 @@ fn voxels(value: &ValueSyntax) -> Result<f64, Diagnostic> {
         ValueKind::Quantity(given) => {
             quantity::within(quantity::bare(given)?, 0.0..=WorldNoise::MOST_START, value.span)
         }
-        _ => Err(quantity::wrong_kind(Expected::Number, value.span)),
+        _ => Err(wording::wrong_kind(wording::NUMBER, value.span)),
     }
 }

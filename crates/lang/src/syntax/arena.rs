@@ -6,7 +6,6 @@ use crate::syntax::tree::{
 };
 use nbc_base::source::Span;
 
-/// The expressions and sizes of a body that is being made.
 #[derive(Default)]
 pub(crate) struct Arena {
     pub(crate) expressions: Vec<ExpressionSyntax>,

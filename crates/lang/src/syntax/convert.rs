@@ -12,17 +12,16 @@ use crate::syntax::tree::{
     CircuitSyntax, Declaration, DeclarationKind, EnumerationSyntax, FileSyntax, LetSyntax, MemberSyntax, NameSyntax,
     Number, Quantity, RecordDeclaration, RecordKeyword, StimulusSyntax, Text,
 };
-use crate::syntax::wording::Slip;
+use crate::syntax::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Span};
 
-/// Turns the pairs of one declaration into a tree.
 pub(crate) struct Converter<'a> {
     pub(crate) file: FileId,
-    /// The declaration's text, and all comments of the file.
+    /// The text of the declaration; `comments` are those of the whole file.
     pub(crate) source: &'a str,
     pub(crate) comments: &'a [Range<usize>],
-    /// The place of the declaration's text in the file.
+    /// Where `source` begins in the file.
     pub(crate) offset: usize,
     pub(crate) errors: Vec<Diagnostic>,
     /// Statements whose meaning is unknown.
@@ -30,14 +29,11 @@ pub(crate) struct Converter<'a> {
 }
 
 impl<'a> Converter<'a> {
-    /// A converter of a text at `offset` of its file.
     pub(crate) fn new(file: FileId, source: &'a str, comments: &'a [Range<usize>], offset: usize) -> Self {
         Self { file, source, comments, offset, errors: Vec::new(), lost: Vec::new() }
     }
-}
 
-impl Converter<'_> {
-    /// The declaration in the pairs of a parse, unless it matches a common mistake.
+    /// `None` for a common mistake without a tree.
     pub(crate) fn declaration(&mut self, pairs: Pairs<Rule>) -> Option<Declaration> {
         let pair = solid(pairs).next().expect("a parsed declaration has a pair");
         let span = self.span(&pair);
@@ -77,12 +73,11 @@ impl Converter<'_> {
         Some(Declaration { span, kind })
     }
 
-    /// The text of a circuit that begins like one of another language.
     fn slip_declaration(&mut self, pair: Pair<Rule>) {
-        let word = pair.as_str().split(|c: char| !is_word(c)).next().unwrap_or_default().to_owned();
+        let word = pair.as_str().split(|c: char| !is_word(c)).next().unwrap_or_default();
         let start = self.span(&pair).start as usize;
         let span = Span::new(self.file, start, start + word.len());
-        self.slip(Slip::CircuitKeyword { word, is_circuit: false }, span);
+        self.errors.push(wording::foreign_circuit(word, span));
     }
 
     fn sensed(&mut self, pair: Pair<Rule>) -> StimulusSyntax {
@@ -117,7 +112,7 @@ impl Converter<'_> {
         let mut arena = Arena::default();
         let mut parts = parts(pair).peekable();
         if let Some(word) = parts.next_if(|part| part.as_rule() == Rule::slip_circuit) {
-            self.slip(Slip::CircuitKeyword { word: word.as_str().to_owned(), is_circuit: true }, self.span(&word));
+            self.errors.push(wording::circuit_keyword(word.as_str(), self.span(&word)));
         }
         let name = self.name(&parts.next().expect("a name"));
         let parameters = match parts.peek().map(Pair::as_rule) {
@@ -130,23 +125,17 @@ impl Converter<'_> {
         CircuitSyntax { is_environment, name, parameters, inputs, outputs, body: arena.body(statements) }
     }
 
-    /// Notes a slip that the grammar knows.
-    pub(crate) fn slip(&mut self, slip: Slip, span: Span) {
-        self.errors.push(slip.at(span));
-    }
-
     pub(crate) fn span(&self, pair: &Pair<Rule>) -> Span {
         let span = pair.as_span();
         let start = self.offset + span.start();
         Span::new(self.file, start, self.solid_end(start, self.offset + span.end()))
     }
 
-    /// The text of the declaration at a place.
     pub(crate) fn text(&self, span: Span) -> &str {
         &self.source[span.start as usize - self.offset..span.end as usize - self.offset]
     }
 
-    /// The end of a text without the spaces and comments after it, which pest includes.
+    /// Pest includes the spaces and comments after a text.
     fn solid_end(&self, start: usize, mut end: usize) -> usize {
         loop {
             end = start + self.source[start - self.offset..end - self.offset].trim_end().len();
@@ -178,60 +167,16 @@ impl Converter<'_> {
     }
 }
 
-/// The pairs inside a pair that carry meaning: no comments, no keywords whose presence is already known.
+/// The inner pairs without comments and keywords.
 pub(crate) fn parts(pair: Pair<Rule>) -> impl Iterator<Item = Pair<Rule>> {
     solid(pair.into_inner())
 }
 
 fn solid(pairs: Pairs<Rule>) -> impl Iterator<Item = Pair<Rule>> {
-    pairs.filter(|pair| {
-        !matches!(
-            pair.as_rule(),
-            Rule::EOI
-                | Rule::COMMENT
-                | Rule::circuit_word
-                | Rule::test_word
-                | Rule::simulate_word
-                | Rule::schedule_word
-                | Rule::stimulus_word
-                | Rule::use_word
-                | Rule::material_word
-                | Rule::evolution_word
-                | Rule::library_word
-                | Rule::swarm_word
-                | Rule::world_word
-                | Rule::images_word
-                | Rule::with_word
-                | Rule::times_word
-                | Rule::in_word
-                | Rule::bins_word
-                | Rule::for_word
-                | Rule::all_word
-                | Rule::inputs_word
-                | Rule::against_word
-                | Rule::ever_word
-                | Rule::init_word
-                | Rule::net_word
-                | Rule::if_word
-                | Rule::then_word
-                | Rule::table_word
-                | Rule::log2_word
-                | Rule::environment_word
-                | Rule::enum_word
-                | Rule::file_word
-                | Rule::let_word
-                | Rule::repeat_word
-                | Rule::until_word
-                | Rule::at_word
-                | Rule::most_word
-                | Rule::rows_word
-                | Rule::from_word
-                | Rule::least_word
-                | Rule::prove_word
-                | Rule::within_word
-                | Rule::steps_word
-                | Rule::match_word
-                | Rule::or_word
-        )
+    // The grammar has these words one after another.
+    let words = Rule::circuit_word..=Rule::log2_word;
+    pairs.filter(move |pair| {
+        let rule = pair.as_rule();
+        !matches!(rule, Rule::EOI | Rule::COMMENT) && !words.contains(&rule)
     })
 }

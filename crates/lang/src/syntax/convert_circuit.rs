@@ -11,7 +11,7 @@ use crate::syntax::tree::{
     Argument, Grouping, Index, IndexKind, ParameterSyntax, Port, SizeSyntaxId, SizeSyntaxKind, StatementKind,
     StatementSyntax, TargetSyntax,
 };
-use crate::syntax::wording::Slip;
+use crate::syntax::wording;
 use nbc_base::model::{Relation, SizeOperator};
 use nbc_base::source::Span;
 
@@ -26,7 +26,6 @@ impl Converter<'_> {
             .collect()
     }
 
-    /// Ports or nets, each with what follows it.
     pub(crate) fn ports(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Port> {
         let mut ports: Vec<Port> = Vec::new();
         for part in parts(pair) {
@@ -45,12 +44,11 @@ impl Converter<'_> {
         ports
     }
 
-    /// The outputs of a circuit, whose parentheses may be missing.
     pub(crate) fn outputs(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<Port> {
         match parts(pair.clone()).next().filter(|first| first.as_rule() == Rule::slip_outputs) {
             Some(bare) => {
                 let span = self.span(&bare);
-                self.slip(Slip::BareOutputs { outputs: self.text(span).to_owned() }, span);
+                self.errors.push(wording::bare_outputs(self.text(span), span));
                 self.ports(bare, arena)
             }
             None => self.ports(pair, arena),
@@ -63,14 +61,14 @@ impl Converter<'_> {
             let next = self.span(parts.peek().expect("a name after the kind"));
             let span = self.span(&kind);
             let before = Span { end: next.start, ..span };
-            self.slip(Slip::KindOfPort { kind: kind.as_str().to_owned(), before }, span);
+            self.errors.push(wording::kind_of_port(kind.as_str(), before, span));
         }
         let range = parts.next_if(|part| part.as_rule() == Rule::slip_range);
         let name = self.name(&parts.next().expect("a name"));
         if let Some(range) = range {
             let (span, (width, text)) = (self.span(&range), self.width_of_range(range, arena));
-            let slip = Slip::WidthBeforeName { name: name.text.clone(), width: text, both: span.to(name.span) };
-            self.slip(slip, Span { end: span.start + 1, ..span });
+            let at = Span { end: span.start + 1, ..span };
+            self.errors.push(wording::width_before_name(&name.text, &text, span.to(name.span), at));
             return Port::new(name, Some(width));
         }
         let kind = |part: &Pair<Rule>| part.as_rule() == Rule::kind;
@@ -79,7 +77,7 @@ impl Converter<'_> {
             sizes.push(match size.as_rule() {
                 Rule::slip_range => {
                     let (span, (width, text)) = (self.span(&size), self.width_of_range(size, arena));
-                    self.slip(Slip::RangeOfPort { port: name.text.clone(), width: text }, span);
+                    self.errors.push(wording::range_of_port(&name.text, &text, span));
                     width
                 }
                 _ => self.size(size, arena),
@@ -130,23 +128,22 @@ impl Converter<'_> {
             Rule::conditional => self.conditional(pair, arena),
             Rule::slip_if => return self.if_block(pair, arena),
             Rule::slip_end => {
-                self.slip(Slip::StatementEnd { sign: pair.as_str().to_owned() }, span);
+                self.errors.push(wording::statement_end(pair.as_str(), span));
                 return Vec::new();
             }
             _ => {
-                let word = parts(pair.clone()).next().expect("a word").as_str().to_owned();
+                let word = parts(pair.clone()).next().expect("a word").as_str();
                 let end = pair.as_span().end();
                 let blank = self.source[end..].len() - self.source[end..].trim_start().len();
                 let whole = Span { end: (self.offset + end + blank) as u32, ..span };
                 let span = Span { end: span.start + word.len() as u32, ..span };
-                self.slip(Slip::StatementKeyword { word, whole }, span);
+                self.errors.push(wording::statement_keyword(word, whole, span));
                 return Vec::new();
             }
         };
         vec![StatementSyntax { kind, span }]
     }
 
-    /// Nets that are declared with a keyword of another language.
     fn slip_nets(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
         let span = self.span(&pair);
         let mut parts = parts(pair).peekable();
@@ -167,8 +164,7 @@ impl Converter<'_> {
             }
             nets.push(port);
         }
-        let slip = Slip::NetKeyword { word: word.as_str().to_owned(), nets: texts.join(", "), whole: span };
-        self.slip(slip, self.span(&word));
+        self.errors.push(wording::net_keyword(word.as_str(), &texts.join(", "), span, self.span(&word)));
         StatementKind::Nets(nets)
     }
 
@@ -177,13 +173,12 @@ impl Converter<'_> {
         let variable = self.name(&parts.next().expect("a variable"));
         let from = self.size(parts.next().expect("a start"), arena);
         if let Some(colon) = parts.next_if(|part| part.as_rule() == Rule::slip_colon) {
-            self.slip(Slip::ColonInLoop, self.span(&colon));
+            self.errors.push(wording::colon_in_loop(self.span(&colon)));
         }
         let to = self.size(parts.next().expect("an end"), arena);
         StatementKind::For { variable, from, to, statements: self.statements(parts.next().expect("a body"), arena) }
     }
 
-    /// Statements that depend on a comparison of integers.
     fn conditional(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> StatementKind {
         let mut branches = parts(pair).filter(|part| part.as_rule() != Rule::else_word);
         let mut compared = parts(branches.next().expect("a condition"));
@@ -207,7 +202,7 @@ impl Converter<'_> {
         StatementKind::If { left, comparison, right, then, otherwise, blocks: [first, second] }
     }
 
-    /// `if` with statements in braces. If each branch drives the same nets, it is a choice for each of them.
+    /// `if` with statements in braces. If all branches drive the same nets, it is a choice for each net.
     fn if_block(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> Vec<StatementSyntax> {
         let span = self.span(&pair);
         let is_word = |part: &Pair<Rule>| part.as_rule() == Rule::else_word;
@@ -222,7 +217,7 @@ impl Converter<'_> {
         });
         let if_span = Span { end: span.start + 2, ..span };
         let Some(drives) = drives else {
-            self.slip(Slip::IfBlock { choices: Vec::new(), whole: span }, if_span);
+            self.errors.push(wording::if_block(&[], span, if_span));
             self.lost.push(span);
             return Vec::new();
         };
@@ -249,11 +244,10 @@ impl Converter<'_> {
                 span,
             });
         }
-        self.slip(Slip::IfBlock { choices, whole: span }, if_span);
+        self.errors.push(wording::if_block(&choices, span, if_span));
         statements
     }
 
-    /// The targets and values of a body that only drives single nets.
     fn drives_of<'p>(&self, body: Pair<'p, Rule>) -> Option<Vec<(Pair<'p, Rule>, Pair<'p, Rule>)>> {
         let drive = |statement: Pair<'p, Rule>| {
             let is_drive = statement.as_rule() == Rule::drive;
@@ -279,7 +273,7 @@ impl Converter<'_> {
             _ => vec![self.target(left, arena)],
         };
         if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_arrow) {
-            self.slip(Slip::DriveSign { sign: slip.as_str().to_owned() }, self.span(&slip));
+            self.errors.push(wording::drive_sign(slip.as_str(), self.span(&slip)));
         }
         StatementKind::Drive { targets, grouping, value: self.expression(parts.next().expect("a value"), arena) }
     }
@@ -316,8 +310,7 @@ impl Converter<'_> {
         let (high, low) = if is_ascending { (low, high) } else { (high, low) };
         let net = self.source[..span.start as usize - self.offset].rsplit(|c| !is_word(c)).next().unwrap_or_default();
         let slice = format!("[{}..{}]", high.as_str().trim(), low.as_str().trim());
-        let slip = Slip::ColonInSlice { net: net.to_owned(), slice, index: span };
-        self.slip(slip, self.span(&colon));
+        self.errors.push(wording::colon_in_slice(net, &slice, span, self.span(&colon)));
         let high = self.size(high, arena);
         Index { kind: IndexKind::Slice(high, self.size(low, arena)), span }
     }
@@ -333,8 +326,7 @@ impl Converter<'_> {
             .collect()
     }
 
-    /// An integer expression: `**` binds tighter than `*`, `/` and `%`, and these tighter than `+` and `-`; from left
-    /// to right.
+    /// `**` binds tighter than `*`, `/` and `%`, and these tighter than `+` and `-`; from left to right.
     pub(crate) fn size(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> SizeSyntaxId {
         let (mut values, mut operators) = (Vec::new(), Vec::<SizeOperator>::new());
         for part in parts(pair) {

@@ -9,11 +9,10 @@ use crate::syntax::tree::{
     ExpressionSyntaxId, ExpressionSyntaxKind, Index, IndexKind, Infix, OperandSyntax, SizeSyntaxId, SizeSyntaxKind,
     TableOutputSyntax, TableRowSyntax,
 };
-use crate::syntax::wording::{Slip, SyntaxError};
+use crate::syntax::wording;
 use nbc_base::model::Operator;
 use nbc_base::source::Span;
 
-/// Operands and operators of an expression before they are combined.
 #[derive(Default)]
 struct Stacks {
     values: Vec<ExpressionSyntaxId>,
@@ -66,7 +65,6 @@ impl Converter<'_> {
         choice.map_or(value, |choice| self.question_mark(value, choice, arena))
     }
 
-    /// A choice with `?` and `:` after its condition.
     fn question_mark(
         &mut self,
         condition: ExpressionSyntaxId,
@@ -75,12 +73,11 @@ impl Converter<'_> {
     ) -> ExpressionSyntaxId {
         let (sign, first) = (self.span(&pair), arena.span(condition));
         let values: Vec<_> = parts(pair).collect();
-        let mut texts = values.iter().map(|value| self.text(self.span(value)).to_owned());
-        let (then, otherwise) = (texts.next().unwrap_or_default(), texts.next().unwrap_or_default());
         let whole = first.to(sign);
-        let condition_text = self.text(first).to_owned();
-        let slip = Slip::QuestionMark { condition: condition_text, then, otherwise, whole };
-        self.slip(slip, Span { end: sign.start + 1, ..sign });
+        let mut texts = values.iter().map(|value| self.text(self.span(value)));
+        let texts = [self.text(first), texts.next().unwrap_or_default(), texts.next().unwrap_or_default()];
+        let error = wording::question_mark(texts, whole, Span { end: sign.start + 1, ..sign });
+        self.errors.push(error);
         let values: Vec<_> = values.into_iter().map(|value| self.expression(value, arena)).collect();
         let [then, otherwise] = values[..] else { unreachable!("a choice has two values") };
         arena.expression(ExpressionSyntaxKind::Choice { condition, then, otherwise }, whole)
@@ -91,11 +88,11 @@ impl Converter<'_> {
         let sign = prefix.as_str();
         let follows = matches!(stacks.waiting.last(), Some(Waiting::Not(before)) if before.end - before.start == 1);
         if sign != "not" && !follows {
-            self.slip(Slip::NotSign { sign: sign.to_owned() }, span);
+            self.errors.push(wording::not_sign(sign, span));
         }
     }
 
-    /// A word that replaces a sign, with spaces around it if the text has none.
+    /// A word in the place of a sign, with spaces around it if the text has none.
     fn apart(&self, sign: Span, word: &str) -> String {
         let space = |character: Option<char>| if character.is_some_and(char::is_whitespace) { "" } else { " " };
         let (before, after) =
@@ -103,7 +100,7 @@ impl Converter<'_> {
         format!("{}{word}{}", space(before.chars().next_back()), space(after.chars().next()))
     }
 
-    /// Adds an operator; `next` is the text after it.
+    /// `next` is the text after the operator.
     fn push_infix(&mut self, (infix, place): (Infix, Span), next: &str, stacks: &mut Stacks, arena: &mut Arena) {
         while let Some(&top) = stacks.waiting.last().filter(|top| top.precedence() >= infix.precedence()) {
             if let Waiting::Infix(before, before_place) = top
@@ -117,7 +114,7 @@ impl Converter<'_> {
                     format!("{left} {} ({middle} {} {})", before.word(), infix.word(), brief(next)),
                 ];
                 let operators = [before.word(), infix.word()];
-                self.errors.push(SyntaxError::Ambiguous { operators, first: before_place, readings }.at(place));
+                self.errors.push(wording::ambiguous(operators, readings, before_place, place));
             }
             stacks.reduce(arena);
         }
@@ -134,9 +131,9 @@ impl Converter<'_> {
             } else {
                 Operator::Xor
             };
-            let (sign, span) = (word.to_owned(), self.span(pair));
+            let span = self.span(pair);
             let text = self.apart(span, operator.word());
-            self.slip(Slip::OperatorSign { sign, operator: operator.word(), text }, span);
+            self.errors.push(wording::operator_sign(word, operator.word(), text, span));
             return Infix::Bitwise(operator);
         }
         Infix::of_sign(word)
@@ -147,8 +144,7 @@ impl Converter<'_> {
         let span = self.span(&pair);
         let kind = match pair.as_rule() {
             Rule::choice => self.choice(pair, arena),
-            Rule::table => self.table(pair, arena),
-            Rule::match_ => self.match_table(pair, arena),
+            Rule::table | Rule::match_ => self.table(pair, arena),
             Rule::operation => self.operation(pair, arena),
             Rule::constant => self.constant(pair, arena),
             Rule::reference => self.reference(pair, arena),
@@ -166,14 +162,14 @@ impl Converter<'_> {
         parts(pair).map(|expression| self.expression(expression, arena)).collect()
     }
 
-    /// An `if` expression. In the grammar the expressions after `else` are siblings; in the tree they are nested.
+    /// The expressions after `else` are siblings in the grammar and nested in the tree.
     fn choice(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
         let mut values = Vec::new();
         for part in parts(pair) {
             match part.as_rule() {
                 Rule::slip_then => {
                     let start = self.span(&part).start;
-                    self.slip(Slip::MissingThen, Span { file: self.file, start, end: start + 1 });
+                    self.errors.push(wording::missing_then(Span { file: self.file, start, end: start + 1 }));
                 }
                 Rule::expression => values.push(self.expression(part, arena)),
                 _ => {}
@@ -222,7 +218,7 @@ impl Converter<'_> {
     ) -> ExpressionSyntaxKind {
         let span = self.span(&pair);
         if base != 'd' {
-            self.slip(Slip::BaseOfComputed { base }, span);
+            self.errors.push(wording::base_of_computed(base, span));
         }
         ExpressionSyntaxKind::Computed { width, value: self.size(parts(pair).next().expect("a size"), arena) }
     }
@@ -238,7 +234,7 @@ impl Converter<'_> {
             return ExpressionSyntaxKind::Net { name, index, second };
         };
         if let Some(second) = second {
-            self.slip(Slip::SliceOfCircuit, self.span(&second));
+            self.errors.push(wording::slice_of_circuit(self.span(&second)));
         }
         let arguments = first.map_or(Vec::new(), |brackets| self.arguments_of_call(brackets, arena));
         let operands = crate::syntax::convert::parts(operands).map(|operand| self.call_operand(operand, arena));
@@ -255,7 +251,7 @@ impl Converter<'_> {
         if brackets.as_rule() == Rule::index {
             return Some(self.index(brackets, arena));
         }
-        self.slip(Slip::ParametersOfNet, self.span(&brackets));
+        self.errors.push(wording::parameters_of_net(self.span(&brackets)));
         None
     }
 
@@ -267,11 +263,11 @@ impl Converter<'_> {
         let value = match index.kind {
             IndexKind::One(value) => value,
             IndexKind::Slice(value, _) => {
-                self.slip(Slip::SliceOfCircuit, index.span);
+                self.errors.push(wording::slice_of_circuit(index.span));
                 value
             }
             IndexKind::Value(_) => {
-                self.slip(Slip::ValueForParameter, index.span);
+                self.errors.push(wording::value_for_parameter(index.span));
                 return Vec::new();
             }
         };
@@ -280,17 +276,12 @@ impl Converter<'_> {
     }
 
     fn table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
+        let is_match = pair.as_rule() == Rule::match_;
         let mut parts = parts(pair);
-        let inputs = self.expressions(parts.next().expect("operands"), arena);
+        let first = parts.next().expect("an expression or operands");
+        let inputs = if is_match { vec![self.expression(first, arena)] } else { self.expressions(first, arena) };
         let rows = parts.map(|row| self.table_row(row, arena)).collect();
-        ExpressionSyntaxKind::Table { is_match: false, inputs, rows }
-    }
-
-    fn match_table(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> ExpressionSyntaxKind {
-        let mut parts = parts(pair);
-        let inputs = vec![self.expression(parts.next().expect("an expression"), arena)];
-        let rows = parts.map(|row| self.table_row(row, arena)).collect();
-        ExpressionSyntaxKind::Table { is_match: true, inputs, rows }
+        ExpressionSyntaxKind::Table { is_match, inputs, rows }
     }
 
     pub(crate) fn table_row(&mut self, pair: Pair<Rule>, arena: &mut Arena) -> TableRowSyntax {
@@ -321,7 +312,6 @@ pub(crate) fn choice_of(mut values: Vec<ExpressionSyntaxId>, arena: &mut Arena) 
 }
 
 impl Stacks {
-    /// Combines the topmost operator with its operands.
     fn reduce(&mut self, arena: &mut Arena) {
         let right = self.values.pop().expect("an operand");
         let value = match self.waiting.pop().expect("an operator") {
@@ -336,7 +326,6 @@ impl Stacks {
     }
 }
 
-/// An operand as shown in advice.
 fn brief(operand: &str) -> &str {
     if operand.len() > 24 || operand.contains('\n') { "…" } else { operand.trim_end() }
 }

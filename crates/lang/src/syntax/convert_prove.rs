@@ -13,7 +13,7 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
         let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
-        let environment = self.beside(&mut parts);
+        let environment = self.named(Rule::beside, &mut parts);
         let mut arena = Arena::default();
         let properties = parts.map(|property| self.property(property, &mut arena)).collect();
         Prove { circuit, title, environment, properties, body: arena.body(Vec::new()) }
@@ -25,10 +25,9 @@ impl Converter<'_> {
         let quantifier = parts.next().expect("a word");
         let kind = PropertyKind::parse(quantifier.as_str()).expect("the grammar knows the words");
         let first = self.expression(parts.next().expect("an expression"), arena);
-        let second = parts.next_if(|part| part.as_rule() == Rule::implies).is_some();
-        let (condition, value) = match second {
-            true => (Some(first), self.expression(parts.next().expect("an expression"), arena)),
-            false => (None, first),
+        let (condition, value) = match parts.next_if(|part| part.as_rule() == Rule::implies) {
+            Some(_) => (Some(first), self.expression(parts.next().expect("an expression"), arena)),
+            None => (None, first),
         };
         let within = parts.next().map(|within| {
             let steps = crate::syntax::convert::parts(within).next().expect("a number");

@@ -6,7 +6,7 @@ use crate::syntax::arena::Arena;
 use crate::syntax::convert::{Converter, parts};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tree::{Field, InstanceSyntax, RecordSyntax, ValueKind, ValueSyntax};
-use crate::syntax::wording::Slip;
+use crate::syntax::wording;
 
 impl Converter<'_> {
     pub(crate) fn record(&mut self, pair: Pair<Rule>) -> RecordSyntax {
@@ -18,7 +18,7 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let name = self.name(&parts.next().expect("a name"));
         if let Some(slip) = parts.next_if(|part| part.as_rule() == Rule::slip_equals) {
-            self.slip(Slip::FieldSign { field: name.text.clone() }, self.span(&slip));
+            self.errors.push(wording::field_sign(&name.text, self.span(&slip)));
         }
         Field { name, value: self.value(parts.next().expect("a value")) }
     }

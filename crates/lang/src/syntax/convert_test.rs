@@ -23,19 +23,13 @@ impl Converter<'_> {
     pub(crate) fn simulate(&mut self, pair: Pair<Rule>) -> Simulate {
         let mut parts = parts(pair).peekable();
         let swarm = self.name(&parts.next().expect("a name"));
-        let world = self.world(&mut parts);
+        let world = self.named(Rule::in_world, &mut parts);
         let what = parts.next().expect("a schedule");
         let with = match what.as_rule() {
             Rule::name => With::Named(self.name(&what)),
             _ => With::Spells { columns: self.names(what), spells: self.spells(parts.next().expect("spells")) },
         };
         Simulate { swarm, world, with }
-    }
-
-    /// The world in which something runs, if the next part names one.
-    fn world<'p>(&self, parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>) -> Option<NameSyntax> {
-        let named = parts.next_if(|part| part.as_rule() == Rule::in_world)?;
-        super::convert::parts(named).next().map(|name| self.name(&name))
     }
 
     fn names(&self, pair: Pair<Rule>) -> Vec<NameSyntax> {
@@ -53,9 +47,13 @@ impl Converter<'_> {
         SpellSyntax { cells: cells.iter().map(|cell| self.name(cell)).collect(), length, span }
     }
 
-    /// The name after `with`, if it is next.
-    pub(super) fn beside<'p>(&self, parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>) -> Option<NameSyntax> {
-        let named = parts.next_if(|part| part.as_rule() == Rule::beside)?;
+    /// The name in the next part, if that follows this rule.
+    pub(super) fn named<'p>(
+        &self,
+        rule: Rule,
+        parts: &mut Peekable<impl Iterator<Item = Pair<'p, Rule>>>,
+    ) -> Option<NameSyntax> {
+        let named = parts.next_if(|part| part.as_rule() == rule)?;
         super::convert::parts(named).next().map(|name| self.name(&name))
     }
 
@@ -63,7 +61,7 @@ impl Converter<'_> {
         let mut parts = parts(pair).peekable();
         let circuit = self.instance(parts.next().expect("a circuit"));
         let title = parts.next_if(|part| part.as_rule() == Rule::text).map(|title| self.quoted(title));
-        let environment = self.beside(&mut parts);
+        let environment = self.named(Rule::beside, &mut parts);
         let worlds = parts.next_if(|part| part.as_rule() == Rule::in_worlds).map_or(Vec::new(), |all| self.names(all));
         let what = parts.next().expect("what the circuit must do");
         let kind = match what.as_rule() {
@@ -128,7 +126,6 @@ impl Converter<'_> {
         UntilSyntax { output, value, most: self.number(&parts.next().expect("a number")) }
     }
 
-    /// The text before the first bar, the bars, and the text after it.
     fn columns_of(&self, pair: Pair<Rule>) -> (Vec<NameSyntax>, Vec<nbc_base::source::Span>, Vec<NameSyntax>) {
         let (mut before, mut bars, mut after) = (Vec::new(), Vec::new(), Vec::new());
         for part in parts(pair) {

@@ -6,60 +6,44 @@ use crate::syntax::grammar::Rule;
 use crate::syntax::lexer::{is_word, open_brackets};
 use crate::syntax::part::{PartKind, PartPlace};
 use crate::syntax::slips;
-use crate::syntax::split::KEYWORDS;
-use crate::syntax::wording::SyntaxError;
-use nbc_base::diag::{Diagnostic, Suggestion, suggest};
+use crate::syntax::wording;
+use nbc_base::diag::{Diagnostic, suggest};
 use nbc_base::source::Span;
 
-/// The offset of a parse error.
 pub(crate) fn place(error: &Error<Rule>) -> usize {
     match error.location {
         InputLocation::Pos(at) | InputLocation::Span((at, _)) => at,
     }
 }
 
-/// The diagnostic for a part that does not follow the grammar at `at`.
 pub(crate) fn diagnostic(part: &PartPlace<'_>, at: usize, error: &Error<Rule>) -> Diagnostic {
     let found = found(&part.source[at..part.end]);
     let span = Span::new(part.file, part.offset + at, part.offset + at + found.len());
-    let end = found.is_empty().then(|| unexpected_end(part, error));
-    if let Some(Ok(unclosed)) = end {
-        return unclosed;
+    if found.is_empty()
+        && let Some(open) = open_brackets(&part.source[part.start..part.end]).last()
+    {
+        let open = part.offset + part.start + open;
+        let span = Span::new(part.file, open, open + 1);
+        return wording::unclosed_bracket(part.kind == PartKind::Declaration, span);
     }
     if let Some(slip) = slips::look(part, at, found, error) {
-        return slip;
-    }
-    if let Some(Err(end)) = end {
-        return end.at(span);
-    }
-    let found = found.to_owned();
-    let error = if part.kind == PartKind::Declaration && at == 0 {
-        let meant = Suggestion::near(&found, KEYWORDS);
-        SyntaxError::UnexpectedDeclaration { found, meant }
+        slip
+    } else if found.is_empty() && part.kind == PartKind::Declaration {
+        wording::end_of_declaration(expected(error), span)
+    } else if found.is_empty() {
+        wording::end_of_line(expected(error), span)
+    } else if part.kind == PartKind::Declaration && at == 0 {
+        wording::unexpected_declaration(found, span)
     } else if let ErrorVariant::CustomError { .. } = error.variant {
-        SyntaxError::TooDeepHere
+        wording::deep_text(span)
     } else if found.starts_with(['\n', '\r']) {
-        SyntaxError::EndOfLine { expected: expected(error) }
+        wording::end_of_line(expected(error), span)
     } else {
-        SyntaxError::Unexpected { found, expected: expected(error) }
-    };
-    error.at(span)
-}
-
-fn unexpected_end(part: &PartPlace<'_>, error: &Error<Rule>) -> Result<Diagnostic, SyntaxError> {
-    if let Some(open) = open_brackets(&part.source[part.start..part.end]).last() {
-        let open = part.offset + part.start + open;
-        let is_declaration = part.kind == PartKind::Declaration;
-        return Ok(SyntaxError::UnclosedBracket { is_declaration }.at(Span::new(part.file, open, open + 1)));
+        wording::unexpected(found, expected(error), span)
     }
-    let expected = expected(error);
-    Err(match part.kind {
-        PartKind::Declaration => SyntaxError::EndOfDeclaration { expected },
-        _ => SyntaxError::EndOfLine { expected },
-    })
 }
 
-/// The word or sign that a text begins with; a long one is cut.
+/// A long word is cut.
 fn found(rest: &str) -> &str {
     let first = rest.chars().next();
     let end = match first {
@@ -83,7 +67,7 @@ fn expected(error: &Error<Rule>) -> String {
     }
 }
 
-/// The name of a rule in messages; `None` if the message should not suggest it.
+/// `None` if messages should not suggest the rule.
 fn word(rule: Rule) -> Option<&'static str> {
     Some(match rule {
         Rule::name | Rule::sensed => "a name",

@@ -3,7 +3,6 @@
 
 use pest_derive::Parser;
 
-/// The parser of single declarations.
 #[derive(Parser)]
 #[grammar = "../grammar/nb.pest"]
 pub struct NbParser;

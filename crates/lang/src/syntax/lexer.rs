@@ -3,38 +3,31 @@
 
 use std::ops::Range;
 
-/// The kinds of tokens.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TokenKind {
     /// A name, a keyword, or any other run of letters and digits.
     Word,
     /// Digits with what follows them without a space: a point and more digits, or the base and digits of a constant.
     Number,
-    /// A text in quotes, which ends with its line at the latest.
+    /// It ends with its line at the latest.
     Quoted,
-    /// From `//` to the end of the line.
     Comment,
-    /// A comment of another language: from `#` to the end of the line, or from `/*` to `*/`.
+    /// From `#` to the end of the line, or from `/*` to `*/`.
     ForeignComment,
     /// One character of any other kind, or an operator of two.
     Sign,
 }
 
-/// A token and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Token {
-    /// What it is made of.
     pub kind: TokenKind,
-    /// Its bytes in the text.
     pub range: Range<usize>,
-    /// Whether no other token is before it on its line, except comments.
+    /// Whether only comments are before it on its line.
     pub is_first: bool,
 }
 
-/// Operators of two characters.
 const PAIRS: [[u8; 2]; 11] = [*b"->", *b"=>", *b"==", *b"!=", *b"<=", *b">=", *b"<<", *b">>", *b"..", *b"**", *b":="];
 
-/// The tokens of a text, in order.
 pub fn tokens(text: &str) -> impl Iterator<Item = Token> {
     let (mut at, mut is_first) = (0, true);
     std::iter::from_fn(move || {
@@ -48,7 +41,6 @@ pub fn tokens(text: &str) -> impl Iterator<Item = Token> {
     })
 }
 
-/// The kind and the length of the token that a text begins with.
 fn token(rest: &str) -> (TokenKind, usize) {
     let first = rest.chars().next().expect("the text goes on");
     let line = || rest.find(['\n', '\r']).unwrap_or(rest.len());
@@ -64,7 +56,7 @@ fn token(rest: &str) -> (TokenKind, usize) {
     }
 }
 
-/// The length of a number. A point between digits belongs to it, and those of a range do not.
+/// A point between digits belongs to the number; the two of a range do not.
 fn number(rest: &str) -> usize {
     let whole = rest.find(|c| !is_word(c) && c != '\'').unwrap_or(rest.len());
     let digits = |text: &str| text.find(|c: char| !c.is_ascii_digit()).unwrap_or(text.len());
@@ -79,12 +71,11 @@ fn quoted(rest: &str) -> usize {
     end + usize::from(rest[end..].starts_with('"'))
 }
 
-/// Whether a character belongs to words.
 pub(crate) fn is_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
-/// The brackets that are open at the end of a text, as offsets.
+/// As offsets.
 pub(crate) fn open_brackets(text: &str) -> Vec<usize> {
     let mut open = Vec::new();
     for token in tokens(text) {
@@ -93,8 +84,8 @@ pub(crate) fn open_brackets(text: &str) -> Vec<usize> {
     open
 }
 
-/// Opens a bracket, or closes the innermost one if it fits; a closing brace also closes what is open inside it.
-/// Returns whether a closing bracket has no opening one.
+/// Opens a bracket, or closes the innermost one if it fits; a closing brace also closes what is open inside it. Returns
+/// whether a closing bracket has no opening one.
 pub(crate) fn bracket<'t, T>(open: &mut Vec<T>, sign: &str, at: T, text: impl Fn(&T) -> &'t str) -> bool {
     let opening = match sign {
         "(" | "[" | "{" => {
@@ -127,27 +118,9 @@ mod tests {
         let text = "q=4'b1 // é\n/* a\nb */ {a[3..0]} # x\n\"c d\" \"open\nü->";
         let words: Vec<_> = tokens(text).map(|token| (&text[token.range], token.is_first)).collect();
         let first = ["q", "/* a\nb */", "{", "\"c d\"", "ü"];
-        let all = [
-            "q",
-            "=",
-            "4'b1",
-            "// é",
-            "/* a\nb */",
-            "{",
-            "a",
-            "[",
-            "3",
-            "..",
-            "0",
-            "]",
-            "}",
-            "# x",
-            "\"c d\"",
-            "\"open",
-            "ü",
-            "->",
-        ];
-        assert_eq!(words, all.map(|word| (word, first.contains(&word))));
+        let all = "q|=|4'b1|// é|/* a\nb */|{|a|[|3|..|0|]|}|# x|\"c d\"|\"open|ü|->";
+        let all: Vec<_> = all.split('|').map(|word| (word, first.contains(&word))).collect();
+        assert_eq!(words, all);
     }
 
     #[test]

@@ -11,29 +11,25 @@ use crate::syntax::part::{PartKind, PartPlace};
 use crate::syntax::recover;
 use crate::syntax::split::{SourcePiece, Split, split};
 use crate::syntax::tree::{BrokenSyntax, InstanceSyntax, Tree};
-use crate::syntax::wording::{Slip, SyntaxError};
+use crate::syntax::wording;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Sources, Span};
 
-/// The tree of a text, and its errors.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Parsed {
-    /// Everything that could be parsed.
     pub tree: Tree,
-    /// What could not be parsed, in the order of the text.
     pub errors: Vec<Diagnostic>,
 }
 
-/// Parses a file of `sources`.
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let text = &sources.file(file).text;
     if Limit::SourceBytes.permit(text.len() as u64).is_err() {
-        let error = SyntaxError::TooLarge { bytes: text.len(), most: Limit::SourceBytes.most() };
-        return Parsed { errors: vec![error.at(Span::new(file, 0, 0))], ..Parsed::default() };
+        let error = wording::large_file(text.len(), Limit::SourceBytes.most(), Span::new(file, 0, 0));
+        return Parsed { errors: vec![error], ..Parsed::default() };
     }
     if let Some(at) = text.find('\0') {
-        let error = SyntaxError::ZeroByte.at(Span::new(file, at, at + 1));
+        let error = wording::zero_byte(Span::new(file, at, at + 1));
         return Parsed { errors: vec![error], ..Parsed::default() };
     }
     let split = split(text);
@@ -41,7 +37,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     parsed.tree.comments = split.comments.iter().map(|comment| Span::new(file, comment.start, comment.end)).collect();
     for comment in &split.foreign_comments {
         let span = Span::new(file, comment.start, comment.end);
-        parsed.errors.push(Slip::foreign_comment(&text[comment.clone()], &text[comment.end..]).at(span));
+        parsed.errors.push(wording::foreign_comment(&text[comment.clone()], &text[comment.end..], span));
     }
     for piece in &split.pieces {
         parse_piece(text, file, &split, piece, &mut parsed);
@@ -50,22 +46,22 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     parsed
 }
 
-/// Parses a text that names a circuit with its parameters, such as `adder[8]` on a command line.
+/// Parses a text such as `adder[8]` on a command line.
 pub fn parse_instance(sources: &Sources, file: FileId) -> Result<InstanceSyntax, Diagnostic> {
     let text = sources.file(file).text.as_str();
     let mut converter = Converter::new(file, text, &[], 0);
     let parsed = NbParser::parse(Rule::one_instance, text).ok().and_then(|mut pairs| pairs.next());
     let instance = parsed.map(|pair| converter.instance(pair)).filter(|_| converter.errors.is_empty());
     let whole = Span::new(file, 0, text.len());
-    instance.ok_or_else(|| SyntaxError::NotAnInstance { text: text.to_owned() }.at(whole))
+    instance.ok_or_else(|| wording::not_an_instance(text, whole))
 }
 
 fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, parsed: &mut Parsed) {
     let (offset, end) = (piece.range.start, piece.range.end);
     let declaration = Span::new(file, offset, end);
     let place = |range: &Range<usize>| Span::new(file, offset + range.start, offset + range.end);
-    if let Some(error) = over_limits(piece) {
-        parsed.errors.push(error.at(Span { end: declaration.start + 1, ..declaration }));
+    if let Some(error) = over_limits(piece, Span { end: declaration.start + 1, ..declaration }) {
+        parsed.errors.push(error);
         parsed.tree.broken.push(BrokenSyntax { span: declaration, declaration });
         return;
     }
@@ -104,7 +100,7 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
     parsed.tree.broken.extend(converter.lost.drain(..).map(|span| BrokenSyntax { span, declaration }));
     // A declaration of another language has one message.
     if tree.is_some() || recovered.is_some() {
-        let semicolon = |&at: &usize| Slip::StatementEnd { sign: ";".to_owned() }.at(Span::new(file, at, at + 1));
+        let semicolon = |&at: &usize| wording::statement_end(";", Span::new(file, at, at + 1));
         converter.errors.extend(piece.semicolons.iter().map(semicolon));
     }
     if let Some((found, parts)) = recovered {
@@ -125,21 +121,20 @@ fn parse_piece(text: &str, file: FileId, split: &Split, piece: &SourcePiece, par
     parsed.tree.declarations.extend(tree);
 }
 
-/// Replaces a part of a text by spaces, so that the rest stays in its place.
+/// Replaces a part by spaces, so that the rest stays in its place.
 fn blank(text: &mut String, range: Range<usize>) {
     let space = |byte: u8| if matches!(byte, b'\n' | b'\r') { char::from(byte) } else { ' ' };
     let blanks: String = text[range.clone()].bytes().map(space).collect();
     text.replace_range(range, &blanks);
 }
 
-/// The error of a declaration that is nested too deeply or too long to be parsed.
-fn over_limits(piece: &SourcePiece) -> Option<SyntaxError> {
+fn over_limits(piece: &SourcePiece, at: Span) -> Option<Diagnostic> {
     if Limit::Nesting.permit(piece.depth as u64).is_err() {
-        return Some(SyntaxError::TooDeep { depth: piece.depth, most: Limit::Nesting.most() });
+        return Some(wording::deep_declaration(piece.depth, Limit::Nesting.most(), at));
     }
     if Limit::NameBytes.permit(piece.name as u64).is_err() {
-        return Some(SyntaxError::LongName { bytes: piece.name, most: Limit::NameBytes.most() });
+        return Some(wording::long_name(piece.name, Limit::NameBytes.most(), at));
     }
     let words = Limit::Words.permit(piece.words as u64);
-    words.err().map(|_| SyntaxError::TooLong { words: piece.words, most: Limit::Words.most() })
+    words.err().map(|_| wording::long_declaration(piece.words, Limit::Words.most(), at))
 }

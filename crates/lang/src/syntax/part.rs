@@ -3,7 +3,6 @@
 use crate::syntax::grammar::Rule;
 use nbc_base::source::FileId;
 
-/// The kinds of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PartKind {
     Declaration,
@@ -16,7 +15,6 @@ pub(crate) enum PartKind {
 }
 
 impl PartKind {
-    /// The rule of the grammar for parts of this kind.
     pub(crate) fn rule(self) -> Rule {
         match self {
             Self::Declaration => Rule::declaration,
@@ -30,7 +28,6 @@ impl PartKind {
     }
 }
 
-/// A part of a declaration that is parsed alone.
 #[derive(Clone, Copy)]
 pub(crate) struct PartPlace<'a> {
     pub(crate) file: FileId,

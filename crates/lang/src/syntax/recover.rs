@@ -15,16 +15,14 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::PropertyKind;
 use nbc_base::source::FileId;
 
-/// What is wrong with a declaration.
 pub(crate) struct Recovered {
     pub(crate) errors: Vec<Diagnostic>,
-    /// The bad parts; the first is the whole declaration if its own text is bad.
+    /// The first is the whole declaration if its own text is bad.
     pub(crate) broken: Vec<Range<usize>>,
-    /// The good parts.
     pub(crate) kept: Vec<(PartKind, Range<usize>)>,
 }
 
-/// The parts of a declaration, which begins at `offset` of its file and follows the grammar up to `reached`.
+/// `source` begins at `offset` of its file and follows the grammar up to `reached`.
 pub(crate) fn recover(file: FileId, source: &str, offset: usize, reached: usize) -> Recovered {
     let tokens: Vec<_> = tokens(source).filter(|token| token.kind != TokenKind::Comment).collect();
     let all = 0..tokens.len();
@@ -34,7 +32,6 @@ pub(crate) fn recover(file: FileId, source: &str, offset: usize, reached: usize)
     recovery.found
 }
 
-/// Reports the slips in a part of a declaration that is otherwise lost.
 pub(crate) fn slips(converter: &mut Converter<'_>, kind: PartKind, source: &str) {
     let Some(pair) = NbParser::parse(kind.rule(), source).ok().and_then(|mut pairs| pairs.next()) else { return };
     let mut arena = Arena::default();
@@ -55,7 +52,7 @@ struct Recovery<'a> {
     found: Recovered,
 }
 
-/// Parts in braces, as a range of tokens without the braces.
+/// The tokens between the braces.
 struct PartBlock {
     holds: PartKind,
     tokens: Range<usize>,
@@ -113,15 +110,14 @@ impl Recovery<'_> {
         keep
     }
 
-    /// Whether the declaration follows the grammar into this part, so that the one before it has no error. A part may
-    /// read like the end of an incomplete one before it up to its first `=` or `:`.
+    /// Whether the declaration follows the grammar into this part, so that the one before it has no error. Up to its
+    /// first `=` or `:`, a part may read like the end of an incomplete one before it.
     fn is_passed(&self, part: &Range<usize>) -> bool {
         let sign = part.clone().find(|&at| matches!(self.word(at), "=" | ":"));
         let second = (part.start + 1).min(part.end - 1);
         self.reached > self.tokens[sign.unwrap_or(second)].range.start
     }
 
-    /// The blocks of a part that hold other parts.
     fn blocks(&self, kind: PartKind, tokens: &Range<usize>) -> Vec<PartBlock> {
         let mut blocks = Vec::new();
         let mut at = tokens.start;
@@ -153,7 +149,6 @@ impl Recovery<'_> {
         blocks
     }
 
-    /// What the block holds that begins at `at`, in a part that begins at `start`.
     fn holds(&self, kind: PartKind, start: usize, at: usize) -> Option<PartKind> {
         match (kind, self.word(start)) {
             (PartKind::Declaration, "circuit" | "environment" | "module" | "fn" | "def" | "function") => {
@@ -173,7 +168,7 @@ impl Recovery<'_> {
         }
     }
 
-    /// The braces in a part that hold the rows of a `table` or `match`.
+    /// The braces that hold the rows of a `table` or `match`.
     fn tables(&self, part: &Range<usize>) -> Vec<usize> {
         let mut tables = Vec::new();
         // Each open bracket, with the heads of tables in it that have no rows so far.
@@ -200,7 +195,6 @@ impl Recovery<'_> {
         tables
     }
 
-    /// The brace that closes the one at `at`.
     fn closing(&self, at: usize, end: usize) -> usize {
         let mut depth = 0;
         for place in at..end {
@@ -216,7 +210,6 @@ impl Recovery<'_> {
         end
     }
 
-    /// Cuts a block into its parts.
     fn units(&self, block: &PartBlock) -> Vec<Range<usize>> {
         let mut units: Vec<Range<usize>> = Vec::new();
         let mut open = Vec::new();
@@ -235,14 +228,13 @@ impl Recovery<'_> {
         units
     }
 
-    /// Whether a line begins like a statement, even within a parenthesis that is not closed.
+    /// Whether a line begins like a statement, even within an unclosed parenthesis.
     fn is_new_statement(&self, holds: PartKind, at: usize) -> bool {
         holds == PartKind::Statement
             && self.tokens[at].is_first
             && (self.word(at + 1) == "=" || self.word(at + 2) == "in")
     }
 
-    /// Whether a part begins at a token that is in no bracket.
     fn starts(&self, holds: PartKind, at: usize) -> bool {
         let (before, here, next) = (self.word(at - 1), self.word(at), self.word(at + 1));
         let is_first = self.tokens[at].is_first;
@@ -260,12 +252,10 @@ impl Recovery<'_> {
     }
 }
 
-/// Whether a line that begins with `here` continues the one that ends with `before`.
 fn continues(before: &str, here: &str) -> bool {
     continues_after(before) || is_infix(here) || matches!(here, "{" | "x")
 }
 
-/// Whether an expression, or a statement, continues after a word or sign.
 fn continues_after(before: &str) -> bool {
     is_infix(before) || matches!(before, "not" | "if" | "net" | "for" | "match" | "~" | "!")
 }

@@ -6,42 +6,34 @@ use pest::error::{Error, ErrorVariant};
 use crate::syntax::grammar::Rule;
 use crate::syntax::lexer::{is_word, open_brackets};
 use crate::syntax::part::{PartKind, PartPlace};
-use crate::syntax::wording::Slip;
+use crate::syntax::wording;
 use nbc_base::diag::{Diagnostic, suggest};
 use nbc_base::source::{FileId, Span};
 
-/// Reserved words.
 pub(crate) const RESERVED: [&str; 16] = [
     "and", "else", "for", "if", "in", "init", "log2", "nand", "net", "nor", "not", "or", "table", "then", "xnor", "xor",
 ];
 
-/// The tokens between two operands of an expression.
 const BETWEEN: [&str; 8] = ["and", "else", "nand", "nor", "or", "then", "xnor", "xor"];
 
-/// A place where a part of a declaration violates the grammar.
 pub(crate) struct SlipPlace<'a> {
     file: FileId,
     kind: PartKind,
-    /// The text of the declaration, and its place in the file.
     text: &'a str,
     offset: usize,
-    /// The start and the end of the part.
+    /// Of the part.
     start: usize,
     end: usize,
-    /// The place of the parse error, and the token there.
+    /// Of the parse error.
     at: usize,
     found: &'a str,
-    /// The expected tokens.
     wanted: &'a [Rule],
-    /// The brackets of the part that are open at that place, as offsets.
+    /// Brackets of the part that are open there, as offsets.
     open: Vec<usize>,
 }
 
-/// A slip with its place.
-type Found = Option<(Slip, Span)>;
-
-/// In order: the first that recognizes the place decides.
-const LOOKS: [fn(&SlipPlace<'_>) -> Found; 13] = [
+/// The first that recognizes the place decides.
+const LOOKS: [fn(&SlipPlace<'_>) -> Option<Diagnostic>; 13] = [
     letters,
     unclosed_quote,
     single_quote,
@@ -57,21 +49,19 @@ const LOOKS: [fn(&SlipPlace<'_>) -> Found; 13] = [
     missing_comma,
 ];
 
-/// The message for a known mistake.
 pub(crate) fn look(part: &PartPlace<'_>, at: usize, found: &str, error: &Error<Rule>) -> Option<Diagnostic> {
     let ErrorVariant::ParsingError { positives: wanted, .. } = &error.variant else { return None };
     let &PartPlace { file, kind, source: text, offset, start, end } = part;
     let open = open_brackets(&text[start..at]).into_iter().map(|open| start + open).collect();
     let place = SlipPlace { file, kind, text, offset, start, end, at, found, wanted, open };
-    LOOKS.iter().find_map(|look| look(&place)).map(|(slip, span)| slip.at(span))
+    LOOKS.iter().find_map(|look| look(&place))
 }
 
-/// The last word of a text, and the text before it.
+/// The last word of a text, after the text before it.
 fn last_word(text: &str) -> (&str, &str) {
     text.split_at(text.trim_end_matches(is_word).len())
 }
 
-/// Text as shown in help.
 fn brief(text: &str) -> &str {
     let text = text.trim();
     if text.is_empty() || text.len() > 40 || text.contains(['\n', '\r']) { "…" } else { text }
@@ -94,27 +84,19 @@ impl<'a> SlipPlace<'a> {
         self.span(self.at, self.at + self.found.len())
     }
 
-    /// The word or sign at the place.
-    fn found(&self) -> String {
-        self.found.to_owned()
-    }
-
     fn wants(&self, rules: &[Rule]) -> bool {
         self.wanted.iter().any(|rule| rules.contains(rule))
     }
 
-    /// The innermost open bracket.
     fn inside(&self) -> Option<(usize, u8)> {
         self.open.last().map(|&at| (at, self.text.as_bytes()[at]))
     }
 
-    /// Whether the place is in the ports of a circuit.
     fn in_ports(&self) -> bool {
         self.text[self.start..].starts_with("circuit")
             && self.open.first().is_some_and(|&at| self.text.as_bytes()[at] == b'(')
     }
 
-    /// Whether the place is in the body of a circuit.
     fn in_body(&self) -> bool {
         matches!(self.kind, PartKind::Statement | PartKind::TableRow | PartKind::Property)
     }
@@ -127,43 +109,42 @@ impl<'a> SlipPlace<'a> {
     }
 }
 
-/// Whether a text ends with an operand.
 fn ends_operand(text: &str) -> bool {
     let word = last_word(text).1;
     let ends = text.ends_with(|c: char| is_word(c) || matches!(c, ')' | ']' | '}'));
     ends && !RESERVED.contains(&word)
 }
 
-fn letters(place: &SlipPlace<'_>) -> Found {
+fn letters(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let foreign = |word: &str| !word.is_ascii();
     let (rest, head) = last_word(place.before());
     let tail = place.after().find(|c| !is_word(c)).unwrap_or(place.after().len());
     let word = &place.text[place.start + rest.len()..place.at + tail];
     (foreign(word) && foreign(place.found) && word.chars().all(is_word))
-        .then(|| (Slip::ForeignLetters { word: word.to_owned() }, place.span(place.at - head.len(), place.at + tail)))
+        .then(|| wording::foreign_letters(word, place.span(place.at - head.len(), place.at + tail)))
 }
 
-fn unclosed_quote(place: &SlipPlace<'_>) -> Found {
+fn unclosed_quote(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let line = place.after().lines().next().unwrap_or_default();
-    (place.found == "\"" && !line[1..].contains('"')).then(|| (Slip::UnclosedQuote, place.here()))
+    (place.found == "\"" && !line[1..].contains('"')).then(|| wording::unclosed_quote(place.here()))
 }
 
-fn single_quote(place: &SlipPlace<'_>) -> Found {
+fn single_quote(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     (place.found == "'" && place.wants(&[Rule::text])).then(|| {
         let line = place.after().lines().next().unwrap_or_default();
         let close = line[1..].find('\'').map(|end| place.span(place.at + end + 1, place.at + end + 2));
-        (Slip::SingleQuote { close }, place.here())
+        wording::single_quote(close, place.here())
     })
 }
 
-fn start_of_net(place: &SlipPlace<'_>) -> Found {
+fn start_of_net(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let (word, at, line) = place.word_before().filter(|(word, ..)| *word == "init")?;
     let name = line.trim_start().strip_prefix("net ")?.rsplit(',').next()?.trim();
-    let net = name.split(|c: char| !is_word(c)).next()?.to_owned();
-    Some((Slip::StartOfNet { net }, place.span(at, at + word.len())))
+    let net = name.split(|c: char| !is_word(c)).next()?;
+    Some(wording::start_of_net(net, place.span(at, at + word.len())))
 }
 
-fn reserved_word(place: &SlipPlace<'_>) -> Found {
+fn reserved_word(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let assigned = |rest: &str| rest.trim_start().starts_with('=') && !rest.trim_start().starts_with("==");
     let (word, start) = if RESERVED.contains(&place.found) {
         let name = place.wants(&[Rule::name, Rule::port, Rule::target, Rule::parameter]);
@@ -173,11 +154,10 @@ fn reserved_word(place: &SlipPlace<'_>) -> Found {
         let (word, start, line) = place.word_before()?;
         (assigned(place.after()) && RESERVED.contains(&word) && !line.ends_with(is_word)).then_some((word, start))?
     };
-    Some((Slip::ReservedWord { word: word.to_owned() }, place.span(start, start + word.len())))
+    Some(wording::reserved_word(word, place.span(start, start + word.len())))
 }
 
-/// A `-` before an operand, which no value has.
-fn sign(place: &SlipPlace<'_>) -> Found {
+fn sign(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let before = place.before().trim_end();
     if place.found != "-" || !place.in_body() || ends_operand(before) {
         return None;
@@ -196,10 +176,10 @@ fn sign(place: &SlipPlace<'_>) -> Found {
     };
     let follows_sign = before.ends_with(['*', '<', '>', '&', '|', '^']) || operand.is_empty();
     let instead = (!follows_sign).then(|| (place.span(start, end), text));
-    Some((Slip::Sign { instead }, place.here()))
+    Some(wording::sign(instead, place.here()))
 }
 
-fn width_of_constant(place: &SlipPlace<'_>) -> Found {
+fn width_of_constant(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let before = place.before();
     let open = before.strip_suffix(')').and_then(|inside| inside.rfind('(')).filter(|_| place.found == "'")?;
     let sum = brief(&before[open + 1..before.len() - 1]);
@@ -208,10 +188,10 @@ fn width_of_constant(place: &SlipPlace<'_>) -> Found {
     let digits = constant.trim_start_matches(['b', 'd', 'h']);
     let is_zero = sum != "…" && !digits.is_empty() && digits.bytes().all(|digit| digit == b'0');
     let zero = is_zero.then(|| place.span(place.start + open, place.at + 1 + constant.len()));
-    Some((Slip::WidthOfConstant { width: sum.to_owned(), digits: brief(digits).to_owned(), zero }, place.here()))
+    Some(wording::width_of_constant(sum, brief(digits), zero, place.here()))
 }
 
-fn nets_in_braces(place: &SlipPlace<'_>) -> Found {
+fn nets_in_braces(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let close = place.after().find('}')?;
     let assigned = place.after()[close + 1..].trim_start();
     if place.found != "{" || !place.in_body() || !assigned.starts_with('=') || assigned.starts_with("==") {
@@ -220,10 +200,10 @@ fn nets_in_braces(place: &SlipPlace<'_>) -> Found {
     let names: Vec<&str> = place.after()[1..close].split(',').map(str::trim).collect();
     let bits = names.iter().rev().enumerate().map(|(bit, name)| format!("{name} = t[{bit}]"));
     let bits: Vec<String> = bits.collect::<Vec<_>>().into_iter().rev().take(4).collect();
-    Some((Slip::NetsInBraces { nets: brief(&names.join(", ")).to_owned(), bits }, place.here()))
+    Some(wording::nets_in_braces(brief(&names.join(", ")), &bits, place.here()))
 }
 
-fn space_before_operands(place: &SlipPlace<'_>) -> Found {
+fn space_before_operands(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let before = place.before().trim_end();
     let open = if place.found == "(" { place.at } else { place.start + opening(before.strip_suffix(')')?)? };
     let head = &place.text[place.start..open];
@@ -234,8 +214,7 @@ fn space_before_operands(place: &SlipPlace<'_>) -> Found {
     }
     let close = place.text[open..place.end].find(')').map_or(place.end, |close| open + close + 1);
     let span = place.span(place.start + callee.len(), open);
-    let operands = brief(&place.text[open..close]).to_owned();
-    Some((Slip::SpaceBeforeOperands { name: name.to_owned(), operands }, span))
+    Some(wording::space_before_operands(name, brief(&place.text[open..close]), span))
 }
 
 /// The offset of the bracket that a closing bracket after this text closes.
@@ -252,7 +231,7 @@ fn opening(inside: &str) -> Option<usize> {
     })
 }
 
-fn misspelled_operator(place: &SlipPlace<'_>) -> Found {
+fn misspelled_operator(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let operator = |word| suggest::nearest(word, BETWEEN);
     let (word, start, near) = match place.word_before() {
         Some((word, start, line)) if ends_operand(line) && operator(word).is_some() => (word, start, operator(word)?),
@@ -264,18 +243,17 @@ fn misspelled_operator(place: &SlipPlace<'_>) -> Found {
     if !place.in_body() || RESERVED.contains(&word) {
         return None;
     }
-    let span = place.span(start, start + word.len());
-    Some((Slip::MisspelledOperator { word: word.to_owned(), operator: near.to_owned() }, span))
+    Some(wording::misspelled_operator(word, near, place.span(start, start + word.len())))
 }
 
-fn missing_operator(place: &SlipPlace<'_>) -> Found {
+fn missing_operator(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let (word, start, line) = place.word_before()?;
     let drives = place.wants(&[Rule::index, Rule::slip_arrow]) && place.in_body();
     (drives && ends_operand(line) && line.contains('=') && !RESERVED.contains(&word))
-        .then(|| (Slip::MissingOperator { found: word.to_owned() }, place.span(start, start + word.len())))
+        .then(|| wording::missing_operator(word, place.span(start, start + word.len())))
 }
 
-fn space_in_pattern(place: &SlipPlace<'_>) -> Found {
+fn space_in_pattern(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let is_pattern = |word: &str| !word.is_empty() && word.bytes().all(|byte| matches!(byte, b'0' | b'1' | b'-'));
     let in_table = place.kind == PartKind::TableRow;
     let rest = place.after();
@@ -286,14 +264,11 @@ fn space_in_pattern(place: &SlipPlace<'_>) -> Found {
     (in_table && is_pattern(first) && !words.is_empty() && words.iter().all(|word| is_pattern(word))).then(|| {
         let start = place.start + before.len() - first.len();
         let whole = place.span(start, place.at + pattern.trim_end().len());
-        (
-            Slip::SpaceInPattern { found: place.found(), pattern: format!("{first}{}", words.concat()), whole },
-            place.here(),
-        )
+        wording::space_in_pattern(place.found, &format!("{first}{}", words.concat()), whole, place.here())
     })
 }
 
-fn missing_comma(place: &SlipPlace<'_>) -> Found {
+fn missing_comma(place: &SlipPlace<'_>) -> Option<Diagnostic> {
     let (_, bracket) = place.inside()?;
     let follows = ends_operand(place.before().trim_end()) && place.found.starts_with(is_word);
     let close = match bracket {
@@ -302,7 +277,7 @@ fn missing_comma(place: &SlipPlace<'_>) -> Found {
         _ => return None,
     };
     (follows && !place.wants(&[Rule::operator, Rule::size_infix])).then(|| {
-        let before = place.word_before().map(|(word, at, _)| (word.to_owned(), place.span(at, at + word.len())));
-        (Slip::MissingComma { before, found: place.found(), close }, place.here())
+        let before = place.word_before().map(|(word, at, _)| (word, place.span(at, at + word.len())));
+        wording::missing_comma(before, place.found, close, place.here())
     })
 }

@@ -7,7 +7,6 @@ use std::ops::Range;
 
 use crate::syntax::lexer::{Token, TokenKind, bracket, is_word, tokens};
 
-/// The keywords that begin declarations.
 pub const KEYWORDS: [&str; 17] = [
     "circuit",
     "enum",
@@ -28,35 +27,27 @@ pub const KEYWORDS: [&str; 17] = [
     "world",
 ];
 
-/// Words that begin a circuit in other languages.
 const FOREIGN_KEYWORDS: [&str; 4] = ["module", "fn", "def", "function"];
 
-/// A text split into declarations.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Split {
-    /// The declarations.
     pub(crate) pieces: Vec<SourcePiece>,
     pub(crate) comments: Vec<Range<usize>>,
-    /// The comments of other languages.
     pub(crate) foreign_comments: Vec<Range<usize>>,
 }
 
-/// The text of a declaration, without the spaces and comments around it.
+/// Without the spaces and comments around it.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct SourcePiece {
-    /// The range of bytes.
     pub(crate) range: Range<usize>,
-    /// The semicolons that end statements in other languages.
     pub(crate) semicolons: Vec<usize>,
-    /// The deepest nesting of brackets and `if`.
+    /// Of brackets and `if`.
     pub(crate) depth: usize,
-    /// The number of tokens.
     pub(crate) words: usize,
     /// The bytes of the longest name.
     pub(crate) name: usize,
 }
 
-/// Splits a text into declarations.
 pub(crate) fn split(text: &str) -> Split {
     let mut splitter =
         Splitter { text, split: Split::default(), piece: None, open: Vec::new(), closed: false, choices: 0 };
@@ -76,8 +67,7 @@ struct Splitter<'a> {
     split: Split,
     piece: Option<SourcePiece>,
     open: Vec<usize>,
-    /// Whether all braces of the piece are closed, so that any keyword at the start of a line begins another
-    /// declaration.
+    /// Whether the braces of the piece are closed, so that any keyword at the start of a line begins a declaration.
     closed: bool,
     /// Each `if` without its `else` so far.
     choices: usize,
@@ -114,7 +104,6 @@ impl Splitter<'_> {
         piece.depth = piece.depth.max(self.open.len() + self.choices);
     }
 
-    /// Whether a token is the first of a declaration.
     fn begins(&self, token: &Token, word: &str) -> bool {
         if !token.is_first || !matches!(token.kind, TokenKind::Word | TokenKind::Number) {
             return false;
@@ -137,7 +126,7 @@ impl Splitter<'_> {
     }
 }
 
-/// Whether `rest` continues like a declaration with this keyword. A net may have the same name as a keyword.
+/// Whether `rest` continues like a declaration with this keyword. A net may have a keyword's name.
 fn starts_declaration(keyword: &str, rest: &str) -> bool {
     let rest = rest.trim_start_matches([' ', '\t']);
     match keyword {

@@ -1,8 +1,7 @@
-//! A completion.
+//! A completion with a short description.
 
 use gen_lsp_types::{CompletionItem, CompletionItemKind};
 
-/// A completion with a short description.
 pub(super) fn item(label: &str, kind: CompletionItemKind, detail: &str) -> CompletionItem {
     CompletionItem {
         label: label.to_owned(),

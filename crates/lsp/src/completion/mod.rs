@@ -1,6 +1,5 @@
 //! Completions at a place: words of the language, declared names, fields, units, and calls of circuits.
 
-mod fields;
 mod item;
 mod paths;
 mod place;
@@ -15,29 +14,25 @@ use crate::spot::Spot;
 use crate::tokens;
 use nbc_base::model::Function;
 use nbc_circuit::formats::is_word;
-use nbc_lang::check::NameKind;
+use nbc_lang::check::{Holds, NameKind, record_fields};
 use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
-use fields::Holds;
 use item::item;
 use paths::PathKind;
 use place::{Before, Place};
 
-/// Words after a value.
 const INFIXES: [&str; 9] = ["and", "else", "init", "nand", "nor", "or", "then", "xnor", "xor"];
 
-/// Words that begin a value.
 const PREFIXES: [&str; 9] = ["and", "if", "nand", "nor", "not", "or", "table", "xnor", "xor"];
 
 const UNITS: [&str; 5] = ["cycles", "deg", "ms", "s", "steps"];
 
-/// Signs after which editors ask for completions.
 pub(super) const TRIGGERS: [&str; 5] = [":", "[", "(", "\"", "/"];
 
-/// The signs of them that matter in a path only.
+/// Those that matter in a path only.
 const TRIGGERS_IN_PATHS: [&str; 2] = ["\"", "/"];
 
-/// The completions at a place, where the sign `typed` was typed or the user asked.
+/// `typed` is the trigger, unless the user asked.
 pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem> {
     let tokens = tokens::tokens(spot.text());
     if let Some(quoted) = tokens.iter().find(|token| is_inside(token, spot)) {
@@ -53,23 +48,19 @@ pub(super) fn items(spot: &Spot<'_>, typed: Option<&str>) -> Vec<CompletionItem>
         Place::Outside => words(&KEYWORDS),
         Place::Unit => words(&UNITS),
         Place::Row => words(&["for"]),
-        Place::Field(keyword) => fields::of(keyword).iter().map(|(name, _)| field(name)).collect(),
-        Place::Inside(of) => fields::inside(of).iter().map(|name| field(name)).collect(),
+        Place::Field(record) => record_fields(record).iter().map(|known| field(known.name)).collect(),
         Place::Value(keyword, field) => values(files, keyword, field),
         Place::Statement => [words(&["for", "net"]), nets(&before, files, NameKind::Net)].concat(),
         Place::Operand => [nets(&before, files, NameKind::Net), circuits(files), words(&PREFIXES)].concat(),
         Place::Infix => words(&INFIXES),
         Place::Size => [nets(&before, files, NameKind::Number), words(&["log2"])].concat(),
-        Place::Circuit => names(files, NameKind::Circuit),
+        Place::Name(kind) => names(files, kind),
         Place::Columns(name) => columns(files, name),
-        Place::Swarm => names(files, NameKind::Swarm),
-        Place::World => names(files, NameKind::World),
         Place::Schedule => [names(files, NameKind::Schedule), words(&["schedule"])].concat(),
-        Place::Stimulus => names(files, NameKind::Stimulus),
     }
 }
 
-/// Whether a place is between the quotes of a token, of which the second may be missing.
+/// The second quote may be missing.
 fn is_inside(token: &Token, spot: &Spot<'_>) -> bool {
     let text = &spot.text()[token.range.clone()];
     let is_closed = text.len() > 1 && text.ends_with('"');
@@ -77,14 +68,13 @@ fn is_inside(token: &Token, spot: &Spot<'_>) -> bool {
     token.kind == TokenKind::Quoted && (token.range.start + 1..=end).contains(&spot.offset)
 }
 
-/// Whether a place is in a comment, which contains its end.
+/// A comment contains its end.
 fn is_comment(tokens: &[Token], offset: usize) -> bool {
     tokens
         .iter()
         .any(|token| token.kind == TokenKind::Comment && (token.range.start..=token.range.end).contains(&offset))
 }
 
-/// The paths at a place after the quote at `quote`, if the text there is a path.
 fn path(spot: &Spot<'_>, tokens: &[Token], quote: usize) -> Vec<CompletionItem> {
     match Before::of(spot.text(), tokens, quote).place(quote) {
         Place::UsedFile => paths::items(spot, quote + 1, PathKind::Source),
@@ -102,24 +92,22 @@ fn field(name: &str) -> CompletionItem {
     CompletionItem { insert_text, ..item(name, CompletionItemKind::Field, "field") }
 }
 
-/// The completions of the value of a field.
 fn values(files: &Files<'_>, keyword: &str, field: &str) -> Vec<CompletionItem> {
-    let choices = |list: &[&str]| list.iter().map(|word| item(word, CompletionItemKind::EnumMember, field)).collect();
-    match fields::of(keyword).iter().find(|(name, _)| *name == field).map(|(_, holds)| *holds) {
-        None => Vec::new(),
-        Some(Holds::Words(list)) => choices(list),
-        Some(Holds::Name(kind, list)) => {
-            let mut all: Vec<CompletionItem> = choices(list);
-            all.extend(names(files, kind));
-            all
-        }
+    let choices = |list: &[&str]| -> Vec<CompletionItem> {
+        list.iter().map(|word| item(word, CompletionItemKind::EnumMember, field)).collect()
+    };
+    match record_fields(keyword).iter().find(|known| known.name == field).map(|known| known.holds) {
+        None | Some(Holds::Value | Holds::Record(_)) => Vec::new(),
+        Some(Holds::Word(list)) => choices(list),
+        Some(Holds::Name(kind)) => names(files, kind),
+        Some(Holds::NameOr(kind, list)) => [choices(list), names(files, kind)].concat(),
         Some(Holds::Function) => {
             Function::named().map(|function| item(function.name(), CompletionItemKind::EnumMember, "robot")).collect()
         }
     }
 }
 
-/// The names of a declaration: those that have a meaning, and if it does not parse, its words.
+/// Names that have a meaning or, if the declaration does not parse, its words.
 fn nets(before: &Before<'_>, files: &Files<'_>, wanted: NameKind) -> Vec<CompletionItem> {
     let Some(first) = before.tokens.first() else { return Vec::new() };
     let checked = files.checked;
@@ -144,7 +132,6 @@ fn nets(before: &Before<'_>, files: &Files<'_>, wanted: NameKind) -> Vec<Complet
     named.into_iter().map(|(name, detail)| item(name, CompletionItemKind::Variable, detail)).collect()
 }
 
-/// Calls of the circuits, with their operands to be filled in.
 fn circuits(files: &Files<'_>) -> Vec<CompletionItem> {
     let call = |interface: Interface| {
         let operands: Vec<_> =
@@ -161,7 +148,6 @@ fn circuits(files: &Files<'_>) -> Vec<CompletionItem> {
     own.map(|circuit| call(Interface::of(files, circuit))).collect()
 }
 
-/// The ports of a circuit or of a swarm's circuit.
 fn columns(files: &Files<'_>, name: &str) -> Vec<CompletionItem> {
     let program = &files.checked.program;
     let circuit = program.swarm(name).map_or(name, |swarm| swarm.circuit.circuit.as_str());
@@ -170,7 +156,6 @@ fn columns(files: &Files<'_>, name: &str) -> Vec<CompletionItem> {
     ports.map(|port| item(&port.name, CompletionItemKind::Variable, "port")).collect()
 }
 
-/// The declared names of a kind.
 fn names(files: &Files<'_>, wanted: NameKind) -> Vec<CompletionItem> {
     let all = files.checked.sources.iter().flat_map(|source| files.checked.uses.of_file(source.id));
     let declared = all.filter(|found| found.place == found.declared && found.kind == wanted);

@@ -7,19 +7,15 @@ use crate::spot::Spot;
 use nbc_base::source::{EntryKind, Span};
 use nbc_lang::check::{beside, is_usable};
 
-/// The kind of file or folder that a path should name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PathKind {
-    /// A file that a program can use.
     Source,
     Folder,
 }
 
-/// The most entries of a folder that are offered.
 const MOST: usize = 1000;
 
-/// The completions of the name at a place, in a path that begins at the byte `start`. Folders are offered too, because
-/// they may contain what is wanted.
+/// `start` is the first byte of the path. Folders are offered too, because they may contain what is wanted.
 pub(super) fn items(spot: &Spot<'_>, start: usize, kind: PathKind) -> Vec<CompletionItem> {
     let typed = &spot.text()[start..spot.offset];
     let (folder, name) = typed.split_at(typed.rfind('/').map_or(0, |slash| slash + 1));
@@ -40,7 +36,6 @@ pub(super) fn items(spot: &Spot<'_>, start: usize, kind: PathKind) -> Vec<Comple
     shown.filter(|(label, _)| !is_own(label)).map(offer).collect()
 }
 
-/// The entries of a folder that are or contain what is wanted, in order.
 fn entries(spot: &Spot<'_>, folder: &str, kind: PathKind) -> Vec<(String, CompletionItemKind)> {
     let world = spot.files.world;
     let names = world.list(folder).unwrap_or_default().into_iter().take(MOST);

@@ -3,60 +3,43 @@
 
 use std::ops::Range;
 
-use crate::completion::fields;
+use nbc_lang::check::{Holds, NameKind, record_fields};
 use nbc_lang::syntax::{KEYWORDS, Token, TokenKind};
 
-/// A place in a text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Place<'t> {
-    /// Between declarations.
+    /// Where a declaration of this kind is named.
+    Name(NameKind),
     Outside,
-    /// Where the name of a new thing is written.
     NewName,
-    /// Where a unit is expected after a number, or `for` a time.
+    /// After a number, or after `for` and a number.
     Unit,
-    /// Where a field of a record is expected.
     Field(&'t str),
-    /// In the value of a field of a record.
     Value(&'t str, &'t str),
-    /// Where a field of the record is expected that is the value of this field.
-    Inside(&'t str),
-    /// At the start of a statement.
     Statement,
-    /// Where a value is expected in an expression.
+    /// Where a value is expected.
     Operand,
-    /// After a value in an expression.
+    /// After a value.
     Infix,
     /// In a width, an index or the parameters of a call.
     Size,
-    /// Where a circuit is named: by a test, or after `against`.
-    Circuit,
-    /// In the header of a test of the circuit of that name, or of the columns of a simulation of that swarm.
+    /// The ports of the tested circuit of that name, or of the simulated swarm.
     Columns(&'t str),
-    /// In a row of a test, a spell of a schedule.
+    /// In a row of a test or of a schedule.
     Row,
-    /// Where a test or a simulation names its world.
-    World,
-    /// Where a simulation names its swarm, and its schedule.
-    Swarm,
     Schedule,
-    /// Where a schedule lists its stimuli.
-    Stimulus,
-    /// Where a file is named that is used.
     UsedFile,
 }
 
-/// The tokens of the declaration before a place.
 pub(super) struct Before<'t> {
     pub(super) text: &'t str,
-    /// From the keyword on; without the word that is being written.
+    /// From the keyword on, without the word that is being written.
     pub(super) tokens: &'t [Token],
-    /// The brackets that are open, as indices.
+    /// As indices.
     open: Vec<usize>,
 }
 
 impl<'t> Before<'t> {
-    /// The tokens before a byte.
     pub(super) fn of(text: &'t str, tokens: &'t [Token], offset: usize) -> Self {
         let is_before = |token: &Token| match token.kind {
             TokenKind::Word | TokenKind::Number => token.range.end < offset,
@@ -84,12 +67,10 @@ impl<'t> Before<'t> {
         self.tokens.len().checked_sub(1).map_or("", |last| self.word(last))
     }
 
-    /// The innermost open bracket.
     fn bracket(&self) -> &'t str {
         self.open.last().map_or("", |&at| self.word(at))
     }
 
-    /// The place after these tokens, at this byte.
     pub(super) fn place(&self, offset: usize) -> Place<'t> {
         let is_number = self.tokens.last().is_some_and(|token| token.kind == TokenKind::Number);
         match self.word(0) {
@@ -99,14 +80,14 @@ impl<'t> Before<'t> {
             "circuit" => self.in_circuit(offset),
             "test" => self.in_test(offset),
             "prove" => match self.open.first() {
-                None if self.tokens.len() == 1 => Place::Circuit,
+                None if self.tokens.len() == 1 => Place::Name(NameKind::Circuit),
                 None => Place::NewName,
                 Some(_) => Place::Columns(self.word(1)),
             },
             "simulate" | "schedule" if is_number && self.last_word_before() == "for" => Place::Unit,
             "simulate" => self.in_simulation(),
             "schedule" => match self.bracket() {
-                "(" => Place::Stimulus,
+                "(" => Place::Name(NameKind::Stimulus),
                 "{" => Place::Row,
                 _ => Place::NewName,
             },
@@ -162,7 +143,7 @@ impl<'t> Before<'t> {
         }
     }
 
-    /// Whether the innermost bracket is that of statements: of the body, of a loop, or of a test's reference.
+    /// Whether the innermost bracket holds statements: of a body, a loop, or a test's reference.
     fn is_block(&self) -> bool {
         let Some(&at) = self.open.last() else { return false };
         let line = self.text[..self.tokens[at].range.start].rfind('\n').map_or(0, |end| end + 1);
@@ -173,8 +154,8 @@ impl<'t> Before<'t> {
     fn in_test(&self, offset: usize) -> Place<'t> {
         let has = |word: &str| (1..self.tokens.len()).any(|at| self.word(at) == word);
         match self.open.first().map(|&at| self.word(at)) {
-            _ if self.tokens.len() == 1 || self.last() == "against" => Place::Circuit,
-            None if self.last() == "in" => Place::World,
+            _ if self.tokens.len() == 1 || self.last() == "against" => Place::Name(NameKind::Circuit),
+            None if self.last() == "in" => Place::Name(NameKind::World),
             Some("{") if has("all") && has("inputs") => self.in_body(offset),
             Some("{") if has("|") && self.is_row(offset) => match self.tokens.last().map(|token| token.kind) {
                 Some(TokenKind::Number) if self.last_word_before() == "for" => Place::Unit,
@@ -186,7 +167,7 @@ impl<'t> Before<'t> {
         }
     }
 
-    /// Whether the line of a byte comes after the line of the first bar.
+    /// Whether a byte is on a line after that of the first bar.
     fn is_row(&self, offset: usize) -> bool {
         let bar = self.tokens.iter().find(|token| &self.text[token.range.clone()] == "|");
         bar.is_some_and(|bar| self.text[bar.range.end..offset].contains('\n'))
@@ -194,8 +175,8 @@ impl<'t> Before<'t> {
 
     fn in_simulation(&self) -> Place<'t> {
         match (self.tokens.len(), self.last(), self.bracket()) {
-            (1, ..) => Place::Swarm,
-            (_, "in", _) => Place::World,
+            (1, ..) => Place::Name(NameKind::Swarm),
+            (_, "in", _) => Place::Name(NameKind::World),
             (_, "with", _) => Place::Schedule,
             (.., "(") => Place::Columns(self.word(1)),
             (.., "{") => Place::Row,
@@ -220,8 +201,14 @@ impl<'t> Before<'t> {
                 _ => {}
             }
         }
+        let holds = record_fields(self.word(0)).iter().find(|known| Some(known.name) == field).map(|known| known.holds);
         match field {
-            Some(field) if depth > 0 && !fields::inside(field).is_empty() => Place::Inside(field),
+            Some(_)
+                if depth > 0
+                    && let Some(Holds::Record(inner)) = holds =>
+            {
+                Place::Field(inner)
+            }
             Some(_) if depth == 0 && self.last() != ":" => Place::Field(self.word(0)),
             Some(field) => Place::Value(self.word(0), field),
             None => Place::Field(self.word(0)),
@@ -229,10 +216,9 @@ impl<'t> Before<'t> {
     }
 }
 
-/// Words after which a value is expected.
 const WORDS_BEFORE_VALUES: [&str; 10] = ["and", "else", "if", "nand", "nor", "not", "or", "then", "xnor", "xor"];
 
-/// Whether a token is a keyword that begins a declaration: the first of its line, and not inside one that is complete.
+/// Whether a token is a keyword that begins a line.
 fn begins(text: &str, tokens: &[Token], at: usize) -> bool {
     let Range { start, .. } = tokens[at].range;
     KEYWORDS.contains(&&text[tokens[at].range.clone()]) && (start == 0 || text[..start].ends_with(['\n', '\r']))
@@ -266,7 +252,7 @@ mod tests {
         assert_eq!([place("use $"), place("use \"a\",\n    $")], ["UsedFile"; 2]);
         assert_eq!(
             [place("test $"), place("test f for all inputs against $"), place("test f \"as\" against $")],
-            ["Circuit"; 3]
+            ["Name(Circuit)"; 3]
         );
         assert_eq!(place("test f {\n    a $"), "Columns(\"f\")");
         assert_eq!(place("test f {\n    a | q\n    0 $"), "Row");
@@ -276,14 +262,14 @@ mod tests {
         assert_eq!(place("swarm s { circuit: $"), "Value(\"swarm\", \"circuit\")");
         assert_eq!(place("swarm s {\n    circuit: f\n    $"), "Field(\"swarm\")");
         assert_eq!(place("library l { from: shipped, behaviors: [nand, $"), "Value(\"library\", \"behaviors\")");
-        assert_eq!(place("evolution e { mutation: { $"), "Inside(\"mutation\")");
-        assert_eq!(place("evolution e { vary: { all: 5%, $"), "Inside(\"vary\")");
+        assert_eq!(place("evolution e { mutation: { $"), "Field(\"mutation\")");
+        assert_eq!(place("evolution e { vary: { all: 5%, $"), "Field(\"variation\")");
         assert_eq!(place("material m { period: 3 $"), "Unit");
-        assert_eq!([place("simulate $"), place("simulate s with $")], ["Swarm", "Schedule"]);
+        assert_eq!([place("simulate $"), place("simulate s with $")], ["Name(Swarm)", "Schedule"]);
         assert_eq!(place("simulate s with schedule ($"), "Columns(\"s\")");
-        assert_eq!([place("simulate s in $"), place("test f \"t\" in $")], ["World"; 2]);
+        assert_eq!([place("simulate s in $"), place("test f \"t\" in $")], ["Name(World)"; 2]);
         assert_eq!(place("world w { from: $"), "Value(\"world\", \"from\")");
-        assert_eq!([place("schedule s($"), place("schedule s(a) {\n    $")], ["Stimulus", "Row"]);
+        assert_eq!([place("schedule s($"), place("schedule s(a) {\n    $")], ["Name(Stimulus)", "Row"]);
         assert_eq!(place("schedule s(a) {\n    0 for 3 $"), "Unit");
     }
 }

@@ -6,7 +6,6 @@ use nbc_base::diag::counted;
 use nbc_base::model::{Circuit, Instance, Net};
 use nbc_base::source::Span;
 
-/// The ports and parameters of the circuit declared at a place.
 pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option<Subject>) {
     let Some(circuit) = files.checked.program.circuits.iter().find(|circuit| circuit.span == declared) else {
         return (None, None);
@@ -15,7 +14,6 @@ pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option
     (Some(interface(files, circuit)), subject)
 }
 
-/// The circuit of a declared swarm, as a subject to compile.
 pub(super) fn of_swarm(files: &Files<'_>, name: &str) -> Option<Subject> {
     let swarm = files.checked.program.swarm(name)?;
     Some(Subject::Circuit(swarm.circuit.clone(), Some(swarm.name.clone())))
@@ -28,7 +26,7 @@ pub(super) fn instance(files: &Files<'_>, circuit: &Circuit) -> Option<Instance>
     checked.in_use(circuit).filter(|_| is_meant)
 }
 
-/// Ports with widths, and parameters: `inputs a (8 bits), b; output q; parameter n`.
+/// `inputs a (8 bits), b; output q; parameter n`
 fn interface(files: &Files<'_>, circuit: &Circuit) -> String {
     let (inputs, rest) = circuit.nets.split_at(circuit.inputs);
     let port = |net: &Net| match width(files, net.span) {
@@ -47,7 +45,7 @@ fn interface(files: &Files<'_>, circuit: &Circuit) -> String {
     text
 }
 
-/// The width of the net declared at a place, in words; of several, all.
+/// In words; of several, all.
 pub(super) fn width(files: &Files<'_>, declared: Span) -> Option<String> {
     let widths: Vec<u32> = files.checked.widths.of(declared).collect();
     match &widths[..] {

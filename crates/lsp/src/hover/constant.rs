@@ -3,7 +3,6 @@
 use nbc_base::diag::counted;
 use nbc_lang::check::constant;
 
-/// A constant such as `4'b1010`, or digits, in all bases.
 pub(super) fn text(word: &str) -> Option<String> {
     let (width, value) = match word.split_once('\'') {
         Some((width, digits)) => (Some(width.parse::<u32>().ok()?), value(digits)?),
@@ -25,7 +24,6 @@ pub(super) fn text(word: &str) -> Option<String> {
     Some(format!("| constant | {bits} |\n|---|---|\n{rows}"))
 }
 
-/// The value of a base and digits in it.
 fn value(digits: &str) -> Option<u128> {
     let base = digits.chars().next()?;
     constant::value(&digits[base.len_utf8()..], constant::radix(base)?).ok()

@@ -5,7 +5,6 @@ use crate::interface::{comment, entry};
 use nbc_base::source::Span;
 use nbc_lang::check::{NameKind, NameUse};
 
-/// The declaration of a name, with the comment above it.
 pub(super) fn text(files: &Files<'_>, found: NameUse) -> String {
     let sources = &files.checked.sources;
     let source = &sources.file(found.declared.file).text;
@@ -28,7 +27,6 @@ pub(super) fn text(files: &Files<'_>, found: NameUse) -> String {
     text
 }
 
-/// The declaration around a name.
 fn declaration(files: &Files<'_>, name: Span) -> Span {
     let declarations = files.checked.tree(name.file).into_iter().flat_map(|tree| &tree.declarations);
     declarations
@@ -37,7 +35,7 @@ fn declaration(files: &Files<'_>, name: Span) -> Span {
         .unwrap_or(name)
 }
 
-/// A circuit without its body, which begins at the first brace.
+/// The body begins at the first brace.
 fn head(declaration: &str) -> String {
     declaration.split('{').next().unwrap_or_default().split_whitespace().collect::<Vec<_>>().join(" ")
 }

@@ -4,69 +4,32 @@ use nbc_lang::syntax::tree::RecordKeyword;
 
 const MANUAL: &str = include_str!("../../language.md");
 
-/// Keywords with the sections of the manual that define them.
-const KEYWORDS: [(&str, &str); 52] = [
-    ("against", "Tests"),
-    ("all", "Tests"),
-    ("always", "Properties"),
-    ("and", "Expressions"),
-    ("assume", "Properties"),
-    ("bins", "Evolutions"),
-    ("circuit", "Circuits"),
-    ("cycles", "Units"),
-    ("deg", "Units"),
-    ("else", "Expressions"),
-    ("enum", "Enumerations"),
-    ("environment", "Environments"),
-    ("ever", "Tests"),
-    ("evolution", "Evolutions"),
-    ("file", "Environments"),
-    ("for", "Parameters and `for`"),
-    ("from", "Tests"),
-    ("if", "Expressions"),
-    ("images", "Images"),
-    ("in", "Parameters and `for`"),
-    ("init", "Memory"),
-    ("inputs", "Tests"),
-    ("let", "Parameters and `for`"),
-    ("library", "Libraries, swarms and simulations"),
-    ("log2", "Parameters and `for`"),
-    ("match", "Truth tables"),
-    ("material", "Stimuli and materials"),
-    ("ms", "Units"),
-    ("nand", "Expressions"),
-    ("net", "Constants and buses"),
-    ("never", "Properties"),
-    ("nor", "Expressions"),
-    ("not", "Expressions"),
-    ("or", "Expressions"),
-    ("prove", "Properties"),
-    ("repeat", "Tests"),
-    ("s", "Units"),
-    ("schedule", "Schedules"),
-    ("simulate", "Libraries, swarms and simulations"),
-    ("steps", "Units"),
-    ("stimulus", "Stimuli and materials"),
-    ("swarm", "Libraries, swarms and simulations"),
-    ("table", "Truth tables"),
-    ("test", "Tests"),
-    ("then", "Expressions"),
-    ("until", "Tests"),
-    ("use", "Files"),
-    ("with", "Libraries, swarms and simulations"),
-    ("within", "Properties"),
-    ("world", "Worlds"),
-    ("xnor", "Expressions"),
-    ("xor", "Expressions"),
+const KEYWORDS: [(&str, &[&str]); 18] = [
+    ("Circuits", &["circuit"]),
+    ("Constants and buses", &["net"]),
+    ("Enumerations", &["enum"]),
+    ("Environments", &["environment", "file"]),
+    ("Evolutions", &["bins", "evolution"]),
+    ("Expressions", &["and", "else", "if", "nand", "nor", "not", "or", "then", "xnor", "xor"]),
+    ("Files", &["use"]),
+    ("Images", &["images"]),
+    ("Libraries, swarms and simulations", &["library", "simulate", "swarm", "with"]),
+    ("Memory", &["init"]),
+    ("Parameters and `for`", &["for", "in", "let", "log2"]),
+    ("Properties", &["always", "assume", "never", "prove", "within"]),
+    ("Schedules", &["schedule"]),
+    ("Stimuli and materials", &["material", "stimulus"]),
+    ("Tests", &["against", "all", "ever", "from", "inputs", "repeat", "test", "until"]),
+    ("Truth tables", &["match", "table"]),
+    ("Units", &["cycles", "deg", "ms", "s", "steps"]),
+    ("Worlds", &["world"]),
 ];
 
-/// The meaning of a keyword, with an example.
 pub(super) fn keyword(word: &str) -> Option<String> {
-    let (_, heading) = KEYWORDS.iter().find(|(keyword, _)| *keyword == word)?;
+    let (heading, _) = KEYWORDS.iter().find(|(_, keywords)| keywords.contains(&word))?;
     meaning(heading, word, None)
 }
 
-/// The meaning of a field of a declaration, or of a word that is its value.
 pub(super) fn field(of: RecordKeyword, word: &str) -> Option<String> {
     let heading = match of {
         RecordKeyword::Material => "Stimuli and materials",
@@ -79,7 +42,7 @@ pub(super) fn field(of: RecordKeyword, word: &str) -> Option<String> {
     if is_there { meaning(heading, word, row(heading, word)) } else { keyword(word) }
 }
 
-/// The row of the table of a section whose first column names a word, below the heads of the table.
+/// The row whose first column names the word, below the heads of the table.
 fn row(heading: &str, word: &str) -> Option<String> {
     let blocks = blocks(section(heading)?);
     blocks.iter().filter(|block| block.starts_with('|')).find_map(|block| {
@@ -88,13 +51,12 @@ fn row(heading: &str, word: &str) -> Option<String> {
     })
 }
 
-/// Whether a text has a word in code.
 fn names(text: &str, word: &str) -> bool {
     text.split(&format!("`{word}")).skip(1).any(|rest| !rest.starts_with(is_word))
 }
 
-/// The description of a word in a section, and an example. The description is `row`, or the paragraph that names the
-/// word, or the first paragraph. The example is the first with the word in the section, or else in the manual.
+/// The description is `row`, or the paragraph that names the word, or the first one. The example is the first with the
+/// word in the section, or else in the manual.
 fn meaning(heading: &str, word: &str, row: Option<String>) -> Option<String> {
     let blocks = blocks(section(heading)?);
     let mut prose = blocks.iter().filter(|block| !block.starts_with('|') && !block.starts_with("```"));
@@ -111,7 +73,7 @@ fn is_word(c: char) -> bool {
     c.is_ascii_alphanumeric() || c == '_'
 }
 
-/// The text of a section, without those inside it.
+/// Without the sections inside it.
 fn section(heading: &str) -> Option<&'static str> {
     let start = MANUAL.find(&format!("# {heading}\n"))?;
     let body = &MANUAL[start..];
@@ -119,7 +81,6 @@ fn section(heading: &str) -> Option<&'static str> {
     Some(body.find("\n#").map_or(body, |end| &body[..end]))
 }
 
-/// The paragraphs, tables and examples of a section.
 fn blocks(section: &str) -> Vec<&str> {
     let mut blocks = Vec::new();
     let mut rest = section.trim();
@@ -135,7 +96,7 @@ fn blocks(section: &str) -> Vec<&str> {
     blocks
 }
 
-/// A text without links, because pages of the manual cannot be opened from an editor.
+/// Pages of the manual cannot be opened from an editor.
 fn without_links(text: &str) -> String {
     let mut parts = text.split("](");
     let mut plain = parts.next().unwrap_or_default().to_owned();
@@ -160,9 +121,9 @@ mod tests {
 
     #[test]
     fn every_keyword_has_its_meaning_and_an_example() {
-        for (word, _) in KEYWORDS {
+        for word in KEYWORDS.iter().flat_map(|(_, keywords)| *keywords) {
             let text = keyword(word).unwrap_or_else(|| panic!("{word}"));
-            let is_unit = ["bins", "cycles", "deg", "ms", "s", "steps"].contains(&word);
+            let is_unit = ["bins", "cycles", "deg", "ms", "s", "steps"].contains(word);
             assert!(is_unit || text.contains("```nb"), "{word}: {text}");
         }
         assert!(syntax::KEYWORDS.iter().all(|word| keyword(word).is_some()));

@@ -19,13 +19,11 @@ use nbc_lang::syntax::TokenKind;
 use nbc_lang::syntax::tree::DeclarationKind;
 use nbc_session::Session;
 
-/// What is shown about a place.
 pub(super) struct Shown {
-    /// The place that it is about.
     pub(super) place: Span,
     /// Markdown.
     pub(super) text: String,
-    /// The circuit or net whose figures can be added when it is compiled.
+    /// Its figures can be added when it is compiled.
     pub(super) subject: Option<Subject>,
 }
 
@@ -65,7 +63,6 @@ fn of_name(spot: &Spot<'_>, found: NameUse, session: &Session, pictures: bool) -
     Shown { place: found.place, text, subject }
 }
 
-/// A word of the language: a field of its declaration, a keyword, or a function, which is also a robot.
 fn of_word(spot: &Spot<'_>, word: &str, session: &Session, pictures: bool) -> Option<String> {
     let around = spot.around();
     if let Some(DeclarationKind::Record(record)) = around.map(|around| &around.kind)

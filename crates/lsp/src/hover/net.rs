@@ -8,7 +8,6 @@ use crate::hover::circuit::{instance, width};
 use nbc_base::model::{Block, Circuit, ExpressionId, ExpressionKind, NetSlot, Statement};
 use nbc_base::source::Span;
 
-/// The width of the net declared at a place, and what it depends on.
 pub(super) fn text(files: &Files<'_>, declared: Span) -> (Option<String>, Option<Subject>) {
     let mut lines: Vec<String> = Vec::new();
     lines.extend(width(files, declared).map(|bits| format!("- width: {bits}")));
@@ -30,7 +29,6 @@ fn some(lines: Vec<String>) -> Option<String> {
     (!lines.is_empty()).then(|| lines.join("\n"))
 }
 
-/// The inputs that a net depends on, the nets between, and whether it keeps a value.
 fn dependence(circuit: &Circuit, slot: NetSlot) -> Vec<String> {
     let direct = drivers(circuit);
     let mut all: BTreeSet<NetSlot> = BTreeSet::new();
@@ -50,7 +48,6 @@ fn dependence(circuit: &Circuit, slot: NetSlot) -> Vec<String> {
     [Some(format!("- depends on {inputs}{through}")), memory].into_iter().flatten().collect()
 }
 
-/// The nets that each net is driven by.
 fn drivers(circuit: &Circuit) -> BTreeMap<NetSlot, BTreeSet<NetSlot>> {
     let mut direct = BTreeMap::new();
     let mut blocks: Vec<&Block> = vec![&circuit.body];
@@ -72,7 +69,6 @@ fn drivers(circuit: &Circuit) -> BTreeMap<NetSlot, BTreeSet<NetSlot>> {
     direct
 }
 
-/// The nets of an expression.
 fn nets(circuit: &Circuit, root: ExpressionId) -> impl Iterator<Item = NetSlot> + '_ {
     let parts = circuit.first_leaf(root).0 as usize..=root.0 as usize;
     circuit.expressions[parts].iter().filter_map(|part| match part.kind {

@@ -5,7 +5,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use nbc_session::report::Svg;
 
-/// A picture as an image of Markdown that needs no file.
+/// An image of Markdown that needs no file.
 pub(super) fn image(title: &str, svg: &Svg) -> String {
     format!("![{title}](data:image/svg+xml;base64,{})\n", STANDARD.encode(svg.finish()))
 }

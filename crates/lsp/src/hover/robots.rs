@@ -11,7 +11,7 @@ use nbc_lang::syntax::tree::{Declaration, DeclarationKind};
 use nbc_session::report::{self, Listing, Portrait, Scheme};
 use nbc_session::{CompileOptions, Session};
 
-/// The robots of a declared library: the best for each function.
+/// The best robot for each function.
 pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictures: bool) -> Option<String> {
     let library = session.robots(files.checked, Some(name), &CompileOptions::default()).ok()?;
     let mut seen = BTreeSet::new();
@@ -30,7 +30,7 @@ pub(super) fn of_library(files: &Files<'_>, session: &Session, name: &str, pictu
     Some(text)
 }
 
-/// The robot that an operator of a circuit becomes: that of the circuit's swarm, or of the default library.
+/// The robot of the circuit's swarm, or of the default library.
 pub(super) fn of_operator(
     spot: &Spot<'_>,
     session: &Session,
@@ -51,7 +51,6 @@ pub(super) fn of_operator(
     best(&library, Function::parse(word)?, pictures)
 }
 
-/// The robot for a function or a behavior of a library's list.
 pub(super) fn of_behavior(
     files: &Files<'_>,
     session: &Session,
@@ -65,7 +64,6 @@ pub(super) fn of_behavior(
     best(&library, function, pictures)
 }
 
-/// The best robot for a function.
 fn best(library: &Library, function: Function, pictures: bool) -> Option<String> {
     let robot = library.robots_for(function).next()?;
     let mut text = format!("The best robot for `{function}`:\n\n{}", table(&[robot]));
@@ -75,7 +73,6 @@ fn best(library: &Library, function: Function, pictures: bool) -> Option<String>
     Some(text)
 }
 
-/// Robots as a table: their gates, boxes, clocks, margins and errors.
 fn table(robots: &[&Robot]) -> String {
     let row = |robot: &&Robot| {
         let Listing { name, function, bounds, clock, margin, error_rate, switches, .. } = Listing::of(robot);

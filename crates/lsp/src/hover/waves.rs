@@ -4,7 +4,6 @@ use crate::files::Files;
 use crate::hover::picture::image;
 use nbc_session::report;
 
-/// The response of a material.
 pub(super) fn material(files: &Files<'_>, name: &str, pictures: bool) -> Option<String> {
     let material = files.checked.program.materials.iter().find(|material| material.name == name)?;
     let curve = report::draw_response(material).filter(|_| pictures);
@@ -12,7 +11,6 @@ pub(super) fn material(files: &Files<'_>, name: &str, pictures: bool) -> Option<
     Some(format!("{}{picture}", report::describe_material(material)))
 }
 
-/// The stimuli of a schedule.
 pub(super) fn schedule(files: &Files<'_>, name: &str, pictures: bool) -> Option<String> {
     let program = &files.checked.program;
     let found = program.schedule(name).filter(|found| pictures && found.sets.is_empty())?;

@@ -1,8 +1,6 @@
 //! Commands that run a source: each is work beside all other, with progress, and can be cancelled.
 
-mod command;
 mod order;
-mod outcome;
 mod watcher;
 mod work;
 
@@ -18,13 +16,10 @@ use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::Checked;
 
-pub(super) use command::{COMMANDS, PROVE, RUN, SCHEMATIC, TEST, TIMING};
-pub(super) use order::{OrderError, RunOrder};
-pub(super) use outcome::RunOutcome;
-pub(super) use watcher::RunEvent;
+pub(super) use order::{COMMANDS, PROVE, RUN, RunOrder, SCHEMATIC, TEST, TIMING};
 use watcher::Watcher;
+pub(super) use watcher::{RunEvent, RunOutcome};
 
-/// The runs that are not yet finished.
 pub(super) struct Runs {
     shell: Arc<dyn LanguageShell>,
     running: Vec<Running>,
@@ -42,12 +37,10 @@ impl Runs {
         Self { shell, running: Vec::new(), events: channel() }
     }
 
-    /// The progress or the result of a run, if there is news.
     pub(super) fn event(&self) -> Option<RunEvent> {
         self.events.1.try_recv().ok()
     }
 
-    /// Starts a run that answers the request `id`.
     pub(super) fn start(
         &mut self,
         id: RequestId,
@@ -68,18 +61,15 @@ impl Runs {
         }));
     }
 
-    /// Forgets a run that is finished.
     pub(super) fn end(&mut self, id: &RequestId) {
         self.running.retain(|run| run.id != *id);
     }
 
-    /// Stops the run that answers a request.
     pub(super) fn cancel_request(&self, id: &Value) {
         let is_meant = |run: &&Running| serde_json::to_value(&run.id).ok().as_ref() == Some(id);
         self.running.iter().filter(is_meant).for_each(Running::cancel);
     }
 
-    /// Stops the run whose progress has this token.
     pub(super) fn cancel_progress(&self, token: &ProgressToken) {
         self.running.iter().filter(|run| run.token.as_ref() == Some(token)).for_each(Running::cancel);
     }
@@ -92,7 +82,7 @@ impl Running {
 }
 
 impl Drop for Runs {
-    /// Stops the runs, because no client waits for them.
+    /// No client waits for the runs any more.
     fn drop(&mut self) {
         self.running.iter().for_each(Running::cancel);
     }

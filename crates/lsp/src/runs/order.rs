@@ -3,48 +3,44 @@
 use gen_lsp_types::{ExecuteCommandParams, Uri};
 use serde_json::Value;
 
-use crate::runs::command::{PROVE, RUN, SCHEMATIC, TEST, TIMING};
+use crate::wording::{self, RequestError};
 use nbc_session::{Checked, Choice};
 use nbc_swarm::Level;
 
-/// A command on a source.
+pub(crate) const RUN: &str = "nbc.run";
+pub(crate) const TEST: &str = "nbc.test";
+pub(crate) const PROVE: &str = "nbc.prove";
+pub(crate) const SCHEMATIC: &str = "nbc.schematic";
+pub(crate) const TIMING: &str = "nbc.timing";
+
+pub(crate) const COMMANDS: [&str; 5] = [RUN, TEST, PROVE, SCHEMATIC, TIMING];
+
 #[derive(Clone, Debug)]
 pub(crate) struct RunOrder {
-    /// The source.
     pub(crate) uri: Uri,
     pub(super) task: RunTask,
 }
 
-/// The kinds of work.
 #[derive(Clone, Debug)]
 pub(super) enum RunTask {
-    /// Tests and simulations of these numbers; all tests, and in physics all simulations, if there are none.
-    Run { level: Level, test: Option<usize>, simulation: Option<usize> },
-    /// The claim of this number; all if there is none.
+    /// By number; all tests, and in physics all simulations, if there are none.
+    Run {
+        level: Level,
+        test: Option<usize>,
+        simulation: Option<usize>,
+    },
+    /// By number; all if there is none.
     Prove(Option<usize>),
-    /// The picture of a circuit made of robots.
     Schematic(Choice),
-    /// The times of a circuit's robots.
     Timing(Choice),
 }
 
-/// Why a command cannot be run.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum OrderError {
-    Command(String),
-    Arguments,
-    Closed(String),
-    /// The client does not see the folder of the results.
-    NoPlace,
-}
-
 impl RunOrder {
-    /// Reads a command and its arguments.
-    pub(crate) fn read(asked: &ExecuteCommandParams) -> Result<Self, OrderError> {
-        let argument = asked.arguments.as_deref().and_then(<[Value]>::first).ok_or(OrderError::Arguments)?;
+    pub(crate) fn read(asked: &ExecuteCommandParams) -> Result<Self, RequestError> {
+        let argument = asked.arguments.as_deref().and_then(<[Value]>::first).ok_or_else(wording::command_arguments)?;
         let text = |name: &str| argument.get(name).and_then(Value::as_str).map(str::to_owned);
         let number = |name: &str| argument.get(name).and_then(Value::as_u64).map(|number| number as usize);
-        let uri = Uri(text("uri").ok_or(OrderError::Arguments)?);
+        let uri = Uri(text("uri").ok_or_else(wording::command_arguments)?);
         let choice = Choice { circuit: text("circuit"), swarm: text("swarm") };
         let run = |level| RunTask::Run { level, test: number("test"), simulation: number("simulation") };
         let task = match asked.command.as_str() {
@@ -53,12 +49,11 @@ impl RunOrder {
             PROVE => RunTask::Prove(number("claim")),
             SCHEMATIC => RunTask::Schematic(choice),
             TIMING => RunTask::Timing(choice),
-            other => return Err(OrderError::Command(other.to_owned())),
+            other => return Err(wording::unknown_command(other, &COMMANDS)),
         };
         Ok(Self { uri, task })
     }
 
-    /// A title for the progress.
     pub(crate) fn title(&self, checked: &Checked) -> String {
         let file = checked.path.rsplit('/').next().unwrap_or_default();
         match &self.task {

@@ -5,26 +5,43 @@ use std::sync::mpsc::Sender;
 
 use gen_lsp_types::ProgressToken;
 use lsp_server::RequestId;
+use serde::Serialize;
 
-use crate::request_error::RequestError;
-use crate::runs::outcome::RunOutcome;
 use crate::shell::LanguageShell;
+use crate::uri;
+use crate::wording::RequestError;
+use nbc_base::source::SharedWorld;
 use nbc_circuit::CancelFlag;
 use nbc_session::Observer;
 
-/// A message of a run to the server.
 pub(crate) enum RunEvent {
     Progress { token: ProgressToken, percentage: u32, message: String },
     Done { id: RequestId, token: Option<ProgressToken>, result: Result<RunOutcome, RequestError> },
 }
 
-/// Reports the progress of a run, and stops it when the client cancels it.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct RunOutcome {
+    /// Whether every test passed and no robot failed; `None` if there was no test and no robot failed.
+    pub(super) passed: Option<bool>,
+    pub(crate) text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) page: Option<String>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) path: Option<String>,
+}
+
+impl RunOutcome {
+    pub(super) fn new(passed: Option<bool>, text: String, path: Option<String>, world: &SharedWorld) -> Self {
+        Self { passed, text, page: path.as_deref().map(|path| uri::uri(&**world, path).0), path }
+    }
+}
+
 pub(super) struct Watcher {
     pub(super) token: Option<ProgressToken>,
     pub(super) shell: Arc<dyn LanguageShell>,
     pub(super) events: Sender<RunEvent>,
     pub(super) stop: CancelFlag,
-    /// The part of the run that is being done, from 0, and the number of parts.
+    /// The current part, from 0, and the number of parts.
     pub(super) part: (u64, u64),
     /// The percentage that was reported last.
     pub(super) told: u32,

@@ -1,10 +1,9 @@
 //! The work of a command, and its result.
 
-use crate::request_error::RequestError;
 use crate::runs::order::{RunOrder, RunTask};
-use crate::runs::outcome::RunOutcome;
-use crate::runs::watcher::Watcher;
+use crate::runs::watcher::{RunOutcome, Watcher};
 use crate::shell::LanguageShell;
+use crate::wording::{self, RequestError};
 use nbc_base::diag::Diagnostics;
 use nbc_base::model::Claim;
 use nbc_base::source::SharedWorld;
@@ -15,7 +14,6 @@ use nbc_session::{
 };
 use nbc_swarm::{Level, Room};
 
-/// Does the work of a command.
 pub(super) fn perform(
     world: SharedWorld,
     checked: &Checked,
@@ -24,7 +22,7 @@ pub(super) fn perform(
     watcher: &mut Watcher,
 ) -> Result<RunOutcome, RequestError> {
     if checked.has_errors() {
-        return Err(RequestError::SourceErrors);
+        return Err(wording::source_errors());
     }
     let session = Session::new(world.clone()).with_poses(Room::SWARM);
     match &order.task {
@@ -55,7 +53,6 @@ fn compile(session: &Session, checked: &Checked, choice: &Choice, watcher: &Watc
     going(watcher).map(|()| compiled)
 }
 
-/// Runs the chosen tests and simulations.
 fn run(
     session: &Session,
     checked: &Checked,
@@ -73,14 +70,13 @@ fn run(
     let simulations = simulations.filter(|_| level == Level::Physics).map(|(_, simulation)| simulation);
     let list = RunList { tests: tests.collect(), simulations: simulations.collect() };
     if list.is_empty() {
-        return Err(RequestError::NothingToRun);
+        return Err(wording::nothing_to_run());
     }
     let options = TestOptions { level: Some(level), compile: options(watcher) };
     let report = session.run_list(checked, &list, &options, watcher).map_err(|faults| said(&faults))?;
     going(watcher).map(|()| report)
 }
 
-/// Decides the chosen claim, or all. The report has the tests that refute properties.
 fn prove(
     session: &Session,
     checked: &Checked,
@@ -102,22 +98,21 @@ fn prove(
         text += &report.text();
     }
     if claims.is_empty() {
-        Err(RequestError::NothingToRun)
+        Err(wording::nothing_to_run())
     } else {
         Ok(RunOutcome::new(Some(proved), text, None, world))
     }
 }
 
-/// The default options; compiling ends early when the run is stopped.
+/// Compiling ends early when the run is stopped.
 fn options(watcher: &Watcher) -> CompileOptions {
     CompileOptions { cancel: watcher.stop.clone(), ..CompileOptions::default() }
 }
 
 fn going(watcher: &Watcher) -> Result<(), RequestError> {
-    if watcher.stop.is_raised() { Err(RequestError::Cancelled) } else { Ok(()) }
+    if watcher.stop.is_raised() { Err(wording::cancelled()) } else { Ok(()) }
 }
 
-/// Writes the page of a report.
 fn finish(
     checked: &Checked,
     level: Level,
@@ -144,14 +139,12 @@ fn finish(
     Ok(RunOutcome::new(has_verdict.then(|| report.passed()), text, Some(path), world))
 }
 
-/// Writes a result among those of the server, in the folder of its source.
 fn written(checked: &Checked, shell: &dyn LanguageShell, name: &str, text: &str) -> Result<String, RequestError> {
     let source = checked.path.rsplit('/').next().unwrap_or_default();
     let folder: String = source.chars().map(|c| if c.is_alphanumeric() { c } else { '_' }).collect();
-    shell.write_result(&folder, name, text).map_err(|reason| RequestError::Unwritable { reason })
+    shell.write_result(&folder, name, text).map_err(wording::failed)
 }
 
-/// The first of the diagnostics as the reason.
 fn said(faults: &Diagnostics) -> RequestError {
-    RequestError::Compile { fault: faults.list.first().map_or_else(String::new, |fault| fault.message.clone()) }
+    wording::failed(faults.list.first().map_or("", |fault| &fault.message))
 }

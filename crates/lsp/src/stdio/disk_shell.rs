@@ -11,7 +11,6 @@ use crate::stdio::results::{self, ResultFolder};
 use nbc_base::source::{EntryKind, SharedWorld, SourceWorld};
 use nbc_session::store::{self, GuardedWorld};
 
-/// A world of files, and threads.
 pub(super) struct DiskShell<W> {
     world: W,
     pending: Pending,
@@ -21,7 +20,7 @@ pub(super) struct DiskShell<W> {
 }
 
 impl<W: SourceWorld> DiskShell<W> {
-    /// Something arrives at the other end of `wake` when there is something to do.
+    /// `wake` receives when there is something to do.
     pub(super) fn new(world: W, pending: Pending, wake: Sender<()>) -> Self {
         results::remove_leftovers();
         let (queue, inbox) = unbounded::<LanguageWork>();
@@ -36,7 +35,6 @@ impl<W: SourceWorld> DiskShell<W> {
         Self { world, pending, queue, wake, results: Mutex::default() }
     }
 
-    /// Removes the results, because the client is gone.
     pub(super) fn remove_results(&self) {
         *self.results.lock().unwrap_or_else(PoisonError::into_inner) = ResultFolder::default();
     }

@@ -16,26 +16,25 @@ use lsp_server::Connection;
 use crate::message::message;
 use crate::service::LanguageService;
 use crate::uri;
-use crate::{ServerEnd, ServerError};
+use crate::{ServerEnd, wording};
 use disk_shell::DiskShell;
+use nbc_base::diag::Diagnostic;
 use nbc_base::source::SourceWorld;
 use nbc_session::store::{DiskWorld, FolderWorld};
 use pending::Pending;
 
-/// Serves an editor on standard input and output until it ends the session or closes its connection.
-pub fn serve_standard() -> Result<ServerEnd, ServerError> {
+/// Until the editor ends the session or closes its connection.
+pub fn serve_standard() -> Result<ServerEnd, Diagnostic> {
     let (connection, wire) = wire::open();
     // After an error the threads still wait for the client.
     let end = serve(connection, DiskWorld)?;
-    wire.join().map_err(ServerError::Protocol)?;
+    wire.join().map_err(|reason| wording::protocol(&reason))?;
     Ok(end)
 }
 
-/// The most messages that wait to be handled.
 const WAITING: usize = 32;
 
-/// The connection with a queue of messages in front of the server. The server looks ahead in the queue: if another
-/// change of a text is waiting, it does not check the older text.
+/// Adds a queue in which the server looks ahead: if another change of a text is waiting, the older text is not checked.
 fn queued(connection: Connection) -> (Connection, Pending) {
     let Connection { sender, receiver: arriving } = connection;
     let (queue, receiver) = bounded(WAITING);
@@ -52,11 +51,10 @@ fn queued(connection: Connection) -> (Connection, Pending) {
     (Connection { sender, receiver }, pending)
 }
 
-/// Serves a client until it ends the session or closes its connection.
 pub fn serve(
     connection: Connection,
     world: impl SourceWorld + Clone + Send + Sync + 'static,
-) -> Result<ServerEnd, ServerError> {
+) -> Result<ServerEnd, Diagnostic> {
     let (connection, pending) = queued(connection);
     let (wake, woken) = bounded(1);
     let shell = Arc::new(DiskShell::new(world, pending.clone(), wake));
@@ -75,7 +73,7 @@ pub fn serve(
                     }
                 }
                 Err(_) if service.is_greeted() => break Ok(ServerEnd::Orderly),
-                Err(_) => break Err(ServerError::Protocol("the input ended before `initialize`".to_owned())),
+                Err(_) => break Err(wording::protocol("the input ended before `initialize`")),
             },
             recv(woken) -> _ => {}
             recv(due) -> _ => {}
@@ -90,15 +88,15 @@ pub fn serve(
     end
 }
 
-/// Sends what waits. If the connection is closed, the loop ends at its next message.
+/// If the connection is closed, the loop ends at its next message.
 fn send(connection: &Connection, service: &mut LanguageService) {
     while let Some(message) = service.next_message() {
         let _ = connection.sender.send(message);
     }
 }
 
-/// Serves a client that sends these texts, each of which should be a message, and then closes its connection. The
-/// fuzzer calls this, because it needs no pipe.
+/// Serves a client that sends these texts and then closes its connection. The fuzzer calls this, because it needs no
+/// pipe.
 pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let world = FolderWorld::new(folder).expect("there is such a folder");
     let (server, client) = Connection::memory();
@@ -110,7 +108,6 @@ pub fn serve_texts(folder: &Path, texts: &[&[u8]]) {
     let _ = serve(server, world);
 }
 
-/// The URI of a file or folder.
 pub fn file_uri(path: &str) -> String {
     uri::uri(&DiskWorld, path).0
 }
@@ -124,26 +121,11 @@ mod tests {
 
     use super::*;
 
-    const METHODS: [&str; 18] = [
-        "initialize",
-        "shutdown",
-        "textDocument/didOpen",
-        "textDocument/didChange",
-        "textDocument/didClose",
-        "textDocument/hover",
-        "textDocument/definition",
-        "textDocument/references",
-        "textDocument/rename",
-        "textDocument/completion",
-        "textDocument/signatureHelp",
-        "textDocument/selectionRange",
-        "textDocument/semanticTokens/full",
-        "textDocument/semanticTokens/range",
-        "textDocument/rangeFormatting",
-        "textDocument/codeAction",
-        "textDocument/inlayHint",
-        "nonsense",
-    ];
+    const METHODS: &str = "initialize shutdown textDocument/didOpen textDocument/didChange textDocument/didClose \
+        textDocument/hover textDocument/definition textDocument/references textDocument/rename textDocument/completion \
+        textDocument/signatureHelp textDocument/selectionRange textDocument/semanticTokens/full \
+        textDocument/semanticTokens/range textDocument/rangeFormatting textDocument/codeAction textDocument/inlayHint \
+        nonsense";
     const TEXTS: [&str; 6] = [
         "circuit f(a) -> (q) { q = not a }\ntest f { a | q\n 0 | 1 }\n",
         "é circuit \u{1d11e}(",
@@ -180,7 +162,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(48))]
         #[test]
         fn any_messages_are_served_without_a_fault(
-            sent in prop::collection::vec((any::<bool>(), select(METHODS.to_vec()), parameters()), 0..16),
+            sent in prop::collection::vec((any::<bool>(), select(METHODS.split(' ').collect::<Vec<_>>()), parameters()), 0..16),
         ) {
             let (server, client) = Connection::memory();
             let Connection { sender, receiver } = client;

@@ -7,22 +7,19 @@ use lsp_server::Message;
 
 use nbc_circuit::CancelFlag;
 
-/// Counts changes that wait to be handled. While one waits, translations of Verilog are cancelled. Clones share their
-/// state.
+/// Counts waiting changes. While one waits, translations of Verilog are cancelled. Clones share their state.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Pending(Arc<Mutex<State>>);
 
 #[derive(Debug, Default)]
 struct State {
     waiting: usize,
-    /// Whether no more messages will come.
     is_over: bool,
-    /// Is raised while a change waits, and at the end.
+    /// Raised while a change waits, and at the end.
     cancel: CancelFlag,
 }
 
 impl Pending {
-    /// Counts a message that has arrived.
     pub(super) fn add(&self, message: &Message) {
         if is_change(message) {
             let mut state = self.state();
@@ -31,7 +28,6 @@ impl Pending {
         }
     }
 
-    /// Counts a message that is being handled now.
     pub(super) fn take(&self, message: &Message) {
         if is_change(message) {
             let mut state = self.state();
@@ -42,14 +38,12 @@ impl Pending {
         }
     }
 
-    /// Records that the connection has closed.
     pub(super) fn end(&self) {
         let mut state = self.state();
         state.is_over = true;
         state.cancel.raise();
     }
 
-    /// The flag that ends a translation that begins now.
     pub(super) fn cancel(&self) -> CancelFlag {
         self.state().cancel.clone()
     }

@@ -6,20 +6,20 @@ use std::path::PathBuf;
 
 use nbc_session::store::{self, FolderLock, lock_folder};
 
-/// The results of this server. The folder is made for the first of them.
+/// The folder is made for the first result.
 #[derive(Default)]
 pub(super) struct ResultFolder {
     made: Option<(PathBuf, FolderLock)>,
 }
 
-/// The start of the names of such folders; the number of the process follows.
+/// The number of the process follows.
 const PREFIX: &str = "results-";
 
-/// How often the folder is made. A server that starts may remove it before it is locked.
+/// A server that starts may remove the folder before it is locked.
 const TRIES: usize = 3;
 
 impl ResultFolder {
-    /// Its path; an error is a message for people.
+    /// An error is a message for people.
     pub(super) fn path(&mut self) -> Result<PathBuf, String> {
         if let Some((path, _)) = &self.made {
             return Ok(path.clone());
@@ -45,7 +45,7 @@ impl Drop for ResultFolder {
     }
 }
 
-/// Removes the folders of servers that have ended: those whose lock nobody holds.
+/// Nobody holds the lock of a server that has ended.
 pub(super) fn remove_leftovers() {
     for entry in store::temporary_folder().and_then(fs::read_dir).into_iter().flatten().flatten().filter(is_results) {
         let _ = remove_unlocked(&entry);

@@ -9,18 +9,15 @@ use serde_json::Value;
 
 use crate::message::{message, parse, refusal};
 
-/// The most bytes of a message. A text of this length could not be checked anyway.
+/// A longer text could not be checked anyway.
 const MOST: u64 = 64 << 20;
-/// The most bytes of a line before a message.
 const LINE: u64 = 4096;
 
-/// The threads that read and write.
 pub(super) struct Wire {
     reader: JoinHandle<Result<(), String>>,
     writer: JoinHandle<io::Result<()>>,
 }
 
-/// A connection over standard input and output.
 pub(super) fn open() -> (Connection, Wire) {
     let (arriving, receiver) = bounded(0);
     let (sender, leaving) = bounded::<Message>(0);
@@ -31,7 +28,7 @@ pub(super) fn open() -> (Connection, Wire) {
 }
 
 impl Wire {
-    /// Waits until all is written.
+    /// Until all is written.
     pub(super) fn join(self) -> Result<(), String> {
         let read = self.reader.join().unwrap_or_else(|_| Err("the reader failed".to_owned()));
         // What came before a broken message is still answered.
@@ -40,7 +37,7 @@ impl Wire {
     }
 }
 
-/// Passes on all messages until `exit` or the end of the input.
+/// Until `exit` or the end of the input.
 fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), String> {
     loop {
         let arrived = match read(input) {
@@ -65,7 +62,6 @@ fn read_all(input: &mut impl BufRead, messages: &Sender<Message>) -> Result<(), 
     }
 }
 
-/// Answers a text that is not a message.
 fn refuse(answer: &Value) {
     let answer = answer.to_string();
     let mut output = io::stdout().lock();
@@ -73,8 +69,8 @@ fn refuse(answer: &Value) {
     let _ = write!(output, "Content-Length: {}\r\n\r\n{answer}", answer.len()).and_then(|()| output.flush());
 }
 
-/// The next message, or the answer to a text that is not one, after which the next can still be read; `None` at the end
-/// of the input.
+/// An error is the answer to a text that is not a message, after which the next can still be read; `None` at the end of
+/// the input.
 fn read(input: &mut impl BufRead) -> Result<Option<Result<Message, Value>>, String> {
     let Some(length) = length(input)? else { return Ok(None) };
     if length > MOST {
@@ -89,7 +85,7 @@ fn read(input: &mut impl BufRead) -> Result<Option<Result<Message, Value>>, Stri
     Ok(Some(parse(&bytes).and_then(message)))
 }
 
-/// The length of the next text, from its header; `None` at the end of the input.
+/// From the header; `None` at the end of the input.
 fn length(input: &mut impl BufRead) -> Result<Option<u64>, String> {
     let mut length = None;
     loop {

@@ -1,11 +1,10 @@
 //! The checks of steps: `keeps a=1 q=0`, `robots <= 5`, `tests pass`, and so on.
 
-use super::mistake::{LessonMistake, Mistaken};
 use super::piece::Piece;
+use super::wording::{BAD_NUMBER, INCOMPLETE, Mistaken, NO_VALUE, PORT_TWICE, TOO_MUCH, UNKNOWN_GATE, UNKNOWN_WORD};
 use crate::message::{CALLS, LessonCheck, LessonComparison, LessonCount, PortValues};
 use nbc_base::model::Function;
 
-/// The words with which checks begin.
 pub(super) const CHECKS: [&str; 17] = [
     "shows",
     "hides",
@@ -30,11 +29,11 @@ pub(super) const CHECKS: [&str; 17] = [
 const OPERATORS: [&str; 15] =
     ["not", "and", "or", "xor", "nand", "nor", "xnor", "if", "match", "table", "+", "-", "*", "==", CALLS];
 
-/// Reads a check. The ports that it names are added to `ports`.
+/// Adds the ports that the check names to `ports`.
 pub(super) fn check<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<LessonCheck, Mistaken> {
     let words = text.words();
     let Some((&first, rest)) = words.split_first() else {
-        return Err(Mistaken::new(text, LessonMistake::EmptyField("check")));
+        return Err(INCOMPLETE.at(text));
     };
     let after = Piece { text: &text.text[first.at + first.text.len() - text.at..], at: first.at + first.text.len() };
     match first.text {
@@ -70,34 +69,30 @@ pub(super) fn check<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<L
         "niche" => one_of(single(first, rest)?, &["chosen"]).map(|_| LessonCheck::NicheChosen),
         "evolving" => match rest.first() {
             None => Ok(LessonCheck::Evolving),
-            Some(&more) => Err(Mistaken::new(more, LessonMistake::TooMuch)),
+            Some(&more) => Err(TOO_MUCH.at(more)),
         },
-        _ => Err(Mistaken::new(first, LessonMistake::UnknownWord { known: CHECKS.to_vec() })),
+        _ => Err(UNKNOWN_WORD.at(first).known(CHECKS)),
     }
 }
 
-/// The words after the first one, of which there must be some.
 fn some<'a, 'b>(first: Piece<'_>, rest: &'b [Piece<'a>]) -> Result<&'b [Piece<'a>], Mistaken> {
-    if rest.is_empty() { Err(Mistaken::new(first, LessonMistake::Incomplete)) } else { Ok(rest) }
+    if rest.is_empty() { Err(INCOMPLETE.at(first)) } else { Ok(rest) }
 }
 
-/// The only word after the first one.
 fn single<'a>(first: Piece<'_>, rest: &[Piece<'a>]) -> Result<Piece<'a>, Mistaken> {
     match some(first, rest)? {
         [word] => Ok(*word),
-        more => Err(Mistaken::new(more[1], LessonMistake::TooMuch)),
+        more => Err(TOO_MUCH.at(more[1])),
     }
 }
 
-/// The word, if it is one of these.
 pub(super) fn one_of(word: Piece<'_>, known: &[&'static str]) -> Result<String, Mistaken> {
     if known.contains(&word.text) {
         return Ok(word.text.to_owned());
     }
-    Err(Mistaken::new(word, LessonMistake::UnknownWord { known: known.to_vec() }))
+    Err(UNKNOWN_WORD.at(word).known(known))
 }
 
-/// Patterns of values, between commas.
 fn patterns<'a>(first: Piece<'_>, after: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<Vec<PortValues>, Mistaken> {
     let patterns = after.split(|letter| letter == ',');
     patterns.into_iter().map(|pattern| values(first, &pattern.words(), ports)).collect()
@@ -111,13 +106,13 @@ pub(super) fn values<'a>(
 ) -> Result<PortValues, Mistaken> {
     let mut values = PortValues::new();
     for &word in some(first, words)? {
-        let (port, value) = word.split_once('=').ok_or(Mistaken::new(word, LessonMistake::NoValue))?;
-        let number = number(value.text).ok_or(Mistaken::new(value, LessonMistake::BadNumber))?;
+        let (port, value) = word.split_once('=').ok_or(NO_VALUE.at(word))?;
+        let number = number(value.text).ok_or(BAD_NUMBER.at(value))?;
         if !is_name(port.text) {
-            return Err(Mistaken::new(word, LessonMistake::NoValue));
+            return Err(NO_VALUE.at(word));
         }
         if values.insert(port.text.to_owned(), number).is_some() {
-            return Err(Mistaken::new(port, LessonMistake::PortTwice));
+            return Err(PORT_TWICE.at(port));
         }
         ports.push(port);
     }
@@ -148,28 +143,24 @@ fn designs(first: Piece<'_>, rest: &[Piece<'_>]) -> Result<LessonCheck, Mistaken
     Ok(LessonCheck::Designs { gate, except })
 }
 
-/// The usual name of a gate.
 fn gate(word: Piece<'_>) -> Result<String, Mistaken> {
     match Function::parse(word.text) {
         Some(function) => Ok(function.name().to_owned()),
-        None => {
-            let known = Function::named().map(Function::name).collect();
-            Err(Mistaken::new(word, LessonMistake::UnknownGate { known }))
-        }
+        None => Err(UNKNOWN_GATE.at(word).known(Function::named().map(Function::name))),
     }
 }
 
 fn counts(what: LessonCount, first: Piece<'_>, rest: &[Piece<'_>]) -> Result<LessonCheck, Mistaken> {
     let [sign, amount] = match some(first, rest)? {
         [sign, amount] => [*sign, *amount],
-        [_] => return Err(Mistaken::new(first, LessonMistake::Incomplete)),
-        more => return Err(Mistaken::new(more[2], LessonMistake::TooMuch)),
+        [_] => return Err(INCOMPLETE.at(first)),
+        more => return Err(TOO_MUCH.at(more[2])),
     };
     let than = match one_of(sign, &["<=", ">=", "="])?.as_str() {
         "<=" => LessonComparison::AtMost,
         ">=" => LessonComparison::AtLeast,
         _ => LessonComparison::Equal,
     };
-    let number = number(amount.text).ok_or(Mistaken::new(amount, LessonMistake::BadNumber))?;
+    let number = number(amount.text).ok_or(BAD_NUMBER.at(amount))?;
     Ok(LessonCheck::Counts { what, than, number })
 }

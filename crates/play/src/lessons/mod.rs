@@ -1,7 +1,6 @@
 //! The lessons of the page: Markdown files (docs/lessons.md), those that come with the program or those of an author.
 
 mod checking;
-mod mistake;
 mod piece;
 mod reading;
 mod solving;
@@ -15,7 +14,6 @@ use include_dir::{Dir, include_dir};
 
 use crate::lesson_texts::{LessonFiles, LessonTexts};
 use crate::message::{ClassCourse, ClassLesson, LessonEntry};
-use mistake::{LessonMistake, Mistaken};
 use nbc_base::diag::{Diagnostic, Diagnostics};
 use nbc_base::source::{FileId, SharedWorld, Span};
 use nbc_session::{Checked, Session};
@@ -23,7 +21,6 @@ use piece::Piece;
 use reading::ReadLesson;
 
 const SHIPPED: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/lessons");
-/// The most lessons.
 const MOST: usize = 100;
 
 /// Lessons, and what is wrong with their files. A file with a mistake gives no lesson.
@@ -33,7 +30,7 @@ pub(crate) struct ReadLessons {
     pub(crate) found: Diagnostics,
 }
 
-/// Reads all lessons. The programs of an author are checked in the world in which the page opens them, if there is one.
+/// The programs of an author are checked in `world`, in which the page opens them.
 pub(crate) fn load(sources: Vec<LessonTexts>, world: Option<&SharedWorld>) -> ReadLessons {
     let mut read = ReadLessons::default();
     for source in sources {
@@ -46,20 +43,17 @@ pub(crate) fn load(sources: Vec<LessonTexts>, world: Option<&SharedWorld>) -> Re
     read
 }
 
-/// What is wrong with the lessons of an author, whose programs are checked in this world. A page shows it, too.
 pub fn faults_of_lessons(sources: Vec<LessonTexts>, world: &SharedWorld) -> Diagnostics {
     load(sources, Some(world)).found
 }
 
-/// What is wrong with a text that is to be a lesson; its programs are not checked. The fuzzer calls this, because it
-/// needs no folder.
+/// The faults of a lesson whose programs are not checked. The fuzzer calls this, because it needs no folder.
 pub fn faults_of_lesson(text: &str) -> Diagnostics {
     let mut read = ReadLessons::default();
     read.add("lesson.md", text, None);
     read.found
 }
 
-/// The lessons with their tasks, for a teacher.
 pub fn course(sources: Vec<LessonTexts>) -> ClassCourse {
     // The programs are not checked: this must not take long.
     let lessons = load(sources, None).lessons;
@@ -71,7 +65,6 @@ pub fn course(sources: Vec<LessonTexts>) -> ClassCourse {
     ClassCourse { lessons: lessons.into_iter().map(lesson).collect() }
 }
 
-/// The names and texts of the files that come with the program.
 fn shipped() -> impl Iterator<Item = (String, String)> {
     let mut files: Vec<_> = SHIPPED.files().filter(|file| file.path().extension().is_some_and(|e| e == "md")).collect();
     files.sort_by_key(|file| file.path());
@@ -107,17 +100,13 @@ impl ReadLessons {
         let name = place.trim_start_matches(|letter: char| letter.is_ascii_digit()).trim_start_matches('-');
         let mut read = reading::read(name, text);
         let start = Piece { text: text.lines().next().unwrap_or_default(), at: 0 };
-        let mut mistake = |mistake| {
-            let mistaken = Mistaken { text: place.to_string(), ..Mistaken::new(start, mistake) };
-            read.mistakes.push(mistaken);
-        };
         if name.is_empty() || !name.bytes().all(|byte| byte.is_ascii_alphanumeric() || b"-_".contains(&byte)) {
-            mistake(LessonMistake::FileName);
+            read.mistakes.push(wording::FILE_NAME.at(start).called(&place));
         } else if self.lessons.iter().any(|lesson| lesson.name == name) {
-            mistake(LessonMistake::NameTaken { name: name.to_owned() });
+            read.mistakes.push(wording::NAME_TAKEN.at(start).called(name));
         }
         let mut found = world.map_or(Vec::new(), |world| faults(file, text, &mut read, world));
-        found.extend(read.mistakes.iter().map(|mistaken| wording::worded(file, mistaken)));
+        found.extend(read.mistakes.iter().map(|mistaken| mistaken.worded(file)));
         found.sort_by_key(|one| one.labels.first().map(|label| label.span));
         if found.is_empty() {
             self.lessons.push(read.entry);
@@ -126,7 +115,7 @@ impl ReadLessons {
     }
 }
 
-/// The errors of a lesson's programs, in their places in the lesson. The ports that it names are checked, too.
+/// The errors of a lesson's programs, at their places in the lesson. The ports that it names are checked, too.
 fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWorld) -> Vec<Diagnostic> {
     let mut session = Session::new(world.clone());
     let mut found = Vec::new();
@@ -141,10 +130,9 @@ fn faults(file: FileId, text: &str, read: &mut ReadLesson<'_>, world: &SharedWor
     }
     for port in &read.ports {
         if ports.is_empty() && read.program.is_none() {
-            read.mistakes.push(Mistaken::new(*port, LessonMistake::NoProgram));
+            read.mistakes.push(wording::NO_PROGRAM.at(*port));
         } else if found.is_empty() && !ports.iter().any(|known| known == port.text) {
-            let known = LessonMistake::UnknownPort { known: ports.clone() };
-            read.mistakes.push(Mistaken::new(*port, known));
+            read.mistakes.push(wording::UNKNOWN_PORT.at(*port).known(&ports));
         }
     }
     found
@@ -161,13 +149,12 @@ fn alone(text: &str, piece: Piece<'_>) -> String {
     text.char_indices().map(blank).collect()
 }
 
-/// The ports of the circuits of a program itself.
 fn ports_of(checked: &Checked) -> Vec<String> {
     let own = checked.program.circuits.iter().filter(|circuit| Some(circuit.span.file) == checked.file);
     own.flat_map(|circuit| &circuit.nets[..circuit.inputs + circuit.outputs]).map(|net| net.name.clone()).collect()
 }
 
-/// A diagnostic of a program, about its lesson. What it says of other files is left out.
+/// A diagnostic of a program as one of its lesson. What it says about other files is left out.
 fn moved(found: &Diagnostic, checked: &Checked, file: FileId) -> Diagnostic {
     let mut moved = found.clone();
     let own = |span: Span| Some(span.file) == checked.file;

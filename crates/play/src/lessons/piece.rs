@@ -8,26 +8,22 @@ pub(super) struct Piece<'a> {
 }
 
 impl<'a> Piece<'a> {
-    /// Without the space around it.
     pub(super) fn trim(self) -> Self {
         let start = self.text.len() - self.text.trim_start().len();
         Self { text: self.text.trim(), at: self.at + start }
     }
 
-    /// What follows a prefix.
     pub(super) fn after(self, prefix: &str) -> Option<Self> {
         let text = self.text.strip_prefix(prefix)?;
         Some(Self { text, at: self.at + prefix.len() })
     }
 
-    /// The parts before and after the first of a separator.
     pub(super) fn split_once(self, separator: char) -> Option<(Self, Self)> {
         let (before, after) = self.text.split_once(separator)?;
         let at = self.at + before.len() + separator.len_utf8();
         Some((Self { text: before, at: self.at }, Self { text: after, at }))
     }
 
-    /// The parts between separators.
     pub(super) fn split(self, is_separator: impl Fn(char) -> bool) -> Vec<Self> {
         let mut parts = Vec::new();
         let mut start = 0;
@@ -39,13 +35,11 @@ impl<'a> Piece<'a> {
         parts
     }
 
-    /// The parts between spaces.
     pub(super) fn words(self) -> Vec<Self> {
         self.split(char::is_whitespace).into_iter().filter(|part| !part.text.is_empty()).collect()
     }
 }
 
-/// The lines of a text, without their ends.
 pub(super) fn lines(text: &str) -> Vec<Piece<'_>> {
     let whole = Piece { text, at: 0 };
     whole

@@ -1,48 +1,37 @@
 //! Reads a lesson: a title, fields, paragraphs and a program, and then steps (docs/lessons.md).
 
 use super::checking::{check, one_of};
-use super::mistake::{LessonMistake, Mistaken};
 use super::piece::{Piece, lines};
 use super::solving::deed;
+use super::wording::{self, Mistake, Mistaken};
 use crate::message::{LessonCheck, LessonEntry, LessonGoal, LessonMeasure, LessonStep, LessonTab, WrittenProgram};
 
-/// The most hints in one place.
 pub(super) const HINTS: usize = 3;
-/// The line around a program, and that at its start.
+/// The line around a program, and the one at its start.
 const FENCE: &str = "```";
 const PROGRAM: &str = "```nb";
-/// The fields of a lesson and of a step.
 const OF_LESSON: [&str; 3] = ["tab", "best", "hint"];
 const OF_STEP: [&str; 3] = ["check", "hint", "do"];
 
-/// A lesson that was read.
 #[derive(Debug)]
 pub(super) struct ReadLesson<'a> {
     pub(super) entry: LessonEntry,
-    /// The program, in its place.
     pub(super) program: Option<Piece<'a>>,
-    /// The programs that solutions type.
     pub(super) typed: Vec<Piece<'a>>,
-    /// The ports that checks and solutions name.
     pub(super) ports: Vec<Piece<'a>>,
     pub(super) mistakes: Vec<Mistaken>,
 }
 
-/// What a lesson consists of.
 enum Block<'a> {
     /// A line with `#` before it, without it.
     Title(Piece<'a>),
-    /// Any other heading.
     Heading(Piece<'a>),
-    /// The lines of an entry of a list.
     Entry(Vec<Piece<'a>>),
-    /// The lines of a paragraph.
     Paragraph(Vec<Piece<'a>>),
     /// The line at the start of a code block, the text in it, and whether it ends.
     Code(Piece<'a>, Piece<'a>, bool),
 }
 
-/// Reads the text of a lesson.
 pub(super) fn read<'a>(name: &str, text: &'a str) -> ReadLesson<'a> {
     let entry = LessonEntry {
         name: name.to_owned(),
@@ -62,7 +51,6 @@ pub(super) fn read<'a>(name: &str, text: &'a str) -> ReadLesson<'a> {
     reader.finished()
 }
 
-/// The blocks of a text.
 fn blocks(text: &str) -> Vec<Block<'_>> {
     let mut blocks: Vec<Block<'_>> = Vec::new();
     // Whether the next line can belong to the block before it.
@@ -99,23 +87,21 @@ fn blocks(text: &str) -> Vec<Block<'_>> {
 
 struct Reader<'a> {
     lesson: ReadLesson<'a>,
-    /// The heading of the present step.
     heading: Option<Piece<'a>>,
     /// `type` in the solution of the present step, and its program, which belong together.
     types: Option<Piece<'a>>,
     typed: Option<Piece<'a>>,
-    /// The fields of the lesson that may be there once, as far as they were.
+    /// The fields of the lesson so far that may be there once.
     fields: Vec<&'a str>,
-    /// The first line, for what is missing.
+    /// The first line, the place of what is missing.
     start: Piece<'a>,
 }
 
 impl<'a> Reader<'a> {
-    fn mistake(&mut self, piece: Piece<'_>, mistake: LessonMistake) {
-        self.lesson.mistakes.push(Mistaken::new(piece, mistake));
+    fn mistake(&mut self, piece: Piece<'_>, mistake: Mistake) {
+        self.lesson.mistakes.push(mistake.at(piece));
     }
 
-    /// Keeps what was read, or notes the mistake.
     fn kept<T>(&mut self, read: Result<T, Mistaken>) -> Option<T> {
         read.map_err(|mistaken| self.lesson.mistakes.push(mistaken)).ok()
     }
@@ -126,7 +112,7 @@ impl<'a> Reader<'a> {
                 if self.lesson.entry.title.is_empty() && self.heading.is_none() {
                     self.lesson.entry.title = title.text.to_owned();
                 } else {
-                    self.mistake(title, LessonMistake::SecondTitle);
+                    self.mistake(title, wording::SECOND_TITLE);
                 }
             }
             Block::Heading(heading) if heading.text == "## Step" => {
@@ -134,7 +120,7 @@ impl<'a> Reader<'a> {
                 self.heading = Some(heading);
                 self.lesson.entry.steps.push(LessonStep::default());
             }
-            Block::Heading(heading) => self.mistake(heading, LessonMistake::Heading),
+            Block::Heading(heading) => self.mistake(heading, wording::HEADING),
             Block::Entry(lines) => self.entry(&lines),
             Block::Paragraph(lines) => self.paragraph(&joined(&lines)),
             Block::Code(fence, text, ends) => self.code(fence, text, ends),
@@ -151,18 +137,18 @@ impl<'a> Reader<'a> {
 
     fn code(&mut self, fence: Piece<'a>, text: Piece<'a>, ends: bool) {
         if fence.text != PROGRAM {
-            return self.mistake(fence, LessonMistake::Language);
+            return self.mistake(fence, wording::LANGUAGE);
         }
         if !ends {
-            return self.mistake(fence, LessonMistake::OpenBlock);
+            return self.mistake(fence, wording::OPEN_BLOCK);
         }
         if self.heading.is_some() {
             if self.typed.replace(fence).is_some() {
-                self.mistake(fence, LessonMistake::SecondProgram);
+                self.mistake(fence, wording::SECOND_PROGRAM);
             }
             self.lesson.typed.push(text);
         } else if self.lesson.program.is_some() {
-            self.mistake(fence, LessonMistake::SecondProgram);
+            self.mistake(fence, wording::SECOND_PROGRAM);
         } else {
             self.lesson.program = Some(text);
             self.lesson.entry.program = Some(text.text.to_owned());
@@ -172,26 +158,26 @@ impl<'a> Reader<'a> {
 
     fn entry(&mut self, lines: &[Piece<'a>]) {
         let first = lines[0];
-        let Some((name, value)) = first.split_once(':') else { return self.mistake(first, LessonMistake::NoField) };
+        let Some((name, value)) = first.split_once(':') else { return self.mistake(first, wording::NO_FIELD) };
         let (name, value) = (name.trim(), value.trim());
         let known = if self.heading.is_some() { OF_STEP } else { OF_LESSON };
         let Some(field) = known.into_iter().find(|known| *known == name.text) else {
-            return self.mistake(name, LessonMistake::UnknownField { known: known.to_vec() });
+            return self.lesson.mistakes.push(wording::UNKNOWN_FIELD.at(name).known(known));
         };
         let text = joined(&[&[value], &lines[1..]].concat());
         if text.is_empty() {
-            return self.mistake(name, LessonMistake::EmptyField(field));
+            return self.mistake(name, wording::EMPTY_FIELD);
         }
         if field == "hint" {
             return self.hint(name, text);
         }
         if let Some(&more) = lines.get(1) {
-            return self.mistake(more, LessonMistake::TooMuch);
+            return self.mistake(more, wording::TOO_MUCH);
         }
         match field {
             "check" => self.check(value),
             "do" => self.deed(value),
-            _ if self.fields.contains(&field) => self.mistake(name, LessonMistake::FieldTwice),
+            _ if self.fields.contains(&field) => self.mistake(name, wording::FIELD_TWICE),
             "tab" => {
                 self.fields.push("tab");
                 let tab = one_of(value, &["swarm", "tests", "robots"]);
@@ -205,7 +191,7 @@ impl<'a> Reader<'a> {
                 self.fields.push("best");
                 self.lesson.entry.best = goal(value.text);
                 if self.lesson.entry.best.is_none() {
-                    self.mistake(value, LessonMistake::BadBest);
+                    self.mistake(value, wording::BAD_BEST);
                 }
             }
         }
@@ -216,13 +202,13 @@ impl<'a> Reader<'a> {
         let hints = lesson.steps.last_mut().map_or(&mut lesson.hints, |step| &mut step.hints);
         hints.push(text);
         if hints.len() > HINTS {
-            self.mistake(name, LessonMistake::TooManyHints { most: HINTS });
+            self.mistake(name, wording::TOO_MANY_HINTS);
         }
     }
 
     fn check(&mut self, value: Piece<'a>) {
         let read = check(value, &mut self.lesson.ports);
-        // A wrong check is one, so that it is not missed, too.
+        // A wrong check counts as one, so that the step is not also reported as one without a check.
         let read = self.kept(read).unwrap_or(LessonCheck::Evolving);
         if let Some(step) = self.lesson.entry.steps.last_mut() {
             step.checks.push(read);
@@ -239,15 +225,15 @@ impl<'a> Reader<'a> {
 
     fn end_step(&mut self) {
         if let (Some(alone), None) | (None, Some(alone)) = (self.types.take(), self.typed.take()) {
-            self.mistake(alone, LessonMistake::Typing);
+            self.mistake(alone, wording::TYPING);
         }
         if let (Some(heading), Some(step)) = (self.heading, self.lesson.entry.steps.last()) {
             let (has_task, has_check) = (!step.task.is_empty(), !step.checks.is_empty());
             if !has_task {
-                self.mistake(heading, LessonMistake::NoTask);
+                self.mistake(heading, wording::NO_TASK);
             }
             if !has_check {
-                self.mistake(heading, LessonMistake::NoCheck);
+                self.mistake(heading, wording::NO_CHECK);
             }
         }
     }
@@ -255,10 +241,10 @@ impl<'a> Reader<'a> {
     fn finished(mut self) -> ReadLesson<'a> {
         self.end_step();
         if self.lesson.entry.title.is_empty() {
-            self.mistake(self.start, LessonMistake::NoTitle);
+            self.mistake(self.start, wording::NO_TITLE);
         }
         if self.lesson.entry.steps.is_empty() {
-            self.mistake(self.start, LessonMistake::NoSteps);
+            self.mistake(self.start, wording::NO_STEPS);
         }
         self.lesson
     }
@@ -276,7 +262,6 @@ fn goal(text: &str) -> Option<LessonGoal> {
     Some(LessonGoal { number, of })
 }
 
-/// Lines as one.
 fn joined(lines: &[Piece<'_>]) -> String {
     lines.iter().map(|line| line.text).collect::<Vec<_>>().join(" ").trim().to_owned()
 }

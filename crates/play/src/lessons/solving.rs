@@ -1,24 +1,23 @@
 //! The solution of a step: what a test of the page does. The page never gets it.
 
 use super::checking::{one_of, values};
-use super::mistake::{LessonMistake, Mistaken};
 use super::piece::Piece;
+use super::wording::{BAD_NUMBER, INCOMPLETE, Mistaken, TOO_MUCH};
 
-/// The words with which the lines of a solution begin.
 const DEEDS: [&str; 16] = [
     "set", "await", "wait", "pulse", "clock", "rewind", "circuit", "type", "test", "prove", "watch", "design",
     "mirror", "random", "evolve", "choose",
 ];
 
-/// Checks a line of a solution. The ports that it names are added to `ports`.
+/// Checks a line of a solution, and adds the ports that it names to `ports`.
 pub(super) fn deed<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<(), Mistaken> {
     let words = text.words();
     let Some((&first, rest)) = words.split_first() else {
-        return Err(Mistaken::new(text, LessonMistake::EmptyField("do")));
+        return Err(INCOMPLETE.at(text));
     };
     let count = |most: usize| match rest.get(most) {
-        Some(&more) => Err(Mistaken::new(more, LessonMistake::TooMuch)),
-        None if rest.len() < most => Err(Mistaken::new(first, LessonMistake::Incomplete)),
+        Some(&more) => Err(TOO_MUCH.at(more)),
+        None if rest.len() < most => Err(INCOMPLETE.at(first)),
         None => Ok(()),
     };
     match one_of(first, &DEEDS)?.as_str() {
@@ -26,7 +25,7 @@ pub(super) fn deed<'a>(text: Piece<'a>, ports: &mut Vec<Piece<'a>>) -> Result<()
         "wait" => {
             count(1)?;
             let is_number = rest[0].text.parse::<u32>().is_ok();
-            if is_number { Ok(()) } else { Err(Mistaken::new(rest[0], LessonMistake::BadNumber)) }
+            if is_number { Ok(()) } else { Err(BAD_NUMBER.at(rest[0])) }
         }
         "pulse" => {
             count(1)?;

@@ -8,12 +8,10 @@ use nbc_base::source::MemoryWorld;
 use nbc_circuit::Effort;
 use nbc_session::CompileOptions;
 
-/// A world without files.
 fn nothing() -> SharedWorld {
     Arc::new(MemoryWorld::default())
 }
 
-/// A lesson of an author.
 fn lesson(text: &str) -> ReadLessons {
     let mut read = ReadLessons::default();
     read.add("01-first.md", text, Some(&nothing()));
@@ -59,7 +57,6 @@ fn a_lesson_has_a_text_a_program_and_steps() {
     assert_eq!((step.task.as_str(), step.checks.len()), ("Do it.", 2));
 }
 
-/// The lesson with one line in place of another has this fault.
 fn fails(line: &str, other: &str, expected: &str) {
     assert!(GATE.contains(line), "{line}");
     let ReadLessons { lessons, found } = lesson(&GATE.replace(line, other));
@@ -154,7 +151,6 @@ proptest::proptest! {
     }
 }
 
-/// The robots of the swarm of a program, for its first test's circuit.
 fn robots(program: &str) -> usize {
     let mut session = Session::new(nothing());
     session.update("program.nb", 1, program);

@@ -1,4 +1,4 @@
-//! Robots of the library, bodies that a page has made, and how voxels look.
+//! Robots of the library, bodies that a page has made, how voxels look, and a search for gates while it runs.
 
 use serde::Serialize;
 #[cfg(test)]
@@ -7,7 +7,6 @@ use ts_rs::TS;
 use nbc_base::model::Material;
 use nbc_session::report::{Look, Looks};
 
-/// The answer to `robots`.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct RobotCards {
@@ -16,7 +15,6 @@ pub(crate) struct RobotCards {
     pub(crate) palette: Vec<PaletteEntry>,
 }
 
-/// A robot of a library.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct RobotCard {
@@ -34,13 +32,11 @@ pub(crate) struct RobotCard {
     pub(crate) clock: u32,
     pub(crate) margin: f64,
     pub(crate) errors: f64,
-    /// Whether it comes with the program.
     pub(crate) shipped: bool,
     /// Whether it is of the materials that can be painted, so that it can be probed.
     pub(crate) painted: bool,
 }
 
-/// A material that can be painted.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct PaletteEntry {
@@ -52,19 +48,16 @@ pub(crate) struct PaletteEntry {
     pub(crate) look: usize,
 }
 
-/// How the voxels of a material look.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct VoxelLook {
     pub(crate) name: String,
     pub(crate) color: String,
-    /// The color of its mark.
     pub(crate) ink: Option<String>,
     /// Polygons within the unit square.
     pub(crate) mark: Option<Vec<Vec<[f64; 2]>>>,
 }
 
-/// How a body walks, and which gate it is.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ProbeReport {
@@ -73,14 +66,12 @@ pub(crate) struct ProbeReport {
     pub(crate) letters: String,
     pub(crate) function: &'static str,
     pub(crate) displacement: Vec<f64>,
-    /// None if it was not asked for.
     pub(crate) character: Option<CharacterSketch>,
     pub(crate) points: usize,
     pub(crate) voxels: Vec<[usize; 5]>,
     pub(crate) looks: Vec<VoxelLook>,
 }
 
-/// Poses as text.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct EncodedGait {
@@ -103,17 +94,14 @@ pub(crate) struct CharacterSketch {
     pub(crate) topples: bool,
 }
 
-/// A robot file that was written.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct KeptRobot {
     pub(crate) path: String,
-    /// A declaration of a library with it.
     #[serde(rename = "use")]
     pub(crate) declaration: String,
 }
 
-/// The looks of a picture.
 pub(crate) fn looks(looks: &Looks) -> Vec<VoxelLook> {
     let look = |(material, look): (&Material, Look)| VoxelLook {
         name: material.name.clone(),
@@ -124,4 +112,38 @@ pub(crate) fn looks(looks: &Looks) -> Vec<VoxelLook> {
             .map(|mark| mark.polygons.iter().map(|one| one.iter().map(|&(x, y)| [x, y]).collect()).collect()),
     };
     looks.all().map(look).collect()
+}
+
+/// The niches of an archive that have changed in a generation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ArchiveChange {
+    pub(crate) id: u64,
+    pub(crate) generation: u32,
+    pub(crate) axes: Vec<AxisEntry>,
+    pub(crate) niches: Vec<NicheEntry>,
+    pub(crate) evaluations: u64,
+}
+
+/// The name of an axis and its number of bins.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct AxisEntry(pub(crate) &'static str, pub(crate) usize);
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct NicheEntry {
+    /// The bin on each axis.
+    pub(crate) place: Vec<u16>,
+    pub(crate) fitness: [f64; 2],
+    pub(crate) body: Vec<String>,
+    pub(crate) letters: String,
+    pub(crate) function: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct EvolutionEnd {
+    pub(crate) generations: u32,
+    pub(crate) evaluations: u64,
 }

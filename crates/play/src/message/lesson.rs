@@ -1,25 +1,22 @@
-//! Lessons, as the page shows them and checks them.
+//! Lessons, as the page shows them and checks them, and a class, as the teacher's page shows it.
 
 use std::collections::BTreeMap;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 #[cfg(test)]
 use ts_rs::TS;
 
-use super::finding::Finding;
+use super::program::Finding;
 use super::written::WrittenProgram;
 
-/// The answer to `lessons`.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct LessonList {
-    /// The lessons in their order.
     pub(crate) lessons: Vec<LessonEntry>,
     /// What is wrong with the files of an author; such a file gives no lesson.
     pub(crate) findings: Vec<Finding>,
 }
 
-/// A lesson.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct LessonEntry {
@@ -32,16 +29,13 @@ pub(crate) struct LessonEntry {
     pub(crate) program: Option<String>,
     /// The same as checks look at it.
     pub(crate) written: Option<WrittenProgram>,
-    /// The tab in which it begins.
     pub(crate) tab: LessonTab,
-    /// Hints for all of its steps.
     pub(crate) hints: Vec<String>,
     /// The size of the best known circuit, where the learner makes one.
     pub(crate) best: Option<LessonGoal>,
     pub(crate) steps: Vec<LessonStep>,
 }
 
-/// The size of a circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct LessonGoal {
@@ -49,7 +43,7 @@ pub(crate) struct LessonGoal {
     pub(crate) of: LessonMeasure,
 }
 
-/// How a circuit is measured: by its robots, or by the gates of what is written.
+/// How a circuit is measured: by its robots, or by the gates of its source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
@@ -58,18 +52,16 @@ pub(crate) enum LessonMeasure {
     Gates,
 }
 
-/// A step of a lesson.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct LessonStep {
     pub(crate) task: String,
-    /// It is done when all of these hold at once.
+    /// The step is done when all of these hold at once.
     pub(crate) checks: Vec<LessonCheck>,
     /// Hints for this step alone.
     pub(crate) hints: Vec<String>,
 }
 
-/// A tab of the page in which a lesson can begin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
@@ -80,53 +72,65 @@ pub(crate) enum LessonTab {
     Robots,
 }
 
-/// The values of ports.
 pub(crate) type PortValues = BTreeMap<String, u32>;
 
-/// A condition of a step.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "is", rename_all = "kebab-case")]
 pub(crate) enum LessonCheck {
     /// The ports have these values now.
-    Shows { values: PortValues },
+    Shows {
+        values: PortValues,
+    },
     /// The ports have had these values for as long as a change needs to settle.
-    Keeps { values: PortValues },
+    Keeps {
+        values: PortValues,
+    },
     /// None of these patterns is there now.
-    Hides { patterns: Vec<PortValues> },
+    Hides {
+        patterns: Vec<PortValues>,
+    },
     /// Each of these patterns has been there lately.
-    HasShown { patterns: Vec<PortValues> },
+    HasShown {
+        patterns: Vec<PortValues>,
+    },
     /// The body in the designer is this gate, or another one.
-    Designs { gate: String, except: bool },
-    /// A number of the page compares so with another one.
-    Counts { what: LessonCount, than: LessonComparison, number: u32 },
+    Designs {
+        gate: String,
+        except: bool,
+    },
+    Counts {
+        what: LessonCount,
+        than: LessonComparison,
+        number: u32,
+    },
     /// All robots of the swarm are gates of these functions.
-    RobotsOnly { gates: Vec<String> },
+    RobotsOnly {
+        gates: Vec<String>,
+    },
     /// The circuits of the program are written without these words.
-    Without { words: Vec<String> },
-    /// The swarm is that of this circuit.
-    Circuit { name: String },
-    /// The program has tests, and all of them pass.
+    Without {
+        words: Vec<String>,
+    },
+    Circuit {
+        name: String,
+    },
     TestsPass,
-    /// A test has run, and does not pass.
     TestsFail,
-    /// The program claims something, and all that it claims is proved.
+    /// The program claims something, and everything that it claims is proved.
     ClaimsProved,
-    /// A property of a claim is refuted.
     ClaimsRefuted,
     /// The program still has all lines of the lesson's tests and claims.
     TestsKept,
-    /// The program has no errors, a circuit and a test, and is another than that of the lesson.
+    /// The program has no errors, a circuit and a test, and differs from that of the lesson.
     ProgramChanged,
     /// An output is not 0.
     OutputsLit,
-    /// An evolution runs.
     Evolving,
     /// The body of a niche of the archive is in the designer.
     NicheChosen,
 }
 
-/// What a check counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
@@ -137,7 +141,6 @@ pub(crate) enum LessonCount {
     Threads,
 }
 
-/// How a check compares.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) enum LessonComparison {
@@ -147,4 +150,56 @@ pub(crate) enum LessonComparison {
     AtLeast,
     #[serde(rename = "=")]
     Equal,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(test, derive(TS))]
+pub struct ClassPlace {
+    /// The name of the lesson.
+    pub lesson: String,
+    /// The steps of it that are done.
+    pub done: u32,
+    /// The size of their smallest circuit in it.
+    pub size: Option<u32>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ClassName {
+    /// With it, the page can join by this name again.
+    pub(crate) key: String,
+}
+
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub struct ClassCourse {
+    pub lessons: Vec<ClassLesson>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub struct ClassLesson {
+    pub name: String,
+    pub title: String,
+    /// The tasks of its steps.
+    pub steps: Vec<String>,
+}
+
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub struct ClassRoll {
+    pub members: Vec<ClassMember>,
+    pub most: usize,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub struct ClassMember {
+    pub name: String,
+    /// Where the learner is; none outside of lessons.
+    pub place: Option<ClassPlace>,
+    /// The number of finished lessons.
+    pub finished: u32,
+    /// Seconds since the place has changed.
+    pub seconds: u64,
 }

@@ -2,72 +2,58 @@
 //! and from those of the requests (`typescript.rs`); docs/play-protocol.md describes them.
 
 mod bodies;
-mod claim;
-mod class;
-mod evolution;
-mod export;
 mod files;
-pub(super) mod finding;
 mod lesson;
 mod program;
 mod swarm;
-mod test_result;
 mod written;
 
 use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
-pub(super) use bodies::{
-    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
-};
-pub(super) use claim::{ClaimAnswer, ClaimEntry};
-pub(super) use class::ClassName;
-pub use class::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
-pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
-pub(super) use export::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
-pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};
+pub(super) use bodies::*;
+pub(super) use files::*;
+pub use lesson::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
 pub(super) use lesson::{
-    LessonCheck, LessonComparison, LessonCount, LessonEntry, LessonGoal, LessonList, LessonMeasure, LessonStep,
-    LessonTab, PortValues,
+    ClassName, LessonCheck, LessonComparison, LessonCount, LessonEntry, LessonGoal, LessonList, LessonMeasure,
+    LessonStep, LessonTab, PortValues,
 };
-pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
-pub(super) use swarm::{
-    BitSource, ListingRow, ShownClock, ShownEnvironment, ShownListing, ShownMemory, ShownRegister, ShownScript,
-    ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, WaveBit, WaveRegister,
-};
-pub(super) use test_result::{TestAnswer, TestResult, listed};
+pub(super) use program::*;
+pub(super) use swarm::*;
 pub(super) use written::{CALLS, WrittenProgram};
 
 use crate::refusal::Refusal;
 
-/// A message of the server.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(untagged)]
 pub(super) enum ServerMessage {
-    /// The result of a request.
     Result {
         id: u64,
         #[serde(flatten)]
         result: RequestResult,
     },
-    /// A request without a result is done.
-    Done { id: u64, ok: Nothing },
-    /// A request is refused.
-    Refused { id: u64, error: Refusal },
+    Done {
+        id: u64,
+        ok: Nothing,
+    },
+    Refused {
+        id: u64,
+        error: Refusal,
+    },
     /// How much of a request is done, and how much there is to do.
-    Progress { id: u64, progress: [u64; 2] },
-    /// What a page did not ask for.
+    Progress {
+        id: u64,
+        progress: [u64; 2],
+    },
     Event(PlayEvent),
 }
 
-/// An object without fields.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(super) struct Nothing {}
 
-/// The result of a request, with its verb.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "to", content = "ok", rename_all = "lowercase")]
@@ -91,7 +77,7 @@ pub(super) enum RequestResult {
     Join(ClassName),
 }
 
-/// What a page is told without a request.
+/// Events sent without a request.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(tag = "event", rename_all = "lowercase")]

@@ -1,4 +1,4 @@
-//! A swarm that a page can run.
+//! A swarm that a page can run, and what an exported page contains.
 
 use serde::Serialize;
 #[cfg(test)]
@@ -9,14 +9,12 @@ use super::program::PortEntry;
 use nbc_session::report::{SchematicPages, SheetPage};
 use nbc_swarm::StimulusSource;
 
-/// The answer to `compile` and to `replay`.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct SwarmAnswer {
     pub(crate) swarm: Box<ShownSwarm>,
 }
 
-/// The swarm of a page.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ShownSwarm {
@@ -32,7 +30,6 @@ pub(crate) struct ShownSwarm {
     /// The gates of the circuit as it is written.
     pub(crate) gates: usize,
     pub(crate) registers: Vec<ShownRegister>,
-    /// The table of the circuit over one of its outputs.
     pub(crate) listing: Option<ShownListing>,
     pub(crate) looks: Vec<VoxelLook>,
     pub(crate) schematic: ShownSchematic,
@@ -46,9 +43,7 @@ pub(crate) struct ShownSwarm {
     pub(crate) ground: Vec<Vec<u8>>,
     /// Poses in a cycle.
     pub(crate) frames: u32,
-    /// What it is as a wave machine.
     pub(crate) waves: Option<ShownWaves>,
-    /// The test that gives its inputs.
     pub(crate) script: Option<ShownScript>,
 }
 
@@ -62,7 +57,6 @@ pub(crate) struct ShownClock {
     pub(crate) half: u32,
 }
 
-/// A test that gives the inputs of a swarm.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ShownScript {
@@ -95,31 +89,26 @@ pub(crate) struct ShownMemory {
     pub(crate) words: Vec<String>,
     /// For each of its reads the addresses, each with the cycles before it.
     pub(crate) reads: Vec<Vec<(usize, usize)>>,
-    /// The words that are written, each with the cycles before it and its address.
+    /// The written words, each with the cycles before it and its address.
     pub(crate) writes: Vec<(usize, usize, String)>,
 }
 
-/// A schematic, of which the page shows a sheet at a time.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ShownSchematic {
     /// The sheets, each after the one around it; the first shows the whole.
     pub(crate) sheets: Vec<ShownSheet>,
-    /// The bodies of the robots, each an SVG.
     pub(crate) bodies: Vec<String>,
     /// For each robot, the sheet that shows it.
     pub(crate) homes: Vec<usize>,
 }
 
-/// A part of a circuit.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ShownSheet {
     pub(crate) name: String,
     pub(crate) about: String,
-    /// The sheet around it.
     pub(crate) outer: Option<usize>,
-    /// An SVG.
     pub(crate) svg: String,
 }
 
@@ -131,7 +120,6 @@ impl From<SchematicPages> for ShownSchematic {
     }
 }
 
-/// A register of the circuit.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ShownRegister {
@@ -145,18 +133,16 @@ pub(crate) struct ShownRegister {
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ShownListing {
-    /// The output that chooses the row.
     pub(crate) port: String,
     pub(crate) rows: Vec<ListingRow>,
 }
 
-/// A row of such a table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct ListingRow {
-    /// The digits of the output for which it is, `-` for any; the first row that fits is the one.
+    /// The digits of the output for which it is, `-` for any; the first row that fits counts.
     pub(crate) bits: String,
-    /// These, and what the table has for them, as in the source.
+    /// These digits, and what the table has for them, as in the source.
     pub(crate) at: String,
     pub(crate) text: String,
     pub(crate) line: usize,
@@ -181,7 +167,6 @@ pub(crate) struct ShownWaves {
     pub(crate) registers: Vec<WaveRegister>,
 }
 
-/// A register of a wave machine.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct WaveRegister {
@@ -201,7 +186,6 @@ pub(crate) struct WaveBit {
     pub(crate) starts: Vec<bool>,
 }
 
-/// A robot of the swarm.
 #[derive(Clone, Debug, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct SwarmRobot {
@@ -215,7 +199,6 @@ pub(crate) struct SwarmRobot {
     pub(crate) robot: String,
     /// Words with their texts.
     pub(crate) about: Vec<[String; 2]>,
-    /// The source of each of its stimuli.
     pub(crate) senses: Vec<BitSource>,
     /// The rows from the top.
     pub(crate) body: Vec<String>,
@@ -223,23 +206,19 @@ pub(crate) struct SwarmRobot {
     pub(crate) size: [usize; 2],
     /// The numbers of the corner points around each voxel, and its index in the looks.
     pub(crate) voxels: Vec<[usize; 5]>,
-    /// The number of points.
     pub(crate) points: usize,
     pub(crate) clock: u32,
     pub(crate) margin: f64,
     pub(crate) errors: f64,
 }
 
-/// Where a bit comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum BitSource {
     /// A bit of the inputs.
     Input(usize),
-    /// A robot of the swarm.
     Robot(usize),
-    /// A bit that never changes.
     Constant(bool),
 }
 
@@ -251,4 +230,65 @@ impl From<StimulusSource> for BitSource {
             StimulusSource::Constant(bit) => Self::Constant(bit),
         }
     }
+}
+
+/// A circuit that a page plays without a server: the swarm, how its robots walk, and the rows of the tests.
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ExportedSwarm {
+    pub(crate) version: &'static str,
+    pub(crate) file: String,
+    pub(crate) swarm: Box<ShownSwarm>,
+    /// Cycles for which robots sense the same; more than one only in wave machines.
+    pub(crate) beat: u32,
+    pub(crate) robots: Vec<ExportedRobot>,
+    /// How each of the different robots walks.
+    pub(crate) walks: Vec<ExportedWalk>,
+    pub(crate) tests: Vec<ExportedTest>,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ExportedRobot {
+    /// The index of its walk.
+    pub(crate) walk: usize,
+    /// Its output before the first cycle.
+    pub(crate) start: bool,
+    /// Cycles of the same stimuli after which it answers.
+    pub(crate) delay: u32,
+    /// For each stimulus, what it senses in the first cycles instead of its source.
+    pub(crate) held: Vec<String>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ExportedWalk {
+    /// The directions, such as `RRRL`.
+    pub(crate) letters: String,
+    pub(crate) strides: Vec<ExportedStride>,
+}
+
+/// A recorded cycle under one pattern, as a loop.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ExportedStride {
+    /// Voxels that the robot moves in it.
+    pub(crate) shift: f64,
+    /// Base64 of numbers as in a frame, without the motion of the whole.
+    pub(crate) poses: String,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ExportedTest {
+    pub(crate) title: String,
+    pub(crate) rows: Vec<ExportedRow>,
+}
+
+/// A row: the digits `0` and `1` of the inputs, and for the outputs also `-`.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ExportedRow {
+    pub(crate) inputs: String,
+    pub(crate) expected: String,
 }

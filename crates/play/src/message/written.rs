@@ -10,10 +10,9 @@ use nbc_base::source::{Sources, Span};
 use nbc_lang::syntax::tree::{Declaration, DeclarationKind, ExpressionSyntaxKind};
 use nbc_lang::syntax::{TokenKind, parse, tokens};
 
-/// What stands for every call of a circuit that the program does not declare.
+/// Stands for every call of a circuit that the program does not declare.
 pub(crate) const CALLS: &str = "calls";
 
-/// A program as it is written.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 #[cfg_attr(test, derive(TS))]
 pub(crate) struct WrittenProgram {

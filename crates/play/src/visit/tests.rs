@@ -14,7 +14,6 @@ const VERBS: [&str; 20] = [
 ];
 const TEXTS: [&str; 6] = ["a.nb", "../a", "", "circuit f(a) -> (q) { q = a }", "é\u{0}", "01"];
 
-/// A page with everything around it.
 struct Tab {
     folder: MemoryFolder,
     shell: Arc<LocalShell>,
@@ -40,7 +39,7 @@ impl Tab {
         Self { folder, shell, line, visit, now: Duration::ZERO }
     }
 
-    /// Sends a request. Returns the texts that come until its work is done.
+    /// Returns the texts that come until the work of the request is done.
     fn ask(&mut self, request: &Value) -> Vec<Value> {
         self.visit.receive(&request.to_string(), self.now);
         while self.shell.has_work() {
@@ -50,7 +49,6 @@ impl Tab {
         self.texts()
     }
 
-    /// The texts that wait. Frames are left out.
     fn texts(&self) -> Vec<Value> {
         let next = || self.line.next(true);
         let texts = std::iter::from_fn(next).filter_map(|message| match message {
@@ -60,7 +58,7 @@ impl Tab {
         texts.collect()
     }
 
-    /// Lets some time pass, in steps of a few milliseconds; the number of frames that came.
+    /// Lets some time pass, in steps of a few milliseconds; returns the number of frames.
     fn pass(&mut self, time: Duration) -> usize {
         let end = self.now + time;
         let mut frames = 0;

@@ -13,7 +13,6 @@ use crate::lattice::Lattice;
 use crate::state::State;
 use nbc_base::model::{Body, Fault, Pattern, Setting, Spell, Trajectory, Trial};
 
-/// An implementation of the physics.
 pub trait Backend: Debug + Send + Sync {
     /// The number of robots that it simulates in about the time of one.
     fn at_once(&self) -> usize;
@@ -28,46 +27,35 @@ pub trait Backend: Debug + Send + Sync {
 
 /// Several robots, each alone in its own simulation with its own stimuli.
 pub trait Flock: Debug + Send {
-    /// The number of robots.
     fn len(&self) -> usize;
 
-    /// Whether there are none.
     fn is_empty(&self) -> bool {
         self.len() == 0
     }
 
     /// Simulates robot `i` through `spells[i]`. The actuation clock continues from call to call. A robot with a fault
     /// stays in its state after its last complete env step.
-    ///
-    /// # Panics
-    /// When there is not one spell for each robot.
+    /// Panics when there is not one spell for each robot.
     fn advance_under(&mut self, spells: &[Spell]);
 
     /// Simulates `env_steps` more env steps, with robot `i` under `patterns[i]`, as [`Flock::advance_under`].
-    ///
-    /// # Panics
-    /// When there is not one pattern for each robot.
+    /// Panics when there is not one pattern for each robot.
     fn advance(&mut self, patterns: &[Pattern], env_steps: u32) {
         let spell = |&pattern: &Pattern| Spell::of(pattern, env_steps);
         self.advance_under(&patterns.iter().map(spell).collect::<Vec<_>>());
     }
 
     /// Keeps robot `i` if `keep[i]` is true, in the same order, and drops the others.
-    ///
-    /// # Panics
-    /// When there is not one entry for each robot.
+    /// Panics when there is not one entry for each robot.
     fn retain(&mut self, keep: &[bool]);
 
     /// The center of mass of robot `i`, in voxels: x and y.
     fn center(&self, i: usize) -> [f64; 2];
 
-    /// The fault that ended the simulation of robot `i`, if any.
     fn fault(&self, i: usize) -> Option<Fault>;
 
-    /// Env steps that robot `i` has done.
     fn clock(&self, i: usize) -> u32;
 
-    /// The lattice of robot `i`.
     fn lattice(&self, i: usize) -> &Lattice;
 
     /// The positions of the points of robot `i`, in voxels, in the order of [`Lattice::points`].
@@ -94,12 +82,9 @@ pub trait Flock: Debug + Send {
 /// A robot's simulation at the end of an env step.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Snapshot {
-    /// The positions and velocities of its points.
     pub state: State,
     /// Its center of mass, in voxels.
     pub center: [f64; 2],
-    /// Env steps done since the start.
     pub clock: u32,
-    /// The fault that ended it, if any.
     pub fault: Option<Fault>,
 }

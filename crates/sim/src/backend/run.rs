@@ -11,60 +11,33 @@ use crate::signal::Signals;
 use crate::state::State;
 use nbc_base::model::{Body, Fault, FaultKind, Palette, Schedule, Setting, Spell};
 
-/// One simulation: a body, its state between env steps, and what is left of its schedule.
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// The body's points and springs.
     pub lattice: Arc<Lattice>,
     /// The body's number: runs of one number share a body.
     pub body: usize,
-    /// The target widths of its channels.
     pub signals: Arc<Signals>,
     /// Its points. While the run is in a lane the batch has them, and these are outdated.
     pub state: State,
     /// Its center of mass at the end of the last whole env step, in voxels.
     pub center: [f64; 2],
-    /// Env steps done since the start.
     pub clock: u32,
-    /// The fault that ended it, if any.
     pub fault: Option<Fault>,
     /// Spells ahead, the next one last.
     spells: Vec<Spell>,
 }
 
-/// The data shared by runs of equal bodies.
-#[derive(Clone)]
-struct Build {
-    body: usize,
-    lattice: Arc<Lattice>,
-    signals: Arc<Signals>,
-}
-
 impl Run {
-    /// A body at its start, without a schedule.
-    fn new(build: &Build, origin: [f64; 2], constants: &Constants) -> Self {
-        let Build { body, lattice, signals } = build.clone();
-        let state = State::start(&lattice, origin, constants);
-        let center = state.center(constants);
-        Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
-    }
-
-    /// Sets its schedule.
     pub fn assign(&mut self, schedule: &Schedule) {
         let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
         self.spells.clear();
         self.spells.extend(spells.cloned());
     }
 
-    /// Whether its schedule is done.
     pub fn is_done(&self) -> bool {
         self.fault.is_some() || self.spells.is_empty()
     }
 
-    /// The stimuli of the env step ahead.
-    ///
-    /// # Panics
-    /// When there is nothing left to do.
     pub fn spell(&self) -> &Spell {
         self.spells.last().expect("a run that is not done has a spell")
     }
@@ -82,14 +55,12 @@ impl Run {
         }
     }
 
-    /// Ends it before its next env step, unless it is done.
     pub fn stop(&mut self) {
         if !self.is_done() {
             self.fault = Some(Fault { env_step: self.clock + 1, kind: FaultKind::Stopped });
         }
     }
 
-    /// Env steps left in the schedule.
     #[cfg(feature = "gpu")]
     pub fn remaining(&self) -> u32 {
         if self.fault.is_some() { 0 } else { self.spells.iter().map(|spell| spell.steps).sum() }
@@ -116,7 +87,6 @@ impl Run {
         }
     }
 
-    /// Restores a snapshot, without a schedule.
     pub fn restore(&mut self, snapshot: &Snapshot) {
         assert_eq!(snapshot.state.position.len(), self.lattice.points().len(), "a snapshot is of the same body");
         let Snapshot { state, center, clock, fault } = snapshot.clone();
@@ -129,19 +99,22 @@ impl Run {
 /// of bodies that sense no image.
 pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
     let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
-    let mut builds: BTreeMap<&Body, Build> = BTreeMap::new();
+    let mut starts: BTreeMap<&Body, Run> = BTreeMap::new();
     let run = |body: &'a Body| {
-        let number = builds.len();
-        let build = builds.entry(body).or_insert_with(|| {
+        let number = starts.len();
+        let start = starts.entry(body).or_insert_with(|| {
             let signals =
                 palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
             let signals = match Grid::seeing(body).next() {
                 Some(_) => Arc::new(Signals::clone(signals).of(body, constants)),
                 None => Arc::clone(signals),
             };
-            Build { body: number, lattice: Arc::new(Lattice::new(body, constants)), signals }
+            let lattice = Arc::new(Lattice::new(body, constants));
+            let state = State::start(&lattice, setting.start(body.width()), constants);
+            let center = state.center(constants);
+            Run { lattice, body: number, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
         });
-        Run::new(build, setting.start(body.width()), constants)
+        start.clone()
     };
     bodies.into_iter().map(run).collect()
 }

@@ -1,4 +1,4 @@
-//! Errors of files and their messages: a module for each kind of file.
+//! Messages about files: a module for each kind of file.
 
 #[cfg(feature = "disk")]
 mod checkpoints;
@@ -7,7 +7,7 @@ mod circuits;
 mod robots;
 
 #[cfg(feature = "disk")]
-pub(super) use checkpoints::{CheckpointError, StateError};
+pub(super) use checkpoints::*;
 #[cfg(feature = "disk")]
-pub(super) use circuits::StoreError;
-pub(super) use robots::{Flaw, LibraryError, RobotFileError, with_body_example};
+pub(super) use circuits::*;
+pub(super) use robots::*;

@@ -6,7 +6,6 @@ use nbc_sim::{Simulator, Snapshot};
 /// The most robots at once, so that many bodies need no more memory.
 const MOST_AT_ONCE: usize = 4096;
 
-/// A simulation of a body under one pattern.
 pub(super) struct Leg<'a> {
     pub body: &'a Body,
     /// The state from which it goes on; if there is none, it starts afresh.
@@ -20,24 +19,20 @@ impl<'a> Leg<'a> {
     }
 }
 
-/// How a leg went.
 pub(super) struct LegEnd {
     /// Where the body was before it, in voxels.
     pub start: f64,
-    /// Where it was after it.
     pub end: f64,
     pub fault: Option<Fault>,
     pub state: Snapshot,
 }
 
 impl LegEnd {
-    /// The displacement in voxels.
     pub fn moved(&self) -> Result<f64, Fault> {
         self.fault.map_or_else(|| Ok(self.end - self.start), Err)
     }
 }
 
-/// Simulates each leg.
 pub(super) fn advance(simulator: &Simulator, setting: &Setting, legs: &[Leg]) -> Vec<LegEnd> {
     let mut ends = Vec::with_capacity(legs.len());
     for legs in legs.chunks(MOST_AT_ONCE) {

@@ -12,28 +12,22 @@ use crate::noise::RobotNoise;
 use nbc_base::model::{Direction, Displacements, Pattern, Schedule, Setting, Spell};
 use nbc_sim::Simulator;
 
-/// A simulation that a body may need.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Walk {
-    /// Under one pattern, from a fresh start.
     Fixed(Pattern),
-    /// The next stretch of the long simulation.
     Long,
 }
 
-/// What an evaluation needs next.
+/// What an evaluation needs next: simulations under the missing patterns, in this order, until the body is decided, or
+/// the rest of the long one. If the body walks as its parent does, it needs `likely` of the former, and `legs`
+/// simulations in all, each stretch of the long one counted.
 #[derive(Debug)]
 pub(super) enum Next {
-    /// Simulations under these constant patterns, in this order, until the body is decided. If it walks as its parent
-    /// does, it needs `likely` of them, and `legs` simulations in all, each stretch of the long one counted.
     Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },
-    /// The long simulation, of which so many stretches are left.
     Long { legs: usize },
-    /// Nothing.
     Done(Evaluated),
 }
 
-/// The simulations of a protocol.
 pub(super) struct SimulationPlan<'a> {
     protocol: &'a EvaluationProtocol,
     setting: Setting,
@@ -76,7 +70,6 @@ impl<'a> SimulationPlan<'a> {
         Self { protocol, setting: setting(&protocol.world), stretches, spells, is_continued }
     }
 
-    /// What a task needs next, or its result.
     pub fn next(&self, task: &EvaluationTask, walker: &Walker) -> Next {
         let mut known = vec![None; walker.sensed.len()];
         let (mut env_steps, mut left) = (0, walker.different());
@@ -130,7 +123,6 @@ impl<'a> SimulationPlan<'a> {
         Next::Done(Evaluated { outcome, work: Work { env_steps, left_out } })
     }
 
-    /// Makes these simulations of walkers.
     pub fn walk(&self, simulator: &Simulator, walkers: &mut [Walker], wanted: &[(usize, Walk)]) {
         let leg = |&(walker, walk): &(usize, Walk)| {
             let walker = &walkers[walker];
@@ -158,7 +150,6 @@ impl<'a> SimulationPlan<'a> {
         }
     }
 
-    /// The long simulation, if it is known, or needs no further stretch.
     pub fn long(&self, walker: &Walker) -> Option<LongWalk> {
         walker.walks.long.or_else(|| self.ended(walker))
     }

@@ -5,7 +5,6 @@ use crate::evaluation::EvaluationTask;
 use nbc_base::model::{Body, Fault, MaterialKind, Pattern};
 use nbc_sim::Snapshot;
 
-/// How far a body has come in the long simulation.
 pub(super) struct Trail {
     /// Where it was at the start and after each stretch, in voxels.
     pub places: Vec<f64>,
@@ -13,13 +12,10 @@ pub(super) struct Trail {
     pub state: Snapshot,
 }
 
-/// A body with what is known of it.
 pub(super) struct Walker {
     pub body: Body,
-    /// What it senses of each pattern.
     pub sensed: Vec<Pattern>,
     pub walks: Walks,
-    /// The long simulation so far, if it was begun here.
     pub trail: Option<Trail>,
 }
 
@@ -28,17 +24,14 @@ impl Walker {
         Self { sensed: sensed_patterns(&body), body, walks: Walks::default(), trail: None }
     }
 
-    /// What it senses of a pattern.
     pub fn senses(&self, pattern: Pattern) -> Pattern {
         self.sensed[pattern.number(self.sensed.len().ilog2() as usize)]
     }
 
-    /// The stretches of the long simulation that were simulated here.
     pub fn stretches_done(&self) -> usize {
         self.trail.as_ref().map_or(0, |trail| trail.places.len() - 1)
     }
 
-    /// The patterns that it tells apart, in their order.
     pub fn different(&self) -> Vec<Pattern> {
         let mut different = self.sensed.clone();
         different.sort_unstable();

@@ -16,11 +16,9 @@ const HALF: usize = 50_000;
 pub(crate) struct Walks {
     /// The displacement under each constant pattern that was simulated, in voxels, or the fault.
     pub fixed: BTreeMap<Pattern, Result<f64, Fault>>,
-    /// The long simulation, if it was simulated.
     pub long: Option<LongWalk>,
 }
 
-/// A long simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LongWalk {
     /// The sum of distances, or why the body has none.
@@ -39,8 +37,8 @@ impl Walks {
     }
 }
 
-/// The simulations of the bodies that were evaluated last, so that a body that a search draws again is not simulated
-/// again. Results do not depend on it.
+/// The simulations of recently evaluated bodies, so that a body that is drawn again is not simulated again. Results do
+/// not depend on it.
 #[derive(Debug, Default)]
 pub struct WalkMemory(Mutex<Remembered>);
 
@@ -54,7 +52,6 @@ struct Remembered {
 }
 
 impl WalkMemory {
-    /// Sets what is known of each body.
     pub(crate) fn recall<'a>(
         &self,
         protocol: &EvaluationProtocol,
@@ -70,7 +67,6 @@ impl WalkMemory {
         }
     }
 
-    /// Remembers what is known of each body.
     pub(crate) fn keep<'a>(&self, protocol: &EvaluationProtocol, bodies: impl Iterator<Item = (&'a Body, &'a Walks)>) {
         let mut memory = self.lock();
         let number = memory.number(protocol);
@@ -82,7 +78,6 @@ impl WalkMemory {
         }
     }
 
-    /// The number of bodies.
     #[cfg(test)]
     pub(crate) fn len(&self) -> usize {
         let memory = self.lock();

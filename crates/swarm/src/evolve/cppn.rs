@@ -5,7 +5,6 @@ use nbc_base::model::{Activation, Genotype, Link, Matter, NodeId, NodeKind, Rule
 
 /// Inputs of a network: x, y (row), z (column), distance, bias.
 const INPUTS: u8 = 5;
-/// The input with the column.
 pub(crate) const COLUMN: u8 = 2;
 
 /// The score of one material code at each place of the box, row by row from the top.
@@ -13,7 +12,6 @@ pub(crate) const COLUMN: u8 = 2;
 pub struct ScoreMap {
     /// The material code, 0 for empty.
     pub code: u8,
-    /// A score for each place.
     pub scores: Vec<f64>,
 }
 
@@ -46,7 +44,6 @@ pub fn scores(genotype: &Genotype, rules: Rules, width: usize, height: usize) ->
     outputs.map(|(at, code)| ScoreMap { code, scores: run.output(at) }).collect()
 }
 
-/// An activation's value.
 pub fn activate(activation: Activation, u: f64) -> f64 {
     match activation {
         Activation::Sine => libm::sin(u),
@@ -60,7 +57,6 @@ pub fn activate(activation: Activation, u: f64) -> f64 {
     }
 }
 
-/// One evaluation of a network over a whole box.
 struct Run<'a> {
     genotype: &'a Genotype,
     rules: Rules,
@@ -137,7 +133,6 @@ impl<'a> Run<'a> {
     }
 }
 
-/// The five inputs at each place of the box, row by row.
 fn inputs(rules: Rules, width: usize, height: usize) -> Vec<Vec<f64>> {
     let along = |index: usize, length: usize| match length {
         // A coordinate without extent is the middle; in the authors' code it is the low end.

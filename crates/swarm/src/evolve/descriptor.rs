@@ -9,20 +9,17 @@ use nbc_base::model::{Axis, Behavior, Body, Count, Evolution, Function, Material
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub struct NicheKey(pub Vec<u16>);
 
-/// How bodies are sorted into niches.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Descriptor {
     axes: Vec<Axis>,
     area: usize,
     rules: Rules,
-    /// The inputs of its bodies.
     inputs: usize,
     /// The class of each behavior, in order of the functions' bits: the lowest bits of its functions.
     classes: Vec<u8>,
 }
 
 impl Descriptor {
-    /// The descriptor of a declared run.
     pub fn new(evolution: &Evolution) -> Self {
         Self {
             axes: evolution.descriptors.clone(),
@@ -38,12 +35,10 @@ impl Descriptor {
         self.axes.iter().map(|axis| axis.bins(self.inputs)).product()
     }
 
-    /// The inputs of its bodies.
     pub(super) fn inputs(&self) -> usize {
         self.inputs
     }
 
-    /// The niche of a body with that behavior.
     pub fn niche(&self, body: &Body, behavior: Behavior) -> NicheKey {
         let bin = |axis: &Axis| match *axis {
             Axis::Count { of, bins } => self.bin(self.count(body, of), bins),
@@ -93,17 +88,10 @@ mod tests {
         check(Rules::PAPER, &["33333", "55555", "00000", "00000", "00000"], [1, 0, 0, 7]);
         check(Rules::PAPER, &["33333", "35555", "51000", "00000", "00000"], [2, 1, 0, 7]);
         check(Rules::PAPER, &["33333"; 5], [3, 3, 0, 7]);
-    }
-
-    #[test]
-    fn the_code_counts_two_of_the_four_sensors() {
+        // The code counts two of the four sensors.
         let rows = ["77777", "88888", "33300", "00000", "00000"];
         check(Rules::PAPER, &rows, [2, 0, 1, 7]);
         check(Rules::CODE, &rows, [2, 0, 0, 7]);
-    }
-
-    #[test]
-    fn the_papers_archive_has_1024_niches() {
         assert_eq!(Descriptor::new(&evolution()).niches(), 1024);
     }
 }

@@ -6,9 +6,7 @@ use crate::evolve::{Undeveloped, cppn};
 use nbc_base::model::{Body, Genotype, LEAST_ACTUATORS, MaterialKind, Palette, Rules};
 
 /// The body of a network: at each place the code with the highest score, the first of equals.
-///
-/// # Panics
-/// When the network has an output for a code that the palette lacks.
+/// Panics when the network has an output for a code that the palette lacks.
 pub fn phenotype(genotype: &Genotype, palette: &Arc<Palette>, rules: Rules, width: usize, height: usize) -> Body {
     let maps = cppn::scores(genotype, rules, width, height);
     let best = |place: usize| {
@@ -36,7 +34,6 @@ pub fn validate(body: &Body) -> Result<(), Undeveloped> {
     }
 }
 
-/// Develops a network into a body that can be tried.
 pub fn develop(
     genotype: &Genotype,
     palette: &Arc<Palette>,

@@ -4,7 +4,6 @@ use rand::{Rng, RngExt};
 
 use nbc_base::model::{Activation, Genotype, Link, Matter, MutationWeights, NodeId, NodeKind, Rules};
 
-/// Draws for an admissible link before giving up.
 const LINK_DRAWS: usize = 999;
 /// Standard deviation of a change of weight.
 const WEIGHT_STEP: f64 = 0.5;
@@ -166,7 +165,6 @@ fn closes_cycle(genotype: &Genotype, link: Link) -> bool {
     false
 }
 
-/// Adds a link, or sets the weight of the existing one.
 fn set_link(genotype: &mut Genotype, link: Link) {
     let same = |other: &&mut Link| other.source == link.source && other.target == link.target;
     match genotype.links.iter_mut().find(same) {
@@ -184,7 +182,6 @@ fn remove(genotype: &mut Genotype, node: NodeId) {
     genotype.links.retain(|link| link.source != node && link.target != node);
 }
 
-/// Removes hidden nodes without links into them or out of them until none is left.
 fn prune(genotype: &mut Genotype) {
     while let Some(node) = loose_node(genotype) {
         remove(genotype, node);

@@ -7,7 +7,6 @@ use rand::{Rng, RngExt};
 use crate::evolve::validate;
 use nbc_base::model::{Body, Palette};
 
-/// The most voxels that change at once.
 const MOST_CHANGES: u32 = 3;
 /// Draws after which a body stays as it is.
 const TRIES: u32 = 100;

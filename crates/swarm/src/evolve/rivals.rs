@@ -1,21 +1,60 @@
 //! The elites that a body must beat to enter an archive, as plain data.
 
+use std::collections::BTreeMap;
+
+use serde::{Deserialize, Serialize};
+
 use nbc_base::model::{Behavior, Direction, Niche};
 
 /// The fitnesses of the elites in the niches that a body could enter, one entry for each behavior that it may show.
 /// This is all that an evaluation needs to know of an archive.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written", into = "Written")]
 pub struct Rivals {
     niche: Niche,
     /// For each behavior, in order of the functions' bits, the niches that it leads to; none if one of them is empty.
     behaviors: Vec<Vec<Vec<[f64; 2]>>>,
 }
 
+/// Rivals as data: each set of fitnesses once, because many behaviors lead to the same niches, and for each behavior
+/// the places of those that it leads to.
+#[derive(Serialize, Deserialize)]
+struct Written {
+    niche: Niche,
+    fronts: Vec<Vec<[f64; 2]>>,
+    behaviors: Vec<Vec<usize>>,
+}
+
+impl From<Rivals> for Written {
+    fn from(Rivals { niche, behaviors }: Rivals) -> Self {
+        let mut fronts: Vec<Vec<[f64; 2]>> = Vec::new();
+        let mut places: BTreeMap<Vec<[u64; 2]>, usize> = BTreeMap::new();
+        let mut place = |front: Vec<[f64; 2]>| {
+            *places.entry(front.iter().map(|two| two.map(f64::to_bits)).collect()).or_insert_with(|| {
+                fronts.push(front);
+                fronts.len() - 1
+            })
+        };
+        let behaviors = behaviors.into_iter().map(|niches| niches.into_iter().map(&mut place).collect()).collect();
+        Self { niche, fronts, behaviors }
+    }
+}
+
+impl TryFrom<Written> for Rivals {
+    type Error = &'static str;
+
+    fn try_from(Written { niche, fronts, behaviors }: Written) -> Result<Self, Self::Error> {
+        if !matches!(behaviors.len(), 16 | 256) {
+            return Err("each behavior has an entry");
+        }
+        let niches = |places: Vec<usize>| places.into_iter().map(|place| fronts.get(place).cloned()).collect();
+        let behaviors: Option<_> = behaviors.into_iter().map(niches).collect();
+        Ok(Self::new(niche, behaviors.ok_or("a niche that is not there")?))
+    }
+}
+
 impl Rivals {
     /// The rivals in each niche of each behavior.
-    ///
-    /// # Panics
-    /// When there is not one entry for each behavior of two or three stimuli.
     pub fn new(niche: Niche, behaviors: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
         assert!(matches!(behaviors.len(), 16 | 256), "each behavior has an entry");
         let is_open = |niches: &Vec<Vec<[f64; 2]>>| niches.iter().any(Vec::is_empty);
@@ -28,12 +67,6 @@ impl Rivals {
         Self::new(Niche::default(), Behavior::all(inputs).map(|_| Vec::new()).collect())
     }
 
-    /// The elites that each niche keeps.
-    pub fn niche(&self) -> Niche {
-        self.niche
-    }
-
-    /// The rivals in each niche of each behavior.
     pub fn behaviors(&self) -> &[Vec<Vec<[f64; 2]>>] {
         &self.behaviors
     }
@@ -58,7 +91,6 @@ impl Rivals {
     }
 }
 
-/// Whether a body with fitnesses of at most `bound` could enter a niche with these fitnesses.
 fn has_room(niche: Niche, rivals: &[[f64; 2]], bound: &[f64; 2]) -> bool {
     match niche {
         Niche::Dominance => rivals.iter().all(|there| exceeds(bound, there)),
@@ -66,12 +98,10 @@ fn has_room(niche: Niche, rivals: &[[f64; 2]], bound: &[f64; 2]) -> bool {
     }
 }
 
-/// Whether `a` is greater than `b` in both fitnesses.
 pub(super) fn exceeds(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] > b[0] && a[1] > b[1]
 }
 
-/// Whether `a` is at least `b` in both fitnesses.
 pub(super) fn reaches(a: &[f64; 2], b: &[f64; 2]) -> bool {
     a[0] >= b[0] && a[1] >= b[1]
 }

@@ -41,12 +41,10 @@ pub fn recodings(palette: &Palette) -> Vec<Recoding> {
 }
 
 impl Recoding {
-    /// Whether it is the identity.
     pub fn is_identity(&self) -> bool {
         self.order.is_sorted() && !self.invert.contains(&true)
     }
 
-    /// The body with its sensors exchanged.
     pub fn body(&self, body: &Body) -> Body {
         body.recoded(|code| self.codes[usize::from(code)])
     }
@@ -66,12 +64,10 @@ impl Recoding {
         Pattern::of(self.order.iter().map(|&now| pattern.has(now) != self.invert[now]))
     }
 
-    /// The displacements of the recoded body from those of the original.
     pub fn displacement(&self, displacement: &Displacements) -> Displacements {
         Displacements::under(self.order.len(), |pattern| displacement.at(self.before(pattern)))
     }
 
-    /// The recoded body's behavior.
     pub fn behavior(&self, behavior: Behavior) -> Behavior {
         let stimuli = self.order.len();
         let right = |pattern: Pattern| behavior.function().under(self.before(pattern));
@@ -122,14 +118,12 @@ fn recoded_palette(palette: &Palette, order: &[usize], invert: &[bool]) -> Optio
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
     use crate::evolve::{cppn, mutate, phenotype};
-    use nbc_base::model::{Material, MutationWeights, Rules};
+    use nbc_base::model::{MutationWeights, Rules};
 
     fn network(rules: Rules, seed: u64) -> Genotype {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -159,20 +153,9 @@ mod tests {
         assert_eq!(distinct, ["LRRR", "RLRR", "RRLR", "RRRL"], "four by recoding, the other four by mirroring");
     }
 
-    /// The paper's materials and two that sense a third stimulus.
-    fn three() -> Palette {
-        let mut materials = Palette::paper().materials().to_vec();
-        let sensor = |name: &str, absent, present| {
-            let kind = MaterialKind::Sensor(Response::of(2, absent, present));
-            Material { name: name.to_owned(), kind }
-        };
-        materials.extend([sensor("s3_shrink", 1.6, 0.6), sensor("s3_grow", 0.6, 1.6)]);
-        Palette::new(materials)
-    }
-
     #[test]
     fn recodings_of_three_stimuli_give_half_of_a_class_and_mirroring_the_rest() {
-        let palette = three();
+        let palette = Palette::three();
         let recodings = recodings(&palette);
         assert_eq!(recodings.len(), 48);
         assert!(recodings[0].is_identity() && recodings.iter().filter(|recoding| recoding.is_identity()).count() == 1);
@@ -187,7 +170,7 @@ mod tests {
 
     #[test]
     fn recoded_voxels_react_as_before() {
-        for palette in [Arc::unwrap_or_clone(Palette::paper()), three()] {
+        for palette in [Palette::paper(), Palette::three()] {
             check_voxels(&palette);
         }
     }

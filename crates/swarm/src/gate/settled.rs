@@ -3,8 +3,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::gate::lanes::{HOLD, Lane, random_holds, starts};
-use crate::gate::worth::{least, worth};
+use crate::gate::lanes::{HOLD, Lane, least, random_holds, starts, worth};
 use crate::holds::PatternHold;
 use nbc_base::model::{Behavior, Pattern};
 
@@ -13,12 +12,10 @@ const WALKS: [[usize; 4]; 4] = [[0, 1, 2, 3], [1, 0, 3, 2], [2, 0, 2, 1], [3, 1,
 /// The walk from the first pattern of three stimuli. It makes each difference of numbers once, so that it and the walks
 /// that begin later by one to seven contain each of the 56 switches once.
 const WALK_OF_THREE: [usize; 8] = [0, 1, 7, 2, 6, 3, 5, 4];
-/// Cycles of each random sequence.
 const RANDOM_CYCLES: usize = 36;
 /// The cycles of a hold from which on the output must be correct; each is scored separately.
 const CLOCKS: [usize; 3] = [2, 3, 4];
 
-/// Walks through all switches, and then random holds.
 pub(super) fn stages(stimuli: usize, rng: &mut ChaCha8Rng) -> [Vec<Lane>; 2] {
     let patterns: Vec<Pattern> = Pattern::all(stimuli).collect();
     let walk = |walk: &[usize]| walk.iter().flat_map(|&i| [patterns[i % 8]; HOLD]).collect();
@@ -49,8 +46,7 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
-    use crate::gate::lanes::tests::steps;
-    use crate::gate::worth::tests::{hold, nand};
+    use crate::gate::lanes::tests::{hold, nand, steps};
 
     #[test]
     fn the_walks_make_every_switch_once() {

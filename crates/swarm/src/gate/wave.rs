@@ -3,14 +3,12 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::gate::lanes::{Lane, random_holds, starts};
-use crate::gate::worth::{least, worth};
+use crate::gate::lanes::{Lane, least, random_holds, starts, worth};
 use crate::holds::PatternHold;
 use nbc_base::model::{Behavior, Pattern};
 
 /// Cycles of the first hold: long enough to show bodies that are right only for a while.
 const FIRST_HOLD: usize = 12;
-/// Cycles of each random sequence.
 const RANDOM_CYCLES: usize = 48;
 
 /// Every step from pattern to pattern after a hold of each, and then random sequences.
@@ -82,8 +80,7 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
-    use crate::gate::lanes::tests::steps;
-    use crate::gate::worth::tests::{hold, nand};
+    use crate::gate::lanes::tests::{hold, nand, steps};
 
     #[test]
     fn each_wave_makes_every_step_once_after_its_first_hold() {

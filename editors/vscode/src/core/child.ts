@@ -5,13 +5,11 @@ import { accessSync, constants, realpathSync } from "node:fs";
 
 import type { Prober } from "./locate";
 
-/** What a program did. */
 export interface Finished {
   /** The exit status; null after a signal. */
   status: number | null;
   stdout: string;
   stderr: string;
-  /** Whether it was asked to stop. */
   stopped: boolean;
 }
 
@@ -21,10 +19,10 @@ export interface Stop {
   onCancellationRequested(call: () => void): { dispose(): unknown };
 }
 
-/** Seconds in which a program must say what it is. */
+/** Seconds in which a program must answer what it is. */
 const PATIENCE = 10;
 
-/** Seconds between the request to stop and the end by force. */
+/** Seconds between the request to stop and a kill. */
 const GRACE = 3;
 
 /** Runs a program to its end. Rejects if it cannot be started. */
@@ -61,7 +59,6 @@ export function run(program: string, args: string[], folder: string, stop?: Stop
   });
 }
 
-/** The programs of this machine. */
 export const machine: Prober = {
   real(program) {
     try {

@@ -14,7 +14,6 @@ export interface DeclaredTest {
   rows: DeclaredRow[];
 }
 
-/** A row of a test, or a property. */
 export interface DeclaredRow {
   line: number;
   /** The row as it is written, with single spaces. */
@@ -26,7 +25,6 @@ export function nameOf({ title, circuit }: DeclaredTest): string {
   return title === "" ? circuit.split("[")[0]!.trim() : title;
 }
 
-/** A word, a text or a sign of the source. */
 interface Token {
   kind: "word" | "text" | "sign";
   text: string;

@@ -2,31 +2,25 @@
 
 import * as path from "node:path";
 
-/** What decides where `nbc` is looked for. */
 export interface Surroundings {
   /** The setting `nbc.path`; empty if it is not set. */
   setting: string;
-  /** The variable PATH. */
   searchPath: string;
   home: string;
-  /** The folders of the workspace. */
   workspaces: string[];
   /** Whether programs of the workspace may be started. */
   trusted: boolean;
   windows: boolean;
 }
 
-/** A program that was looked at and cannot be used. */
 export interface Rejected {
   program: string;
   reason: string;
 }
 
-/** The program, or those that are not it. */
 export type Located =
   { kind: "found"; program: string; version: string } | { kind: "missing"; rejected: Rejected[]; setting: boolean };
 
-/** What the outside knows of a program. */
 export interface Prober {
   /** The path without links, if it is a file. */
   real(program: string): string | undefined;
@@ -94,7 +88,6 @@ async function probe(program: string, prober: Prober): Promise<{ version: string
   return { version };
 }
 
-/** What to tell a user who has no `nbc`. */
 export function explain(missing: Extract<Located, { kind: "missing" }>): string {
   if (missing.rejected.length === 0) {
     return "`nbc` was not found. Highlighting and snippets work without it; errors, tests and runs need it.";

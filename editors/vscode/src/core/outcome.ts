@@ -5,9 +5,7 @@ import * as path from "node:path";
 /** The commands of the server. Their argument is an object with the `uri` of an open text, and what to run of it. */
 export type Order = "nbc.run" | "nbc.test" | "nbc.prove" | "nbc.schematic" | "nbc.timing";
 
-/** What the panel shows. */
 export type Shown =
-  /** A page that `nbc` wrote. */
   | { kind: "report"; title: string; file: string }
   /** A picture that `nbc` wrote, as SVG. */
   | { kind: "drawing"; title: string; file: string }
@@ -28,7 +26,6 @@ export function shownOf(order: string, argument: unknown, answer: unknown): Show
     : undefined;
 }
 
-/** The swarm, the circuit or the file that a command is about. */
 function titleOf(argument: unknown): string {
   const { uri, circuit, swarm } = (argument ?? {}) as { uri?: unknown; circuit?: unknown; swarm?: unknown };
   const named = [swarm, circuit].find(name => typeof name === "string");

@@ -1,7 +1,6 @@
 // Pages for the panel. A report page of `nbc` has all of its data and scripts, and loads nothing. In the panel, only
 // its own scripts may run, and it follows the theme of the editor.
 
-/** How a page is shown. */
 export interface Frame {
   /** A random word for the scripts of the page. */
   nonce: string;
@@ -10,7 +9,6 @@ export interface Frame {
 
 const POLICY = /<meta http-equiv="Content-Security-Policy"[^>]*>/;
 
-/** The report page for a webview. */
 export function reportPage(report: string, frame: Frame): string {
   if (!POLICY.test(report)) {
     return messagePage("This file is not a report page of nbc.");
@@ -36,12 +34,10 @@ export function drawingPage(heading: string, svg: string): string {
   return page(style, `<img alt="${title}" src="${image}">`);
 }
 
-/** Text in columns. */
 export function textPage(heading: string, text: string): string {
   return page("", `<h1>${escape(heading)}</h1><pre>${escape(text)}</pre>`);
 }
 
-/** A page with one sentence. */
 export function messagePage(sentence: string): string {
   return page("", `<p>${escape(sentence)}</p>`);
 }

@@ -1,6 +1,5 @@
 // What `nbc test --format json` and `nbc prove --format json` print (docs/schema/), and what editors show of it.
 
-/** A port of the tested circuit. */
 interface Port {
   name: string;
   width: number;
@@ -12,7 +11,6 @@ interface Value {
   bits: string;
 }
 
-/** A robot with a wrong output. */
 interface Lapse {
   net: string;
   robot: string;
@@ -53,7 +51,7 @@ export interface TestResult {
   proof?: string;
 }
 
-/** What is known of a property. Lines count from 1. */
+/** Lines count from 1. */
 export interface PropertyResult {
   property: string;
   line: number;
@@ -64,13 +62,12 @@ export interface PropertyResult {
   test?: string;
 }
 
-/** A `prove` declaration that was decided. */
 export interface ClaimResult {
   line: number;
   properties: PropertyResult[];
 }
 
-/** A row that failed or a property that is not proved, in words. */
+/** A failed row or a property that is not proved, in words. */
 export interface Failure {
   /** From 1. */
   line: number;
@@ -135,7 +132,6 @@ function excerpt(text: string): string {
   return text.trim() === "" ? "nothing" : `\`${text.trim().slice(0, 200)}\``;
 }
 
-/** A property that is not proved, with the test that refutes it. */
 export function unproved({ line, verdict, steps, test }: PropertyResult): Failure {
   const word = steps === 1 ? "step" : "steps";
   const how =
@@ -143,7 +139,6 @@ export function unproved({ line, verdict, steps, test }: PropertyResult): Failur
   return { line, message: test === undefined ? how : `${how}\n${test.trimEnd()}` };
 }
 
-/** The failed rows of a test. */
 export function failures(test: TestResult): Failure[] {
   return test.rows.filter(row => !row.passed).map(row => failure(test, row));
 }
@@ -173,7 +168,6 @@ function differs(expected: Value, observed: Value): boolean {
   return [...expected.bits].some((bit, at) => bit !== "-" && bit !== observed.bits[at]);
 }
 
-/** The robots that were wrong. */
 function blame(row: RowResult): string[] {
   const wrong = row.lapses.map(lapse => describeLapse(lapse, "output"));
   const late = row.late.map(lapse => describeLapse(lapse, "had not settled yet and output"));

@@ -3,7 +3,7 @@
 import type { DeclaredTest } from "./declared";
 import { type ClaimResult, failures, type Failure, type TestResult, unproved } from "./results";
 
-/** What a test or a claim came to. Rows are in the order in which they are declared. */
+/** The result of a test or claim. Rows are in the order of their declarations. */
 export interface Verdict {
   /** Without results, a test did not run. */
   state: "passed" | "failed" | "missing";
@@ -12,13 +12,12 @@ export interface Verdict {
   rows: RowVerdict[];
 }
 
-/** What a row came to, in all swarms of its test; or a property. */
+/** The result of a row in all swarms of its test, or of a property. */
 export interface RowVerdict {
   state: "passed" | "failed" | "missing";
   failures: Failure[];
 }
 
-/** At most this many failures are shown for a test of all inputs. */
 const MOST_FAILURES = 20;
 
 /** The verdict of a declared test: it passes if it does with every swarm of its circuit. */

@@ -16,16 +16,13 @@ export type Level = "auto" | "physics" | "logic";
 /** A command of `nbc`, with what it is to choose of a file. */
 type Choice = [DeclaredTest["kind"], ...string[]];
 
-/** What the runs of a file printed. */
 interface Results {
   tests: TestResult[];
   claims: ClaimResult[];
 }
 
-/** The tests to run, by the item of their file. */
 type Chosen = Map<vscode.TestItem, Set<vscode.TestItem>>;
 
-/** The test explorer of this window. */
 export class Explorer implements vscode.Disposable {
   private readonly controller = vscode.tests.createTestController("nbc", "nbc");
   readonly items = new Items(this.controller);
@@ -51,7 +48,6 @@ export class Explorer implements vscode.Disposable {
     this.controller.createRunProfile(name, kind, handler, isDefault, undefined, true);
   }
 
-  /** Runs the tests of a file each time when it is saved. */
   private follow(request: vscode.TestRunRequest, token: vscode.CancellationToken, level: () => Level): void {
     const saves = vscode.workspace.onDidSaveTextDocument(document => {
       const files = [...this.chosen(request)].filter(([file]) => file.id === document.uri.toString());
@@ -76,7 +72,7 @@ export class Explorer implements vscode.Disposable {
     }
   }
 
-  /** Runs one file's tests, and reports those that were chosen. */
+  /** Reports only the tests that were chosen. */
   private async runTests(run: vscode.TestRun, file: vscode.TestItem, tests: vscode.TestItem[], level: Level) {
     const all = tests.flatMap(withRows);
     if (run.token.isCancellationRequested) {

@@ -7,7 +7,6 @@ export function isProgram(document: vscode.TextDocument): boolean {
   return document.languageId === "nb" && document.uri.scheme === "file";
 }
 
-/** The document of a file, if it is open. */
 export function openDocument(file: vscode.Uri): vscode.TextDocument | undefined {
   return vscode.workspace.textDocuments.find(document => document.uri.toString() === file.toString());
 }

@@ -7,13 +7,13 @@ import * as vscode from "vscode";
 import { declaredTests, type DeclaredTest } from "../core/declared";
 import { isProgram, openDocument } from "./files";
 
-/** Results and runs of evolutions have no programs of their own. */
+/** Folders of results and of evolution runs have no programs of their own. */
 const SKIPPED = "**/{node_modules,target,out}/**";
 
-/** How long typing must rest before the items follow, in milliseconds. */
+/** Milliseconds without typing before the items follow. */
 const REST = 300;
 
-/** Keeps the items as the files are, saved or not. */
+/** Items follow the files, saved or not. */
 export class Items implements vscode.Disposable {
   private readonly declared = new WeakMap<vscode.TestItem, DeclaredTest>();
   private readonly resting = new Map<string, NodeJS.Timeout>();
@@ -34,14 +34,12 @@ export class Items implements vscode.Disposable {
     controller.refreshHandler = () => this.discover();
   }
 
-  /** Finds the programs of the workspace and those that are open. */
   async discover(): Promise<void> {
     const found = await vscode.workspace.findFiles("**/*.nb", SKIPPED);
     const open = vscode.workspace.textDocuments.filter(isProgram).map(document => document.uri);
     await Promise.all([...found, ...open].map(file => this.refresh(file)));
   }
 
-  /** Reads the tests of a file again. */
   async refresh(file: vscode.Uri): Promise<vscode.TestItem | undefined> {
     try {
       const text = openDocument(file)?.getText() ?? new TextDecoder().decode(await vscode.workspace.fs.readFile(file));

@@ -15,7 +15,6 @@ export class Panel implements vscode.Disposable {
   private report: Extract<Shown, { kind: "report" }> | undefined;
   private readonly subscription = vscode.window.onDidChangeActiveColorTheme(() => this.draw());
 
-  /** The page of the last run. */
   get lastReport(): string | undefined {
     return this.report?.file;
   }
@@ -32,7 +31,6 @@ export class Panel implements vscode.Disposable {
     await this.draw();
   }
 
-  /** Shows the page of the last run again. */
   async showLastReport(): Promise<void> {
     if (this.report === undefined) {
       await vscode.window.showInformationMessage("There is no report yet: run a file first.");

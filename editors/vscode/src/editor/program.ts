@@ -7,7 +7,6 @@ import * as vscode from "vscode";
 import { machine } from "../core/child";
 import { explain, locate, type Located } from "../core/locate";
 
-/** Finds `nbc`, and tells the user when there is none. */
 export class Program implements vscode.Disposable {
   private located: Promise<Located> | undefined;
   private readonly status = vscode.languages.createLanguageStatusItem("nbc", { language: "nb" });
@@ -38,7 +37,6 @@ export class Program implements vscode.Disposable {
     return located.kind === "found" ? located.program : undefined;
   }
 
-  /** Looks for it again. */
   retry(): void {
     this.located = undefined;
     this.moved.fire();

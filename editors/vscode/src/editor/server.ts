@@ -17,16 +17,15 @@ import type { Program } from "./program";
 
 type Progress = vscode.Progress<{ message?: string; increment?: number }>;
 
-/** The files that a program can `use`. */
 const WATCHED = "**/*.{nb,blif,csv,pla,aig,aag,bench,v,sv}";
 
-/** The reason that the server gives for a run that the user stopped. */
+/** The server's reason for a run that the user stopped. */
 const CANCELLED = "cancelled";
 
 /** Keeps one language server running while there is an `nbc`. */
 export class Server implements vscode.Disposable {
   private client: LanguageClient | undefined;
-  /** Starts and stops wait for each other. */
+  /** A start waits for the stop before it, and the other way round. */
   private last: Promise<void> = Promise.resolve();
   private readonly watcher = vscode.workspace.createFileSystemWatcher(WATCHED);
   private readonly subscriptions: vscode.Disposable[];
@@ -43,7 +42,6 @@ export class Server implements vscode.Disposable {
     ];
   }
 
-  /** Stops the server, if it runs, and starts it. */
   restart(): Promise<void> {
     this.last = this.last
       .then(() => this.stop())
@@ -133,7 +131,6 @@ export class Server implements vscode.Disposable {
     }
   }
 
-  /** The server's answer to a command; its progress is reported meanwhile. */
   private async request(command: string, args: unknown[], progress: Progress, token: vscode.CancellationToken) {
     const workDoneToken = randomUUID();
     let [title, done] = ["", 0];

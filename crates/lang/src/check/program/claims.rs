@@ -7,7 +7,7 @@ use crate::check::expression::{BEFORE, first_leaf};
 use crate::check::program::Assembly;
 use crate::check::uses::{NameKind, NameUse};
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::PropertyError;
+use crate::check::wording;
 use crate::syntax::tree::{self, ExpressionSyntaxId, ExpressionSyntaxKind, NameSyntax, PropertySyntax};
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic};
@@ -15,11 +15,10 @@ use nbc_base::model::{Claim, Column, InnerNet, Instance, Program, Property, Prop
 use nbc_base::source::Span;
 use nbc_circuit::Inspector;
 
-/// The name of the clock of `before`, which no source can name.
+/// No source can use this name.
 const CLOCK: &str = "the clock of the steps";
 
 impl<'a> Assembly<'a> {
-    /// A claim of the program's own file.
     pub(super) fn claim(
         &mut self,
         span: Span,
@@ -36,8 +35,7 @@ impl<'a> Assembly<'a> {
         };
         let is_broken = self.declarations.is_broken(source.circuit.name.span);
         if !is_broken && source.properties.iter().all(|property| property.kind == PropertyKind::Assume) {
-            let error = PropertyError::NothingToProve { circuit: circuit.circuit.clone() };
-            self.faults.push(error.at(source.circuit.name.span));
+            self.faults.push(wording::nothing_to_prove(&circuit.circuit, source.circuit.name.span));
         }
         let properties = source.properties.iter().map(|property| self.property(property, source)).collect();
         let inner = self.inner_nets(source, &circuit, (&inputs, &outputs), inspector);
@@ -60,17 +58,16 @@ impl<'a> Assembly<'a> {
         let mut faults = Vec::new();
         if let (PropertyKind::Never, Some(condition)) = (source.kind, source.condition) {
             let (condition, value) = (text(span(condition)), text(span(source.value)));
-            faults.push(PropertyError::NeverImplies { condition, value, whole: source.span }.at(source.word));
+            faults.push(wording::never_implies(&condition, &value, source.span, source.word));
         }
         let within = source.within.as_ref().map(|number| {
             if source.kind != PropertyKind::Always {
-                faults.push(PropertyError::Within { kind: source.kind }.at(number.span));
+                faults.push(wording::unexpected_within(source.kind, number.span));
             }
             let steps = constant::integer::<u64>(&number.text);
             let steps = steps.filter(|&steps| steps > 0 && Limit::PropertySteps.permit(steps).is_ok());
-            let wrong = || PropertyError::Steps { text: number.text.clone(), most: Limit::PropertySteps.most() };
             steps.unwrap_or_else(|| {
-                faults.push(wrong().at(number.span));
+                faults.push(wording::steps_within(&number.text, Limit::PropertySteps.most(), number.span));
                 1
             }) as usize
         });
@@ -88,7 +85,6 @@ impl<'a> Assembly<'a> {
         property
     }
 
-    /// The nets inside a circuit that properties read.
     fn inner_nets(
         &mut self,
         source: &tree::Prove,
@@ -116,7 +112,7 @@ impl<'a> Assembly<'a> {
         found
     }
 
-    /// The circuit that watches the ports and nets inside: each expression drives an output of its own.
+    /// Each expression of the properties drives an output of its own.
     fn monitor(
         &mut self,
         source: &'a tree::Prove,
@@ -153,7 +149,7 @@ impl<'a> Assembly<'a> {
     }
 }
 
-/// The most steps before that an expression looks at: how deep calls of `before` are inside each other.
+/// How deeply calls of `before` are nested.
 fn depth(expressions: &[tree::ExpressionSyntax], root: ExpressionSyntaxId) -> usize {
     let first = first_leaf(expressions, root) as usize;
     let is_before =

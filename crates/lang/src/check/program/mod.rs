@@ -22,7 +22,7 @@ use crate::check::schedule::{DeclaredImages, schedule};
 use crate::check::swarm::{DEFAULT_LIBRARY, swarm};
 use crate::check::uses::{NameUse, NameUses};
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::{CircuitError, EvolutionError, ImagesError};
+use crate::check::wording;
 use crate::check::world::{ProgramFiles, Worlds, world};
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, Number, RecordKeyword, StimulusSyntax};
 use nbc_base::budget::WorkBudget;
@@ -34,7 +34,6 @@ use nbc_base::model::{
 use nbc_base::source::{CancelFlag, FileId, SourceWorld, Sources, Span};
 use nbc_circuit::{Inspection, Inspector};
 
-/// The program of the trees, and what is known of it.
 pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Sources) -> Analysis {
     let mut assembly = Assembly::new(loaded, sources);
     assembly.stimuli();
@@ -59,41 +58,36 @@ pub(crate) fn program(files: &dyn SourceWorld, loaded: &Loaded, sources: &Source
     Analysis { program, diagnostics, uses, widths, instances, is_cancelled, ..Analysis::default() }
 }
 
-/// The rows and columns of an image.
 fn image_size(sides: &[Number; 2]) -> Result<ImageSize, Diagnostic> {
     let most = ImageSize::MAX_SIDE;
     let side = |number: &Number| {
         let found = constant::integer::<usize>(&number.text).filter(|found| (1..=most).contains(found));
-        found.ok_or_else(|| ImagesError::Size { most }.at(number.span))
+        found.ok_or_else(|| wording::image_size(most, number.span))
     };
     let [rows, columns] = sides;
     Ok(ImageSize::new(side(rows)?, side(columns)?))
 }
 
-/// A program under construction.
 struct Assembly<'a> {
     declarations: Declarations<'a>,
     names: Names,
     program: Program,
     faults: Vec<Diagnostic>,
-    /// The worlds by the position of their names.
+    /// By the positions of their names.
     worlds: Vec<CheckState<NamedWorld>>,
     circuits: CircuitTable,
-    /// The files of rows, by the places of their paths.
+    /// By the places of their paths.
     rows: &'a BTreeMap<Span, FileId>,
     /// The names inside circuits and tests.
     inner: Vec<NameUse>,
 }
 
-/// What is known of the circuits beside their bodies.
 #[derive(Default)]
 struct CircuitTable {
     headers: Headers,
-    /// The position of each circuit in the program, by name.
     places: BTreeMap<String, CircuitId>,
-    /// For each circuit, whether it and all circuits it contains have valid names.
+    /// Whether a circuit and all circuits it contains have valid names.
     sound: Vec<bool>,
-    /// The origin of each circuit.
     homes: Vec<Home>,
 }
 
@@ -121,7 +115,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Records a diagnostic, if any; returns whether there was none.
+    /// Returns whether there was no diagnostic.
     fn note(&mut self, result: Result<(), Diagnostic>) -> bool {
         let fine = result.is_ok();
         self.faults.extend(result.err());
@@ -150,14 +144,14 @@ impl<'a> Assembly<'a> {
         }
         if let Some(known) = known {
             if self.program.image_sizes.get(&known).copied() != size {
-                self.faults.push(ImagesError::OtherSize { stimulus: name.text.clone() }.at(name.span));
+                self.faults.push(wording::other_size(name));
             }
             return;
         }
         self.program.image_sizes.extend(size.map(|size| (index, size)));
         self.program.stimuli.push(name.text.clone());
         if self.program.stimuli.len() == Pattern::MAX_STIMULI + 1 {
-            self.faults.push(EvolutionError::TooManyStimuli { most: Pattern::MAX_STIMULI }.at(name.span));
+            self.faults.push(wording::many_stimuli(Pattern::MAX_STIMULI, name.span));
         }
     }
 
@@ -165,10 +159,7 @@ impl<'a> Assembly<'a> {
         for (home, source) in self.declarations.records(RecordKeyword::Material) {
             let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
             let checked = material(source, home, stimuli, &mut self.faults);
-            let position = checked.as_ref().map(|_| self.program.materials.len());
-            let declared = self.names.materials.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.materials.extend(checked);
+            self.faults.extend(self.names.materials.add(&source.name, checked, home, &mut self.program.materials));
         }
     }
 
@@ -176,10 +167,7 @@ impl<'a> Assembly<'a> {
         for (home, source) in self.declarations.records(RecordKeyword::Images) {
             let stimuli = Stimuli { names: &self.names.stimuli, image_sizes: &self.program.image_sizes };
             let checked = images(source, home, stimuli, files, &mut self.faults);
-            let position = checked.as_ref().map(|_| self.program.images.len());
-            let declared = self.names.images.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.images.extend(checked);
+            self.faults.extend(self.names.images.add(&source.name, checked, home, &mut self.program.images));
         }
     }
 
@@ -190,18 +178,14 @@ impl<'a> Assembly<'a> {
             let sets = DeclaredImages { names: &self.names.images, declared: &self.program.images };
             let checked = schedule(source, home, stimuli, sets, &mut self.faults);
             let checked = checked.filter(|_| !self.declarations.is_broken(source.name.span));
-            let position = checked.as_ref().map(|_| self.program.schedules.len());
-            let declared = self.names.schedules.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.schedules.extend(checked);
+            self.faults.extend(self.names.schedules.add(&source.name, checked, home, &mut self.program.schedules));
         }
     }
 
     fn worlds(&mut self, files: ProgramFiles) {
         let sources = self.declarations.records(RecordKeyword::World);
         for (place, (home, source)) in sources.iter().enumerate() {
-            let declared = self.names.worlds.declare(&source.name, place, *home);
-            self.note(declared);
+            self.faults.extend(self.names.worlds.declare(&source.name, place, *home).err());
         }
         self.worlds = vec![CheckState::Open; sources.len()];
         for place in order(&sources, &self.names.worlds, Some(NamedWorld::DEFAULT)) {
@@ -217,7 +201,6 @@ impl<'a> Assembly<'a> {
         self.program.worlds.extend(sound);
     }
 
-    /// The world that a test or simulation of the file names.
     fn world(&mut self, name: Option<&NameSyntax>) -> Option<NamedWorld> {
         let worlds = Worlds { names: &self.names.worlds, checked: &self.worlds };
         let named = worlds.named(name?, Home::Own);
@@ -227,8 +210,7 @@ impl<'a> Assembly<'a> {
     fn evolutions(&mut self) {
         let sources = self.declarations.records(RecordKeyword::Evolution);
         for (place, (home, source)) in sources.iter().enumerate() {
-            let declared = self.names.evolutions.declare(&source.name, place, *home);
-            self.note(declared);
+            self.faults.extend(self.names.evolutions.declare(&source.name, place, *home).err());
         }
         let mut checked = vec![CheckState::Open; sources.len()];
         for place in order(&sources, &self.names.evolutions, None) {
@@ -249,11 +231,9 @@ impl<'a> Assembly<'a> {
         }));
     }
 
-    /// The names of libraries, which evolutions may begin with.
     fn library_names(&mut self) {
         for (home, source) in self.declarations.records(RecordKeyword::Library) {
-            let declared = self.names.libraries.declare(&source.name, (), home);
-            self.note(declared);
+            self.faults.extend(self.names.libraries.declare(&source.name, (), home).err());
         }
     }
 
@@ -264,13 +244,12 @@ impl<'a> Assembly<'a> {
                 && self.program.evolution(name).is_some_and(|found| found.objective == SearchObjective::Images)
                 && let Some(from) = source.record.field("from")
             {
-                self.faults.push(ImagesError::NotGates { evolution: name.clone() }.at(from.value.span));
+                self.faults.push(wording::not_gates(name, from.value.span));
             }
             self.program.libraries.extend(checked);
         }
     }
 
-    /// The enumerations, integers and files.
     fn named_values(&mut self) {
         for (home, declaration) in self.declarations.all() {
             if let DeclarationKind::Enumeration(source) = &declaration.kind {
@@ -282,13 +261,11 @@ impl<'a> Assembly<'a> {
                 DeclarationKind::Let(source) => {
                     let declared = Vocabulary::of(&self.names, &self.program);
                     let value = enumeration::integer(source, home, declared, &mut self.faults);
-                    let declared = self.names.integers.declare(&source.name, value.unwrap_or(1), home);
-                    self.note(declared);
+                    self.faults.extend(self.names.integers.declare(&source.name, value.unwrap_or(1), home).err());
                 }
                 DeclarationKind::File(source) => {
                     let path = beside(&self.declarations.sources.file(source.path.span.file).name, &source.path.text);
-                    let declared = self.names.files.declare(&source.name, self.program.files.len(), home);
-                    self.note(declared);
+                    self.faults.extend(self.names.files.declare(&source.name, self.program.files.len(), home).err());
                     let name = source.name.text.clone();
                     self.program.files.push(NamedFile { name, path, span: source.path.span });
                 }
@@ -300,22 +277,20 @@ impl<'a> Assembly<'a> {
     fn enumeration(&mut self, source: &tree::EnumerationSyntax, home: Home) {
         let Some(checked) = enumeration::enumeration(source, &mut self.faults) else { return };
         let enumeration = self.program.enumerations.len();
-        let declared = self.names.enumerations.declare(&source.name, enumeration, home);
-        self.note(declared);
+        self.faults.extend(self.names.enumerations.declare(&source.name, enumeration, home).err());
         for (member, source) in source.members.iter().enumerate() {
-            let declared = self.names.members.declare(&source.name, MemberPlace { enumeration, member }, home);
-            self.note(declared);
+            self.faults
+                .extend(self.names.members.declare(&source.name, MemberPlace { enumeration, member }, home).err());
         }
         self.program.enumerations.push(checked);
     }
 
-    /// Checks all circuits except their widths.
+    /// Their widths are checked when they are built.
     fn circuits(&mut self) {
         let mut sources = Vec::new();
         for (home, declaration) in self.declarations.all() {
             if let DeclarationKind::Circuit(source) = &declaration.kind {
-                let declared = self.names.circuits.declare(&source.name, sources.len(), home);
-                self.note(declared);
+                self.faults.extend(self.names.circuits.declare(&source.name, sources.len(), home).err());
                 self.circuits.headers.circuits.push(Header::of(source));
                 sources.push((home, source));
             }
@@ -324,7 +299,8 @@ impl<'a> Assembly<'a> {
         self.program.selector = selector.map(|at| CircuitId(at as u32));
         let mut calls = Vec::new();
         for &(home, source) in &sources {
-            let checked = circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers);
+            let checked =
+                circuit(source, home, Vocabulary::of(&self.names, &self.program), &self.circuits.headers, None);
             let is_whole = !self.declarations.is_broken(source.name.span);
             self.circuits.sound.push(is_whole && !checked.diagnostics.iter().any(Diagnostic::is_error));
             self.circuits.homes.push(home);
@@ -345,14 +321,12 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// All names with a meaning.
     fn uses(&mut self) -> NameUses {
         let mut list = std::mem::take(&mut self.inner);
         list.extend(self.names.take_uses());
         NameUses::new(list)
     }
 
-    /// Notes the ports that columns of a test or a simulation name.
     fn ports_named(&mut self, circuit: &str, columns: &[NameSyntax]) {
         let Some(place) = self.circuits.place(circuit) else { return };
         let header = &self.circuits.headers.circuits[place.0 as usize];
@@ -370,7 +344,7 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Removes declarations of the prelude that a file redeclares; those of the prelude come first.
+    /// The prelude's declarations come first.
     fn forget_redeclared(&mut self) {
         fn keep_last<T>(all: &mut Vec<T>, name: impl Fn(&T) -> &str) {
             let mut seen = BTreeSet::new();
@@ -393,15 +367,12 @@ impl<'a> Assembly<'a> {
             let declared = Vocabulary::of(&self.names, &self.program);
             let headers = &self.circuits.headers;
             let checked = swarm(source, home, &self.names, declared, headers, worlds, &mut self.faults);
-            let position = checked.as_ref().map(|_| self.program.swarms.len());
-            let declared = self.names.swarms.declare(&source.name, position, home);
-            self.note(declared);
-            self.program.swarms.extend(checked);
+            self.faults.extend(self.names.swarms.add(&source.name, checked, home, &mut self.program.swarms));
         }
     }
 
-    /// Warns of a file's own libraries that no swarm uses if the file runs anything, because the robots then come from
-    /// another library.
+    /// Warns of a file's own libraries that no swarm uses, if the file runs anything: its robots come from another
+    /// library.
     fn unused_libraries(&mut self) {
         let runs = |declaration: &tree::Declaration| {
             matches!(declaration.kind, DeclarationKind::Test(_) | DeclarationKind::Simulate(_))
@@ -416,12 +387,12 @@ impl<'a> Assembly<'a> {
                 || self.program.swarms.iter().any(|swarm| swarm.library == name)
                 || self.program.evolutions.iter().any(begins);
             if home == Home::Own && !used {
-                self.faults.push(CircuitError::UnusedLibrary { library: name.to_owned() }.at(source.name.span));
+                self.faults.push(wording::unused_library(&source.name));
             }
         }
     }
 
-    /// Warns of a file's own stimuli that no material senses and no schedule gives, unless they are all that it has.
+    /// Warns of a file's own stimuli that no material senses and no schedule gives, unless it has nothing else.
     fn unused_stimuli(&mut self) {
         let is_other = |declaration: &tree::Declaration| !matches!(declaration.kind, DeclarationKind::Stimulus(_));
         if !self.declarations.own().any(is_other) || self.faults.iter().any(Diagnostic::is_error) {
@@ -437,13 +408,10 @@ impl<'a> Assembly<'a> {
             is_new && !name.text.starts_with('_') && !stimuli.is_used(name.span)
         };
         let unused = names.flatten().filter(is_unused);
-        let warning =
-            |name: &NameSyntax| CircuitError::Unused { what: "stimulus", net: name.text.clone() }.at(name.span);
-        self.faults.extend(unused.map(warning));
+        self.faults.extend(unused.map(|name| wording::unused("stimulus", &name.text, name.span)));
     }
 
-    /// Builds all circuits that can be built, to find errors of width, and reads the tests and simulations, which need
-    /// the ports.
+    /// Builds circuits to find errors of width, and reads the tests and simulations, which need the ports.
     fn build(&mut self, cancel: CancelFlag) -> Inspection {
         let mut program = std::mem::take(&mut self.program);
         let mut inspector = Inspector::new(&program, WorkBudget::until(cancel));
@@ -481,7 +449,7 @@ impl<'a> Assembly<'a> {
         found
     }
 
-    /// The ports of an instance, if its circuit and all circuits it contains are valid.
+    /// `None` if the circuit, or one that it contains, is invalid.
     fn ports(
         &self,
         instance: &Instance,

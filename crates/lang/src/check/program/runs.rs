@@ -14,7 +14,7 @@ use crate::check::simulate::{Schedules, spells};
 use crate::check::test;
 use crate::check::uses::{NameKind, NameUse};
 use crate::check::vocabulary::Vocabulary;
-use crate::check::wording::{CircuitError, EnvironmentError};
+use crate::check::wording;
 use crate::syntax::tree::{self, DeclarationKind, NameSyntax, TestItem, TestTable};
 use nbc_base::budget::{CYCLE_BITS, Limit};
 use nbc_base::diag::{Code, Diagnostic};
@@ -25,7 +25,6 @@ use nbc_base::source::Span;
 use nbc_circuit::Inspector;
 
 impl<'a> Assembly<'a> {
-    /// The simulations of the program's own file.
     pub(super) fn simulations(&mut self, program: &Program, inspector: &mut Inspector<'_>) -> Vec<Simulation> {
         let mut simulations = Vec::new();
         for declaration in self.declarations.own() {
@@ -50,7 +49,7 @@ impl<'a> Assembly<'a> {
         simulations
     }
 
-    /// The circuit of the swarm of that name, or the circuit of that name if there is no such swarm.
+    /// The circuit of the swarm of that name or, if there is none, the circuit of that name.
     fn simulated(&mut self, name: &NameSyntax, program: &Program) -> Option<Instance> {
         let is_circuit = self.names.circuits.find(&name.text, Home::Own).is_some();
         if self.names.swarms.find(&name.text, Home::Own).is_none() && is_circuit {
@@ -66,7 +65,6 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// A test of the program's own file.
     pub(super) fn test(
         &mut self,
         span: Span,
@@ -102,8 +100,7 @@ impl<'a> Assembly<'a> {
             }
             tree::TestKind::FromFile { path, .. } => {
                 if environment.is_some() {
-                    let error = EnvironmentError::RowsFromFile { circuit: tested.circuit.clone() };
-                    self.faults.push(error.at(path.span));
+                    self.faults.push(wording::rows_from_file(&tested.circuit, path.span));
                     return None;
                 }
                 let rows = self.rows_from_file(path, &tested.circuit, ports, source.worlds.len().max(1), inspector)?;
@@ -128,7 +125,7 @@ impl<'a> Assembly<'a> {
             self.all_inputs((&inputs, &outputs), source.worlds.len().max(1), inspector, place)?;
             let circuit = self.circuits.place(&tested.circuit);
             if circuit.is_some_and(|circuit| inspector.has_memory(circuit, &tested.arguments, place)) {
-                self.faults.push(CircuitError::AllInputsOfMemory { circuit: tested.circuit.clone() }.at(place));
+                self.faults.push(wording::all_inputs_of_memory(&tested.circuit, place));
             }
         }
         let rows_from = match &source.kind {
@@ -140,7 +137,6 @@ impl<'a> Assembly<'a> {
         Some(CircuitTest { circuit: tested, title, span, file, line, inputs, outputs, stimulation, rows_from, worlds })
     }
 
-    /// The rows of a test's file.
     fn rows_from_file(
         &mut self,
         path: &tree::Text,
@@ -154,7 +150,6 @@ impl<'a> Assembly<'a> {
         read.map_err(|faults| self.faults.extend(faults)).ok()
     }
 
-    /// Where a test has its rows from, and how many must pass.
     fn row_source(&mut self, path: &tree::Text, at_least: Option<&tree::Quantity>) -> Option<RowSource> {
         let file = self.declarations.sources.file(*self.rows.get(&path.span)?).name.clone();
         let percent = at_least.map(quantity::percent).transpose();
@@ -162,7 +157,6 @@ impl<'a> Assembly<'a> {
         Some(RowSource { file, at_least })
     }
 
-    /// Notes the members of enumerations in the rows of a test, and the outputs that end their repetition.
     fn rows_named(
         &mut self,
         circuit: &str,
@@ -185,7 +179,6 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    /// Notes the values that are members of the enumerations of their ports.
     fn members_named(&mut self, columns: &[NameSyntax], values: &[NameSyntax], ports: &[Column]) {
         let used = |(column, value): (&NameSyntax, &NameSyntax)| {
             let port = ports.iter().find(|port| port.name == column.text)?;
@@ -195,8 +188,8 @@ impl<'a> Assembly<'a> {
         self.inner.extend(columns.iter().zip(values).filter_map(used));
     }
 
-    /// The environment of a test or a claim, and the inputs of the circuit that it gives. Its inputs are outputs of the
-    /// circuit, or inputs that have columns; its outputs are inputs of the circuit, or what it prints.
+    /// The inputs of an environment are outputs of the circuit, or inputs with columns; its outputs are inputs of the
+    /// circuit, or what it prints. Returns also the inputs that it gives.
     pub(super) fn environment(
         &mut self,
         name: &NameSyntax,
@@ -213,7 +206,7 @@ impl<'a> Assembly<'a> {
             }
         };
         if !program.environments.contains(&place) {
-            self.faults.push(EnvironmentError::NoEnvironment { circuit: name.text.clone() }.at(name.span));
+            self.faults.push(wording::no_environment(name));
             return None;
         }
         if !self.circuits.is_sound(place) {
@@ -227,8 +220,7 @@ impl<'a> Assembly<'a> {
         let mut same = |own: &Column, others: &[&[Column]]| {
             let found = others.iter().flat_map(|ports| ports.iter()).find(|port| port.name == own.name);
             if let Some(port) = found.filter(|port| port.width != own.width) {
-                let error = EnvironmentError::Width { port: own.name.clone(), widths: [own.width, port.width] };
-                self.faults.push(error.at(name.span));
+                self.faults.push(wording::environment_width(&own.name, own.width, port.width, name.span));
             }
             found.is_some()
         };
@@ -238,18 +230,17 @@ impl<'a> Assembly<'a> {
                 given.push(own.name.clone());
             }
         }
-        let (mut unknown, circuit) = (Vec::new(), tested.circuit.clone());
+        let mut unknown = Vec::new();
         for own in &own_inputs {
             if given.contains(&own.name) || !same(own, &[outputs, inputs]) {
-                unknown
-                    .push(EnvironmentError::NoPort { port: own.name.clone(), circuit: circuit.clone() }.at(name.span));
+                unknown.push(wording::environment_port(&own.name, &tested.circuit, name.span));
             }
         }
         self.faults.extend(unknown);
         (self.faults.len() == before).then_some((place, given))
     }
 
-    /// Warns of tests that only their line tells apart.
+    /// Warns of tests that only their lines tell apart.
     pub(super) fn same_titles(&mut self) {
         let mut known = BTreeMap::new();
         for (_, test) in self.declarations.own_tests() {
@@ -264,22 +255,20 @@ impl<'a> Assembly<'a> {
             match known.entry((circuit, &title.text, world)) {
                 Entry::Vacant(entry) => _ = entry.insert(title.span),
                 Entry::Occupied(first) => {
-                    let (circuit, first) = (test.circuit.name.text.clone(), *first.get());
-                    let error = CircuitError::SameTitle { circuit, title: title.text.clone(), first };
-                    self.faults.push(error.at(title.span));
+                    let circuit = &test.circuit.name.text;
+                    self.faults.push(wording::same_title(circuit, &title.text, *first.get(), title.span));
                 }
             }
         }
     }
 
-    /// The circuit of a test.
     pub(super) fn instance(&mut self, source: &tree::InstanceSyntax, program: &Program) -> Option<Instance> {
         let declared = Vocabulary::of(&self.names, program);
         let named = instance(source, Home::Own, declared, &self.circuits.headers);
         named.map_err(|fault| self.faults.push(fault)).ok()
     }
 
-    /// The circuit against which another one is tested, and a circuit with the ports of that one that calls it.
+    /// The other circuit, and one with the ports of the tested circuit that calls it.
     fn against(
         &mut self,
         tested: &tree::InstanceSyntax,
@@ -299,7 +288,6 @@ impl<'a> Assembly<'a> {
         Some((other, reference))
     }
 
-    /// The body of a test as a circuit with the ports of the tested one.
     fn reference(
         &mut self,
         instance: &Instance,
@@ -313,12 +301,12 @@ impl<'a> Assembly<'a> {
         let (inputs, outputs) = (ports.0.iter().map(&mut port).collect(), ports.1.iter().map(&mut port).collect());
         let name = NameSyntax { text: format!("{instance} as tested"), span: tested.span };
         let source = tree::CircuitSyntax { is_environment: false, name, parameters: Vec::new(), inputs, outputs, body };
-        let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers);
+        let checked = circuit(&source, Home::Own, Vocabulary::of(&self.names, program), &self.circuits.headers, None);
         self.beside_ports(checked, tested, &instance.circuit)
     }
 
-    /// A checked circuit with ports of another circuit, which is named at `tested`, unless something in it is wrong. It
-    /// may ignore some of them.
+    /// A checked circuit with the ports of another, named at `tested`, some of which it may ignore; `None` if it has
+    /// errors.
     pub(super) fn beside_ports(
         &mut self,
         checked: CheckedCircuit,
@@ -340,7 +328,7 @@ impl<'a> Assembly<'a> {
         (sound && called).then_some(checked.circuit)
     }
 
-    /// Rejects a test over all inputs that would have too many rows.
+    /// Rejects a test that would have too many rows.
     fn all_inputs(
         &mut self,
         (inputs, outputs): (&[Column], &[Column]),
@@ -350,7 +338,7 @@ impl<'a> Assembly<'a> {
     ) -> Option<()> {
         let bits: usize = inputs.iter().map(|column| column.width).sum();
         if Limit::TriedBits.permit(bits as u64).is_err() {
-            self.faults.push(CircuitError::TooManyInputs { bits, most: Limit::TriedBits.most() }.at(span));
+            self.faults.push(wording::many_inputs(bits, Limit::TriedBits.most(), span));
             return None;
         }
         let columns = inputs.iter().chain(outputs).map(|column| column.width as u64 + 1);
@@ -358,7 +346,6 @@ impl<'a> Assembly<'a> {
         self.note(taken.map_err(|over| over.at(span))).then_some(())
     }
 
-    /// Rejects a run over more cycles than there is room for.
     fn permit_cycles(&mut self, cycles: u64, inputs: &[Column], span: Span) {
         let bits = inputs.iter().map(|column| column.width as u64).sum::<u64>() + CYCLE_BITS;
         let permitted = Limit::CycleBits.permit(cycles.saturating_mul(bits));

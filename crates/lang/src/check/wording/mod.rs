@@ -1,4 +1,4 @@
-//! What can be wrong with the declarations of a program, as data, and how it is worded: a file for each subject.
+//! The messages about the declarations of a program: a file for each subject.
 
 mod circuits;
 mod evolutions;
@@ -9,11 +9,11 @@ mod properties;
 mod rows;
 mod values;
 
-pub(crate) use circuits::{ArrayError, CircuitError, EnumerationError, OperandError, StartEdit};
-pub(crate) use evolutions::EvolutionError;
-pub(crate) use files::{LoadError, at_use};
-pub(crate) use images::ImagesError;
-pub(crate) use names::NameError;
-pub(crate) use properties::PropertyError;
-pub(crate) use rows::{CellError, EnvironmentError, RowError};
-pub(crate) use values::{Bounds, Expected, FieldError, Record, ValueError};
+pub(crate) use circuits::*;
+pub(crate) use evolutions::*;
+pub(crate) use files::*;
+pub(crate) use images::*;
+pub(crate) use names::*;
+pub(crate) use properties::*;
+pub(crate) use rows::*;
+pub(crate) use values::*;

@@ -1,151 +1,110 @@
 //! Names: unknown ones, repeated ones, and names of something else.
 
+use crate::syntax::tree::NameSyntax;
 use nbc_base::diag::{Code, Diagnostic, Fix, Suggestion};
 use nbc_base::source::Span;
 
-/// A name that is unknown, declared twice, or of another kind than expected.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) enum NameError {
-    /// An unknown name.
-    Unknown { kind: &'static str, name: String, meant: Suggestion },
-    /// A circuit that is an operator in capital letters.
-    Operator { name: String },
-    /// An undeclared net; `circuit` is the signature of a circuit of that name.
-    UnknownNet { name: String, circuit: Option<String>, meant: Suggestion },
-    /// A truth value of another language.
-    Truth { word: String, bit: bool },
-    /// An unknown bit of another language.
-    UnknownBit { word: String },
-    /// An undeclared parameter or loop variable.
-    UnknownNumber { name: String, meant: Suggestion },
-    /// A net in the place of a number.
-    NetForNumber { name: String },
-    /// A number in the place of a net.
-    NumberForNet { name: String },
-    /// A parameter that the circuit does not have.
-    UnknownParameter { circuit: String, name: String, meant: Suggestion },
-    /// An input that the circuit does not have; it may be an output.
-    UnknownInput { circuit: String, name: String, is_output: bool, meant: Suggestion },
-    /// An output that the circuit does not have; it may be an input.
-    UnknownOutput { circuit: String, name: String, is_input: bool, meant: Suggestion },
-    /// Neither a function nor four letters.
-    UnknownBehavior { name: String, meant: Suggestion },
-    /// A second declaration of a name.
-    Duplicate { kind: &'static str, name: String, first: Span },
-    /// A record that takes its fields from itself, perhaps through others.
-    Circular { kind: &'static str, name: String },
-    /// A material that is listed twice.
-    RepeatedMaterial { name: String },
-    /// A seed that is listed twice.
-    RepeatedSeed { seed: u64, first: Span },
+fn undeclared(kind: &str, name: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::Unknown, format!("no {kind} is called `{name}`"), at, "not declared")
 }
 
-impl NameError {
-    /// The error at the name.
-    pub(crate) fn at(self, span: Span) -> Diagnostic {
-        match self {
-            Self::Unknown { kind, name, meant } => undeclared(kind, &name, span).with_suggestion(span, &meant),
-            Self::Operator { name } => {
-                let word = name.to_lowercase();
-                undeclared("circuit", &name, span)
-                    .with_help(format!("write operators in lower case: `{word}(…)`"))
-                    .with_fix(Fix::replace(span, word))
-            }
-            Self::UnknownNet { name, circuit: Some(signature), .. } => {
-                let help = format!("it is a circuit; call it with operands: `{signature}`");
-                undeclared("net", &name, span).with_help(help)
-            }
-            Self::UnknownNet { name, circuit: None, meant } => {
-                undeclared("net", &name, span).with_suggestion(span, &meant)
-            }
-            Self::Truth { word, bit } => {
-                let bit = u8::from(bit).to_string();
-                undeclared("net", &word, span).with_help(format!("write `{bit}`")).with_fix(Fix::replace(span, bit))
-            }
-            Self::UnknownBit { word } => undeclared("net", &word, span)
-                .with_help("a bit is `0` or `1`; the value for patterns that never occur is `-` in a `table`"),
-            Self::UnknownNumber { name, meant } => {
-                let error = undeclared("parameter or loop variable", &name, span);
-                match meant {
-                    Suggestion::None => {
-                        error.with_help("parameters stand in brackets after a circuit's name: `circuit add[n](…)`")
-                    }
-                    _ => error.with_suggestion(span, &meant),
-                }
-            }
-            Self::NetForNumber { name } => {
-                let message = format!("`{name}` is a net, not a number");
-                Diagnostic::new(Code::Unknown, message, span, "expected a parameter or a loop variable").with_help(
-                    "integers are known when the circuit is built; a choice by nets is `q = if c then a else b`",
-                )
-            }
-            Self::NumberForNet { name } => {
-                let message = format!("`{name}` is a number, not a net");
-                Diagnostic::new(Code::Unknown, message, span, "expected a net")
-                    .with_help("numbers stand in widths, bits and ranges; a constant is `4'd9`")
-            }
-            Self::UnknownParameter { circuit, name, meant } => {
-                let message = format!("`{circuit}` has no parameter `{name}`");
-                Diagnostic::new(Code::Unknown, message, span, "not declared").with_suggestion(span, &meant)
-            }
-            Self::UnknownInput { circuit, name, is_output, meant } => {
-                let other = is_output.then_some("output");
-                unknown_port(&circuit, "input", &name, other, &meant, span)
-            }
-            Self::UnknownOutput { circuit, name, is_input, meant } => {
-                let other = is_input.then_some("input");
-                unknown_port(&circuit, "output", &name, other, &meant, span)
-            }
-            Self::UnknownBehavior { name, meant } => {
-                let error = undeclared("behavior", &name, span);
-                match meant {
-                    Suggestion::Near(_) => error.with_suggestion(span, &meant),
-                    _ => error.with_help("name a function such as `nand`, or write four letters such as `RRRL`"),
-                }
-            }
-            Self::Duplicate { kind, name, first } => duplicate(kind, &name, span, first),
-            Self::Circular { kind, name } => {
-                let message = format!("the {kind} `{name}` takes its fields from itself");
-                Diagnostic::new(Code::Recursion, message, span, "this closes the circle")
-                    .with_help(format!("remove one `from`, or take the fields of another {kind}"))
-            }
-            Self::RepeatedMaterial { name } => {
-                let message = format!("the material `{name}` is listed twice");
-                Diagnostic::new(Code::Duplicate, message, span, "listed again here")
-            }
-            Self::RepeatedSeed { seed, first } => {
-                let message = format!("the seed `{seed}` is listed twice");
-                Diagnostic::new(Code::Duplicate, message, span, "listed again here")
-                    .with_label(first, "first listed here")
-                    .with_help("the same seed gives the same run, which would count twice")
-            }
-        }
+pub(crate) fn unknown(kind: &str, name: &NameSyntax, meant: &Suggestion) -> Diagnostic {
+    undeclared(kind, &name.text, name.span).with_suggestion(name.span, meant)
+}
+
+/// A call of an operator in capital letters.
+pub(crate) fn upper_case_operator(name: &NameSyntax) -> Diagnostic {
+    let word = name.text.to_lowercase();
+    undeclared("circuit", &name.text, name.span)
+        .with_help(format!("write operators in lower case: `{word}(…)`"))
+        .with_fix(Fix::replace(name.span, word))
+}
+
+pub(crate) fn circuit_for_net(name: &NameSyntax, signature: &str) -> Diagnostic {
+    undeclared("net", &name.text, name.span).with_help(format!("it is a circuit; call it with operands: `{signature}`"))
+}
+
+/// A truth value of another language.
+pub(crate) fn truth(word: &NameSyntax, bit: bool) -> Diagnostic {
+    let bit = u8::from(bit).to_string();
+    undeclared("net", &word.text, word.span).with_help(format!("write `{bit}`")).with_fix(Fix::replace(word.span, bit))
+}
+
+/// An unknown bit of another language.
+pub(crate) fn unknown_bit(word: &NameSyntax) -> Diagnostic {
+    undeclared("net", &word.text, word.span)
+        .with_help("a bit is `0` or `1`; the value for patterns that never occur is `-` in a `table`")
+}
+
+pub(crate) fn unknown_number(name: &str, meant: &Suggestion, at: Span) -> Diagnostic {
+    let error = undeclared("parameter or loop variable", name, at);
+    match meant {
+        Suggestion::None => error.with_help("parameters stand in brackets after a circuit's name: `circuit add[n](…)`"),
+        _ => error.with_suggestion(at, meant),
     }
 }
 
-fn undeclared(kind: &str, name: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::Unknown, format!("no {kind} is called `{name}`"), span, "not declared")
+pub(crate) fn net_for_number(name: &str, at: Span) -> Diagnostic {
+    let message = format!("`{name}` is a net, not a number");
+    Diagnostic::new(Code::Unknown, message, at, "expected a parameter or a loop variable")
+        .with_help("integers are known when the circuit is built; a choice by nets is `q = if c then a else b`")
 }
 
-fn unknown_port(
-    circuit: &str,
-    kind: &str,
-    name: &str,
-    other: Option<&str>,
-    meant: &Suggestion,
-    span: Span,
-) -> Diagnostic {
-    let message = format!("`{circuit}` has no {kind} `{name}`");
-    let error = Diagnostic::new(Code::Unknown, message, span, format!("no {kind} of that name"));
-    match other {
-        Some(other) => error.with_help(format!("it is an {other}; inputs stand before `|`, outputs after it")),
-        None => error.with_suggestion(span, meant),
+pub(crate) fn number_for_net(name: &NameSyntax) -> Diagnostic {
+    let message = format!("`{}` is a number, not a net", name.text);
+    Diagnostic::new(Code::Unknown, message, name.span, "expected a net")
+        .with_help("numbers stand in widths, bits and ranges; a constant is `4'd9`")
+}
+
+pub(crate) fn unknown_parameter(circuit: &str, name: &NameSyntax, meant: &Suggestion) -> Diagnostic {
+    let message = format!("`{circuit}` has no parameter `{}`", name.text);
+    Diagnostic::new(Code::Unknown, message, name.span, "not declared").with_suggestion(name.span, meant)
+}
+
+/// `kind` is `input` or `output`.
+pub(crate) fn unknown_port(circuit: &str, kind: &str, name: &NameSyntax, meant: &Suggestion) -> Diagnostic {
+    let message = format!("`{circuit}` has no {kind} `{}`", name.text);
+    Diagnostic::new(Code::Unknown, message, name.span, format!("no {kind} of that name"))
+        .with_suggestion(name.span, meant)
+}
+
+/// An input where an output is expected, or the other way round.
+pub(crate) fn port_beside_bar(circuit: &str, kind: &str, name: &NameSyntax, other: &str) -> Diagnostic {
+    let help = format!("it is an {other}; inputs stand before `|`, outputs after it");
+    unknown_port(circuit, kind, name, &Suggestion::None).with_help(help)
+}
+
+pub(crate) fn unknown_behavior(name: &NameSyntax, meant: &Suggestion) -> Diagnostic {
+    let error = undeclared("behavior", &name.text, name.span);
+    match meant {
+        Suggestion::Near(_) => error.with_suggestion(name.span, meant),
+        _ => error.with_help("name a function such as `nand`, or write four letters such as `RRRL`"),
     }
 }
 
-fn duplicate(kind: &str, name: &str, span: Span, first: Span) -> Diagnostic {
-    let message = format!("the {kind} `{name}` is declared twice");
-    let error = Diagnostic::new(Code::Duplicate, message, span, "declared again here").with_help("rename one of them");
+pub(crate) fn duplicate(kind: &str, name: &NameSyntax, first: Span) -> Diagnostic {
+    let message = format!("the {kind} `{}` is declared twice", name.text);
+    let error = Diagnostic::new(Code::Duplicate, message, name.span, "declared again here");
+    let error = error.with_help("rename one of them");
     let label = "first declared here";
-    if first.file == span.file { error.with_label(first, label) } else { error.with_related(first, label) }
+    if first.file == name.span.file { error.with_label(first, label) } else { error.with_related(first, label) }
+}
+
+/// A record that takes its fields from itself, perhaps through others.
+pub(crate) fn circular_record(kind: &str, name: &NameSyntax) -> Diagnostic {
+    let message = format!("the {kind} `{}` takes its fields from itself", name.text);
+    Diagnostic::new(Code::Recursion, message, name.span, "this closes the circle")
+        .with_help(format!("remove one `from`, or take the fields of another {kind}"))
+}
+
+pub(crate) fn repeated_material(name: &NameSyntax) -> Diagnostic {
+    let message = format!("the material `{}` is listed twice", name.text);
+    Diagnostic::new(Code::Duplicate, message, name.span, "listed again here")
+}
+
+pub(crate) fn repeated_seed(seed: u64, first: Span, at: Span) -> Diagnostic {
+    let message = format!("the seed `{seed}` is listed twice");
+    Diagnostic::new(Code::Duplicate, message, at, "listed again here")
+        .with_label(first, "first listed here")
+        .with_help("the same seed gives the same run, which would count twice")
 }

@@ -84,10 +84,7 @@ impl Printer<'_> {
             }
         });
     }
-}
 
-impl Printer<'_> {
-    /// The blocks of an `if`, after its head.
     fn conditional(&mut self, body: &BodySyntax, statement: &StatementSyntax, head: &str) {
         let StatementKind::If { then, otherwise, blocks, .. } = &statement.kind else { return };
         self.write(head);
@@ -108,12 +105,10 @@ impl Printer<'_> {
     }
 }
 
-/// The word that begins a circuit.
 fn keyword(circuit: &CircuitSyntax) -> &'static str {
     if circuit.is_environment { "environment" } else { "circuit" }
 }
 
-/// Where the comments in pieces begin.
 pub(super) fn places(pieces: &[LayoutPiece]) -> impl Iterator<Item = u32> {
     pieces.iter().filter_map(|piece| match piece {
         LayoutPiece::Comment { start, .. } => Some(*start),

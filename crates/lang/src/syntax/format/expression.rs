@@ -7,7 +7,6 @@ use crate::syntax::tree::{
 };
 use nbc_base::source::Span;
 
-/// The expressions of a circuit, and the comments in its file.
 #[derive(Clone, Copy)]
 pub(super) struct Written<'a> {
     pub(super) body: &'a BodySyntax,
@@ -15,7 +14,6 @@ pub(super) struct Written<'a> {
     pub(super) comments: &'a [Span],
 }
 
-/// The pieces of an expression, with the comments between the rows of its tables.
 pub(super) fn expression(written: Written, id: ExpressionSyntaxId) -> Vec<LayoutPiece> {
     let mut pieces = Vec::new();
     push(written, id, &mut pieces);
@@ -69,7 +67,6 @@ fn push(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>)
     }
 }
 
-/// The bits or the word of a net.
 fn pieces_of_index(written: Written, bits: Option<&Index>, pieces: &mut Vec<LayoutPiece>) {
     match bits {
         Some(Index { kind: IndexKind::Value(value), .. }) => list(written, "[", &[*value], "]", pieces),
@@ -82,7 +79,6 @@ fn list(written: Written, open: &str, values: &[ExpressionSyntaxId], close: &str
     named_list(written, open, values.iter().map(|_| None), values, close, pieces);
 }
 
-/// A list of values, of which some have a name before them.
 fn named_list<'n>(
     written: Written,
     open: &str,
@@ -114,7 +110,7 @@ fn negation(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPie
     push(written, at, pieces);
 }
 
-/// A chain of operators with the same precedence is one group.
+/// Operators of one precedence are one group.
 fn chain(written: Written, id: ExpressionSyntaxId, operator: Infix, pieces: &mut Vec<LayoutPiece>) {
     let mut links = Vec::new();
     let mut at = id;
@@ -135,7 +131,7 @@ fn chain(written: Written, id: ExpressionSyntaxId, operator: Infix, pieces: &mut
     pieces.push(LayoutPiece::Close);
 }
 
-/// An `if` expression; those after its `else` are at the same level.
+/// Choices after an `else` are at the same level.
 fn choice(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>) {
     pieces.push(LayoutPiece::Open);
     let mut at = id;
@@ -206,7 +202,6 @@ fn table(written: Written, id: ExpressionSyntaxId, pieces: &mut Vec<LayoutPiece>
     text(pieces, "}");
 }
 
-/// The lines of a table: its rows, and the comments between them.
 struct RowLines<'a> {
     written: Written<'a>,
     /// The end of the last line in the source.
@@ -220,7 +215,7 @@ impl RowLines<'_> {
         self.count += 1;
     }
 
-    /// The comments up to a place: one behind a row stays there, others have lines of their own.
+    /// A comment behind a row stays there; others have lines of their own.
     fn comments(&mut self, end: u32, pieces: &mut Vec<LayoutPiece>) {
         let Written { source, comments, .. } = self.written;
         let first = comments.partition_point(|comment| comment.start < self.at);
@@ -237,7 +232,6 @@ impl RowLines<'_> {
     }
 }
 
-/// A size as text; always on one line.
 pub(super) fn size(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     match &sizes[id.0 as usize].kind {
         SizeSyntaxKind::Literal(word) | SizeSyntaxKind::Name(word) => word.clone(),
@@ -247,7 +241,7 @@ pub(super) fn size(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     }
 }
 
-/// A chain of operators, without recursion into the left side, which may be long.
+/// It does not recurse into the left side, which may be long.
 fn size_chain(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     let mut links = Vec::new();
     let mut at = id;
@@ -260,7 +254,7 @@ fn size_chain(sizes: &[SizeSyntax], id: SizeSyntaxId) -> String {
     text
 }
 
-/// `[3]` or `[3..0]`, on one line.
+/// `[3]` or `[3..0]`
 pub(super) fn index(body: &BodySyntax, index: &Index) -> String {
     let sizes = &body.sizes;
     match index.kind {
@@ -273,7 +267,7 @@ pub(super) fn index(body: &BodySyntax, index: &Index) -> String {
     }
 }
 
-/// `[8, start = 1]` or nothing.
+/// `[8, start = 1]` or nothing
 pub(super) fn arguments(sizes: &[SizeSyntax], arguments: &[Argument]) -> String {
     let one = |argument: &Argument| {
         let value = size(sizes, argument.value);

@@ -1,37 +1,32 @@
 //! Lays out pieces of text: on one line if they fit, else broken at the outermost possible places.
 
-/// The width of a line in columns.
+/// In columns.
 pub(super) const WIDTH: usize = 100;
 
-/// A piece of text, or a layout instruction between pieces.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum LayoutPiece {
-    /// Text without a line break.
     Text(String),
-    /// A possible break of the surrounding group: this text on one line, else a line break.
+    /// This text if the surrounding group is on one line, else a line break.
     Break(&'static str),
-    /// Like a break, before a row of a table: there is no comma at the end of a line.
+    /// A break before a row of a table, without a comma at the end of a line.
     RowBreak(&'static str),
-    /// A comment, after which its group is broken.
+    /// Its group is broken after it.
     Comment {
-        /// Where it begins in the source.
         start: u32,
-        /// The comment, with the space before it.
+        /// With the space before it.
         text: String,
     },
-    /// The surrounding groups are broken even if they fit.
+    /// Breaks the surrounding groups even if they fit.
     Force,
-    /// Like a break, but it also ends the group's indentation.
+    /// A break that also ends the group's indentation.
     EndBreak(&'static str),
-    /// Spaces that are printed only if the surrounding group is broken.
+    /// Spaces if the surrounding group is broken.
     Pad(usize),
     /// The start of a group, which is broken at all its breaks or at none.
     Open,
-    /// The end of a group.
     Close,
 }
 
-/// The text of pieces that begin at a column, in lines indented by at least `indent`.
 pub(super) fn layout(pieces: &[LayoutPiece], column: usize, indent: usize) -> String {
     let widths = flat_widths(pieces);
     let mut out = String::new();

@@ -28,8 +28,7 @@ pub fn format(sources: &Sources, file: FileId, tree: &Tree) -> String {
 }
 
 impl Printer<'_> {
-    /// Prints the first of some declarations, or all adjacent one-line records at the start; returns the number of
-    /// printed declarations.
+    /// Prints the first declaration, or all adjacent one-line records at the start; returns how many.
     fn declarations(&mut self, rest: &[Declaration]) -> usize {
         let run = self.record_run(rest);
         if !run.is_empty() {
@@ -68,7 +67,7 @@ impl Printer<'_> {
         }
     }
 
-    /// A list of used files: in one line if it fits, else a line for each.
+    /// On one line if it fits, else a line for each file.
     fn used(&mut self, paths: &[Text]) {
         let paths: Vec<String> = paths.iter().map(|path| format!("\"{}\"", path.text)).collect();
         let flat = format!("use {}", paths.join(", "));
@@ -77,8 +76,7 @@ impl Printer<'_> {
     }
 }
 
-/// The end of the part of a declaration that is printed as one piece; comments before this place are printed before the
-/// declaration.
+/// The end of the part that is printed as one piece; comments before it are printed before the declaration.
 fn head_end(declaration: &Declaration) -> u32 {
     use crate::syntax::tree::{TestKind, With};
     let first = |spans: Vec<u32>| spans.first().copied().unwrap_or(declaration.span.end);

@@ -4,22 +4,19 @@ use std::collections::BTreeSet;
 
 use nbc_base::source::Span;
 
-/// Spaces per level of indentation.
 pub(super) const INDENT: usize = 4;
 
-/// A text while it is printed.
 pub(super) struct Printer<'a> {
     source: &'a str,
     comments: &'a [Span],
-    /// The index of the first comment that is not yet printed.
+    /// The first comment that is not yet printed.
     next: usize,
-    /// The places of comments that are printed inside a piece of text.
+    /// Comments that are printed inside a piece of text.
     placed: BTreeSet<u32>,
     out: String,
     pub(super) indent: usize,
     /// The end of the last printed item in the source; `None` at the start of a block.
     last: Option<u32>,
-    /// Whether a blank line is needed before the next item.
     separate: bool,
 }
 
@@ -37,7 +34,6 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The whole text, with the comments after the last declaration.
     pub(super) fn finish(mut self) -> String {
         self.separate = false;
         self.comments_until(self.source.len() as u32);
@@ -48,12 +44,11 @@ impl<'a> Printer<'a> {
         self.out
     }
 
-    /// Appends to the current line.
     pub(super) fn write(&mut self, text: &str) {
         self.out.push_str(text);
     }
 
-    /// The column of the next character, from 0.
+    /// From 0.
     pub(super) fn column(&self) -> usize {
         let line = self.out.rfind('\n').map_or(0, |newline| newline + 1);
         self.out[line..].chars().count()
@@ -86,12 +81,11 @@ impl<'a> Printer<'a> {
         self.comment_behind();
     }
 
-    /// Notes that the source was printed up to a place.
     pub(super) fn last_end(&mut self, end: u32) {
         self.last = Some(end);
     }
 
-    /// Prints a block in braces: `items` prints its contents, and `end` is the end of the closing brace.
+    /// `items` prints the contents, and `end` is the end of the closing brace.
     pub(super) fn block(&mut self, end: u32, items: impl FnOnce(&mut Self)) {
         self.write("{");
         self.indent += INDENT;
@@ -106,7 +100,7 @@ impl<'a> Printer<'a> {
         self.write("}");
     }
 
-    /// Begins a new line. A blank line precedes it if the source has one before `start` or one was requested.
+    /// A blank line comes first if the source has one before `start` or one was requested.
     fn new_line(&mut self, start: u32) {
         if !self.out.is_empty() {
             let blank = self.last.is_some_and(|last| last <= start && self.has_blank_line(last, start));
@@ -118,7 +112,6 @@ impl<'a> Printer<'a> {
         self.separate = false;
     }
 
-    /// Begins a new line.
     pub(super) fn line(&mut self) {
         self.out.push('\n');
         self.out.extend(std::iter::repeat_n(' ', self.indent));
@@ -128,7 +121,6 @@ impl<'a> Printer<'a> {
         self.source[from as usize..to as usize].bytes().filter(|&byte| byte == b'\n').count() >= 2
     }
 
-    /// Prints the comments that begin before a place, each on its own line.
     pub(super) fn comments_until(&mut self, place: u32) {
         while let Some(comment) = self.comments.get(self.next).filter(|comment| comment.start < place) {
             if !self.placed.contains(&comment.start) {
@@ -140,17 +132,16 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// The source, and the places of its comments.
     pub(super) fn source(&self) -> (&'a str, &'a [Span]) {
         (self.source, self.comments)
     }
 
-    /// Leaves out the comments at these places, because they are inside a piece of text.
+    /// Marks comments that are inside a piece of text.
     pub(super) fn place(&mut self, starts: impl IntoIterator<Item = u32>) {
         self.placed.extend(starts);
     }
 
-    /// Prints the next comment if it follows the last printed item on the same line.
+    /// Prints the next comment if it follows the last printed item on its line.
     fn comment_behind(&mut self) {
         let (Some(last), Some(comment)) = (self.last, self.comments.get(self.next)) else { return };
         let between = self.source.get(last as usize..comment.start as usize);
@@ -162,19 +153,17 @@ impl<'a> Printer<'a> {
         }
     }
 
-    /// Whether two items follow each other without a blank line or a comment line between them.
+    /// Whether no blank line and no comment line is between two items.
     pub(super) fn adjacent(&self, first: Span, second: Span) -> bool {
         let between = &self.source[first.end as usize..second.start as usize];
         between.bytes().filter(|&byte| byte == b'\n').count() <= 1
     }
 
-    /// Whether a comment is inside a span.
     pub(super) fn has_comment_inside(&self, span: Span) -> bool {
         let first = self.comments.partition_point(|comment| comment.start < span.start);
         self.comments.get(first).is_some_and(|comment| comment.start < span.end)
     }
 
-    /// The text of a span.
     pub(super) fn text(&self, span: Span) -> &'a str {
         &self.source[span.range()]
     }

@@ -9,14 +9,12 @@ use crate::syntax::tree::{
 };
 use nbc_base::source::Span;
 
-/// The width of records that form the rows of a table.
 const ROW_WIDTH: usize = 120;
 
-/// The most records that are aligned with each other. A run that is too wide is tried again from its second record on.
+/// A run that is too wide is tried again from its second record on.
 const MOST_ROWS: usize = 200;
 
 impl Printer<'_> {
-    /// The texts of adjacent one-line records of the same kind, with aligned braces.
     pub(super) fn record_run(&self, declarations: &[Declaration]) -> Vec<String> {
         let mut run: Vec<(&RecordDeclaration, Span)> = Vec::new();
         for declaration in declarations {
@@ -39,7 +37,7 @@ impl Printer<'_> {
         if texts.len() > 1 { texts } else { Vec::new() }
     }
 
-    /// An enumeration: on one line if it fits and its members have no values of their own.
+    /// On one line if it fits and no member has a value.
     pub(super) fn enumeration(&mut self, enumeration: &EnumerationSyntax, span: Span) {
         let encoding = enumeration.encoding.as_ref().map_or(String::new(), |word| format!(": {}", word.text));
         self.write(&format!("enum {}{encoding} ", enumeration.name.text));
@@ -105,8 +103,7 @@ impl Printer<'_> {
     }
 }
 
-/// The lines of records that form the rows of a table. Their braces are aligned, and the values of neighbors with the
-/// same fields.
+/// Aligns the braces of all records, and the values of neighbors with the same fields.
 fn aligned(run: &[(&RecordDeclaration, Span)]) -> Vec<String> {
     let names = run.iter().map(|(record, _)| record.name.text.chars().count()).max().unwrap_or(0);
     let same = |a: &(&RecordDeclaration, Span), b: &(&RecordDeclaration, Span)| {
@@ -131,7 +128,7 @@ fn aligned(run: &[(&RecordDeclaration, Span)]) -> Vec<String> {
     lines
 }
 
-/// A record on one line with its values in columns: numbers to the right, others to the left.
+/// Numbers are aligned to the right, other values to the left.
 fn row(record: &RecordSyntax, widths: &[usize]) -> String {
     let mut text = String::new();
     for (at, (field, width)) in record.fields.iter().zip(widths).enumerate() {

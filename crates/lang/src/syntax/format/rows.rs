@@ -110,12 +110,11 @@ impl Printer<'_> {
     }
 }
 
-/// A row with its values in columns.
 fn line(widths: &[Vec<usize>; 2], left: &[NameSyntax], right: &[NameSyntax]) -> String {
     [aligned(left, &widths[0]), vec!["|".to_owned()], aligned(right, &widths[1])].concat().join(" ")
 }
 
-/// The rows with one bar, those that are repeated included.
+/// Repeated rows included.
 fn even_rows<'t>(items: &'t [TestItem], rows: &mut Vec<&'t TestRowSyntax>) {
     for item in items {
         match item {
@@ -140,7 +139,6 @@ pub(super) fn stimuli(stimuli: &[StimulusSyntax]) -> String {
     stimuli.iter().map(one).collect::<Vec<_>>().join(", ")
 }
 
-/// `a, b`
 pub(super) fn names(names: &[NameSyntax]) -> String {
     names.iter().map(|name| name.text.as_str()).collect::<Vec<_>>().join(", ")
 }

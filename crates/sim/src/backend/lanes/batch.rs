@@ -16,7 +16,7 @@ use crate::backend::lanes::springs::{Driven, Frame, Springs, TileKey};
 use crate::backend::lanes::stiffness::Stiffness;
 use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, LatticePoint, Voxel};
-use crate::meter::{Part, Stopwatch};
+use crate::meter::{Meter, Stopwatch};
 use crate::state::State;
 use crate::terrain::Terrain;
 
@@ -26,11 +26,9 @@ const AWAY: f64 = 1000.0;
 /// Rigid voxels whose limits are processed together: at most one in each lane, the next in reading order.
 #[derive(Clone, Debug)]
 pub struct Round<R: Real> {
-    /// Lanes that have one.
     pub lanes: R::Mask,
     /// The voxels' masses, top left, top right, bottom right, bottom left, and their lanes.
     pub voxels: Vec<([usize; CORNERS], R::Mask)>,
-    /// Their sides, if any of these is not between the corners of its voxel.
     pub strays: Option<Vec<(VoxelSides, R::Mask)>>,
 }
 
@@ -40,7 +38,6 @@ pub type VoxelSides = [[usize; 2]; CORNERS];
 /// One lane's robot, with its points and voxels as masses of the batch.
 #[derive(Clone, Debug)]
 pub struct Occupant {
-    /// The mass of each of its points.
     pub masses: Vec<usize>,
     /// Its surface voxels in reading order, with corners as masses.
     pub surface: Vec<SurfaceVoxel>,
@@ -48,60 +45,51 @@ pub struct Occupant {
     pub at_mass: Vec<Vec<(usize, usize)>>,
     /// The number of surface voxels of each of its parts, or zero for a part that cannot be unstable.
     pub countable: Vec<u32>,
-    /// The springs that its active voxels drive.
     pub driven: Vec<Driven>,
 }
 
-/// A surface voxel of one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceVoxel {
-    /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
-    /// Which sides are surface.
     pub sides: [bool; CORNERS],
-    /// The masses at the ends of its top and its left side, if these are not between its corners.
     pub strays: Option<[[usize; 2]; 2]>,
-    /// The object that it belongs to.
     pub part: usize,
 }
 
 /// Robots in lanes, one robot each.
 #[derive(Debug)]
 pub struct Batch<R: Real, K: Stiffness<R>> {
-    /// The numbers of the physics.
+    /// One env step, compiled for these numbers.
+    pub step: fn(&mut Self),
     pub constants: Constants,
-    /// What the robots stand on.
     pub floor: Floor,
-    /// Measures the time of each part, if requested.
     pub stopwatch: Option<Stopwatch>,
-    /// The union of the points of all lanes.
     pub masses: Masses<R>,
-    /// Gravity and contact forces on the masses.
     pub loads: Loads<R>,
-    /// The union of the springs of all lanes.
     pub springs: Springs<R, K>,
     /// The rows of the lattice, upper first.
     pub rows: Vec<Row>,
-    /// The rigid voxels of all lanes.
     pub rigid: Vec<Round<R>>,
-    /// The masses that never move, with their lanes.
     pub fixed: Vec<(usize, R::Mask)>,
-    /// The robot of each lane.
     pub occupants: Vec<Occupant>,
-    /// The pairs that are close to each other.
     pub proximity: Proximity<R>,
     /// Lanes that went unstable, as bits.
     pub unstable: u32,
-    /// Scratch of the contacts in a substep.
     pub touching: Touching,
 }
 
-/// What robots stand on.
+/// The parameters of a batch besides its robots.
+#[derive(Clone, Copy)]
+pub struct Ground<'a> {
+    pub constants: &'a Constants,
+    pub floor: &'a Floor,
+    pub meter: Option<&'a Arc<Meter>>,
+}
+
 #[derive(Clone, Debug)]
 pub enum Floor {
     /// So many ground voxels in a row.
     Flat(usize),
-    /// Fixed voxels anywhere.
     Terrain(Arc<Terrain>),
 }
 
@@ -118,10 +106,8 @@ pub struct Touching {
     pub voxels: Vec<usize>,
 }
 
-/// One row of the lattice.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The masses in it, as places in [`Masses::now`].
     pub masses: Range<usize>,
     /// The frames whose upper masses are in it.
     pub frames: Range<usize>,
@@ -136,10 +122,9 @@ fn key(point: LatticePoint) -> Key {
 
 impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     /// Lays out robots, one a lane, over the union of their boxes.
-    ///
-    /// # Panics
-    /// When there are more robots than lanes, or none.
-    pub fn new(robots: &[(&Lattice, &State)], floor: &Floor, constants: &Constants) -> Self {
+    pub fn new(robots: &[(&Lattice, &State)], ground: Ground<'_>, step: fn(&mut Self)) -> Self {
+        let Ground { constants, floor, meter } = ground;
+        let stopwatch = meter.map(Stopwatch::new);
         assert!((1..=R::LANES).contains(&robots.len()), "a batch has a robot for each lane at most");
         let (bodies, states): (Vec<&Lattice>, Vec<&State>) = robots.iter().copied().unzip();
         let places: BTreeSet<Key> = bodies.iter().flat_map(|body| body.points().iter().map(|&p| key(p))).collect();
@@ -164,9 +149,10 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         let fixed = fixed(&bodies, &occupants);
         let countable = occupants.iter().map(|occupant| occupant.countable.clone()).collect();
         Self {
+            step,
             constants: *constants,
             floor: floor.clone(),
-            stopwatch: None,
+            stopwatch,
             masses,
             loads,
             rows: rows(&places, &springs.frames[..springs.frame_stiffness.len()]),
@@ -180,30 +166,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Adds the time since the last part to `part`, if time is measured.
-    #[inline(always)]
-    pub fn lap(&mut self, part: Part) {
-        if let Some(stopwatch) = &mut self.stopwatch {
-            stopwatch.lap(part, self.occupants.len());
-        }
-    }
-
-    /// The center of mass of a lane's robot, in voxels: the plain mean over its points in order of creation.
-    pub fn center(&self, lane: usize) -> [f64; 2] {
-        let masses = &self.occupants[lane].masses;
-        let mean = |axis: usize| {
-            let sum: f64 = masses.iter().map(|&mass| self.masses.now[mass].at[axis].lane(lane)).sum();
-            sum / masses.len() as f64 / self.constants.cell
-        };
-        [mean(0), mean(1)]
-    }
-
-    /// Puts the robot of a lane into another state.
-    pub fn load(&mut self, lane: usize, state: &State) {
-        self.masses.load(lane, &self.occupants[lane].masses, state);
-        self.unstable &= !(1 << lane);
-    }
-
     /// Puts the masses that never move back to where they were at the start of the substep.
     #[inline(always)]
     pub fn hold_fixed(&mut self) {
@@ -215,14 +177,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
             }
         }
     }
-
-    /// Sets the targets of a lane's channels: fractions of the rest width or height (docs/physics.md 4).
-    pub fn set_targets(&mut self, lane: usize, targets: &[f64]) {
-        self.springs.set_targets(lane, &self.occupants[lane].driven, targets, &self.constants);
-    }
 }
 
-/// The masses and frames of each row.
 fn rows(places: &[Key], frames: &[Frame]) -> Vec<Row> {
     let (mut mass, mut frame) = (0, 0);
     let mut rows = Vec::new();
@@ -236,12 +192,10 @@ fn rows(places: &[Key], frames: &[Frame]) -> Vec<Row> {
     rows
 }
 
-/// The key of a robot's voxel.
 fn tile_key(voxel: &Voxel, occupant: &Occupant) -> TileKey {
     ([voxel.row, voxel.column], voxel.corners.map(|point| occupant.masses[point]))
 }
 
-/// The surface voxels of all lanes, in reading order.
 fn tiles(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Tile> {
     let mut tiles: BTreeMap<TileKey, Tile> = BTreeMap::new();
     for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
@@ -257,11 +211,10 @@ fn tiles(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Tile> {
     tiles.into_values().collect()
 }
 
-/// The masses that never move, of all lanes.
 fn fixed<M: Mask>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<(usize, M)> {
     let mut fixed: BTreeMap<usize, u32> = BTreeMap::new();
     for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
-        for &point in body.fixed() {
+        for &point in &body.fixed {
             *fixed.entry(occupant.masses[point]).or_default() |= 1 << lane;
         }
     }
@@ -271,7 +224,6 @@ fn fixed<M: Mask>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<(usize, M)
 /// The key of a rigid voxel, and the ends of its top and its left side if these are not between its corners.
 type RigidKey = (TileKey, Option<[[usize; 2]; 2]>);
 
-/// The rigid voxels of all lanes.
 fn rigid<R: Real>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Round<R>> {
     let mut rounds: Vec<BTreeMap<RigidKey, u32>> = Vec::new();
     for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
@@ -321,7 +273,7 @@ impl Occupant {
             surface.push(SurfaceVoxel { corners, sides: voxel.surface, strays, part: voxel.part });
         }
         let count = |part: usize| surface.iter().filter(|voxel| voxel.part == part).count() as u32;
-        let parts = body.parts().iter().enumerate();
+        let parts = body.parts.iter().enumerate();
         let countable = parts.map(|(n, part)| if part.active { count(n) } else { 0 }).collect();
         Self { masses, surface, at_mass, countable, driven }
     }

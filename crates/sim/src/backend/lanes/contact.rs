@@ -19,14 +19,10 @@ const NEAR_DIAGONAL: f64 = 1e-7;
 /// The bounding box is not used for voxels larger than this, in meters.
 const SOUND: f64 = 1.0;
 
-/// A voxel at its current position.
 #[derive(Clone, Copy, Debug)]
 pub struct Quad {
-    /// Top left, top right, bottom right, bottom left.
     pub corners: [Vector2<f64>; CORNERS],
-    /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
-    /// Smallest and largest coordinates.
     pub bounds: [Vector2<f64>; 2],
     /// Bounds outside of which a point is clearly outside.
     reach: [Vector2<f64>; 2],
@@ -37,7 +33,6 @@ pub struct Quad {
 /// A corner of one voxel inside another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The surface side that it came through.
     pub side: usize,
     /// Its distance from the line of that side, in meters.
     pub distance: f64,
@@ -63,13 +58,11 @@ pub fn is_inside<R: Real>(point: [R; 2], corners: [[R; 2]; CORNERS]) -> R::Mask 
 }
 
 impl Quad {
-    /// A voxel with these corners, top left first and clockwise.
     pub fn new(corners: [Vector2<f64>; CORNERS], surface: [bool; CORNERS]) -> Self {
         let [a, b, c, d] = corners;
         Self::within([a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d)], corners, surface)
     }
 
-    /// The same for known bounds.
     pub fn within(bounds: [Vector2<f64>; 2], corners: [Vector2<f64>; CORNERS], surface: [bool; CORNERS]) -> Self {
         let [least, greatest] = bounds;
         let is_sound = greatest.x - least.x < SOUND && greatest.y - least.y < SOUND;
@@ -77,7 +70,6 @@ impl Quad {
         Self { corners, surface, bounds, reach: [least - clear, greatest + clear], strays: None }
     }
 
-    /// The same voxel with these ends of its top and its left side, if these are not between its corners.
     pub fn with_strays(self, strays: Option<[[Vector2<f64>; 2]; 2]>) -> Self {
         Self { strays, ..self }
     }
@@ -108,7 +100,6 @@ impl Quad {
         }
     }
 
-    /// Whether a point is inside.
     pub fn contains(&self, point: Vector2<f64>) -> bool {
         is_inside([point.x, point.y], self.corners.map(|corner| [corner.x, corner.y]))
     }
@@ -160,7 +151,6 @@ fn crosses(first: [Vector2<f64>; 2], second: [Vector2<f64>; 2], constants: &Cons
     (0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&u)
 }
 
-/// The distance of a point from the line through a segment.
 fn distance(point: Vector2<f64>, [a, b]: [Vector2<f64>; 2], constants: &Constants) -> f64 {
     let e = b - a;
     let length = length(e);

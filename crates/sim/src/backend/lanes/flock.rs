@@ -9,7 +9,6 @@ use crate::backend::{Flock, Snapshot};
 use crate::lattice::Lattice;
 use nbc_base::model::{Body, Fault, Schedule, Setting, Spell};
 
-/// Robots in the lanes of this processor.
 #[derive(Debug)]
 pub struct LaneFlock {
     world: World,
@@ -21,7 +20,6 @@ pub struct LaneFlock {
 }
 
 impl LaneFlock {
-    /// A robot for each body, at its start.
     pub fn new(world: World, setting: &Setting, bodies: &[Body]) -> Self {
         let runs = runs(&world.constants, setting, bodies);
         let mut flock = Self { world, groups: Vec::new(), places: Vec::new(), cost: 0 };
@@ -30,7 +28,6 @@ impl LaneFlock {
         flock
     }
 
-    /// The best grouping of these runs.
     fn grouping<'a>(&self, runs: impl Iterator<Item = &'a Run>) -> LaneGrouping {
         let candidates: Vec<LaneRequest> =
             runs.map(|run| LaneRequest { lattice: &run.lattice, body: run.body }).collect();
@@ -38,7 +35,6 @@ impl LaneFlock {
         LaneGrouping::of(&candidates, kernel, threads::lanes_for(candidates.len(), kernel.lanes()))
     }
 
-    /// Forms groups of these runs.
     fn form(&mut self, runs: Vec<Run>, grouping: LaneGrouping) {
         self.places = vec![(0, 0); runs.len()];
         for (group, robots) in grouping.groups.iter().enumerate() {
@@ -53,15 +49,14 @@ impl LaneFlock {
 
     fn run(&self, i: usize) -> &Run {
         let (group, place) = self.places[i];
-        &self.groups[group].runs()[place]
+        &self.groups[group].runs[place]
     }
 
     fn run_mut(&mut self, i: usize) -> &mut Run {
         let (group, place) = self.places[i];
-        &mut self.groups[group].runs_mut()[place]
+        &mut self.groups[group].runs[place]
     }
 
-    /// Takes the runs out of their groups, in order of the robots.
     fn dissolve(&mut self) -> Vec<Run> {
         let mut runs: Vec<Vec<Option<Run>>> =
             self.groups.iter_mut().map(|group| group.take().into_iter().map(Some).collect()).collect();
@@ -130,6 +125,6 @@ impl Flock for LaneFlock {
     fn restore(&mut self, i: usize, snapshot: &Snapshot) {
         let (group, place) = self.places[i];
         self.groups[group].unload();
-        self.groups[group].runs_mut()[place].restore(snapshot);
+        self.groups[group].runs[place].restore(snapshot);
     }
 }

@@ -1,7 +1,7 @@
 //! Runs in the lanes of one batch. The batch is kept between calls, because laying it out costs as much as some env
 //! steps.
 
-use crate::backend::lanes::kernel::Ground;
+use crate::backend::lanes::batch::Ground;
 use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::world::World;
 use crate::backend::run::Run;
@@ -12,37 +12,24 @@ use nbc_base::model::{Fault, FaultKind};
 /// Runs that share a batch, at most as many as the kernel has lanes.
 #[derive(Debug, Default)]
 pub struct LaneGroup {
-    runs: Vec<Run>,
+    /// The points of those in a lane are read with [`LaneGroup::state`].
+    pub runs: Vec<Run>,
     /// The run in each lane of the batch.
     lanes: Vec<usize>,
     batch: Option<Box<dyn LaneBatch>>,
-    /// Scratch: target widths of one run's channels.
     targets: Vec<f64>,
 }
 
 impl LaneGroup {
-    /// A group of these runs, none of them in a lane yet.
     pub fn new(runs: Vec<Run>) -> Self {
         Self { runs, ..Self::default() }
     }
 
-    /// The runs. The points of those in a lane are read with [`LaneGroup::state`].
-    pub fn runs(&self) -> &[Run] {
-        &self.runs
-    }
-
-    /// The runs, for setting schedules.
-    pub fn runs_mut(&mut self) -> &mut [Run] {
-        &mut self.runs
-    }
-
-    /// Takes the runs out of their lanes, and out of the group.
     pub fn take(&mut self) -> Vec<Run> {
         self.unload();
         std::mem::take(&mut self.runs)
     }
 
-    /// The points of a run.
     pub fn state(&self, run: usize) -> State {
         let mut state = self.runs[run].state.clone();
         if let (Some(batch), Some(lane)) = (&self.batch, self.lanes.iter().position(|&at| at == run)) {
@@ -51,7 +38,6 @@ impl LaneGroup {
         state
     }
 
-    /// Simulates until each run is done.
     pub fn finish(&mut self, world: &World) {
         while self.runs.iter().any(|run| !run.is_done()) {
             self.advance(world, |_, _| {});
@@ -96,7 +82,6 @@ impl LaneGroup {
         }
     }
 
-    /// Ends the runs that are not done.
     fn stop(&mut self) {
         self.runs.iter_mut().for_each(Run::stop);
         self.unload();

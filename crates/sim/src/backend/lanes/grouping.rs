@@ -12,19 +12,15 @@ const NEIGHBORS: usize = 16;
 /// How often all groups exchange robots at most. Not tuned.
 const EXCHANGES: usize = 4;
 
-/// A robot that needs a lane.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneRequest<'a> {
-    /// Its voxels.
     pub lattice: &'a Lattice,
     /// The number of its body: equal bodies have one number.
     pub body: usize,
 }
 
-/// A division of a flock.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LaneGrouping {
-    /// The robots of each group, the most costly group first.
     pub groups: Vec<Vec<usize>>,
     /// The cost of a substep of all groups, in the unit of [`Kernel::cost`].
     pub cost: u64,
@@ -61,10 +57,8 @@ impl LaneGrouping {
     }
 }
 
-/// What groups of robots cost.
 struct Costs {
     kernel: Kernel,
-    /// The number of each robot's body.
     bodies: Vec<usize>,
     /// The voxels of each robot as bits of a box that holds each of them.
     voxels: Vec<Vec<u64>>,
@@ -86,7 +80,6 @@ impl Costs {
         Self { kernel, bodies, voxels: robots.iter().map(bits).collect() }
     }
 
-    /// The cost of a substep of these robots in one batch.
     fn of(&self, robots: impl ExactSizeIterator<Item = usize> + Clone) -> u64 {
         let words = self.voxels.first().map_or(0, Vec::len);
         let union = |word: usize| robots.clone().fold(0, |bits, robot| bits | self.voxels[robot][word]);
@@ -125,7 +118,6 @@ impl Costs {
         found
     }
 
-    /// The same of these two groups.
     fn exchange_between(&self, groups: &mut [Vec<usize>], costs: &mut [u64], [one, other]: [usize; 2]) -> bool {
         let with = |group: &[usize], place: usize, robot: usize| {
             self.of((0..group.len()).map(|i| if i == place { robot } else { group[i] }))
@@ -156,7 +148,6 @@ mod tests {
     use crate::constants::Constants;
     use nbc_base::model::{Body, Palette};
 
-    /// Robots of these bodies, with their numbers, in groups of at most so many.
     fn check(robots: &[(&Body, usize)], lanes: usize, expected: &[&[usize]]) {
         let lattices: Vec<Lattice> = robots.iter().map(|(body, _)| Lattice::new(body, &Constants::default())).collect();
         let requests = lattices.iter().zip(robots).map(|(lattice, &(_, body))| LaneRequest { lattice, body });
@@ -169,17 +160,9 @@ mod tests {
         let (five, seven) = (Body::patchwork(5, 0), Body::patchwork(7, 0));
         let others = vec![(&seven, 1), (&seven, 2), (&seven, 3), (&five, 4), (&five, 5)];
         check(&[vec![(&five, 0); 8], others].concat(), 8, &[&[8, 9, 10, 11, 12], &[0, 1, 2, 3, 4, 5, 6, 7]]);
-    }
-
-    #[test]
-    fn a_giant_is_alone() {
-        let (five, twenty) = (Body::patchwork(5, 0), Body::patchwork(20, 0));
+        // A giant is alone, and no group has more robots than lanes.
+        let twenty = Body::patchwork(20, 0);
         check(&[vec![(&five, 0); 4], vec![(&twenty, 1)]].concat(), 8, &[&[4], &[0, 1, 2, 3]]);
-    }
-
-    #[test]
-    fn no_group_has_more_robots_than_lanes() {
-        let five = Body::patchwork(5, 0);
         check(&[(&five, 0); 5], 2, &[&[3, 4], &[1, 2], &[0]]);
         check(&[], 8, &[]);
     }

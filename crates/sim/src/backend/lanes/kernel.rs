@@ -5,22 +5,18 @@
 //! inside [`Kernel::batch`], after checking that the processor has the instructions.
 #![allow(unsafe_code, reason = "vectors of an instruction set that is asked for when the program runs")]
 
-use std::sync::Arc;
-
-use crate::backend::lanes::batch::{Batch, Floor};
-use crate::backend::lanes::lane_batch::{LaneBatch, Stepped};
+use crate::backend::lanes::batch::{Batch, Ground};
+use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::real::Real;
 use crate::backend::lanes::step::env_step;
 use crate::backend::lanes::stiffness::{Common, Own, Stiffness};
 #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 use crate::backend::lanes::vector::Eight;
 use crate::backend::lanes::vector::Four;
-use crate::constants::Constants;
 use crate::lattice::Lattice;
-use crate::meter::{Meter, Part, Stopwatch};
+use crate::meter::Part;
 use crate::state::State;
 
-/// A set of vector instructions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum InstructionSet {
     /// The instruction set of every processor of the target: SSE2 on x86-64, NEON on ARM, that which WebAssembly was
@@ -40,9 +36,9 @@ pub struct Kernel {
 }
 
 impl Default for Kernel {
-    /// The fastest of this processor.
     fn default() -> Self {
-        Self::widest(InstructionSet::best())
+        let set = InstructionSet::best();
+        Self { set, lanes: set.most_lanes() }
     }
 }
 
@@ -52,7 +48,6 @@ impl InstructionSet {
         [Self::Baseline, Self::Avx2, Self::Avx512].into_iter().filter(|set| set.is_available()).collect()
     }
 
-    /// The best that this processor has.
     pub fn best() -> Self {
         Self::available().pop().expect("the baseline is always there")
     }
@@ -80,7 +75,6 @@ impl InstructionSet {
         if by_vector && self != Self::Avx512 { 4 } else { 8 }
     }
 
-    /// Its name as processors' makers write it.
     pub fn name(self) -> &'static str {
         match self {
             Self::Baseline => "baseline",
@@ -91,25 +85,16 @@ impl InstructionSet {
 }
 
 impl Kernel {
-    /// The supported numbers of lanes.
     pub const WIDTHS: [usize; 3] = [1, 4, 8];
 
-    /// One simulation at a time.
     pub const SCALAR: Self = Self { set: InstructionSet::Baseline, lanes: 1 };
 
     /// A kernel of `lanes` lanes, 1, 4 or 8; `None` when the processor lacks the instructions, or when so many lanes
     /// are several vectors, which are no faster together than one after the other.
-    ///
-    /// # Panics
-    /// When there is no kernel of so many lanes.
+    /// Panics when there is no kernel of so many lanes.
     pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
         assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
         (set.is_available() && lanes <= set.most_lanes()).then_some(Self { set, lanes })
-    }
-
-    /// The kernel with most lanes.
-    fn widest(set: InstructionSet) -> Self {
-        Self { set, lanes: set.most_lanes() }
     }
 
     /// A kernel whether the processor has its instructions or not, to reason about.
@@ -131,12 +116,10 @@ impl Kernel {
         if alike { same } else { different }
     }
 
-    /// The number of robots that it simulates at a time.
     pub fn lanes(self) -> usize {
         self.lanes
     }
 
-    /// The instruction set that its code uses.
     pub fn set(self) -> InstructionSet {
         self.set
     }
@@ -165,50 +148,33 @@ impl Kernel {
     }
 }
 
-/// The parameters of a batch besides its robots.
-#[derive(Clone, Copy)]
-pub(crate) struct Ground<'a> {
-    /// The numbers of the physics.
-    pub constants: &'a Constants,
-    /// What the robots stand on.
-    pub floor: &'a Floor,
-    /// Measures the time of each part, if requested.
-    pub meter: Option<&'a Arc<Meter>>,
-}
-
-/// A batch of numbers `R` with the env step compiled for them.
 fn layout<R: Real, K: Stiffness<R>>(
     robots: &[(&Lattice, &State)],
     ground: Ground<'_>,
     step: fn(&mut Batch<R, K>),
 ) -> Box<dyn LaneBatch> {
-    let stopwatch = ground.meter.map(Stopwatch::new);
-    let mut batch = Batch::<R, K>::new(robots, ground.floor, ground.constants);
-    batch.stopwatch = stopwatch;
+    let mut batch = Batch::<R, K>::new(robots, ground, step);
     batch.lap(Part::Bookkeeping);
-    Box::new(Stepped { batch, step })
+    Box::new(batch)
 }
 
-/// Vectors of x86-64's instruction sets.
 #[cfg(target_arch = "x86_64")]
 mod x86 {
     use std::arch::x86_64::*;
 
-    use super::{Ground, layout};
-    use crate::backend::lanes::batch::Batch;
+    use super::layout;
+    use crate::backend::lanes::batch::{Batch, Ground};
     use crate::backend::lanes::lane_batch::LaneBatch;
-    use crate::backend::lanes::real::{Mask, Real, operators};
+    use crate::backend::lanes::real::{Mask, Real, inlined, operators};
     use crate::backend::lanes::step::env_step;
     use crate::backend::lanes::stiffness::Stiffness;
     use crate::lattice::Lattice;
     use crate::state::State;
 
-    /// Eight lanes of AVX-512.
     #[derive(Clone, Copy, Debug)]
     #[repr(transparent)]
     pub struct Avx512(__m512d);
 
-    /// Four lanes of AVX2.
     #[derive(Clone, Copy, Debug)]
     #[repr(transparent)]
     pub struct Avx2(__m256d);
@@ -250,7 +216,6 @@ mod x86 {
         Self(unsafe { _mm256_sub_pd(a.0, b.0) }),
         Self(unsafe { _mm256_mul_pd(a.0, b.0) })
     );
-    /// One lane of a vector, accessed in place.
     macro_rules! lane_access {
         () => {
             #[inline(always)]
@@ -270,24 +235,11 @@ mod x86 {
     }
 
     impl Mask for u8 {
-        #[inline(always)]
-        fn bits(self) -> u32 {
-            u32::from(self)
-        }
-
-        #[inline(always)]
-        fn from_bits(bits: u32) -> Self {
-            bits as u8
-        }
-
-        #[inline(always)]
-        fn or(self, other: Self) -> Self {
-            self | other
-        }
-
-        #[inline(always)]
-        fn and(self, other: Self) -> Self {
-            self & other
+        inlined! {
+            fn bits(self) -> u32 { u32::from(self) }
+            fn from_bits(bits: u32) -> Self { bits as u8 }
+            fn or(self, other: Self) -> Self { self | other }
+            fn and(self, other: Self) -> Self { self & other }
         }
     }
 
@@ -298,39 +250,16 @@ mod x86 {
 
         lane_access!();
 
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(unsafe { _mm512_set1_pd(value) })
-        }
-
-        #[inline(always)]
-        fn abs(self) -> Self {
-            Self(unsafe { _mm512_abs_pd(self.0) })
-        }
-
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(unsafe { _mm512_max_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm512_min_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn below(self, other: Self) -> u8 {
-            unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) }
-        }
-
-        #[inline(always)]
-        fn at_most(self, other: Self) -> u8 {
-            unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) }
-        }
-
-        #[inline(always)]
-        fn select(mask: u8, yes: Self, no: Self) -> Self {
-            Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+        inlined! {
+            fn splat(value: f64) -> Self { Self(unsafe { _mm512_set1_pd(value) }) }
+            fn abs(self) -> Self { Self(unsafe { _mm512_abs_pd(self.0) }) }
+            fn max(self, other: Self) -> Self { Self(unsafe { _mm512_max_pd(self.0, other.0) }) }
+            fn min(self, other: Self) -> Self { Self(unsafe { _mm512_min_pd(self.0, other.0) }) }
+            fn below(self, other: Self) -> u8 { unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, other.0) } }
+            fn at_most(self, other: Self) -> u8 { unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, other.0) } }
+            fn select(mask: u8, yes: Self, no: Self) -> Self {
+                Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+            }
         }
 
         #[inline(always)]
@@ -372,39 +301,20 @@ mod x86 {
 
         lane_access!();
 
-        #[inline(always)]
-        fn splat(value: f64) -> Self {
-            Self(unsafe { _mm256_set1_pd(value) })
-        }
-
-        #[inline(always)]
-        fn abs(self) -> Self {
-            Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) })
-        }
-
-        #[inline(always)]
-        fn max(self, other: Self) -> Self {
-            Self(unsafe { _mm256_max_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn min(self, other: Self) -> Self {
-            Self(unsafe { _mm256_min_pd(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn below(self, other: Self) -> Avx2Mask {
-            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn at_most(self, other: Self) -> Avx2Mask {
-            Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0) })
-        }
-
-        #[inline(always)]
-        fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
-            Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+        inlined! {
+            fn splat(value: f64) -> Self { Self(unsafe { _mm256_set1_pd(value) }) }
+            fn abs(self) -> Self { Self(unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) }) }
+            fn max(self, other: Self) -> Self { Self(unsafe { _mm256_max_pd(self.0, other.0) }) }
+            fn min(self, other: Self) -> Self { Self(unsafe { _mm256_min_pd(self.0, other.0) }) }
+            fn below(self, other: Self) -> Avx2Mask {
+                Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LT_OQ>(self.0, other.0) })
+            }
+            fn at_most(self, other: Self) -> Avx2Mask {
+                Avx2Mask(unsafe { _mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0) })
+            }
+            fn select(mask: Avx2Mask, yes: Self, no: Self) -> Self {
+                Self(unsafe { _mm256_blendv_pd(no.0, yes.0, mask.0) })
+            }
         }
 
         #[inline(always)]

@@ -100,7 +100,6 @@ fn gather<R: Real>(masses: &[Mass<R>], voxels: &[([usize; CORNERS], R::Mask)]) -
     at
 }
 
-/// Puts the corners of one voxel in each lane back.
 #[inline(always)]
 fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask)], at: &[Vector<R>; CORNERS]) {
     for &(corners, lanes) in voxels {
@@ -113,7 +112,6 @@ fn scatter<R: Real>(masses: &mut [Mass<R>], voxels: &[([usize; CORNERS], R::Mask
     }
 }
 
-/// The allowed lengths of a side of a rigid voxel.
 #[derive(Clone, Copy)]
 struct Rigid<R> {
     bounds: Bounds<R>,
@@ -169,7 +167,6 @@ impl<R: Real> Rigid<R> {
     }
 }
 
-/// The allowed lengths of a spring.
 #[derive(Clone, Copy)]
 struct Bounds<R> {
     most: R,
@@ -190,7 +187,6 @@ impl<R: Real> Bounds<R> {
         Self { most: R::splat(most), least: R::splat(least), most_squared, least_squared }
     }
 
-    /// Whether a length, squared, is beyond them.
     #[inline(always)]
     fn broken(&self, square: R) -> R::Mask {
         self.most_squared.below(square).or(square.below(self.least_squared))

@@ -36,13 +36,11 @@ impl<R: Real> Loads<R> {
         }
     }
 
-    /// The load of a mass.
     #[inline(always)]
     pub fn of(&self, mass: usize) -> Vector<R> {
         self.values[self.of_mass[mass] as usize]
     }
 
-    /// Removes the contact forces of the last substep.
     #[inline(always)]
     pub fn clear_contacts(&mut self, masses: &mut [Mass<R>]) {
         for (mass, weight) in self.in_contact.drain(..) {

@@ -3,21 +3,16 @@
 use crate::backend::lanes::real::Real;
 use crate::state::State;
 
-/// A vector of the plane in every lane: x and y.
 pub type Vector<R> = [R; 2];
 
 /// A point mass. Time is counted in substeps: velocities are meters per substep, forces meters per substep squared.
 #[derive(Clone, Copy, Debug)]
 pub struct Mass<R> {
-    /// Position at the start of the substep.
     pub at: Vector<R>,
-    /// Velocity of the integrator.
     pub velocity: Vector<R>,
     /// Position in the current Runge-Kutta stage; after the last, the sum of the corrections by the length limits.
     pub stage: Vector<R>,
-    /// Velocity in the current Runge-Kutta stage.
     pub stage_velocity: Vector<R>,
-    /// Sum of stage velocities so far.
     pub sum: Vector<R>,
     /// Force so far in the current stage.
     pub force: Vector<R>,
@@ -29,7 +24,6 @@ pub fn between<R: Real>(here: Vector<R>, there: Vector<R>) -> Vector<R> {
     [here[0] - there[0], here[1] - there[1]]
 }
 
-/// The square of a vector's length.
 #[inline(always)]
 pub fn square<R: Real>(r: Vector<R>) -> R {
     r[0] * r[0] + r[1] * r[1]
@@ -38,16 +32,13 @@ pub fn square<R: Real>(r: Vector<R>) -> R {
 /// The masses of a batch at three times: now, one substep ago, and when they were saved.
 #[derive(Debug)]
 pub struct Masses<R> {
-    /// The masses, in order of their places row by row.
     pub now: Vec<Mass<R>>,
-    /// The position of each mass one substep ago.
     pub before: Vec<Vector<R>>,
     /// Position, position one substep ago and velocity of each mass at the end of the last env step that went well.
     saved: Vec<[Vector<R>; 3]>,
 }
 
 impl<R: Real> Masses<R> {
-    /// Masses at rest at these positions, in meters.
     pub fn new(positions: impl Iterator<Item = [f64; 2]>) -> Self {
         let zero = [R::splat(0.0); 2];
         let mass = |at: [f64; 2]| Mass {
@@ -73,7 +64,6 @@ impl<R: Real> Masses<R> {
         }
     }
 
-    /// Takes a lane's points out.
     pub fn unload(&self, lane: usize, places: &[usize], state: &mut State) {
         for (point, &mass) in places.iter().enumerate() {
             let (mass, before) = (&self.now[mass], &self.before[mass]);
@@ -83,7 +73,6 @@ impl<R: Real> Masses<R> {
         }
     }
 
-    /// Reads a lane's points as they were at the last call of [`Masses::save`].
     pub fn unload_saved(&self, lane: usize, places: &[usize], state: &mut State) {
         for (point, &mass) in places.iter().enumerate() {
             let [at, before, velocity] = self.saved[mass].map(|vector| vector.map(|axis| axis.lane(lane)));

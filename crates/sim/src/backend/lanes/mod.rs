@@ -45,16 +45,12 @@ use batch::Floor;
 use flock::LaneFlock;
 use world::World;
 
-/// The lanes of this processor.
 #[derive(Clone, Debug, Default)]
 pub struct LaneBackend {
-    /// The numbers of the physics.
     pub constants: Constants,
-    /// The kernel: an instruction set and a number of lanes.
     pub kernel: Kernel,
     /// Measures the time of each part, at the cost of a few percent of speed.
     pub meter: Option<Arc<Meter>>,
-    /// Follows simulations, and can end them.
     pub monitor: Option<Arc<Monitor>>,
 }
 

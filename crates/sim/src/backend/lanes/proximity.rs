@@ -16,14 +16,11 @@ pub const MARGIN: f64 = 0.03;
 /// Slack for rounding, in meters.
 pub const SLACK: f64 = 1e-9;
 
-/// A voxel of any lane.
 #[derive(Clone, Debug)]
 pub struct Tile {
     /// Row and column in the box.
     pub cell: [usize; 2],
-    /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
-    /// The object that it belongs to.
     pub part: usize,
     /// Lanes that have it on their surface, as bits.
     pub surface: u32,
@@ -31,12 +28,9 @@ pub struct Tile {
     pub in_lane: Vec<usize>,
 }
 
-/// The lists of close pairs.
 #[derive(Clone, Debug)]
 pub struct Proximity<R: Real> {
-    /// Surface voxels of all lanes, in reading order.
     pub tiles: Vec<Tile>,
-    /// Their masses.
     points: Vec<usize>,
     /// The positions when the lists were built; infinitely far before the first time.
     reference: Vec<Vector<R>>,
@@ -64,39 +58,28 @@ struct NearTiles {
     lanes: u32,
 }
 
-/// A point at or below some height.
 #[derive(Clone, Copy, Debug)]
 pub struct LowPoint {
     pub mass: usize,
-    /// In which lanes, as bits.
     pub lanes: u32,
 }
 
 /// A surface voxel close to a voxel of the terrain.
 #[derive(Clone, Copy, Debug)]
 pub struct NearTerrain {
-    /// The surface voxel, by its tile.
     pub tile: usize,
-    /// The voxel of the terrain, by its number.
     pub voxel: usize,
-    /// In which lanes, as bits.
     pub lanes: u32,
 }
 
-/// A point found inside a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct Inside {
-    /// The tile, by its number.
     pub tile: usize,
-    /// The mass that is the point.
     pub point: usize,
-    /// In which lanes, as bits.
     pub lanes: u32,
 }
 
 impl<R: Real> Proximity<R> {
-    /// The broad phase over these surface voxels. `countable` has the number of each lane's in each part, or zero for a
-    /// part that cannot be unstable.
     pub fn new(tiles: Vec<Tile>, countable: Vec<Vec<u32>>) -> Self {
         let mut points: Vec<usize> = tiles.iter().flat_map(|tile| tile.corners).collect();
         points.sort_unstable();
@@ -123,7 +106,6 @@ impl<R: Real> Proximity<R> {
         R::splat(MARGIN / 2.0 - SLACK).at_most(moved).any()
     }
 
-    /// Builds the lists from current positions.
     #[inline(always)]
     pub fn renew(&mut self, masses: &[Mass<R>]) {
         self.reference.clear();
@@ -224,12 +206,10 @@ impl<R: Real> Proximity<R> {
     }
 }
 
-/// Counts something in each lane.
 #[derive(Default)]
 struct Tally([u32; u32::BITS as usize]);
 
 impl Tally {
-    /// Counts one in the lanes whose bit is set.
     #[inline(always)]
     fn add(&mut self, mut lanes: u32) {
         while lanes != 0 {
@@ -256,14 +236,12 @@ fn are_apart(a: &Tile, b: &Tile) -> bool {
 // The functions below use no closures and iterators on vectors: these would be compiled without the vector instructions
 // of the kernel, and called with every vector in memory.
 
-/// Where the masses of a tile are.
 #[inline(always)]
 fn corners<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; CORNERS] {
     let [a, b, c, d] = tile.corners;
     [masses[a].at, masses[b].at, masses[c].at, masses[d].at]
 }
 
-/// Least and greatest coordinates of a tile.
 #[inline(always)]
 pub fn bounds<R: Real>(masses: &[Mass<R>], tile: &Tile) -> [Vector<R>; 2] {
     let [a, b, c, d] = corners(masses, tile);
@@ -281,7 +259,6 @@ fn gap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R {
     x.max(y)
 }
 
-/// Whether two boxes overlap or touch.
 #[inline(always)]
 fn overlap<R: Real>(a: &[Vector<R>; 2], b: &[Vector<R>; 2]) -> R::Mask {
     let x = a[0][0].at_most(b[1][0]).and(b[0][0].at_most(a[1][0]));

@@ -16,39 +16,19 @@ pub trait Real:
     + std::fmt::Debug
     + 'static
 {
-    /// The number of simulations.
     const LANES: usize;
-
-    /// The result of a comparison: yes or no in each lane.
     type Mask: Mask;
-
-    /// The same value in every lane.
     fn splat(value: f64) -> Self;
-
-    /// The value in one lane.
     fn lane(&self, lane: usize) -> f64;
-
-    /// Changes the value in one lane.
     fn set_lane(&mut self, lane: usize, value: f64);
-
-    /// The absolute value.
     fn abs(self) -> Self;
-
     /// `self` if it is greater, else `other` (also for not-a-number).
     fn max(self, other: Self) -> Self;
-
     /// `self` if it is less, else `other` (also for not-a-number).
     fn min(self, other: Self) -> Self;
-
-    /// Whether `self < other`.
     fn below(self, other: Self) -> Self::Mask;
-
-    /// Whether `self <= other`.
     fn at_most(self, other: Self) -> Self::Mask;
-
-    /// `yes` in lanes where the mask is set, else `no`.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
-
     /// 1/sqrt(x) for positive x of single precision's range, root and quotient rounded to single precision.
     fn recip_sqrt_seed(self) -> Self;
 
@@ -60,11 +40,20 @@ pub trait Real:
         seed + (seed * error) * (Self::splat(0.5) + Self::splat(0.375) * error)
     }
 
-    /// 1/sqrt(x): the seed and the step.
     #[inline(always)]
     fn recip_sqrt(self) -> Self {
         self.recip_sqrt_from(self.recip_sqrt_seed())
     }
+}
+
+/// Methods that are compiled into their callers, with the vector instructions of those.
+macro_rules! inlined {
+    ($(fn $name:ident($($parameter:tt)*) $(-> $result:ty)? $body:block)*) => {
+        $(
+            #[inline(always)]
+            fn $name($($parameter)*) $(-> $result)? $body
+        )*
+    };
 }
 
 /// The operators of a type of vectors, from the sum, the difference and the product of two vectors. The expressions are
@@ -74,66 +63,40 @@ macro_rules! operators {
         impl<$($generics)*> std::ops::Add for $vector {
             type Output = Self;
 
-            #[inline(always)]
-            fn add(self, $other: Self) -> Self {
-                let $one = self;
-                $add
-            }
+            inlined! { fn add(self, $other: Self) -> Self { let $one = self; $add } }
         }
 
         impl<$($generics)*> std::ops::Sub for $vector {
             type Output = Self;
 
-            #[inline(always)]
-            fn sub(self, $other: Self) -> Self {
-                let $one = self;
-                $sub
-            }
+            inlined! { fn sub(self, $other: Self) -> Self { let $one = self; $sub } }
         }
 
         impl<$($generics)*> std::ops::Mul for $vector {
             type Output = Self;
 
-            #[inline(always)]
-            fn mul(self, $other: Self) -> Self {
-                let $one = self;
-                $mul
-            }
+            inlined! { fn mul(self, $other: Self) -> Self { let $one = self; $mul } }
         }
 
         impl<$($generics)*> std::ops::AddAssign for $vector {
-            #[inline(always)]
-            fn add_assign(&mut self, other: Self) {
-                *self = *self + other;
-            }
+            inlined! { fn add_assign(&mut self, other: Self) { *self = *self + other; } }
         }
 
         impl<$($generics)*> std::ops::SubAssign for $vector {
-            #[inline(always)]
-            fn sub_assign(&mut self, other: Self) {
-                *self = *self - other;
-            }
+            inlined! { fn sub_assign(&mut self, other: Self) { *self = *self - other; } }
         }
     };
 }
 
-pub(super) use operators;
+pub(super) use {inlined, operators};
 
-/// Yes or no in each lane.
 pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
     /// Lane i as bit i.
     fn bits(self) -> u32;
-
-    /// The mask whose lane i is bit i.
     fn from_bits(bits: u32) -> Self;
-
-    /// Either.
     fn or(self, other: Self) -> Self;
-
-    /// Both.
     fn and(self, other: Self) -> Self;
 
-    /// Whether the mask is set in any lane.
     #[inline(always)]
     fn any(self) -> bool {
         self.bits() != 0
@@ -141,24 +104,11 @@ pub trait Mask: Copy + Send + Sync + std::fmt::Debug + 'static {
 }
 
 impl Mask for bool {
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        u32::from(self)
-    }
-
-    #[inline(always)]
-    fn from_bits(bits: u32) -> Self {
-        bits & 1 == 1
-    }
-
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        self | other
-    }
-
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        self & other
+    inlined! {
+        fn bits(self) -> u32 { u32::from(self) }
+        fn from_bits(bits: u32) -> Self { bits & 1 == 1 }
+        fn or(self, other: Self) -> Self { self | other }
+        fn and(self, other: Self) -> Self { self & other }
     }
 }
 
@@ -167,54 +117,17 @@ impl Real for f64 {
 
     type Mask = bool;
 
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        value
-    }
-
-    #[inline(always)]
-    fn lane(&self, _lane: usize) -> f64 {
-        *self
-    }
-
-    #[inline(always)]
-    fn set_lane(&mut self, _lane: usize, value: f64) {
-        *self = value;
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        f64::abs(self)
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        if self > other { self } else { other }
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        if self < other { self } else { other }
-    }
-
-    #[inline(always)]
-    fn below(self, other: Self) -> bool {
-        self < other
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> bool {
-        self <= other
-    }
-
-    #[inline(always)]
-    fn select(mask: bool, yes: Self, no: Self) -> Self {
-        if mask { yes } else { no }
-    }
-
-    #[inline(always)]
-    fn recip_sqrt_seed(self) -> Self {
-        f64::from(1.0 / (self as f32).sqrt())
+    inlined! {
+        fn splat(value: f64) -> Self { value }
+        fn lane(&self, _lane: usize) -> f64 { *self }
+        fn set_lane(&mut self, _lane: usize, value: f64) { *self = value; }
+        fn abs(self) -> Self { f64::abs(self) }
+        fn max(self, other: Self) -> Self { if self > other { self } else { other } }
+        fn min(self, other: Self) -> Self { if self < other { self } else { other } }
+        fn below(self, other: Self) -> bool { self < other }
+        fn at_most(self, other: Self) -> bool { self <= other }
+        fn select(mask: bool, yes: Self, no: Self) -> Self { if mask { yes } else { no } }
+        fn recip_sqrt_seed(self) -> Self { f64::from(1.0 / (self as f32).sqrt()) }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Scenes that are advanced env step by env step, with targets from outside. They keep their lanes.
 
-use crate::backend::lanes::batch::Floor;
+use crate::backend::lanes::batch::{Floor, Ground};
 use crate::backend::lanes::grouping::{LaneGrouping, LaneRequest};
-use crate::backend::lanes::kernel::{Ground, Kernel};
+use crate::backend::lanes::kernel::Kernel;
 use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::threads;
 use crate::constants::Constants;
@@ -10,13 +10,11 @@ use crate::scene::Scene;
 use crate::state::State;
 use nbc_base::model::{Fault, FaultKind};
 
-/// Scenes in the lanes of this processor.
 #[derive(Debug)]
 pub struct Scenes {
     constants: Constants,
     scenes: Vec<Scene>,
     groups: Vec<SceneGroup>,
-    /// The group of each scene, and its lane there.
     places: Vec<(usize, usize)>,
 }
 
@@ -25,20 +23,16 @@ pub struct Scenes {
 pub struct SceneState {
     /// The positions and velocities of the points of all objects that move.
     pub state: State,
-    /// Env steps done since the start.
     pub clock: u32,
-    /// The fault that ended it, if any.
     pub fault: Option<Fault>,
 }
 
-/// Scenes in the lanes of one batch.
 #[derive(Debug)]
 struct SceneGroup {
     batch: Box<dyn LaneBatch>,
     lanes: Vec<Lane>,
 }
 
-/// The scene of a lane.
 #[derive(Debug)]
 struct Lane {
     start: State,
@@ -57,7 +51,6 @@ impl Scenes {
         Self::with_kernel(scenes, Kernel::default())
     }
 
-    /// The same in a kernel, which does not affect results.
     pub fn with_kernel(scenes: Vec<Scene>, kernel: Kernel) -> Self {
         let constants = Constants::default();
         let mut alike: Vec<Vec<usize>> = Vec::new();
@@ -92,7 +85,6 @@ impl Scenes {
         all
     }
 
-    /// Opens a group of these scenes.
     fn open(&mut self, members: &[usize], is_alike: bool, kernel: Kernel) {
         let robots: Vec<_> = members.iter().map(|&n| (&*self.scenes[n].lattice, &self.scenes[n].start)).collect();
         let floor = Floor::Terrain(self.scenes[members[0]].terrain.clone());
@@ -108,25 +100,20 @@ impl Scenes {
         self.groups.push(SceneGroup { batch, lanes: members.iter().map(lane).collect() });
     }
 
-    /// The number of scenes.
     pub fn len(&self) -> usize {
         self.scenes.len()
     }
 
-    /// Whether there are none.
     pub fn is_empty(&self) -> bool {
         self.scenes.is_empty()
     }
 
-    /// A scene.
     pub fn scene(&self, n: usize) -> &Scene {
         &self.scenes[n]
     }
 
     /// Sets the targets of a scene's actuators, as fractions of their rest length, until the next call.
-    ///
-    /// # Panics
-    /// When there is not one target for each channel.
+    /// Panics when there is not one target for each channel.
     pub fn set_targets(&mut self, n: usize, targets: &[f64]) {
         assert_eq!(targets.len(), self.scenes[n].targets(), "each actuator has a target");
         let (group, lane) = self.places[n];
@@ -144,40 +131,35 @@ impl Scenes {
         self.groups[group].reset(lane);
     }
 
-    /// A scene, and its state to look at.
     pub fn look(&mut self, n: usize) -> (&Scene, &State) {
         let (group, lane) = self.places[n];
         (&self.scenes[n], self.groups[group].now(lane))
     }
 
-    /// A copy of the state of a scene.
     pub fn state(&mut self, n: usize) -> SceneState {
+        let state = self.look(n).1.clone();
+        let &Lane { clock, ended, .. } = self.lane(n);
+        SceneState { state, clock, fault: ended }
+    }
+
+    fn lane(&self, n: usize) -> &Lane {
         let (group, lane) = self.places[n];
-        let group = &mut self.groups[group];
-        let state = group.now(lane).clone();
-        let Lane { clock, ended, .. } = &group.lanes[lane];
-        SceneState { state, clock: *clock, fault: *ended }
+        &self.groups[group].lanes[lane]
     }
 
     /// Sets a scene to an earlier state.
-    ///
-    /// # Panics
-    /// When the state is of other objects.
+    /// Panics when the state is of other objects.
     pub fn restore(&mut self, n: usize, state: &SceneState) {
         let (group, lane) = self.places[n];
         self.groups[group].restore(lane, state);
     }
 
-    /// The fault that ended a scene, if any.
     pub fn fault(&self, n: usize) -> Option<Fault> {
-        let (group, lane) = self.places[n];
-        self.groups[group].lanes[lane].ended
+        self.lane(n).ended
     }
 
-    /// Env steps that a scene has done since its start.
     pub fn clock(&self, n: usize) -> u32 {
-        let (group, lane) = self.places[n];
-        self.groups[group].lanes[lane].clock
+        self.lane(n).clock
     }
 
     /// The positions of the points of a scene's object, in voxels; see [`Scene::positions`].
@@ -282,7 +264,6 @@ mod tests {
         (&["343", "434", "313"], &[[6, 7], [3, 4]]),
     ];
 
-    /// Targets that differ from scene to scene and from env step to env step.
     fn targets(scene: &Scene, n: usize, env_step: usize) -> Vec<f64> {
         (0..scene.targets()).map(|at| 0.6 + ((at * 37 + n * 11 + env_step * 29) % 101) as f64 / 100.0).collect()
     }
@@ -330,7 +311,6 @@ mod tests {
         walks_alike(GroundProfile::of_cells(&cells).unwrap().on(12), &codes, 3);
     }
 
-    /// A robot on this ground is one in a scene with terrain of these codes.
     fn walks_alike(ground: GroundProfile, codes: &[u8], rows: usize) {
         let body = Body::parse(&["343", "434", "313"], &Palette::paper()).unwrap();
         let setting = Setting { world_width: WIDTH, ground, ..Setting::default() };

@@ -6,16 +6,13 @@
 use core::arch::wasm32::*;
 use std::array::from_fn;
 
-use crate::backend::lanes::real::{Mask, Real, operators};
+use crate::backend::lanes::real::{Mask, Real, inlined, operators};
 
-/// Four lanes.
 pub type Four = Pairs<2>;
 
-/// `N` vectors of two numbers.
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<const N: usize>([v128; N]);
 
-/// Yes or no for each lane: all bits of it set, or none.
 #[derive(Clone, Copy, Debug)]
 pub struct PairMask<const N: usize>([v128; N]);
 
@@ -45,19 +42,12 @@ impl<const N: usize> Mask for PairMask<N> {
         Self(from_fn(|i| i64x2(lane(2 * i), lane(2 * i + 1))))
     }
 
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Self(from_fn(|i| v128_or(self.0[i], other.0[i])))
-    }
-
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self(from_fn(|i| v128_and(self.0[i], other.0[i])))
-    }
-
-    #[inline(always)]
-    fn any(self) -> bool {
-        v128_any_true(self.0.into_iter().reduce(|a, b| v128_or(a, b)).expect("there are lanes"))
+    inlined! {
+        fn or(self, other: Self) -> Self { Self(from_fn(|i| v128_or(self.0[i], other.0[i]))) }
+        fn and(self, other: Self) -> Self { Self(from_fn(|i| v128_and(self.0[i], other.0[i]))) }
+        fn any(self) -> bool {
+            v128_any_true(self.0.into_iter().reduce(|a, b| v128_or(a, b)).expect("there are lanes"))
+        }
     }
 }
 
@@ -92,29 +82,14 @@ impl<const N: usize> Real for Pairs<N> {
     }
 
     // The pseudo-maximum of b and a is a where b < a, else b; so that of not-a-number is the other, as it must be.
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| f64x2_pmax(b, a))
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| f64x2_pmin(b, a))
-    }
-
-    #[inline(always)]
-    fn below(self, other: Self) -> PairMask<N> {
-        PairMask(self.zip(other, |a, b| f64x2_lt(a, b)).0)
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> PairMask<N> {
-        PairMask(self.zip(other, |a, b| f64x2_le(a, b)).0)
-    }
-
-    #[inline(always)]
-    fn select(mask: PairMask<N>, yes: Self, no: Self) -> Self {
-        Self(from_fn(|i| v128_bitselect(yes.0[i], no.0[i], mask.0[i])))
+    inlined! {
+        fn max(self, other: Self) -> Self { self.zip(other, |a, b| f64x2_pmax(b, a)) }
+        fn min(self, other: Self) -> Self { self.zip(other, |a, b| f64x2_pmin(b, a)) }
+        fn below(self, other: Self) -> PairMask<N> { PairMask(self.zip(other, |a, b| f64x2_lt(a, b)).0) }
+        fn at_most(self, other: Self) -> PairMask<N> { PairMask(self.zip(other, |a, b| f64x2_le(a, b)).0) }
+        fn select(mask: PairMask<N>, yes: Self, no: Self) -> Self {
+            Self(from_fn(|i| v128_bitselect(yes.0[i], no.0[i], mask.0[i])))
+        }
     }
 
     #[inline(always)]

@@ -15,14 +15,11 @@ pub const DIAGONAL: usize = 1;
 /// The four springs of a voxel in its frame: top, left, falling diagonal, rising diagonal.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [u32; CORNERS],
-    /// The top spring's place in [`Springs::aims`].
     pub aim: u32,
 }
 
 impl Frame {
-    /// The corners as places in a list of masses.
     #[inline(always)]
     pub fn indices(&self) -> [usize; CORNERS] {
         let [a, b, c, d] = self.corners;
@@ -36,9 +33,7 @@ impl Frame {
 pub struct Rim {
     /// The end with the lower number: a mass.
     pub from: u32,
-    /// The end with the higher number: a mass.
     pub to: u32,
-    /// The place of its goal length in [`Springs::aims`].
     pub aim: u32,
 }
 
@@ -46,7 +41,6 @@ pub struct Rim {
 /// them by these places.
 pub const FRAME: [[usize; 2]; 4] = [[0, 1], [0, 3], [0, 2], [1, 3]];
 
-/// A driven spring of one lane.
 #[derive(Clone, Copy, Debug)]
 pub struct Driven {
     /// The place of its goal length in [`Springs::aims`].
@@ -55,24 +49,19 @@ pub struct Driven {
     pub rest: f64,
     /// The channel of its first active owner; the material code in a body.
     pub first: u16,
-    /// The channel of the second, if both are active.
     pub second: Option<u16>,
 }
 
-/// The springs of all lanes.
 #[derive(Debug)]
 pub struct Springs<R: Real, K: Stiffness<R>> {
     /// The frames in reading order; then an idle one, because frames are measured one ahead.
     pub frames: Vec<Frame>,
-    /// The stiffness of their springs.
     pub frame_stiffness: Vec<[K; 4]>,
     /// Their springs' stiffness times frozen rest length (docs/physics.md 5).
     pub frame_frozen: Vec<[R; 4]>,
     /// The rims, in order of their masses.
     pub rims: Vec<Rim>,
-    /// The stiffness of the rims.
     pub rim_stiffness: Vec<K>,
-    /// Their stiffness times frozen rest length.
     pub rim_frozen: Vec<R>,
     /// Goal lengths times the approach factor (docs/physics.md 5): of springs that are not driven, and of each driven
     /// one.
@@ -99,7 +88,7 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
         let mut frames: BTreeMap<TileKey, [K; 4]> = BTreeMap::new();
         let mut rims: BTreeMap<RimKey, K> = BTreeMap::new();
         for (lane, (body, springs)) in robots.iter().zip(&lanes).enumerate() {
-            for (edge, spring) in body.edges().iter().zip(springs) {
+            for (edge, spring) in body.edges.iter().zip(springs) {
                 let stiffness = match *spring {
                     Spring::Frame(key, place) => &mut frames.entry(key).or_insert([K::none(); 4])[place],
                     Spring::Rim(key) => rims.entry(key).or_insert(K::none()),
@@ -131,10 +120,10 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
                     *aim = all.aims.len() as u32;
                     all.aims.push(all.aims[MAIN]);
                 }
-                let rest = body.edges()[edge.edge].rest;
+                let rest = body.edges[edge.edge].rest;
                 Driven { aim: *aim as usize, rest, first: edge.first, second: edge.second }
             };
-            driven.push(body.driven().iter().map(drive).collect());
+            driven.push(body.driven.iter().map(drive).collect());
         }
         all.frames.push(all.frames[0]);
         (all, driven)
@@ -160,7 +149,6 @@ pub fn rest(kind: usize, constants: &Constants) -> f64 {
     if kind == MAIN { cell } else { (cell * cell + cell * cell).sqrt() }
 }
 
-/// The place of each edge of a robot.
 fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
     let mut found: BTreeMap<(usize, usize), Spring> = BTreeMap::new();
     for voxel in body.voxels() {
@@ -172,12 +160,12 @@ fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
     }
     // Of the sides of a frame only the top has a goal of its own.
     let upright = |edge: &&DrivenEdge| edge.axis == DriveAxis::Vertical;
-    let upright: BTreeSet<usize> = body.driven().iter().filter(upright).map(|edge| edge.edge).collect();
+    let upright: BTreeSet<usize> = body.driven.iter().filter(upright).map(|edge| edge.edge).collect();
     let spring = |(n, edge): (usize, &Edge)| {
         let (a, b) = (masses[edge.a], masses[edge.b]);
         let ends = (a.min(b), a.max(b));
         let in_frame = found.get(&ends).filter(|_| !upright.contains(&n) && !edge.doubled);
         in_frame.copied().unwrap_or(Spring::Rim((ends.0, ends.1, edge.doubled)))
     };
-    body.edges().iter().enumerate().map(spring).collect()
+    body.edges.iter().enumerate().map(spring).collect()
 }

@@ -8,6 +8,7 @@
 use std::ops::Range;
 
 use crate::backend::lanes::batch::{Batch, Row};
+use crate::backend::lanes::lane_batch::LaneBatch;
 use crate::backend::lanes::mass::{Mass, Vector, between, square};
 use crate::backend::lanes::real::{Mask, Real};
 use crate::backend::lanes::springs::{DIAGONAL, Frame, MAIN};
@@ -59,7 +60,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         }
     }
 
-    /// Adds the forces of the rims to their masses.
     #[inline(always)]
     fn pull_rims<const STAGE: u8>(&mut self) {
         let law = Law::<R>::new(&self.constants);
@@ -119,7 +119,6 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
     }
 }
 
-/// How springs pull.
 #[derive(Clone, Copy)]
 struct Law<R> {
     approach: R,
@@ -151,7 +150,6 @@ impl<R: Real> Law<R> {
     }
 }
 
-/// Measures the springs of a frame.
 #[inline(always)]
 fn measure_frame<R: Real, const STAGE: u8>(frame: &Frame, masses: &[Mass<R>]) -> [Measure<R>; 4] {
     let [a, b, c, d] = frame.indices();
@@ -165,7 +163,6 @@ fn measure_frame<R: Real, const STAGE: u8>(frame: &Frame, masses: &[Mass<R>]) ->
     ]
 }
 
-/// Measures a spring at a stage's positions.
 #[inline(always)]
 fn measure<R: Real, const STAGE: u8>(masses: &[Mass<R>], from: u32, to: u32) -> Measure<R> {
     Measure::between(masses[from as usize].stage_position::<STAGE>(), masses[to as usize].stage_position::<STAGE>())

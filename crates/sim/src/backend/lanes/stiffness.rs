@@ -4,24 +4,16 @@ use crate::backend::lanes::real::{Mask, Real};
 
 /// A spring's stiffness in every lane, in kilograms per substep squared; zero in lanes without the spring.
 pub trait Stiffness<R: Real>: Copy + Send + Sync + std::fmt::Debug + 'static {
-    /// No lane has the spring.
     fn none() -> Self;
-
-    /// The stiffness in every lane.
     fn value(&self) -> R;
-
-    /// Adds the spring to a lane.
     fn set_lane(&mut self, lane: usize, stiffness: f64);
-
     /// Clears a mask in lanes without the spring.
     fn mask(&self, mask: R::Mask) -> R::Mask;
 }
 
-/// The same in all lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct Common(f64);
 
-/// Each lane its own.
 #[derive(Clone, Copy, Debug)]
 pub struct Own<R>(R);
 

@@ -6,13 +6,11 @@ use rayon::prelude::*;
 /// With fewer runs than this in a batch, lanes of the kernel would be idle, so threads do not split them further.
 const LEAST_LANES: usize = 4;
 
-/// How many threads work side by side.
 #[cfg(feature = "parallel")]
 pub fn count() -> usize {
     rayon::current_num_threads()
 }
 
-/// How many threads work side by side.
 #[cfg(not(feature = "parallel"))]
 pub fn count() -> usize {
     1
@@ -28,7 +26,6 @@ pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
     }
 }
 
-/// Does the work for each item, in any order.
 #[cfg(not(feature = "parallel"))]
 pub fn for_each<T: Send>(items: &mut [T], work: impl Fn(&mut T) + Sync + Send) {
     items.iter_mut().for_each(work);

@@ -8,13 +8,11 @@ use crate::backend::lanes::world::World;
 use crate::backend::run::{Run, runs};
 use nbc_base::model::{Setting, Trajectory, Trial};
 
-/// A trial that waits for a lane, or has one.
 struct Waiting<'a> {
     run: Run,
     trajectory: &'a mut Trajectory,
 }
 
-/// Simulates each trial from a fresh start; result `i` is that of trial `i`.
 pub fn run_trials(world: &World, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
     let mut trajectories = vec![Trajectory::default(); trials.len()];
     let runs = runs(&world.constants, setting, trials.iter().map(|trial| &trial.body));

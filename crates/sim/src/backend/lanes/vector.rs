@@ -2,20 +2,17 @@
 
 use std::array::from_fn;
 
-use crate::backend::lanes::real::{Mask, Real, operators};
+use crate::backend::lanes::real::{Mask, Real, inlined, operators};
 
-/// Four lanes.
 pub type Four = Lanes<4>;
 /// Eight lanes, where they are worth it.
 #[cfg(not(any(target_arch = "x86_64", target_family = "wasm")))]
 pub type Eight = Lanes<8>;
 
-/// An array of `N` numbers.
 #[derive(Clone, Copy, Debug)]
 #[repr(C, align(32))]
 pub struct Lanes<const N: usize>([f64; N]);
 
-/// Yes or no for each of `N` lanes.
 #[derive(Clone, Copy, Debug)]
 pub struct LaneMask<const N: usize>([bool; N]);
 
@@ -34,24 +31,11 @@ impl<const N: usize> Lanes<N> {
 operators!([const N: usize] Lanes<N>, |a, b| a.zip(b, |x, y| x + y), a.zip(b, |x, y| x - y), a.zip(b, |x, y| x * y));
 
 impl<const N: usize> Mask for LaneMask<N> {
-    #[inline(always)]
-    fn bits(self) -> u32 {
-        self.0.iter().enumerate().fold(0, |bits, (i, &lane)| bits | u32::from(lane) << i)
-    }
-
-    #[inline(always)]
-    fn from_bits(bits: u32) -> Self {
-        Self(from_fn(|i| bits >> i & 1 == 1))
-    }
-
-    #[inline(always)]
-    fn or(self, other: Self) -> Self {
-        Self(from_fn(|i| self.0[i] | other.0[i]))
-    }
-
-    #[inline(always)]
-    fn and(self, other: Self) -> Self {
-        Self(from_fn(|i| self.0[i] & other.0[i]))
+    inlined! {
+        fn bits(self) -> u32 { self.0.iter().enumerate().fold(0, |bits, (i, &lane)| bits | u32::from(lane) << i) }
+        fn from_bits(bits: u32) -> Self { Self(from_fn(|i| bits >> i & 1 == 1)) }
+        fn or(self, other: Self) -> Self { Self(from_fn(|i| self.0[i] | other.0[i])) }
+        fn and(self, other: Self) -> Self { Self(from_fn(|i| self.0[i] & other.0[i])) }
     }
 }
 
@@ -60,53 +44,18 @@ impl<const N: usize> Real for Lanes<N> {
 
     type Mask = LaneMask<N>;
 
-    #[inline(always)]
-    fn splat(value: f64) -> Self {
-        Self([value; N])
-    }
-
-    #[inline(always)]
-    fn lane(&self, lane: usize) -> f64 {
-        self.0[lane]
-    }
-
-    #[inline(always)]
-    fn set_lane(&mut self, lane: usize, value: f64) {
-        self.0[lane] = value;
-    }
-
-    #[inline(always)]
-    fn abs(self) -> Self {
-        Self(from_fn(|i| self.0[i].abs()))
-    }
-
-    #[inline(always)]
-    fn max(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a > b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn min(self, other: Self) -> Self {
-        self.zip(other, |a, b| if a < b { a } else { b })
-    }
-
-    #[inline(always)]
-    fn below(self, other: Self) -> LaneMask<N> {
-        self.compare(other, |a, b| a < b)
-    }
-
-    #[inline(always)]
-    fn at_most(self, other: Self) -> LaneMask<N> {
-        self.compare(other, |a, b| a <= b)
-    }
-
-    #[inline(always)]
-    fn select(mask: LaneMask<N>, yes: Self, no: Self) -> Self {
-        Self(from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
-    }
-
-    #[inline(always)]
-    fn recip_sqrt_seed(self) -> Self {
-        Self(from_fn(|i| f64::from(1.0 / (self.0[i] as f32).sqrt())))
+    inlined! {
+        fn splat(value: f64) -> Self { Self([value; N]) }
+        fn lane(&self, lane: usize) -> f64 { self.0[lane] }
+        fn set_lane(&mut self, lane: usize, value: f64) { self.0[lane] = value; }
+        fn abs(self) -> Self { Self(from_fn(|i| self.0[i].abs())) }
+        fn max(self, other: Self) -> Self { self.zip(other, |a, b| if a > b { a } else { b }) }
+        fn min(self, other: Self) -> Self { self.zip(other, |a, b| if a < b { a } else { b }) }
+        fn below(self, other: Self) -> LaneMask<N> { self.compare(other, |a, b| a < b) }
+        fn at_most(self, other: Self) -> LaneMask<N> { self.compare(other, |a, b| a <= b) }
+        fn select(mask: LaneMask<N>, yes: Self, no: Self) -> Self {
+            Self(from_fn(|i| if mask.0[i] { yes.0[i] } else { no.0[i] }))
+        }
+        fn recip_sqrt_seed(self) -> Self { Self(from_fn(|i| f64::from(1.0 / (self.0[i] as f32).sqrt()))) }
     }
 }

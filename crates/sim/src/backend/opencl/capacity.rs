@@ -10,11 +10,8 @@ use crate::constants::Constants;
 /// The most masses, springs and surface voxels of the robots of a launch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Capacity {
-    /// The most masses of a body.
     pub masses: usize,
-    /// The most springs of a body.
     pub springs: usize,
-    /// The most surface voxels of a body.
     pub tiles: usize,
 }
 
@@ -28,7 +25,6 @@ const TILES: [usize; 12] = [4, 9, 16, 24, 36, 64, 128, 256, 512, 1024, 4096, 10_
 const PUSHED: usize = 32;
 
 impl Capacity {
-    /// The least capacity for a body.
     pub fn of(plan: &BodyPlan) -> Self {
         let fits = |side: &&usize| plan.masses.len() <= masses(**side) && plan.springs() <= springs(**side);
         let side = *SIDES.iter().find(fits).unwrap_or(&SIDES[SIDES.len() - 1]);
@@ -41,7 +37,6 @@ impl Capacity {
         }
     }
 
-    /// The least capacity for the bodies of two.
     pub fn max(self, other: Self) -> Self {
         let Self { masses, springs, tiles } = other;
         Self { masses: self.masses.max(masses), springs: self.springs.max(springs), tiles: self.tiles.max(tiles) }

@@ -32,10 +32,8 @@ use crate::backend::opencl::error::DeviceError;
 use crate::backend::opencl::listing::{DeviceKind, OpenClDevice};
 use crate::constants::Constants;
 
-/// The kernel's text.
 const TEXT: &str = include_str!("step.cl");
 const KERNEL: &str = "advance";
-/// Why a queue has its commands.
 const PRESENT: &str = "a queue has its commands until it is dropped";
 
 /// Robots that are so few that no other needs their multiprocessor. Larger groups were faster with up to 64
@@ -48,19 +46,15 @@ const POLL: Duration = Duration::from_micros(300);
 /// What a kernel is compiled for: the capacity of its robots, and the work-items of a group.
 type KernelSize = (Capacity, usize);
 
-/// An open device with the compiled kernels.
 pub struct Card {
-    /// The device that is open.
     pub device: OpenClDevice,
     group: Option<usize>,
     handles: Mutex<Handles>,
     storage: Arc<Storage>,
 }
 
-/// The handles from the driver that all callers share.
 struct Handles {
     context: Arc<Context>,
-    /// The programs compiled so far.
     programs: BTreeMap<KernelSize, Program>,
     /// Commands that no caller uses now.
     spare: Vec<Commands>,
@@ -91,12 +85,10 @@ impl Plain for f64 {}
 impl Plain for [f64; 2] {}
 impl Plain for [u32; 2] {}
 
-/// Memory of a device.
 #[derive(Debug)]
 pub struct CardMemory<T: Plain> {
     /// Present until this is dropped.
     buffer: Option<Buffer<u8>>,
-    /// The numbers for which there is room.
     count: usize,
     storage: Arc<Storage>,
     numbers: PhantomData<T>,
@@ -113,7 +105,6 @@ struct Storage {
 
 /// The arguments of a launch, as the kernel names them.
 pub struct Arguments<'a> {
-    /// Four words for each robot.
     pub robots: &'a CardMemory<u32>,
     /// The header of each body: where its lists are.
     pub bodies: &'a CardMemory<u32>,
@@ -121,11 +112,8 @@ pub struct Arguments<'a> {
     pub plan: &'a CardMemory<u16>,
     /// The stiffness of the springs of all bodies, in kilograms per substep squared.
     pub stiffness: &'a CardMemory<f64>,
-    /// The targets of each channel in each env step.
     pub targets: &'a CardMemory<f64>,
-    /// The number of channels in a row of targets.
     pub channels: u32,
-    /// Ground voxels in a row.
     pub world_width: u32,
     /// The most env steps of a robot.
     pub window: u32,
@@ -138,7 +126,6 @@ pub struct Arguments<'a> {
 }
 
 impl Card {
-    /// Opens a device.
     pub fn open(device: &OpenClDevice, group: Option<usize>) -> Result<Self, DeviceError> {
         if !device.has_doubles {
             return Err(DeviceError::NoDoubles { device: device.name.clone() });
@@ -166,7 +153,6 @@ impl Card {
         capacity.local_bytes() <= self.device.local_bytes
     }
 
-    /// A queue for a caller.
     pub fn queue(&self) -> Result<CardQueue<'_>, DeviceError> {
         self.check()?;
         let mut handles = self.lock();
@@ -214,7 +200,6 @@ impl Card {
         failure
     }
 
-    /// Checks that the device is not lost.
     fn check(&self) -> Result<(), DeviceError> {
         let gone = || DeviceError::Lost { device: self.device.name.clone(), reason: "it failed before".to_owned() };
         if self.is_lost() { Err(gone()) } else { Ok(()) }
@@ -253,7 +238,6 @@ impl Commands {
 }
 
 impl CardQueue<'_> {
-    /// Copies numbers to the device.
     pub fn upload<T: Plain>(&self, data: &[T]) -> Result<CardMemory<T>, DeviceError> {
         let mut memory = self.room(data.len().max(1))?;
         self.with(|commands| {
@@ -268,7 +252,6 @@ impl CardQueue<'_> {
         Ok(memory)
     }
 
-    /// Room for numbers on the device.
     pub fn room<T: Plain>(&self, count: usize) -> Result<CardMemory<T>, DeviceError> {
         let bytes = CardMemory::<T>::bytes(count);
         let storage = &self.card.storage;
@@ -289,9 +272,6 @@ impl CardQueue<'_> {
     }
 
     /// Copies numbers from the start of a memory of the device.
-    ///
-    /// # Panics
-    /// When the memory is smaller.
     pub fn read<T: Plain>(&self, memory: &CardMemory<T>, count: usize) -> Result<Vec<T>, DeviceError> {
         assert!(count <= memory.count, "a memory is read within its bounds");
         let mut data = vec![T::default(); count];
@@ -353,7 +333,6 @@ impl CardQueue<'_> {
         })
     }
 
-    /// Calls the driver.
     fn with<T>(&self, call: impl FnOnce(&Commands) -> Result<T, ClError>) -> Result<T, DeviceError> {
         self.card.check()?;
         call(self.commands.as_ref().expect(PRESENT)).map_err(|error| self.card.fail(error))
@@ -372,7 +351,6 @@ impl Drop for CardQueue<'_> {
 }
 
 impl<T: Plain> CardMemory<T> {
-    /// The numbers for which it has room.
     pub fn count(&self) -> usize {
         self.count
     }
@@ -398,7 +376,6 @@ impl<T: Plain> Drop for CardMemory<T> {
 }
 
 impl Storage {
-    /// Spare memory of a size in bytes.
     fn take(&self, bytes: usize) -> Option<Buffer<u8>> {
         self.lock().get_mut(&bytes)?.pop()
     }
@@ -426,7 +403,6 @@ impl Drop for Storage {
     }
 }
 
-/// Waits until a command is done.
 fn wait(event: &Event) -> Result<(), ClError> {
     loop {
         match event.command_execution_status()?.0 {
@@ -437,7 +413,6 @@ fn wait(event: &Event) -> Result<(), ClError> {
     }
 }
 
-/// The error of a driver's function.
 fn failure(device: &str, error: ClError) -> DeviceError {
     let device = device.to_owned();
     match error.0 {

@@ -30,23 +30,17 @@ pub const AT_ONCE: usize = 4;
 
 /// The kernel's code for a robot that became unstable.
 const UNSTABLE: u32 = 1;
-/// The kernel's code for a robot without a fault.
 const SOUND: u32 = 0;
 
-/// The data shared by simulations on a device with the same setting.
 #[derive(Clone, Debug)]
 pub struct DeviceWorld {
-    /// The device that simulates.
     pub card: Arc<Card>,
-    /// The numbers of the physics.
     pub constants: Constants,
     /// Ground voxels in a row.
     pub width: usize,
-    /// Follows simulations, if requested.
     pub monitor: Option<Arc<Monitor>>,
 }
 
-/// A run of a list, with the plan of its body.
 struct Member {
     run: usize,
     plan: Arc<BodyPlan>,
@@ -66,12 +60,10 @@ struct DeviceRuns<'a> {
     state: [CardMemory<[f64; 2]>; 3],
     centers: CardMemory<[f64; 2]>,
     outcomes: CardMemory<[u32; 2]>,
-    /// The most env steps for which there is room.
     window: u32,
 }
 
 impl DeviceWorld {
-    /// The plan of each run. Runs with equal bodies share a plan.
     fn plans(&self, runs: &[Run]) -> Vec<Arc<BodyPlan>> {
         let mut plans: BTreeMap<usize, Arc<BodyPlan>> = BTreeMap::new();
         let plan = |run: &Run| {
@@ -147,7 +139,6 @@ impl DeviceWorld {
 }
 
 impl<'a> DeviceRuns<'a> {
-    /// Copies some runs to the device.
     fn new(
         world: &'a DeviceWorld,
         capacity: Capacity,
@@ -192,7 +183,6 @@ impl<'a> DeviceRuns<'a> {
         })
     }
 
-    /// Simulates the runs until they are done, and reads their states.
     fn finish(mut self, runs: &mut [Run], record: &mut dyn FnMut(usize, [f64; 2])) -> Result<(), DeviceError> {
         let mut live: Vec<usize> = (0..self.members.len()).collect();
         let mut window = FIRST_WINDOW;
@@ -277,7 +267,6 @@ impl<'a> DeviceRuns<'a> {
     }
 }
 
-/// The vectors of points in order of the masses.
 fn by_mass(plan: &BodyPlan, of_points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut of_masses = vec![[0.0; 2]; of_points.len()];
     for (&mass, &vector) in plan.masses.iter().zip(of_points) {
@@ -286,7 +275,6 @@ fn by_mass(plan: &BodyPlan, of_points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     of_masses
 }
 
-/// The env steps of the next launch, after one that took so long.
 fn next_window(steps: u32, spent: u64) -> u32 {
     let fitting = u64::from(steps) * PATIENCE / spent.max(1);
     (fitting as u32).clamp(1, steps.saturating_mul(4))
@@ -302,7 +290,6 @@ struct SignalTable<'a> {
     targets: Vec<f64>,
     channels: usize,
     signals: Vec<&'a Arc<Signals>>,
-    /// The place of the targets of each kind of run.
     rows: BTreeMap<SignalKey, u32>,
 }
 
@@ -318,7 +305,6 @@ impl<'a> SignalTable<'a> {
         Self { targets: Vec::new(), channels, signals: different, rows: BTreeMap::new() }
     }
 
-    /// The place of the targets of a run in its next env steps.
     fn add(&mut self, run: &Run, steps: u32) -> u32 {
         let signals = self.signals.iter().position(|known| Arc::ptr_eq(known, &run.signals));
         let signals = signals.expect("the signals of all runs are listed");

@@ -9,19 +9,15 @@ use opencl3::types::cl_device_id;
 
 use crate::backend::opencl::error::DeviceError;
 
-/// Whether a device is a graphics card, a processor or another accelerator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum DeviceKind {
-    /// A graphics card (GPU).
     Graphics,
-    /// Another kind of accelerator.
     Other,
     /// A processor, such as this machine's own in PoCL.
     Processor,
 }
 
 impl DeviceKind {
-    /// Its name in tables and in JSON.
     pub fn word(self) -> &'static str {
         match self {
             Self::Graphics => "gpu",
@@ -31,20 +27,14 @@ impl DeviceKind {
     }
 }
 
-/// An OpenCL device of this machine, with its limits.
 #[derive(Clone, Debug)]
 pub struct OpenClDevice {
     /// Its number, from 0: graphics cards first, processors last.
     pub number: usize,
-    /// The driver's name of it.
     pub name: String,
-    /// The name of the driver's platform.
     pub platform: String,
-    /// The version of the driver, as it calls it.
     pub driver: String,
-    /// Whether it is a graphics card, a processor or another device.
     pub kind: DeviceKind,
-    /// The size of its memory, in bytes.
     pub global_bytes: u64,
     /// The size of the largest buffer, in bytes.
     pub buffer_bytes: u64,
@@ -54,7 +44,6 @@ pub struct OpenClDevice {
     pub multiprocessors: usize,
     /// The most work-items of a group.
     pub group_size: usize,
-    /// Whether it has numbers of double precision.
     pub has_doubles: bool,
     /// Whether it rounds roots and quotients of single precision correctly.
     pub rounds_single: bool,
@@ -62,7 +51,6 @@ pub struct OpenClDevice {
 }
 
 impl OpenClDevice {
-    /// All devices of this machine.
     pub fn all() -> Result<Vec<Self>, DeviceError> {
         let platforms = get_platforms().map_err(|_| DeviceError::NoDriver)?;
         if platforms.is_empty() {
@@ -76,13 +64,11 @@ impl OpenClDevice {
         Ok(devices)
     }
 
-    /// The driver's handle.
     pub(super) fn id(&self) -> cl_device_id {
         self.device.id()
     }
 }
 
-/// The devices of a platform that can be used.
 fn of_platform(platform: &Platform) -> Vec<OpenClDevice> {
     let name = platform.name().unwrap_or_default();
     // A platform without devices says so by an error.

@@ -7,7 +7,6 @@ use crate::backend::lanes::FRAME;
 use crate::constants::Constants;
 use crate::lattice::{CORNERS, Lattice, Voxel};
 
-/// No mass, spring or tile.
 const NONE: u16 = 0xffff;
 
 /// The goals of springs that are not driven: of main edges, of diagonals. Driven springs follow.
@@ -18,7 +17,6 @@ const DRIVEN: u16 = 2;
 /// The corner by which the voxels above left, above right, below left and below right of a mass touch it.
 const TOUCHING: [usize; CORNERS] = [2, 3, 1, 0];
 
-/// A body laid out for the kernel, as lists of numbers.
 #[derive(Clone, Debug)]
 pub struct BodyPlan {
     /// The mass of each of its points.
@@ -44,7 +42,6 @@ struct SpringTable {
 }
 
 impl BodyPlan {
-    /// The plan of a body.
     pub fn new(body: &Lattice, constants: &Constants) -> Self {
         let masses = masses(body);
         let springs = SpringTable::new(body, &masses);
@@ -53,7 +50,7 @@ impl BodyPlan {
         let skin: BTreeSet<usize> = surface.iter().flat_map(|voxel| voxel.corners).map(|point| masses[point]).collect();
         let levels = rigid_levels(body, &masses);
         let mut stiffness = vec![0.0; springs.ends.len()];
-        for (edge, &spring) in body.edges().iter().zip(&springs.of_edge) {
+        for (edge, &spring) in body.edges.iter().zip(&springs.of_edge) {
             stiffness[spring] = edge.stiffness * constants.per_substep_squared();
         }
         let lists = [
@@ -62,7 +59,7 @@ impl BodyPlan {
             gather(body, &masses, &springs, frames),
             around(&surface, &masses),
             masses.iter().map(|&mass| mass as u16).collect(),
-            body.driven().iter().flat_map(|edge| [edge.first, edge.second.unwrap_or(NONE)]).collect(),
+            body.driven.iter().flat_map(|edge| [edge.first, edge.second.unwrap_or(NONE)]).collect(),
             surface.iter().flat_map(|voxel| tile(voxel, &masses)).collect(),
             skin.iter().map(|&mass| mass as u16).collect(),
             ends_of(&levels),
@@ -72,21 +69,19 @@ impl BodyPlan {
             words: lists.concat(),
             stiffness,
             frames,
-            driven: body.driven().len(),
+            driven: body.driven.len(),
             tiles: surface.len(),
             points: skin.len(),
             levels: levels.len(),
-            countable: if body.parts().iter().any(|part| part.active) { surface.len() } else { 0 },
+            countable: if body.parts.iter().any(|part| part.active) { surface.len() } else { 0 },
             masses,
         }
     }
 
-    /// The number of springs.
     pub fn springs(&self) -> usize {
         self.stiffness.len()
     }
 
-    /// The number of surface voxels.
     pub fn tiles(&self) -> usize {
         self.tiles
     }
@@ -126,7 +121,7 @@ impl SpringTable {
                 ends.push([corners[a], corners[b]]);
             }
         }
-        let of_edge = body.edges().iter().map(|edge| {
+        let of_edge = body.edges.iter().map(|edge| {
             let (a, b) = (masses[edge.a], masses[edge.b]);
             [a.min(b), a.max(b)]
         });
@@ -140,11 +135,10 @@ impl SpringTable {
     }
 }
 
-/// The goal of each spring.
 fn aims(body: &Lattice, springs: &SpringTable, frames: usize) -> Vec<u16> {
     let kind = |spring: usize| if spring < 4 * frames && spring % 4 >= 2 { DIAGONAL } else { MAIN };
     let mut aims: Vec<u16> = (0..springs.ends.len()).map(kind).collect();
-    for (driven, edge) in (DRIVEN..).zip(body.driven()) {
+    for (driven, edge) in (DRIVEN..).zip(&body.driven) {
         aims[springs.of_edge[edge.edge]] = driven;
     }
     aims
@@ -169,7 +163,6 @@ fn gather(body: &Lattice, masses: &[usize], springs: &SpringTable, frames: usize
     gather.concat()
 }
 
-/// For each mass the surface voxels around it.
 fn around(surface: &[&Voxel], masses: &[usize]) -> Vec<u16> {
     let mut around = vec![[NONE; 4]; masses.len()];
     for (tile, voxel) in surface.iter().enumerate() {
@@ -204,7 +197,6 @@ fn rigid_levels(body: &Lattice, masses: &[usize]) -> Vec<Vec<[usize; CORNERS]>> 
     levels
 }
 
-/// Where each level ends.
 fn ends_of(levels: &[Vec<[usize; CORNERS]>]) -> Vec<u16> {
     let mut end = 0;
     let ends = levels.iter().map(|level| {

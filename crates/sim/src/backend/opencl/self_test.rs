@@ -3,23 +3,17 @@
 use crate::backend::Backend;
 use nbc_base::model::{Body, Fault, Pattern, Schedule, Setting, Trajectory, Trial};
 
-/// How much a self-test simulates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SelfTest {
-    /// The sides of the boxes.
     sides: &'static [usize],
-    /// Bodies of each box.
     bodies: usize,
     /// Env steps under each of two patterns.
     steps: u32,
 }
 
-/// How the results of one box compare.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BoxComparison {
-    /// The side of the box, in voxels.
     pub side: usize,
-    /// The trials that were compared.
     pub trials: usize,
     /// The trials of these whose results differ from those of the processor.
     pub different: usize,
@@ -32,7 +26,6 @@ impl SelfTest {
     /// All materials in each of the three boxes of the paper.
     pub const FULL: Self = Self { sides: &[5, 7, 10], bodies: 24, steps: 84 };
 
-    /// Compares the bodies of each box.
     pub fn compare(self, device: &dyn Backend, processor: &dyn Backend) -> Vec<BoxComparison> {
         self.sides.iter().map(|&side| self.judge(device, processor, side)).collect()
     }
@@ -57,7 +50,6 @@ impl SelfTest {
     }
 }
 
-/// A trajectory as bits.
 fn bits(trajectory: &Trajectory) -> (Vec<u64>, Option<Fault>) {
     let numbers = trajectory.com_x.iter().chain(&trajectory.com_y);
     (numbers.map(|number| number.to_bits()).collect(), trajectory.fault)

@@ -25,20 +25,23 @@ pub struct Search {
     generation: u32,
     counts: Counts,
     mirrors: Vec<MirrorSource>,
+    proposal: Proposal,
 }
 
-/// The state needed to continue a search later.
+/// The bodies that a search tries.
+#[derive(Clone, Debug, PartialEq)]
+enum Proposal {
+    Declared,
+    /// Neighbors of elites; while there are none, those of a body, or random ones.
+    Neighbors(Option<Body>),
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchState {
-    /// The run's seed.
     pub seed: u64,
-    /// Generations done.
     pub generation: u32,
-    /// Counts of the results.
     pub counts: Counts,
-    /// The mirror images to be tried next.
     pub mirrors: Vec<MirrorSource>,
-    /// Filled niches and their elites.
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
 }
 
@@ -75,7 +78,6 @@ impl SearchState {
 }
 
 impl Search {
-    /// A new search.
     pub fn new(evolution: &Evolution, seed: u64) -> Self {
         Self {
             evolution: evolution.clone(),
@@ -88,10 +90,15 @@ impl Search {
             generation: 0,
             counts: Counts::default(),
             mirrors: Vec::new(),
+            proposal: Proposal::Declared,
         }
     }
 
-    /// The search in the state that [`Search::state`] gave.
+    /// A search that draws neighbors of its elites, and at first of `start`, instead of the bodies of its declaration.
+    pub fn around(evolution: &Evolution, start: Option<Body>, seed: u64) -> Self {
+        Self { proposal: Proposal::Neighbors(start), ..Self::new(evolution, seed) }
+    }
+
     pub fn resume(evolution: &Evolution, state: SearchState) -> Self {
         Self {
             archive: Archive::with_niches(evolution, state.niches),
@@ -102,7 +109,6 @@ impl Search {
         }
     }
 
-    /// Its state, as plain data.
     pub fn state(&self) -> SearchState {
         SearchState {
             seed: self.seed,
@@ -113,64 +119,53 @@ impl Search {
         }
     }
 
-    /// The declaration it follows.
     pub fn evolution(&self) -> &Evolution {
         &self.evolution
     }
 
-    /// The archive.
     pub fn archive(&self) -> &Archive {
         &self.archive
     }
 
-    /// The run's seed.
     pub fn seed(&self) -> u64 {
         self.seed
     }
 
-    /// Generations done.
     pub fn generation(&self) -> u32 {
         self.generation
     }
 
-    /// Counts of the results.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Whether all declared generations are done.
     pub fn is_done(&self) -> bool {
         self.generation >= self.evolution.generations
     }
 
     /// The candidates of the next generation. Calling it twice returns the same candidates.
     pub fn ask(&self) -> Vec<Candidate> {
+        if let Proposal::Neighbors(start) = &self.proposal {
+            return self.neighbors(start.as_ref());
+        }
         let parents = self.parents();
         let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
-        let first = if self.generation == 0 { self.first_bodies() } else { Vec::new() };
         let offspring = parents.iter().map(|(key, elite)| (CandidateOrigin::Offspring((*key).clone()), Some(*elite)));
         let newcomers = std::iter::repeat_n((CandidateOrigin::Random, None), fresh);
         let mut candidates: Vec<Candidate> = Vec::new();
         for (index, (origin, parent)) in (0..).zip(offspring.chain(newcomers)) {
             candidates.extend(self.draw(index, origin, parent));
         }
-        let next = candidates.len() as u32;
-        candidates.extend((next..).zip(first).map(|(index, body)| Candidate {
-            index,
-            origin: CandidateOrigin::Start,
-            genotype: None,
-            body,
-            undeveloped: 0,
-        }));
-        let next = candidates.len() as u32;
-        candidates.extend((next..).zip(&self.mirrors).map(|(index, source)| self.mirror(index, source)));
+        if self.generation == 0 {
+            let first = self.first_bodies().into_iter();
+            candidates.extend(first.map(|body| Candidate::of_voxels(CandidateOrigin::Start, body)));
+        }
+        candidates.extend(self.mirrors.iter().map(|source| self.mirror(source)));
         candidates
     }
 
     /// Takes the outcomes of a generation's candidates, in their order.
-    ///
-    /// # Panics
-    /// When there is not one outcome for each candidate.
+    /// Panics when there is not one outcome for each candidate.
     pub fn tell(&mut self, candidates: &[Candidate], outcomes: &[CandidateOutcome]) {
         assert_eq!(candidates.len(), outcomes.len(), "each candidate has one outcome");
         self.mirrors.clear();
@@ -201,8 +196,7 @@ impl Search {
         Rivals::new(self.archive.niche(), Behavior::all(self.evolution.palette.inputs()).map(niches).collect())
     }
 
-    /// The displacements that a candidate of the current archive probably has: those of the elite of its parent's niche
-    /// that was there first.
+    /// The displacements that a candidate probably has: those of the oldest elite of its parent's niche.
     pub fn expected(&self, candidate: &Candidate) -> Option<Displacements> {
         let CandidateOrigin::Offspring(key) = &candidate.origin else { return None };
         Some(self.archive.elites_of(key).first()?.displacement)
@@ -243,7 +237,6 @@ impl Search {
         taken
     }
 
-    /// The robots with which the search begins.
     fn first_bodies(&self) -> Vec<Body> {
         let rows = self.evolution.start.iter().flat_map(|start| &start.bodies);
         let bodies = rows.filter_map(|rows| Body::parse(rows, &self.evolution.palette).ok());
@@ -264,7 +257,6 @@ impl Search {
         parents
     }
 
-    /// The random stream of a place in the coming generation.
     fn stream(&self, index: u32) -> ChaCha8Rng {
         stream(self.seed, self.generation, index)
     }
@@ -297,7 +289,6 @@ pub fn images(elite: &Elite) -> Vec<Elite> {
     images
 }
 
-/// The image of an elite under a recoding.
 fn image(recoding: &Recoding, elite: &Elite) -> Elite {
     if recoding.is_identity() {
         return elite.clone();
@@ -322,7 +313,6 @@ pub(crate) mod tests {
         SearchObjective, Spell,
     };
 
-    /// The paper's run in a 5 x 5 box.
     pub(crate) fn evolution() -> Evolution {
         let spells = Pattern::PAIRS.map(|pattern| Spell::of(pattern, 840)).to_vec();
         let count = |of| Axis::Count { of, bins: 4 };
