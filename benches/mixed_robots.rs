@@ -101,10 +101,6 @@ fn main() {
                 session.compile(&checked, &test.circuit, &options).unwrap()
             };
             let [quick, wide] = [MappingObjective::Delay, MappingObjective::Margin].map(compile);
-            // The pulses of a swarm fit its robots.
-            if quick.mapping.registers.is_some() {
-                continue;
-            }
             let rows = rows(test);
             let mixed = widened(&quick, &rows);
             println!("{} \"{}\":", test.circuit, test.title);

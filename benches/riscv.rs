@@ -67,12 +67,7 @@ fn main() -> ExitCode {
     let text = with_clocks(&PROGRAM, 0, CLOCKS);
     println!("| registers | objective | robots | cycles of a clock: mean, most |");
     println!("|---|---|---|---|");
-    for fields in [
-        "library: sturdy, registers: pulsed",
-        "registers: pulsed",
-        "registers: master_slave",
-        "library: three, registers: mux",
-    ] {
+    for fields in ["library: sturdy", "library: shipped", "library: three, registers: mux"] {
         for objective in [MappingObjective::Area, MappingObjective::Delay] {
             match measure(&text, fields, objective) {
                 Ok((robots, mean, most)) => println!("| {fields} | {objective:?} | {robots} | {mean:.1}, {most} |"),

@@ -72,14 +72,13 @@ fn benchmarks(libraries: [&CellLibrary; 2]) -> Vec<(String, [usize; 2])> {
 
 fn main() -> ExitCode {
     let mut aims = Aims::default();
-    println!("| circuit | robots with two senses | with pulsed latches | with three senses |\n|---|---|---|---|");
+    println!("| circuit | robots with two senses | with three senses |\n|---|---|---|");
     for (file, circuit, aim) in CIRCUITS {
         let circuit = if circuit.is_empty() { file.strip_suffix(".nb").unwrap() } else { circuit };
         let told = |found: &Result<usize, String>| found.as_ref().map_or_else(Clone::clone, usize::to_string);
         let two = robots(file, circuit, "library: shipped");
-        let pulsed = robots(file, circuit, "library: shipped, registers: pulsed");
         let three = robots(file, circuit, "library: three, registers: mux");
-        println!("| `{circuit}` | {} | {} | {} |", told(&two), told(&pulsed), told(&three));
+        println!("| `{circuit}` | {} | {} |", told(&two), told(&three));
         if let Some(most) = aim {
             aims.check(three.is_ok_and(|robots| robots <= most), format!("{circuit} in {most} robots at most"));
         }

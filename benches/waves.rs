@@ -122,7 +122,7 @@ fn main() -> ExitCode {
             file => fs::read_to_string(format!("circuits/{file}")).unwrap(),
         };
         let circuit = if circuit.is_empty() { file.strip_suffix(".nb").unwrap() } else { circuit };
-        let latched = Form::of(&text, circuit, "registers: pulsed");
+        let latched = Form::of(&text, circuit, "registers: master_slave");
         let waves = Form::of(&text, circuit, "registers: waves");
         let (Ok(latched), Ok(waves)) = (&latched, &waves) else {
             let errors: Vec<String> = [latched, waves].into_iter().filter_map(Result::err).collect();

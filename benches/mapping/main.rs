@@ -1,8 +1,8 @@
 //! The compiler on the benchmark circuits: the table of docs/synthesis.md, with ABC measured in the same run:
-//! `EFFORT=high cargo bench --bench mapping`.
+//! `cargo bench --bench mapping`.
 //!
-//! `EFFORT` is `fast`, `normal`, which takes half an hour, or `high`, which takes hours. `ONLY` selects circuits by
-//! parts of their names. The aim is at most 1.03 of ABC's cells for each circuit at normal and high effort.
+//! `EFFORT` is `fast`, or `normal`, the default, which takes half an hour. `ONLY` selects circuits by parts of their
+//! names. The aim is at most 1.03 of ABC's cells for each circuit at normal effort.
 
 // Files of the tests have more than this needs.
 #![allow(dead_code, unused_imports)]
@@ -94,7 +94,6 @@ impl std::fmt::Display for Row {
 
 fn main() -> ExitCode {
     let effort = match std::env::var("EFFORT").as_deref() {
-        Ok("high") => Effort::High,
         Ok("fast") => Effort::Fast,
         _ => Effort::Normal,
     };

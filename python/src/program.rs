@@ -294,8 +294,7 @@ pub fn read_effort(word: &str) -> PyResult<Effort> {
     match word {
         "fast" => Ok(Effort::Fast),
         "normal" => Ok(Effort::Normal),
-        "high" => Ok(Effort::High),
-        word => Err(bad_word("effort", word, &["fast", "normal", "high"])),
+        word => Err(bad_word("effort", word, &["fast", "normal"])),
     }
 }
 

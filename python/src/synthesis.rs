@@ -26,7 +26,6 @@ pub struct Synthesizing {
     parameters: Vec<(String, String)>,
     clock: Option<String>,
     expand: bool,
-    reachable_only: bool,
     what_if: Vec<String>,
 }
 
@@ -53,7 +52,7 @@ impl Synthesizing {
         let mut options = SynthesisOptions::onto(cells);
         (options.map.objective, options.map.effort) = (objective, effort);
         options.map.cancel = watch.cancel.clone();
-        (options.expand, options.reachable_only) = (self.expand, self.reachable_only);
+        options.expand = self.expand;
         options.what_if = named_functions(&self.what_if).map_err(plain)?;
         Ok(options)
     }

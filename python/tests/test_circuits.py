@@ -65,7 +65,7 @@ def test_buses_are_numbers():
 
 def test_options_of_compiling(tmp_path, latch):
     program = nbc.loads(INVERTER)
-    assert program.compile(objective="delay", effort="high", library="shipped").robots[0]["function"] == "not"
+    assert program.compile(objective="delay", effort="fast", library="shipped").robots[0]["function"] == "not"
     for options, message in (
         (dict(objective="beauty"), "invalid objective `beauty`; expected area, delay, margin or sturdy"),
         (dict(effort="much"), "invalid effort"),

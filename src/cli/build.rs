@@ -129,7 +129,7 @@ fn describe_passes(source: Netlist) -> String {
             true => ("no change".to_owned(), ""),
             false => (cells(&netlist), after.as_str()),
         };
-        text += &format!("\n{} ({}): {left}\n{shown}", pass.name(), pass.about());
+        text += &format!("\n{} ({}): {left}\n{shown}", pass.name, pass.about);
         before = after;
     }
     text
@@ -140,7 +140,7 @@ const UNPROVED_REGISTERS: &str =
     "registers are not proved to store what they stored before they became latches of another form\n";
 
 fn describe_timing(mapping: &Mapping) -> String {
-    let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;
+    let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
     let timing = mapping.timing();
     let loads = fan_out(mapped).into_iter().filter(|(id, _)| mapped.cell(*id).is_some());
     let loads = report::describe_fan_out(loads.map(|(id, load)| (mapped.net_name(id), load)));
@@ -149,7 +149,7 @@ fn describe_timing(mapping: &Mapping) -> String {
     }
     let path: Vec<String> = timing.critical_path.iter().map(|&id| mapped.net_name(id)).collect();
     let settles = report::describe_settling(timing.hold, &path, &ring_names(mapped));
-    let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()).describe();
+    let phases = PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept).describe();
     let memory: String =
         MemoryTimes::all(mapped, &timing, clocks(mapped, library)).iter().map(MemoryTimes::describe).collect();
     let unproved = if mapping.unproved_registers { UNPROVED_REGISTERS } else { "" };
@@ -165,7 +165,7 @@ fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -
 }
 
 fn describe(mapping: &Mapping, hardened: Hardened) -> serde_json::Value {
-    let Mapping { netlist: mapped, cells: library, registers, waves, .. } = mapping;
+    let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
     let timing = mapping.timing();
     // The rings and loops of a wave machine are its waves.
     let (rings, races) = match waves {
@@ -198,7 +198,7 @@ fn describe(mapping: &Mapping, hardened: Hardened) -> serde_json::Value {
         "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
         "rings": rings,
         "memory": MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
-        "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), registers.as_ref()),
+        "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept),
         "waves": waves.as_ref().map(WaveTiming::of),
         "proved": true,
         "unproved_registers": mapping.unproved_registers,

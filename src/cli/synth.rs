@@ -18,7 +18,7 @@ use nbc_session::{Synthesis, SynthesisOptions, SynthesisReport};
 const EXAMPLES: &str = "\
 Examples:
   nbc synth adder.blif -o adder_nand.blif --cells nand,not
-  nbc synth c880.aig -o c880.nb --effort high
+  nbc synth c880.aig -o c880.nb --objective delay
   nbc synth fifo.v ram.v --top fifo --param WIDTH=4 -o fifo.nb
   nbc synth adder.blif --cells nand,not --what-if xor,and";
 
@@ -51,12 +51,6 @@ pub struct SynthArguments {
     /// Keep registers or expand them to cells [default: depends on the output format]
     #[arg(long, value_enum)]
     registers: Option<RegisterWord>,
-    /// Allow any outputs and next states in unreachable states
-    ///
-    /// The result is then correct only if every register begins with its start value. The set of reachable states is
-    /// proved and reported. All registers of the design must be flip-flops.
-    #[arg(long)]
-    reachable_only: bool,
     /// Report how many cells a robot for each of these functions would save
     #[arg(long, value_name = "FUNCTIONS", value_delimiter = ',')]
     what_if: Vec<String>,
@@ -89,7 +83,6 @@ impl SynthArguments {
                 Some(word) => word == RegisterWord::Expand,
                 None => target == Some(CircuitFormat::Dot),
             },
-            reachable_only: self.reachable_only,
             what_if,
         };
         let synthesis = Synthesis::of(&design, &options)?;

@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use nbc_base::model::{Function, Instance};
 use nbc_base::source::FileId;
 use nbc_circuit::formats::{CircuitFormat, Design, Forcing, Register, RegisterKind, aiger, blif, buses, dot, pla};
-use nbc_circuit::passes::{self, DissolveWires};
+use nbc_circuit::passes::{self, dissolve_wires};
 use nbc_circuit::{Cell, Guarded, Logic, Loops, NetId, Netlist, elaborate, prove};
 use nbc_session::store::{self, CircuitFile, DiskWorld, TopModule};
 use proptest::prelude::*;
@@ -70,7 +70,7 @@ fn proved(one: &Netlist, two: &Netlist, text: &str) {
 /// and what they store over random inputs.
 #[track_caller]
 fn same_loops(one: &Netlist, mut two: Netlist, text: &str) {
-    DissolveWires.run_on(&mut two).unwrap();
+    dissolve_wires(&mut two).unwrap();
     let proof = prove(one, &two).unwrap_or_else(|error| panic!("{error}\n{text}"));
     assert_eq!(proof.cuts.len(), Loops::memory(one).cores().concat().len(), "{text}");
     assert_eq!(stored(&two), stored(one), "{text}");

@@ -3,7 +3,7 @@
 use nbc_base::model::{Function, Instance, Program};
 use nbc_base::source::{FileId, MemoryWorld, Sources};
 use nbc_circuit::formats::{Design, blif};
-use nbc_circuit::passes::DissolveWires;
+use nbc_circuit::passes::dissolve_wires;
 use nbc_circuit::{
     CellLibrary, Delayed, Effort, Guarded, Logic, Loops, MapOptions, Netlist, Role, elaborate, map, map_with, prove,
 };
@@ -297,7 +297,7 @@ fn blif_of_a_swarm_with_memory_reads_back_equal() {
         let text = blif::write(&Design::new(netlist.clone(), Vec::new()));
         let read = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
         let mut again = read.logic;
-        DissolveWires.run_on(&mut again).unwrap();
+        dissolve_wires(&mut again).unwrap();
         let proof = prove(&netlist, &again).unwrap_or_else(|error| panic!("{error}\n{text}"));
         assert_eq!(proof.cuts.len(), Loops::memory(&netlist).cores().concat().len());
         let mut both = [Logic::new(&netlist), Logic::new(&again)];

@@ -13,7 +13,6 @@ use nbc_session::{CompileOptions, Session};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use serde_json::json;
 
 use crate::memory::{CLOCK, ENABLE, Element, elements, libraries, mapped, next, program, text};
 use crate::support::bench::Bench;
@@ -260,22 +259,14 @@ fn the_times_of_a_clock_are_printed() {
 }
 
 #[test]
-fn pulsed_latches_are_reported_with_registers_that_are_kept() {
+fn latches_that_are_not_made_of_one_robot_are_reported() {
     let bench = Bench::new();
-    bench.file("shift.nb", format!("{SHIFT}swarm pulses {{ circuit: shift, registers: pulsed }}\n"));
-    let told = bench.run(&["build", "shift.nb", "--emit", "timing"]).out;
-    assert!(told.contains("pulse    clk.pulse opens 3 registers for 3 cycles at least, of 3 needed"), "{told}");
-    let report = bench.run(&["build", "shift.nb", "--format", "json"]);
-    let report = validate("build", &report.out);
-    assert_eq!((&report["phases"]["pulses"][0]["padding"], &report["phases"]["kept"]), (&4.into(), &json!([])));
-    bench.file(
-        "gated.nb",
-        SHIFT.replace("a}, clk)", "a}, clk and a)") + "swarm s { circuit: shift, registers: pulsed }\n",
-    );
-    let told = bench.run(&["build", "gated.nb", "--emit", "timing"]).out;
-    assert_eq!(told.matches("stays as written: its clock is not an input\n").count(), 3, "{told}");
-    bench.file("wrong.nb", format!("{SHIFT}swarm s {{ circuit: shift, registers: fast }}\n"));
-    bench.run(&["build", "wrong.nb"]).expect_fault(&["`master_slave`", "`pulsed`"]);
+    let reset = "circuit kept(d, r, clk) -> (q) {\n    q = async_register(d, clk, r)\n}\n";
+    bench.file("kept.nb", format!("{reset}swarm s {{ circuit: kept, library: three, registers: mux }}\n"));
+    let told = bench.run(&["build", "kept.nb", "--emit", "timing"]).out;
+    assert!(told.contains("stays as written: it is not a latch of one bit\n"), "{told}");
+    let report = validate("build", &bench.run(&["build", "kept.nb", "--format", "json"]).out);
+    assert!(!report["phases"]["kept"].as_array().unwrap().is_empty());
 }
 
 #[test]

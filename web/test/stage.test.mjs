@@ -93,7 +93,7 @@ test("parts and nets have the names of the source, and no others", async () => {
   const page = await open("computer");
   const parts = page.locator('.schematic [data-id^="part-"]');
   const titles = () => parts.evaluateAll(all => all.map(part => part.querySelector("title").textContent));
-  assert.deepEqual(await titles(), ["machine: pc, 82 robots"]);
+  assert.deepEqual(await titles(), ["machine: pc, 127 robots"]);
   const texts = [];
   for (let sheet = 0; sheet < 2; sheet++) {
     texts.push(...(await page.locator(".schematic svg :is(text, title)").allTextContents()), ...(await titles()));

@@ -152,11 +152,11 @@ impl Product {
         let both = [one.registers.len(), two.registers.len()];
         let mut network = Network::new(ports + both[0] + both[1]);
         let inputs: Vec<Signal> = (0..network.inputs).map(|at| network.input(at)).collect();
-        let outputs = included(&mut network, &first, &inputs[..ports + both[0]]);
+        let outputs = network.include(&first, &inputs[..ports + both[0]]);
         let mut own = vec![0; ports];
         order.inputs.iter().zip(&inputs).for_each(|(&place, &input)| own[place] = input);
         own.extend(&inputs[ports + both[0]..]);
-        let others = included(&mut network, &second, &own);
+        let others = network.include(&second, &own);
         network.outputs = outputs[..shown].to_vec();
         network.outputs.extend(order.outputs.iter().map(|&place| others[place]));
         network.outputs.extend(&outputs[shown..shown + both[0]]);
@@ -207,26 +207,14 @@ impl Product {
 
     fn doubtful(&self, steps: usize, values: &[bool]) -> Likeness {
         let [inputs, shown] = self.ports;
-        let words: Vec<u64> = values.iter().map(|&value| u64::from(value)).collect();
-        let found = self.network.simulate(&words);
-        let outputs: Vec<bool> =
-            self.network.outputs[..2 * shown].iter().map(|&output| found[output as usize] & 1 == 1).collect();
+        let found = self.network.run(values.iter().copied());
         Likeness::Doubtful {
             steps,
             inputs: values[..inputs].to_vec(),
             state: values[inputs..inputs + self.own].to_vec(),
-            outputs: [outputs[..shown].to_vec(), outputs[shown..].to_vec()],
+            outputs: [found[..shown].to_vec(), found[shown..2 * shown].to_vec()],
         }
     }
-}
-
-fn included(network: &mut Network, other: &Network, inputs: &[Signal]) -> Vec<Signal> {
-    let mut signals: Vec<Signal> = [0, 1].into_iter().chain(inputs.iter().copied()).collect();
-    for gate in &other.gates {
-        let pins = gate.pins.map(|pin| signals[pin as usize]);
-        signals.push(network.add(gate.function, pins));
-    }
-    other.outputs.iter().map(|&output| signals[output as usize]).collect()
 }
 
 #[cfg(test)]

@@ -13,7 +13,7 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::formats::{Design, Forcing, Register, RegisterKind};
 use crate::network::{Gate, Network, Signal, View};
-use crate::passes::{self, Pass, Sweep};
+use crate::passes::{self, sweep};
 use crate::proof::{self, Compared, Counterpart, Proof, SatSweep};
 use crate::{CancelFlag, NetId, Netlist, Node, ProofError};
 
@@ -347,9 +347,7 @@ impl<'d> RegisterClasses<'d> {
                     states[leader]
                 }
             };
-            for (listener, pin) in design.logic.fanout(state) {
-                design.logic.drive(listener, pin, leader);
-            }
+            design.logic.move_listeners(state, leader);
         }
         let leads = |at: usize| self.leaders[at] == self.state(at);
         keep(&mut design, &(0..states.len()).map(leads).collect::<Vec<_>>());
@@ -387,7 +385,7 @@ fn keep(design: &mut Design, kept: &[bool]) {
     let all = design.forcing();
     let forcing: Vec<NetId> = others().flat_map(|at| all[at].to_vec()).collect();
     others().map(|at| nexts[at]).chain(forcing).for_each(|output| design.logic.remove(output));
-    Sweep.run(&mut design.logic).expect("sweeping only removes");
+    sweep(&mut design.logic);
     others().for_each(|at| design.logic.remove(states[at]));
     let mut at = 0..;
     design.registers.retain(|_| at.next().is_some_and(|at| kept[at]));

@@ -119,7 +119,7 @@ fn fixes(netlist: &Netlist, id: NetId, net: NetId, value: bool) -> bool {
 mod tests {
     use super::*;
     use crate::example::latch;
-    use crate::passes::DissolveWires;
+    use crate::passes::dissolve_wires;
     use crate::registers;
     use nbc_base::model::Function;
 
@@ -133,7 +133,7 @@ mod tests {
     #[test]
     fn a_latch_is_two_cells_and_two_guards_and_its_data_is_free() {
         let mut netlist = latch();
-        DissolveWires.run_on(&mut netlist).unwrap();
+        dissolve_wires(&mut netlist).unwrap();
         check(&netlist, 2, 2, 0);
     }
 

@@ -7,16 +7,18 @@ use crate::{NetId, Netlist, Node};
 
 /// The level of every net: 0 for inputs and constants, else one more than its latest pin.
 pub(crate) fn levelize(netlist: &Netlist) -> BTreeMap<NetId, u32> {
+    most_before(netlist, |id| matches!(netlist.node(id), Node::Cell(_)))
+}
+
+/// For every net, the most nodes that count on a path to it and including it. The nodes of a loop core are alike.
+pub(crate) fn most_before(netlist: &Netlist, counts: impl Fn(NetId) -> bool) -> BTreeMap<NetId, u32> {
     let loops = Loops::of(netlist);
     let mut levels = BTreeMap::new();
     for &id in loops.order() {
-        let members: &[NetId] = match loops.core_of(id) {
-            Some(core) => &loops.cores()[core],
-            None => &[id],
-        };
+        let members = loops.core_of(id).map_or(std::slice::from_ref(&id), |core| &loops.cores()[core]);
         let pins = members.iter().flat_map(|&member| netlist.pins(member)).filter(|pin| !members.contains(pin));
         let latest = pins.map(|pin| levels.get(&pin).copied().unwrap_or(0)).max().unwrap_or(0);
-        levels.insert(id, latest + u32::from(matches!(netlist.node(id), Node::Cell(_))));
+        levels.insert(id, latest + u32::from(counts(id)));
     }
     levels
 }

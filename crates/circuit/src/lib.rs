@@ -7,7 +7,6 @@ mod cells;
 mod clause;
 mod components;
 pub mod correspondence;
-mod delayed;
 pub mod elaborate;
 mod environment;
 #[cfg(test)]
@@ -30,7 +29,6 @@ mod proof;
 pub mod properties;
 mod races;
 mod random_run;
-pub mod reachable;
 mod recipes;
 mod register_forms;
 pub mod registers;
@@ -49,14 +47,13 @@ pub use alike::{Likeness, likeness};
 pub use blocks::{BlockId, Blocks, keeps_state};
 pub use cells::{CellKind, CellLibrary};
 pub use clause::{Clause, ValuedBit};
-pub use delayed::Delayed;
 pub use elaborate::{
     Inspection, Inspector, NetWidths, elaborate, elaborate_net, elaborate_reference, elaborate_watched,
     is_same_instance,
 };
 pub use environment::{Environment, EnvironmentFault, MemoryAccess};
 pub use guarded::{Guarded, Role};
-pub use logic::Logic;
+pub use logic::{Delayed, Logic};
 pub use loops::Loops;
 pub use map::{map, map_with};
 pub use memory::Memory;

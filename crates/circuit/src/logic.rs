@@ -1,6 +1,8 @@
 //! Simulation of a netlist at the level of logic: every cell takes one time step, and inputs are held until nothing
 //! changes.
 
+use std::collections::VecDeque;
+
 use crate::Oscillation;
 use crate::clause::ValuedBit;
 use crate::netlist::{NetId, Netlist, Node};
@@ -167,6 +169,45 @@ fn start(netlist: &Netlist, id: NetId) -> Option<bool> {
     })
 }
 
+/// A netlist whose cells each answer after their own number of cycles, as robots do.
+#[derive(Clone, Debug)]
+pub struct Delayed {
+    logic: Logic,
+    /// Of each cell of the logic, in cycles.
+    delays: Vec<usize>,
+    /// The values of all nets by slot in the last cycles, the latest first.
+    past: VecDeque<Vec<bool>>,
+}
+
+impl Delayed {
+    /// A netlist before its first cycle, in the same state as [`Logic::new`]; `delay` gives the cycles after which each
+    /// cell reacts, at least one.
+    pub fn new(netlist: &Netlist, mut delay: impl FnMut(NetId) -> usize) -> Self {
+        let logic = Logic::new(netlist);
+        let delays: Vec<usize> = netlist.cells().map(|(id, _)| delay(id)).collect();
+        assert!(delays.iter().all(|&delay| delay > 0), "a cell takes one cycle at least");
+        let longest = delays.iter().copied().max().unwrap_or(1);
+        Self { past: std::iter::repeat_n(logic.values.clone(), longest).collect(), logic, delays }
+    }
+
+    /// Holds the inputs, in order of the ports, for some cycles, and returns the outputs after them.
+    pub fn run(&mut self, inputs: &[bool], cycles: usize) -> Vec<bool> {
+        let Logic { inputs: ports, outputs, cells, .. } = &self.logic;
+        assert_eq!(inputs.len(), ports.len(), "a value for each input");
+        for _ in 0..cycles {
+            let mut now = self.past[0].clone();
+            ports.iter().zip(inputs).for_each(|(&slot, &value)| now[slot as usize] = value);
+            for (gate, delay) in cells.iter().zip(&self.delays) {
+                let heard = &self.past[delay - 1];
+                now[gate.slot as usize] = gate.function.at(gate.pins.iter().map(|&pin| heard[pin as usize]));
+            }
+            self.past.pop_back();
+            self.past.push_front(now);
+        }
+        outputs.iter().map(|&slot| self.past[0][slot as usize]).collect()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -235,5 +276,19 @@ mod tests {
                 assert_eq!((quick.steady_outputs(), &quick.values), (steady, &whole.values), "{lengths:?} {row:?}");
             }
         }
+    }
+
+    #[test]
+    fn each_cell_switches_after_its_own_delay() {
+        let mut netlist = Netlist::new("two");
+        let a = netlist.add_input("a");
+        let slow = netlist.add_gate(Function::NOT, &[a]);
+        let fast = netlist.add_gate(Function::NOT, &[a]);
+        let both = netlist.add_gate(Function::XOR, &[slow, fast]);
+        netlist.add_output("q", both);
+        let mut delayed = Delayed::new(&netlist, |id| if id == slow { 3 } else { 1 });
+        // The fast inverter switches after one cycle, the slow one after three, and the output follows one cycle later.
+        let seen: Vec<_> = (0..6).map(|_| delayed.run(&[true], 1)[0]).collect();
+        assert_eq!(seen, [false, false, true, true, false, false]);
     }
 }

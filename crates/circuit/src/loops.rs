@@ -90,7 +90,7 @@ mod tests {
     #[test]
     fn a_latch_has_one_core_of_two_cells() {
         let mut netlist = latch();
-        crate::passes::DissolveWires.run_on(&mut netlist).unwrap();
+        crate::passes::dissolve_wires(&mut netlist).unwrap();
         let loops = Loops::of(&netlist);
         assert_eq!(loops.cores().len(), 1);
         assert_eq!(loops.cores()[0].len(), 2);
@@ -116,7 +116,7 @@ mod tests {
         let state = crate::registers::flip_flop(&mut netlist, "q", next, clock, false);
         netlist.drive(q, 0, state);
         netlist.add_output("q", q);
-        crate::passes::DissolveWires.run_on(&mut netlist).unwrap();
+        crate::passes::dissolve_wires(&mut netlist).unwrap();
         assert_eq!(Loops::of(&netlist).cores().concat().len(), 9);
         assert_eq!(Loops::memory(&netlist).cores().concat().len(), 4);
         assert_eq!(Loops::memory(&netlist).order().len(), netlist.ids().count());

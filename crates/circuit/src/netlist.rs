@@ -143,6 +143,13 @@ impl Netlist {
         self.graph.add_edge(net, listener, pin);
     }
 
+    /// Connects all pins that listen to one net to another.
+    pub(crate) fn move_listeners(&mut self, from: NetId, to: NetId) {
+        for (listener, pin) in self.fanout(from) {
+            self.drive(listener, pin, to);
+        }
+    }
+
     pub fn remove(&mut self, id: NetId) {
         self.graph.remove_node(id);
         self.inputs.retain(|&input| input != id);

@@ -107,6 +107,21 @@ impl Network {
         }
     }
 
+    /// The values of the outputs.
+    pub(crate) fn run(&self, inputs: impl IntoIterator<Item = bool>) -> Vec<bool> {
+        let values = self.simulate(&inputs.into_iter().map(u64::from).collect::<Vec<u64>>());
+        self.outputs.iter().map(|&output| values[output as usize] & 1 == 1).collect()
+    }
+
+    /// Adds the gates of another network over these inputs; the signals of its outputs.
+    pub(crate) fn include(&mut self, other: &Self, inputs: &[Signal]) -> Vec<Signal> {
+        let mut made: Vec<Signal> = [0, 1].into_iter().chain(inputs.iter().copied()).collect();
+        for gate in &other.gates {
+            made.push(self.add(gate.function, gate.pins.map(|pin| made[pin as usize])));
+        }
+        other.outputs.iter().map(|&output| made[output as usize]).collect()
+    }
+
     /// The same network with an inverter for each gate that inverts one signal because its pins are equal or one is a
     /// constant, if there is a cell for it; likewise with buffers.
     pub(crate) fn with_plain_inverters(&self, has_cell: impl Fn(Function) -> bool) -> Self {
@@ -162,6 +177,12 @@ impl Network {
 
 fn constant(function: Function) -> Signal {
     Signal::from(function == Function::ONE)
+}
+
+/// A function of two inputs with some of them inverted.
+pub(crate) fn inverted(function: Function, inputs: [bool; 2]) -> Function {
+    let pins = (0..2).filter(|&pin| inputs[pin]);
+    pins.fold(function, Function::with_input_inverted)
 }
 
 /// A two-input function of 64 patterns at a time.

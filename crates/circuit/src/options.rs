@@ -24,8 +24,6 @@ pub enum Effort {
     /// Seconds for circuits of a few hundred cells.
     #[default]
     Normal,
-    /// As good as it gets in minutes.
-    High,
 }
 
 #[derive(Clone, Debug, Default)]

@@ -136,7 +136,7 @@ mod tests {
     use super::*;
     use crate::cells::CellLibrary;
     use crate::map::map;
-    use crate::passes::{DissolveWires, Pass, Sweep};
+    use crate::passes::{dissolve_wires, sweep};
     use crate::{example, registers};
 
     /// A netlist of `d`, `e` and `q`, where `q` is a wire driven by the result of `build` on all three.
@@ -147,8 +147,8 @@ mod tests {
         let made = build(&mut netlist, [d, e, q]);
         netlist.drive(q, 0, made);
         netlist.add_output("q", q);
-        DissolveWires.run_on(&mut netlist).unwrap();
-        Sweep.run(&mut netlist).unwrap();
+        dissolve_wires(&mut netlist).unwrap();
+        sweep(&mut netlist);
         netlist
     }
 
@@ -165,7 +165,7 @@ mod tests {
     #[test]
     fn safe_latches_have_no_race() {
         let mut paper = example::latch();
-        DissolveWires.run_on(&mut paper).unwrap();
+        dissolve_wires(&mut paper).unwrap();
         check(&paper, &[]);
         check(&map(&paper, &CellLibrary::uniform([Function::NAND])).unwrap(), &[]);
         check(&with_feedback(|netlist, [d, e, _]| registers::latch(netlist, "q", d, e, false)), &[]);

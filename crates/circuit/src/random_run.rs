@@ -195,9 +195,7 @@ impl<'d> Machine<'d> {
     }
 
     fn simulate(&self, inputs: &[bool], states: &[bool]) -> Vec<bool> {
-        let words: Vec<u64> = inputs.iter().chain(states).map(|&value| u64::from(value)).collect();
-        let values = self.network.simulate(&words);
-        self.network.outputs.iter().map(|&output| values[output as usize] & 1 == 1).collect()
+        self.network.run(inputs.iter().chain(states).copied())
     }
 
     fn force<'v>(&self, at: usize, outputs: &'v [bool]) -> &'v [bool] {

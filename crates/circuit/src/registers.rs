@@ -189,7 +189,7 @@ mod tests {
 
     use super::*;
     use crate::Delayed;
-    use crate::passes::{DissolveWires, Pass, Sweep};
+    use crate::passes::{dissolve_wires, sweep};
 
     /// Runs random rows of (data, clock) with random delays from 1 to 3 cycles, many times; `model` gives the expected
     /// q.
@@ -205,8 +205,8 @@ mod tests {
             let clock = netlist.add_input("clk");
             let q = build(&mut netlist, data, clock);
             netlist.add_output("q", q);
-            DissolveWires.run_on(&mut netlist).unwrap();
-            Sweep.run(&mut netlist).unwrap();
+            dissolve_wires(&mut netlist).unwrap();
+            sweep(&mut netlist);
             assert_eq!(netlist.cells().count(), cells);
             let mut draw = |bound: u32| (rand::Rng::next_u32(&mut random) % bound) as usize;
             let mut delayed = Delayed::new(&netlist, |_| 1 + draw(3));
@@ -251,9 +251,9 @@ mod tests {
         let clock = Some("clk".to_owned());
         let register = Register { name: "q".to_owned(), kind, clock, start: Some(start), forcing };
         let mut netlist = expand(&Design::new(logic, vec![register]));
-        DissolveWires.run_on(&mut netlist).unwrap();
-        crate::passes::Share.run(&mut netlist).unwrap();
-        Sweep.run(&mut netlist).unwrap();
+        dissolve_wires(&mut netlist).unwrap();
+        crate::passes::share(&mut netlist);
+        sweep(&mut netlist);
         assert_eq!(netlist.cells().count(), cells, "{forcing:?} {kind:?} {start}");
         let mut random = rand_chacha::ChaCha8Rng::seed_from_u64(2);
         for _ in 0..100 {

@@ -2,7 +2,7 @@
 //! without loops is computed for 64 rows at a time.
 
 use crate::network::{Network, View};
-use crate::passes::DissolveWires;
+use crate::passes::dissolve_wires;
 use crate::{Logic, Netlist};
 
 #[derive(Clone, Debug)]
@@ -32,7 +32,7 @@ impl Settled {
 
     pub fn new(netlist: &Netlist) -> Self {
         let mut plain = netlist.clone();
-        let view = DissolveWires.run_on(&mut plain).ok().and_then(|()| View::of(&plain, &[]).ok());
+        let view = dissolve_wires(&mut plain).ok().and_then(|()| View::of(&plain, &[]).ok());
         Self(match view {
             Some(View { network, .. }) => Way::Words { network, values: Vec::new() },
             None => Way::Steps(Box::new(Logic::new(netlist))),

@@ -1,6 +1,5 @@
 //! What can be wrong with netlists, their mapping and its proof, as data, and how it is worded.
 
-use std::error::Error;
 use std::fmt;
 
 use crate::netlist::Netlist;
@@ -22,8 +21,6 @@ impl fmt::Display for NetlistError {
         }
     }
 }
-
-impl Error for NetlistError {}
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum MapError {
@@ -60,8 +57,6 @@ impl fmt::Display for MapError {
         }
     }
 }
-
-impl Error for MapError {}
 
 impl MapError {
     pub fn help(&self) -> Option<String> {
@@ -114,8 +109,6 @@ impl fmt::Display for ProofError {
     }
 }
 
-impl Error for ProofError {}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Oscillation;
 
@@ -124,8 +117,6 @@ impl fmt::Display for Oscillation {
         f.write_str("the circuit does not settle")
     }
 }
-
-impl Error for Oscillation {}
 
 impl WhyUnphased {
     pub fn explain(self, netlist: &Netlist) -> String {

@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use nbc_base::diag::counted;
-use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, PathEnds, Pulse, PulsedRegisters, WhyKept};
+use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, PathEnds, WhyKept};
 use nbc_circuit::{CellKind, FlipFlop, Latch, NetId, Netlist, Timing, Unphased};
 
 #[derive(Clone, Debug, Serialize)]
@@ -13,22 +13,7 @@ pub struct PhaseTiming {
     pub flip_flops: Vec<FlipFlopReport>,
     pub clocks: Vec<ClockReport>,
     pub unphased: Vec<UnphasedReport>,
-    pub pulses: Vec<PulseReport>,
     pub kept: Vec<KeptReport>,
-}
-
-#[derive(Clone, Debug, Serialize)]
-pub struct PulseReport {
-    pub net: String,
-    pub clock: String,
-    /// Whether a pulse follows each rise of the clock; otherwise it follows each fall.
-    pub rises: bool,
-    pub width: u32,
-    pub needed: u32,
-    /// The time after the edge at which it has ended for certain.
-    pub ends: u32,
-    pub latches: usize,
-    pub padding: usize,
 }
 
 #[derive(Clone, Debug, Serialize)]
@@ -97,7 +82,7 @@ impl PhaseTiming {
         netlist: &Netlist,
         timing: &Timing,
         kind: impl Fn(NetId) -> &'k CellKind,
-        registers: Option<&PulsedRegisters>,
+        kept: &[(NetId, WhyKept)],
     ) -> Self {
         let name = |net: NetId| netlist.net_name(net);
         let storage = &timing.storage;
@@ -112,25 +97,14 @@ impl PhaseTiming {
         };
         let unphased =
             |loops: &Unphased| UnphasedReport { nets: names(netlist, &loops.nets), why: loops.why.explain(netlist) };
-        let pulse = |&Pulse { net, clock, rises, width, needed, ends, latches, padding }: &Pulse| PulseReport {
-            net: name(net),
-            clock: name(clock),
-            rises,
-            width,
-            needed,
-            ends,
-            latches,
-            padding,
-        };
-        let kept = |&(net, why): &(NetId, WhyKept)| KeptReport { net: name(net), why: why.explain() };
+        let kept_report = |&(net, why): &(NetId, WhyKept)| KeptReport { net: name(net), why: why.explain() };
         let clocks = ClockTimes::all(netlist, storage, timing.hold, kind);
         Self {
             latches: storage.latches.iter().map(latch).collect(),
             flip_flops: storage.flip_flops.iter().map(flip_flop).collect(),
             clocks: clocks.iter().map(|times| ClockReport::of(netlist, times)).collect(),
             unphased: storage.unphased.iter().map(unphased).collect(),
-            pulses: registers.iter().flat_map(|registers| &registers.pulses).map(pulse).collect(),
-            kept: registers.iter().flat_map(|registers| &registers.kept).map(kept).collect(),
+            kept: kept.iter().map(kept_report).collect(),
         }
     }
 
@@ -139,27 +113,8 @@ impl PhaseTiming {
         let unphased = self.unphased.iter().map(|UnphasedReport { nets, why }| {
             format!("unphased {}: {why}; timed as a loop that a change passes twice\n", nets.join(" "))
         });
-        let pulses = self.pulses.iter().map(PulseReport::describe);
         let kept = self.kept.iter().map(|KeptReport { net, why }| format!("kept     {net} stays as written: {why}\n"));
-        clocks.chain(pulses).chain(kept).chain(unphased).collect()
-    }
-}
-
-impl PulseReport {
-    fn describe(&self) -> String {
-        let Self { net, clock, rises, width, needed, ends, latches, padding } = self;
-        let registers = counted(*latches, "register");
-        let edge = if *rises { "rises" } else { "falls" };
-        let padding = match padding {
-            0 => String::new(),
-            _ => format!("; {} delay data", counted(*padding, "robot")),
-        };
-        format!(
-            "pulse    {net} opens {registers} for {} at least, of {needed} needed; inputs are stable before {clock} \
-             {edge} and {} after{padding}\n",
-            counted(*width as usize, "cycle"),
-            counted(*ends as usize, "cycle")
-        )
+        clocks.chain(kept).chain(unphased).collect()
     }
 }
 

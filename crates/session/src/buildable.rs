@@ -113,9 +113,7 @@ impl Look<'_> {
     fn swarm(&mut self, swarm: &Swarm) {
         self.registers(swarm);
         match swarm.registers {
-            RegisterStyle::MasterSlave | RegisterStyle::Pulsed => {
-                self.circuit(&swarm.circuit, &swarm.library, swarm.span);
-            }
+            RegisterStyle::MasterSlave => self.circuit(&swarm.circuit, &swarm.library, swarm.span),
             RegisterStyle::Mux => {
                 let Some(robots) = self.library(&swarm.library) else { return };
                 if Held::is_possible(&nbc_swarm::cells(&robots)) {
@@ -129,16 +127,14 @@ impl Look<'_> {
     }
 
     fn registers(&mut self, swarm: &Swarm) {
-        let style = match swarm.registers {
-            RegisterStyle::Pulsed => "pulsed",
-            RegisterStyle::Mux => "mux",
-            // Anything can be a wave machine, and the other is what is usual.
-            RegisterStyle::Waves | RegisterStyle::MasterSlave => return,
-        };
+        // Anything can be a wave machine, and `master_slave` is the default.
+        if swarm.registers != RegisterStyle::Mux {
+            return;
+        }
         let Ok(netlist) = elaborate(self.program, &swarm.circuit) else { return };
         if Loops::of(&netlist).cores().is_empty() {
             let circuit = swarm.circuit.to_string();
-            self.note(Err(vec![wording::no_registers(style, &swarm.name, &circuit, swarm.span)]));
+            self.note(Err(vec![wording::no_registers(&swarm.name, &circuit, swarm.span)]));
         }
     }
 

@@ -49,7 +49,7 @@ pub(super) fn synthesize(source: Netlist, cells: &CellLibrary, options: &MapOpti
     match prove(&source, &netlist) {
         Ok(proof) => {
             let cells = cells.clone();
-            Ok(Mapping { source, netlist, cells, proof, registers: None, unproved_registers: false, waves: None })
+            Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves: None })
         }
         Err(error) => panic!("the compiled circuit `{}` differs from its source: {error}", source.name),
     }
@@ -82,7 +82,6 @@ pub(super) fn map(
     let map = |source| map_onto(source, &nbc_swarm::cells(&plan.library), options, place, gates);
     match plan.registers {
         RegisterStyle::MasterSlave => map(source),
-        RegisterStyle::Pulsed => map(source).map(Mapping::pulsed),
         RegisterStyle::Mux => map(source)?.held().ok_or_else(|| vec![for_circuit(wording::no_multiplexer(), place)]),
         RegisterStyle::Waves => {
             permit(&source, gates, place)?;

@@ -85,7 +85,7 @@ pub use session::Session;
 pub use session::run_file;
 pub use simulation::SimulationRun;
 pub use swarm_run::{RunEnd, SwarmRun};
-pub use synthesis::{AssumedStates, Synthesis, SynthesisOptions, cell_library, named_functions, robot_cells};
+pub use synthesis::{Synthesis, SynthesisOptions, cell_library, named_functions, robot_cells};
 pub use synthesis_report::SynthesisReport;
 pub use test::{PhysicalTest, TestCase, TestOptions, TestRun};
 pub use verification::{Reach, Verified};

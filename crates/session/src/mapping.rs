@@ -1,8 +1,8 @@
 //! A circuit as cells of a library.
 
-use nbc_circuit::timing::{Delays, Held, Pulsed, PulsedRegisters};
+use nbc_circuit::timing::{Delays, Held, WhyKept};
 use nbc_circuit::waves::WaveMachine;
-use nbc_circuit::{CellLibrary, Netlist, Proof, Timing, prove_forms};
+use nbc_circuit::{CellLibrary, NetId, Netlist, Proof, Timing, prove_forms};
 
 #[derive(Clone, Debug)]
 pub struct Mapping {
@@ -12,32 +12,23 @@ pub struct Mapping {
     /// Proves that both netlists are equal, before registers change their form, which has a proof of its own. For a
     /// wave machine, proves its steps.
     pub proof: Proof,
-    /// Set if they are pulsed latches or latches of one robot.
-    pub registers: Option<PulsedRegisters>,
+    /// A net of each memory element that should have become a latch of one robot and has not.
+    pub kept: Vec<(NetId, WhyKept)>,
     /// No proof was found that registers of another form store the same, because latches are not recognized.
     pub unproved_registers: bool,
     pub waves: Option<WaveMachine>,
 }
 
 impl Mapping {
-    pub(super) fn pulsed(self) -> Self {
-        let Pulsed { netlist, registers } = Pulsed::of(&self.netlist, &self.cells);
-        self.with(netlist, registers)
-    }
-
-    /// `None` if the library has no robot for them.
+    /// `None` if the library has no robot for latches of one robot. Panics if they store something else, which is a fault
+    /// of the compiler.
     pub(super) fn held(self) -> Option<Self> {
         let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
-        Some(self.with(netlist, PulsedRegisters { pulses: Vec::new(), kept }))
-    }
-
-    /// Panics if the registers store something else, which is a fault of the compiler.
-    fn with(self, netlist: Netlist, registers: PulsedRegisters) -> Self {
-        let proof = prove_forms(&self.netlist, &netlist, &registers.pulses);
+        let proof = prove_forms(&self.netlist, &netlist);
         if let Some(Err(error)) = &proof {
             panic!("the registers of `{}` differ from those of its source: {error}", self.source.name);
         }
-        Self { netlist, registers: Some(registers), unproved_registers: proof.is_none(), ..self }
+        Some(Self { netlist, kept, unproved_registers: proof.is_none(), ..self })
     }
 
     /// The hold of a wave machine is the length of a step.

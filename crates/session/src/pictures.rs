@@ -17,8 +17,8 @@ impl Compiled {
     }
 
     pub fn swarm_timing(&self) -> SwarmTiming {
-        let Mapping { netlist, cells, registers, waves, .. } = &self.mapping;
-        let phases = PhaseTiming::of(netlist, &self.timing, cells.kinds_of(netlist), registers.as_ref());
+        let Mapping { netlist, cells, kept, waves, .. } = &self.mapping;
+        let phases = PhaseTiming::of(netlist, &self.timing, cells.kinds_of(netlist), kept);
         let timing = SwarmTiming::of(netlist, &self.timing, &self.assembly, phases);
         waves.iter().fold(timing, SwarmTiming::with_waves)
     }

@@ -6,7 +6,6 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Function, Library};
 use nbc_circuit::correspondence::{self, Removed};
 use nbc_circuit::formats::Design;
-use nbc_circuit::reachable::{self, Reachable, WhyEveryState};
 use nbc_circuit::{CellKind, CellLibrary, MapOptions, MappingObjective, Netlist, prove_expanded, registers};
 
 /// How a design is mapped.
@@ -16,15 +15,13 @@ pub struct SynthesisOptions {
     pub map: MapOptions,
     /// Whether registers become cells.
     pub expand: bool,
-    /// Whether only reachable states count.
-    pub reachable_only: bool,
     /// Functions for which to count the cells that a robot would save.
     pub what_if: Vec<Function>,
 }
 
 impl SynthesisOptions {
     pub fn onto(cells: CellLibrary) -> Self {
-        Self { cells, map: MapOptions::default(), expand: false, reachable_only: false, what_if: Vec::new() }
+        Self { cells, map: MapOptions::default(), expand: false, what_if: Vec::new() }
     }
 }
 
@@ -36,19 +33,10 @@ pub struct Synthesis {
     /// The cells and the remaining registers.
     pub result: Design,
     pub removed: Removed,
-    /// `None` if the result is right in every state by request.
-    pub states: Option<AssumedStates>,
     /// No proof was found that the cells of registers store the same ([`prove_expanded`]).
     pub unproved_registers: bool,
     /// Cells that a robot for each of the functions would save; negative if it needs more.
     pub what_if: Vec<(Function, i64)>,
-}
-
-#[derive(Clone, Debug)]
-pub enum AssumedStates {
-    Every(WhyEveryState),
-    /// The cells that it saves. If none, the result is right in all states.
-    Reachable(Reachable, usize),
 }
 
 impl Synthesis {
@@ -63,9 +51,8 @@ impl Synthesis {
         {
             panic!("the circuit `{}` differs from its file: {error}", read.logic.name);
         }
-        let (Made { design, source, result, unproved_registers }, states) =
-            if options.reachable_only { whole.within_reach(options)? } else { (whole, None) };
-        let mut synthesis = Self { design, result, removed, states, unproved_registers, what_if: Vec::new() };
+        let Made { design, source, result, unproved_registers } = whole;
+        let mut synthesis = Self { design, result, removed, unproved_registers, what_if: Vec::new() };
         for &function in &options.what_if {
             let mut more = options.cells.clone();
             more.insert(function, CellKind::uniform(1, 1.0));
@@ -125,17 +112,5 @@ impl Made {
         let registers = if options.expand { Vec::new() } else { design.registers.clone() };
         let ascending = design.ascending.clone();
         Ok(Self { design, source, result: Design { logic, registers, ascending }, unproved_registers })
-    }
-
-    /// The same design where only reachable states count, if that saves cells.
-    fn within_reach(self, options: &SynthesisOptions) -> Result<(Self, Option<AssumedStates>), Diagnostic> {
-        let (simpler, reachable) = match reachable::simplify(&self.design, &options.cells, &options.map) {
-            Ok(found) => found,
-            Err(why) => return Ok((self, Some(AssumedStates::Every(why)))),
-        };
-        let other = Self::of(simpler, options)?;
-        let cells = |made: &Self| made.result.logic.cells().count();
-        let saved = cells(&self).saturating_sub(cells(&other));
-        Ok((if saved > 0 { other } else { self }, Some(AssumedStates::Reachable(reachable, saved))))
     }
 }

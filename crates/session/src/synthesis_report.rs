@@ -5,7 +5,7 @@ use std::fmt::Write;
 
 use serde::Serialize;
 
-use crate::synthesis::{AssumedStates, Synthesis};
+use crate::synthesis::Synthesis;
 use nbc_base::diag::counted;
 use nbc_base::source::{ProofOrigin, SecondReading};
 use nbc_circuit::correspondence::Removed;
@@ -24,8 +24,6 @@ pub struct SynthesisReport {
     outputs: usize,
     latches: usize,
     removed: RemovedReport,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unreachable: Option<StatesReport>,
     proved: bool,
     proof: ProofReport,
     seconds: f64,
@@ -59,23 +57,10 @@ struct RemovedReport {
     unused: Vec<String>,
 }
 
-#[derive(Debug, Default, Serialize)]
-struct StatesReport {
-    /// Why nothing is assumed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    unused: Option<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    reachable_states: Option<u64>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    states: Option<u64>,
-    relations: Vec<BTreeMap<String, u8>>,
-    cells_saved: usize,
-}
-
 impl SynthesisReport {
     /// `origin` is what the proof begins with.
     pub fn of(synthesis: &Synthesis, origin: ProofOrigin, seconds: f64) -> Self {
-        let Synthesis { design, result, removed, states, unproved_registers, what_if } = synthesis;
+        let Synthesis { design, result, removed, unproved_registers, what_if } = synthesis;
         Self {
             cells: synthesis.cells(),
             by_function: result.logic.by_function(),
@@ -84,7 +69,6 @@ impl SynthesisReport {
             outputs: design.outputs(),
             latches: design.registers.len(),
             removed: RemovedReport::of(removed),
-            unreachable: states.as_ref().map(StatesReport::of),
             // A circuit whose logic is not proved is never reported.
             proved: true,
             proof: ProofReport::of(origin, *unproved_registers),
@@ -106,7 +90,6 @@ impl SynthesisReport {
         );
         text.extend(self.proof.version.iter().map(|version| format!("read by Yosys {version}\n")));
         text.push_str(&self.removed.text());
-        text.extend(self.unreachable.iter().map(StatesReport::text));
         for (name, saved) in &self.what_if {
             let cells = counted(saved.unsigned_abs() as usize, "cell");
             let _ = writeln!(text, "with `{name}`: {cells} {}", if *saved < 0 { "more" } else { "fewer" });
@@ -156,37 +139,6 @@ impl RemovedReport {
         ]
         .map(line)
         .concat()
-    }
-}
-
-impl StatesReport {
-    fn of(states: &AssumedStates) -> Self {
-        let (reachable, cells_saved) = match states {
-            AssumedStates::Every(why) => return Self { unused: Some(why.to_string()), ..Self::default() },
-            AssumedStates::Reachable(reachable, saved) => (reachable, *saved),
-        };
-        let relation = |relation: &Vec<(String, bool)>| {
-            relation.iter().map(|(name, value)| (name.clone(), u8::from(*value))).collect()
-        };
-        Self {
-            unused: None,
-            reachable_states: reachable.states.map(|(reached, _)| reached),
-            states: reachable.states.map(|(_, all)| all),
-            relations: reachable.relations.iter().map(relation).collect(),
-            cells_saved,
-        }
-    }
-
-    fn text(&self) -> String {
-        if let Some(why) = &self.unused {
-            return format!("every state counts: {why}\n");
-        }
-        let known = match (self.reachable_states, self.states) {
-            (Some(reached), Some(all)) => format!("{reached} of {all} states are reachable"),
-            _ => format!("{} relations between registers hold in every reachable state", self.relations.len()),
-        };
-        let limit = if self.cells_saved > 0 { "; the result is right in reachable states only" } else { "" };
-        format!("{known}: {} fewer{limit}\n", counted(self.cells_saved, "cell"))
     }
 }
 

@@ -31,13 +31,13 @@ pub(super) fn map_waves(
     let error = || errors.into_iter().filter_map(Result::err).next_back().expect("a beat is tried");
     let (cells, machine) = best.ok_or_else(|| wording::no_waves(&error()))?;
     let step = ClockStep::of(&source).expect("a machine was made of its step");
-    let certificate = certify(&step, &machine)
+    let method = certify(&step, &machine)
         .unwrap_or_else(|error| panic!("the wave machine of `{}` differs from its source: {error}", source.name));
     let cuts = step.state.into_iter().map(|bit| bit.name).collect();
-    let proof = Proof { method: certificate.method, cuts };
+    let proof = Proof { method, cuts };
     let netlist = machine.netlist.clone();
     let waves = Some(machine);
-    Ok(Mapping { source, netlist, cells, proof, registers: None, unproved_registers: false, waves })
+    Ok(Mapping { source, netlist, cells, proof, kept: Vec::new(), unproved_registers: false, waves })
 }
 
 /// The rows of a test as steps of a wave machine: the first before the first edge of the clock, each other one edge. A

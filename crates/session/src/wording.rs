@@ -107,8 +107,7 @@ pub(super) fn unmapped(error: &MapError) -> Diagnostic {
 
 pub(super) fn no_multiplexer() -> Diagnostic {
     let message = "the library has no multiplexer without glitches, of which `registers: mux` makes latches";
-    Diagnostic::without_place(Code::IncompleteLibrary, message)
-        .with_help("write `library: three`, or `registers: pulsed`")
+    Diagnostic::without_place(Code::IncompleteLibrary, message).with_help("write `library: three`")
 }
 
 pub(super) fn no_waves(error: &WaveError) -> Diagnostic {
@@ -161,10 +160,10 @@ pub(super) fn no_steps(circuit: &str, why: &NoSteps, at: Span) -> Diagnostic {
     Diagnostic::new(Code::NoSteps, message, at, "claimed here").with_help(help)
 }
 
-pub(super) fn no_registers(style: &str, swarm: &str, circuit: &str, at: Span) -> Diagnostic {
-    let message = format!("`registers: {style}` has no effect in the swarm `{swarm}`");
+pub(super) fn no_registers(swarm: &str, circuit: &str, at: Span) -> Diagnostic {
+    let message = format!("`registers: mux` has no effect in the swarm `{swarm}`");
     Diagnostic::new(Code::NoEffect, message, at, format!("`{circuit}` has no register"))
-        .with_help(format!("remove `registers: {style}`"))
+        .with_help("remove `registers: mux`")
 }
 
 pub(super) fn no_start_body(evolution: &str, library: &str, at: Span) -> Diagnostic {

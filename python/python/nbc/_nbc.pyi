@@ -60,7 +60,6 @@ class _Synthesizing(TypedDict):
     parameters: Sequence[Tuple[str, str]]
     clock: Optional[str]
     expand: bool
-    reachable_only: bool
     what_if: Sequence[str]
 
 class Candidates:

@@ -277,7 +277,7 @@ class Program:
             swarm: a declared swarm, if there are several for the circuit.
             objective: what mapping minimizes: ``area``, ``delay``, or the risk of a thin ``margin`` or of other worlds
                 (``sturdy``).
-            effort: ``fast``, ``normal`` or ``high``.
+            effort: ``fast`` or ``normal``.
             runs: the folder of evolution runs that the file's libraries may be from.
 
         Raises:

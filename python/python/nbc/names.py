@@ -11,7 +11,7 @@ __all__ = ["Effort", "Genome", "Level", "Objective", "Registers", "Sought", "Sym
 Objective = Literal["area", "delay", "margin", "sturdy"]
 """What mapping minimizes."""
 
-Effort = Literal["fast", "normal", "high"]
+Effort = Literal["fast", "normal"]
 """How hard mapping tries."""
 
 Level = Literal["logic", "physics"]

@@ -49,7 +49,6 @@ def synthesize(
     parameters: Optional[Mapping[str, Union[int, str]]] = None,
     clock: Optional[str] = None,
     registers: Optional[Registers] = None,
-    reachable_only: bool = False,
     what_if: Sequence[str] = (),
 ) -> Synthesis:
     """Maps a circuit file onto robots, proves the result, and writes it, as ``nbc synth`` does.
@@ -61,12 +60,11 @@ def synthesize(
         cells: functions of the cells, such as ``["nand", "not"]``; by default those of the robots.
         library: a folder of robot files, ``shipped`` or ``three``.
         objective: what mapping minimizes, as in `Program.compile`.
-        effort: ``fast``, ``normal`` or ``high``.
+        effort: ``fast`` or ``normal``.
         top: the module of Verilog or the model of BLIF.
         parameters: values of parameters of the Verilog module.
         clock: the clock of registers without one in the file.
         registers: ``keep`` or ``expand`` to cells; by default only a ``.dot`` file expands them.
-        reachable_only: whether the result need only be right in reachable states.
         what_if: functions of which the report says how many cells a robot for each would save.
 
     Raises:
@@ -93,7 +91,6 @@ def synthesize(
                 "parameters": [(name, str(value)) for name, value in (parameters or {}).items()],
                 "clock": clock,
                 "expand": expand,
-                "reachable_only": reachable_only,
                 "what_if": texts(what_if, "what_if"),
             },
         )

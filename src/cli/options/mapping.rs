@@ -53,7 +53,6 @@ const OBJECTIVES: Words<MappingObjective> = &[
 const EFFORTS: Words<Effort> = &[
     ("fast", "A quick look", Effort::Fast),
     ("normal", "Seconds for circuits of a few hundred cells", Effort::Normal),
-    ("high", "As good as it gets in minutes", Effort::High),
 ];
 
 fn choice<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl TypedValueParser<Value = T> {

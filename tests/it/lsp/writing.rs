@@ -47,7 +47,7 @@ fn completion_knows_the_place() {
         ("test half {\n    a b | s\n    0 1 | 1 for 3 $", &["cycles"], &["a"]),
         ("swarm w { $", &["circuit", "hold", "window"], &["kind", "half"]),
         ("swarm w { circuit: $", &["half", "ripple"], &["brisk", "auto"]),
-        ("swarm w { circuit: half, registers: $", &["master_slave", "pulsed"], &["half"]),
+        ("swarm w { circuit: half, registers: $", &["master_slave", "mux"], &["half"]),
         ("library l { from: shipped, behaviors: [$", &["nand", "xor"], &["half", "shipped"]),
         ("evolution e { materials: [$", &["brisk", "muscle"], &["sweep", "half"]),
         ("material m { kind: sensor, stimulus: $", &["s1", "s2"], &["brisk"]),

@@ -46,7 +46,7 @@ fn another_circuit_can_be_chosen_and_mistakes_are_told() {
     bench.run(&["play", "--export", "x.html"]).expect_fault(&["FILE"]);
     bench.run(&["play", "two.nb", "--circuit", "one"]).expect_fault(&["--export"]);
     bench.run(&["play", "two.nb", "--export", "x.html", "--port", "8000"]).expect_fault(&["--port"]);
-    bench.run(&["play", "two.nb", "--export", "x.html", "--live", "--effort", "high"]).expect_fault(&["--live"]);
+    bench.run(&["play", "two.nb", "--export", "x.html", "--live", "--effort", "fast"]).expect_fault(&["--live"]);
     // A build of this source alone has no page for it.
     bench.run(&["play", "two.nb", "--export", "x.html", "--live"]).expect_fault(&["without the page of `--live`"]);
     bench.run(&["play", "two.nb", "--export", "no/such/x.html"]).expect_fault(&["no/such/x.html"]);

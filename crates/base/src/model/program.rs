@@ -134,8 +134,6 @@ pub enum RegisterStyle {
     /// Two latches each, as written.
     #[default]
     MasterSlave,
-    /// One latch each, and a generator of pulses for all, where that is proved safe.
-    Pulsed,
     /// Two latches each, of one multiplexer that reads itself.
     Mux,
     /// Nothing: every loop takes the same time, and the state travels round it as a wave.

@@ -246,7 +246,7 @@ fn expression(function: Function, nets: &[&str]) -> String {
 mod tests {
     use super::*;
     use crate::example::{full_adder, latch};
-    use crate::passes::DissolveWires;
+    use crate::passes::dissolve_wires;
 
     #[test]
     fn a_full_adder_is_readable() {
@@ -270,7 +270,7 @@ mod tests {
     #[test]
     fn cells_of_a_loop_are_instances_with_start_values() {
         let mut logic = latch();
-        DissolveWires.run_on(&mut logic).unwrap();
+        dissolve_wires(&mut logic).unwrap();
         let text = write(&Design::new(logic, Vec::new()));
         let instances: Vec<_> = text.lines().filter(|line| line.contains("init")).collect();
         assert_eq!(instances.len(), 2, "{text}");

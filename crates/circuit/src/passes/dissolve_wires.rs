@@ -2,45 +2,25 @@
 
 use std::collections::BTreeMap;
 
-use crate::passes::Pass;
 use crate::{NetId, Netlist, NetlistError, Node};
 
 /// Connects the receivers of wires to their drivers; names and start values of wires move to the driving cells.
-#[derive(Clone, Copy, Debug)]
-pub struct DissolveWires;
-
-impl Pass for DissolveWires {
-    fn name(&self) -> &'static str {
-        "dissolve-wires"
-    }
-
-    fn about(&self) -> &'static str {
-        "replaces wires by their drivers"
-    }
-
-    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        self.run_on(netlist)
-    }
-}
-
-impl DissolveWires {
-    pub fn run_on(self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        check_drivers(netlist)?;
-        let wires: Vec<_> = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Wire { .. })).collect();
-        let drivers: BTreeMap<_, _> =
-            wires.iter().map(|&wire| Ok((wire, driver(netlist, wire)?))).collect::<Result<_, NetlistError>>()?;
-        for &wire in &wires {
-            let driver = drivers[&wire];
-            for (listener, pin) in netlist.fanout(wire) {
-                if !drivers.contains_key(&listener) {
-                    netlist.drive(listener, pin, driver);
-                }
+pub fn dissolve_wires(netlist: &mut Netlist) -> Result<(), NetlistError> {
+    check_drivers(netlist)?;
+    let wires: Vec<_> = netlist.ids().filter(|&id| matches!(netlist.node(id), Node::Wire { .. })).collect();
+    let drivers: BTreeMap<_, _> =
+        wires.iter().map(|&wire| Ok((wire, driver(netlist, wire)?))).collect::<Result<_, NetlistError>>()?;
+    for &wire in &wires {
+        let driver = drivers[&wire];
+        for (listener, pin) in netlist.fanout(wire) {
+            if !drivers.contains_key(&listener) {
+                netlist.drive(listener, pin, driver);
             }
-            inherit(netlist, wire, driver);
         }
-        wires.into_iter().for_each(|wire| netlist.remove(wire));
-        Ok(())
+        inherit(netlist, wire, driver);
     }
+    wires.into_iter().for_each(|wire| netlist.remove(wire));
+    Ok(())
 }
 
 /// Every pin that its node needs must have a driver.
@@ -94,7 +74,7 @@ mod tests {
     #[test]
     fn a_latch_loses_its_wires_and_keeps_its_names_and_start_values() {
         let mut netlist = latch();
-        DissolveWires.run_on(&mut netlist).unwrap();
+        dissolve_wires(&mut netlist).unwrap();
         let named: Vec<_> = netlist.cells().filter_map(|(_, cell)| Some((cell.name.clone()?, cell.start))).collect();
         assert_eq!(named, [("q".to_owned(), Some(false)), ("nq".to_owned(), Some(true))]);
         assert!(netlist.ids().all(|id| !matches!(netlist.node(id), Node::Wire { .. })));
@@ -105,7 +85,7 @@ mod tests {
         let mut netlist = Netlist::new("open");
         let wire = netlist.add_wire("w", None, None);
         netlist.add_output("q", wire);
-        assert_eq!(DissolveWires.run_on(&mut netlist), Err(NetlistError::Undriven("w".to_owned())));
+        assert_eq!(dissolve_wires(&mut netlist), Err(NetlistError::Undriven("w".to_owned())));
     }
 
     #[test]
@@ -117,7 +97,7 @@ mod tests {
         netlist.drive(two, 0, one);
         let listener = netlist.add_wire("listener", None, None);
         netlist.drive(listener, 0, one);
-        assert!(matches!(DissolveWires.run_on(&mut netlist), Err(NetlistError::WireLoop(_))));
+        assert!(matches!(dissolve_wires(&mut netlist), Err(NetlistError::WireLoop(_))));
     }
 
     #[test]
@@ -130,7 +110,7 @@ mod tests {
         netlist.drive(second, 0, a);
         let gate = netlist.add_gate(Function::NOT, &[first]);
         netlist.add_output("q", gate);
-        DissolveWires.run_on(&mut netlist).unwrap();
+        dissolve_wires(&mut netlist).unwrap();
         assert_eq!(netlist.pins(gate), [a]);
     }
 }

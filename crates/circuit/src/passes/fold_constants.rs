@@ -1,14 +1,8 @@
 //! Simplifies cells with constant pins, repeated pins or double inversion.
 
 use crate::guarded::{Guarded, Role};
-use crate::passes::Pass;
-use crate::{Cell, NetId, Netlist, NetlistError, Node};
+use crate::{Cell, NetId, Netlist, Node};
 use nbc_base::model::Function;
-
-/// A cell whose constant or repeated pins decide its output becomes a constant, an inverter or a wire. Memory and its
-/// guards stay as written even with constant pins; from the cells of an enable, only constants are removed.
-#[derive(Clone, Copy, Debug)]
-pub struct FoldConstants;
 
 enum Folded {
     Constant(bool),
@@ -16,37 +10,28 @@ enum Folded {
     Cell(Function, Vec<NetId>),
 }
 
-impl Pass for FoldConstants {
-    fn name(&self) -> &'static str {
-        "fold-constants"
-    }
-
-    fn about(&self) -> &'static str {
-        "simplifies cells with constant or repeated pins"
-    }
-
-    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        let mut guarded = Guarded::of(netlist);
-        for id in guarded.memory().order().to_vec() {
-            let role = guarded.role(id);
-            let Some(cell) = netlist.cell(id).filter(|_| matches!(role, None | Some(Role::Control))) else {
-                continue;
-            };
-            // The inverter of a control net is later than the net, and its receivers may rely on this.
-            let free = |net: NetId| role.is_none() && guarded.role(net).is_none();
-            match fold(netlist, cell.function, &netlist.pins(id), free) {
-                Folded::Cell(function, pins) => {
-                    let new = rewrite(netlist, id, function, &pins);
-                    guarded.replace(id, new);
-                }
-                Folded::Net(net) => replace(netlist, id, net),
-                Folded::Constant(value) => {
-                    let net = netlist.add_constant(value);
-                    replace(netlist, id, net);
-                }
+/// A cell whose constant or repeated pins decide its output becomes a constant, an inverter or a wire. Memory and its
+/// guards stay as written even with constant pins; from the cells of an enable, only constants are removed.
+pub fn fold_constants(netlist: &mut Netlist) {
+    let mut guarded = Guarded::of(netlist);
+    for id in guarded.memory().order().to_vec() {
+        let role = guarded.role(id);
+        let Some(cell) = netlist.cell(id).filter(|_| matches!(role, None | Some(Role::Control))) else {
+            continue;
+        };
+        // The inverter of a control net is later than the net, and its receivers may rely on this.
+        let free = |net: NetId| role.is_none() && guarded.role(net).is_none();
+        match fold(netlist, cell.function, &netlist.pins(id), free) {
+            Folded::Cell(function, pins) => {
+                let new = rewrite(netlist, id, function, &pins);
+                guarded.replace(id, new);
+            }
+            Folded::Net(net) => replace(netlist, id, net),
+            Folded::Constant(value) => {
+                let net = netlist.add_constant(value);
+                replace(netlist, id, net);
             }
         }
-        Ok(())
     }
 }
 
@@ -105,16 +90,14 @@ fn rewrite(netlist: &mut Netlist, id: NetId, function: Function, pins: &[NetId])
 }
 
 fn replace(netlist: &mut Netlist, id: NetId, net: NetId) {
-    for (listener, pin) in netlist.fanout(id) {
-        netlist.drive(listener, pin, net);
-    }
+    netlist.move_listeners(id, net);
     netlist.remove(id);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::passes::Sweep;
+    use crate::passes::sweep;
 
     /// Folds `function(a, b)` where each pin is `a`, `b`, `0`, `1` or `!` (not a), and prints the result.
     fn check(function: &str, pins: &str, expected: &str) {
@@ -132,8 +115,8 @@ mod tests {
             .collect();
         let gate = netlist.add_gate(Function::parse(function).unwrap(), &pins);
         let output = netlist.add_output("q", gate);
-        FoldConstants.run(&mut netlist).unwrap();
-        Sweep.run(&mut netlist).unwrap();
+        fold_constants(&mut netlist);
+        sweep(&mut netlist);
         let driver = netlist.pins(output)[0];
         let found = match netlist.cell(driver) {
             Some(cell) => {

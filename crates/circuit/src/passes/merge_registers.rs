@@ -4,9 +4,8 @@ use std::collections::BTreeMap;
 
 use crate::cells::CellKind;
 use crate::loops::Loops;
-use crate::passes::Pass;
 use crate::passes::share::{function, merge, ordered};
-use crate::{NetId, Netlist, NetlistError, Storage};
+use crate::{NetId, Netlist, Storage};
 use nbc_base::model::Function;
 
 /// Registers are compared this often; in a netlist where that does not suffice, none is merged.
@@ -15,35 +14,22 @@ const MOST_SWEEPS: usize = 1000;
 /// Two latches are equal if they start alike and their cells are wired alike to nets that are equal. The classes of
 /// equal nets are found by assuming that latches that start alike are equal, and splitting the classes until that holds
 /// (partition refinement). Other memory is never merged, because what it does may depend on the delays of its cells.
-#[derive(Clone, Copy, Debug)]
-pub struct MergeRegisters;
+pub fn merge_registers(netlist: &mut Netlist) {
+    merged_registers(netlist).into_iter().for_each(|(id, first)| merge(netlist, id, first));
+}
 
-impl Pass for MergeRegisters {
-    fn name(&self) -> &'static str {
-        "merge-registers"
+/// The cells that would be merged with others, and those others.
+pub fn merged_registers(netlist: &Netlist) -> Vec<(NetId, NetId)> {
+    const KIND: CellKind = CellKind::uniform(1, 1.0);
+    let storage = Storage::of(netlist, |_| &KIND);
+    if storage.latches.len() < 2 {
+        return Vec::new();
     }
-
-    fn about(&self) -> &'static str {
-        "merges registers that always store the same bit"
-    }
-
-    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        self.merged(netlist).into_iter().for_each(|(id, first)| merge(netlist, id, first));
-        Ok(())
-    }
-
-    fn merged(&self, netlist: &Netlist) -> Vec<(NetId, NetId)> {
-        const KIND: CellKind = CellKind::uniform(1, 1.0);
-        let storage = Storage::of(netlist, |_| &KIND);
-        if storage.latches.len() < 2 {
-            return Vec::new();
-        }
-        let Some(classes) = Classes::of(netlist, &storage) else { return Vec::new() };
-        let mut first_of: BTreeMap<usize, NetId> = BTreeMap::new();
-        let cells = netlist.ids().filter(|&id| netlist.cell(id).is_some());
-        let firsts = cells.map(|id| (id, *first_of.entry(classes.of_net[&id]).or_insert(id)));
-        firsts.filter(|(id, first)| id != first).collect()
-    }
+    let Some(classes) = Classes::of(netlist, &storage) else { return Vec::new() };
+    let mut first_of: BTreeMap<usize, NetId> = BTreeMap::new();
+    let cells = netlist.ids().filter(|&id| netlist.cell(id).is_some());
+    let firsts = cells.map(|id| (id, *first_of.entry(classes.of_net[&id]).or_insert(id)));
+    firsts.filter(|(id, first)| id != first).collect()
 }
 
 struct Classes {
@@ -139,7 +125,7 @@ mod tests {
         netlist.add_output("x", ends[0]);
         netlist.add_output("y", ends[1]);
         let before = netlist.clone();
-        MergeRegisters.run(&mut netlist).unwrap();
+        merge_registers(&mut netlist);
         let mut both = [Logic::new(&before), Logic::new(&netlist)];
         for row in 0..32 {
             let [one, two] = both.each_mut().map(|logic| logic.settle(&[row / 4 % 2 == 1, row % 2 == 1]).unwrap());
@@ -164,7 +150,7 @@ mod tests {
         let [one, two, three] = [(); 3].map(|()| netlist.add_cell(cell(), &[a]));
         [(one, three), (two, one), (three, two)].into_iter().for_each(|(to, from)| netlist.drive(to, 0, from));
         netlist.add_output("q", one);
-        MergeRegisters.run(&mut netlist).unwrap();
+        merge_registers(&mut netlist);
         assert_eq!(netlist.cells().count(), 3);
     }
 }

@@ -6,58 +6,67 @@ mod merge_registers;
 mod share;
 mod sweep;
 
-pub use dissolve_wires::DissolveWires;
 pub(crate) use dissolve_wires::check_drivers;
-pub use fold_constants::FoldConstants;
-pub use merge_registers::MergeRegisters;
-pub use share::Share;
-pub use sweep::Sweep;
+pub use dissolve_wires::dissolve_wires;
+use fold_constants::fold_constants;
+use merge_registers::{merge_registers, merged_registers};
+pub(crate) use share::share;
+pub use sweep::sweep;
 
 use crate::{NetId, Netlist, NetlistError};
 
-pub trait Pass: Sync {
-    fn name(&self) -> &'static str;
-
-    fn about(&self) -> &'static str;
-
-    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError>;
-
+/// A transformation that preserves the function of a netlist.
+#[derive(Clone, Copy)]
+pub struct Pass {
+    pub name: &'static str,
+    pub about: &'static str,
+    pub(crate) run: fn(&mut Netlist) -> Result<(), NetlistError>,
     /// The cells of a netlist that it would merge with others, and those others.
-    fn merged(&self, _netlist: &Netlist) -> Vec<(NetId, NetId)> {
-        Vec::new()
+    pub(crate) merged: fn(&Netlist) -> Vec<(NetId, NetId)>,
+}
+
+impl Pass {
+    const fn new(name: &'static str, about: &'static str, run: fn(&mut Netlist) -> Result<(), NetlistError>) -> Self {
+        Self { name, about, run, merged: |_| Vec::new() }
     }
 }
 
-pub const ORDER: &[&dyn Pass] = &[
+/// The passes before technology mapping, in order.
+pub static ORDER: [Pass; 5] = [
     // First, so that no other pass has to handle wires.
-    &DissolveWires,
+    Pass::new("dissolve-wires", "replaces wires by their drivers", dissolve_wires),
     // Before sharing: constants make different cells equal.
-    &FoldConstants,
-    &Share,
+    Pass::new("fold-constants", "simplifies cells with constant or repeated pins", |netlist| {
+        fold_constants(netlist);
+        Ok(())
+    }),
+    Pass::new("share", "merges cells that compute the same", |netlist| {
+        share(netlist);
+        Ok(())
+    }),
     // After sharing, which merges their clocks.
-    &MergeRegisters,
+    Pass {
+        name: "merge-registers",
+        about: "merges registers that always store the same bit",
+        run: |netlist| {
+            merge_registers(netlist);
+            Ok(())
+        },
+        merged: merged_registers,
+    },
     // Last, because other passes leave cells without receivers.
-    &Sweep,
+    Pass::new("sweep", "removes what no output depends on", |netlist| {
+        sweep(netlist);
+        Ok(())
+    }),
 ];
 
 pub fn run(netlist: &mut Netlist) -> Result<(), NetlistError> {
-    ORDER.iter().try_for_each(|pass| pass.run(netlist))
+    ORDER.iter().try_for_each(|pass| (pass.run)(netlist))
 }
 
-pub fn after_each(mut netlist: Netlist) -> Result<Vec<(&'static dyn Pass, Netlist)>, NetlistError> {
-    let after = |pass: &&'static dyn Pass| pass.run(&mut netlist).map(|()| (*pass, netlist.clone()));
+/// The netlist after each pass, in order.
+pub fn after_each(mut netlist: Netlist) -> Result<Vec<(&'static Pass, Netlist)>, NetlistError> {
+    let after = |pass: &'static Pass| (pass.run)(&mut netlist).map(|()| (pass, netlist.clone()));
     ORDER.iter().map(after).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn each_pass_has_a_name_of_its_own() {
-        let mut names: Vec<&str> = ORDER.iter().map(|pass| pass.name()).collect();
-        names.sort_unstable();
-        names.dedup();
-        assert_eq!(names.len(), ORDER.len());
-    }
 }

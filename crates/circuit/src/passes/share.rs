@@ -3,35 +3,20 @@
 use std::collections::BTreeMap;
 
 use crate::loops::Loops;
-use crate::passes::Pass;
-use crate::{NetId, Netlist, NetlistError, Node};
+use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-#[derive(Clone, Copy, Debug)]
-pub struct Share;
-
-impl Pass for Share {
-    fn name(&self) -> &'static str {
-        "share"
-    }
-
-    fn about(&self) -> &'static str {
-        "merges cells that compute the same"
-    }
-
-    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        let loops = Loops::memory(netlist);
-        let mut known = BTreeMap::new();
-        for &id in loops.order() {
-            let Some(key) = key(netlist, id).filter(|_| !loops.contains(id)) else {
-                continue;
-            };
-            let first = *known.entry(key).or_insert(id);
-            if first != id {
-                merge(netlist, id, first);
-            }
+pub fn share(netlist: &mut Netlist) {
+    let loops = Loops::memory(netlist);
+    let mut known = BTreeMap::new();
+    for &id in loops.order() {
+        let Some(key) = key(netlist, id).filter(|_| !loops.contains(id)) else {
+            continue;
+        };
+        let first = *known.entry(key).or_insert(id);
+        if first != id {
+            merge(netlist, id, first);
         }
-        Ok(())
     }
 }
 
@@ -60,9 +45,7 @@ pub(super) fn ordered<T: Ord>(function: Function, mut pins: Vec<T>) -> (Function
 
 /// Moves the receivers of `id` to `first`, which takes over the name if it has none.
 pub(super) fn merge(netlist: &mut Netlist, id: NetId, first: NetId) {
-    for (listener, pin) in netlist.fanout(id) {
-        netlist.drive(listener, pin, first);
-    }
+    netlist.move_listeners(id, first);
     let copy = netlist.cell(id).cloned();
     if let (Node::Cell(cell), Some(copy)) = (netlist.node_mut(first), copy) {
         cell.name = cell.name.take().or(copy.name);
@@ -86,7 +69,7 @@ mod tests {
         let four = netlist.add_gate(Function::parse("nota_and_b").unwrap(), &[a, two]);
         let both = netlist.add_gate(Function::XOR, &[three, four]);
         netlist.add_output("q", both);
-        Share.run(&mut netlist).unwrap();
+        share(&mut netlist);
         assert_eq!(netlist.cells().count(), 3);
         assert_eq!(netlist.pins(both), [three, three]);
     }

@@ -2,34 +2,19 @@
 
 use std::collections::BTreeSet;
 
-use crate::passes::Pass;
-use crate::{Netlist, NetlistError, Node};
+use crate::{Netlist, Node};
 
-#[derive(Clone, Copy, Debug)]
-pub struct Sweep;
-
-impl Pass for Sweep {
-    fn name(&self) -> &'static str {
-        "sweep"
+pub fn sweep(netlist: &mut Netlist) {
+    let mut used: BTreeSet<_> = netlist.outputs().iter().copied().collect();
+    let mut pending = netlist.outputs().to_vec();
+    while let Some(id) = pending.pop() {
+        pending.extend(netlist.pins(id).into_iter().filter(|&pin| used.insert(pin)));
     }
-
-    fn about(&self) -> &'static str {
-        "removes what no output depends on"
-    }
-
-    fn run(&self, netlist: &mut Netlist) -> Result<(), NetlistError> {
-        let mut used: BTreeSet<_> = netlist.outputs().iter().copied().collect();
-        let mut pending = netlist.outputs().to_vec();
-        while let Some(id) = pending.pop() {
-            pending.extend(netlist.pins(id).into_iter().filter(|&pin| used.insert(pin)));
-        }
-        let unused: Vec<_> = netlist
-            .ids()
-            .filter(|id| !used.contains(id) && matches!(netlist.node(*id), Node::Cell(_) | Node::Constant(_)))
-            .collect();
-        unused.into_iter().for_each(|id| netlist.remove(id));
-        Ok(())
-    }
+    let unused: Vec<_> = netlist
+        .ids()
+        .filter(|id| !used.contains(id) && matches!(netlist.node(*id), Node::Cell(_) | Node::Constant(_)))
+        .collect();
+    unused.into_iter().for_each(|id| netlist.remove(id));
 }
 
 #[cfg(test)]
@@ -46,7 +31,7 @@ mod tests {
         netlist.drive(unused, 1, unused);
         let gate = netlist.add_gate(Function::NOT, &[a]);
         netlist.add_output("q", gate);
-        Sweep.run(&mut netlist).unwrap();
+        sweep(&mut netlist);
         assert_eq!(netlist.cells().count(), 1);
         assert_eq!(netlist.inputs().len(), 2);
     }

@@ -7,7 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::components::Components;
 use crate::loops::Loops;
-use crate::passes::{DissolveWires, Pass};
+use crate::passes::{Pass, dissolve_wires};
 use crate::{NetId, Netlist, NetlistError, Node};
 
 pub(super) struct LoopCut {
@@ -19,15 +19,15 @@ pub(super) struct LoopCut {
 }
 
 /// The cuts of a netlist; after these passes its memory has the names that the mapping keeps.
-pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<LoopCut>, NetlistError> {
+pub(super) fn cuts(netlist: &Netlist, passes: &[Pass]) -> Result<Vec<LoopCut>, NetlistError> {
     if Loops::of(netlist).cores().is_empty() {
         return Ok(Vec::new());
     }
     let mut reduced = netlist.clone();
     let mut merged: BTreeMap<NetId, NetId> = BTreeMap::new();
     for pass in passes {
-        merged.extend(pass.merged(&reduced));
-        pass.run(&mut reduced)?;
+        merged.extend((pass.merged)(&reduced));
+        (pass.run)(&mut reduced)?;
     }
     let names = core_names(&reduced, &Loops::memory(&reduced));
     let cut = |cell: NetId| {
@@ -39,7 +39,7 @@ pub(super) fn cuts(netlist: &Netlist, passes: &[&dyn Pass]) -> Result<Vec<LoopCu
     let known: BTreeSet<NetId> = cuts.iter().map(|cut| cut.cell).collect();
     // Loops that no output depends on. Logic between their registers may drive an output nevertheless.
     let mut plain = netlist.clone();
-    DissolveWires.run_on(&mut plain)?;
+    dissolve_wires(&mut plain)?;
     let memory = Loops::memory(&plain);
     let parts = Components::new(netlist.graph()).from(netlist.ids(), |id| !known.contains(&id));
     let is_loop = |part: &Vec<NetId>| part.len() > 1 || netlist.graph().contains_edge(part[0], part[0]);

@@ -231,11 +231,6 @@ fn forced_value(network: &mut Network, register: &Register, value: Signal, nets:
 /// The gates of a network over other inputs: `signals` are those of its own inputs.
 fn over(network: &Network, inputs: usize, signals: &[Signal]) -> Network {
     let mut other = Network::new(inputs);
-    let mut moved: Vec<Signal> = vec![0, 1];
-    moved.extend(signals);
-    for gate in &network.gates {
-        moved.push(other.add(gate.function, gate.pins.map(|pin| moved[pin as usize])));
-    }
-    other.outputs = network.outputs.iter().map(|&output| moved[output as usize]).collect();
+    other.outputs = other.include(network, signals);
     other
 }

@@ -7,10 +7,8 @@ use batsat::{Lit, Solver, SolverInterface, SolverOpts, lbool};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 
-use crate::clause::{Clause, ValuedBit};
-use crate::network::{Gate, Network, Signal, word};
-use crate::proof::method::Method;
-use crate::proof::patterns::random_word;
+use crate::network::{Gate, Network, Signal, inverted, word};
+use crate::proof::method::{Method, random_word};
 use crate::properties::{Solved, SolverLimits};
 use nbc_base::model::Function;
 use nbc_base::source::CancelFlag;
@@ -32,7 +30,7 @@ const MOST_CALLS: usize = 100;
 const MANY_VARIABLES: usize = 1_000;
 
 pub fn equal(one: &Network, two: &Network) -> Result<Method, (usize, Vec<bool>)> {
-    let mut comparison = Comparison::within(one, &[]);
+    let mut comparison = Comparison::with(one);
     comparison.compare(two)?;
     Ok(Method::Sat { calls: comparison.sweep.calls })
 }
@@ -44,10 +42,8 @@ pub struct Comparison {
 }
 
 impl Comparison {
-    /// A comparison with this network where all clauses hold: of each, an input has the given value.
-    pub fn within(network: &Network, clauses: &[Clause]) -> Self {
+    pub fn with(network: &Network) -> Self {
         let mut sweep = SatSweep::new(network.inputs);
-        clauses.iter().for_each(|clause| sweep.assume(clause));
         let signals = sweep.add(network);
         Self { outputs: network.outputs.iter().map(|&output| signals[output as usize]).collect(), sweep }
     }
@@ -75,8 +71,6 @@ impl Comparison {
 pub struct SatSweep {
     cones: Cones,
     propagations: u64,
-    /// Of each clause, one of these inputs has the given value.
-    assumed: Vec<Vec<(Signal, bool)>>,
     /// The input words so far, `patterns[word][input]`.
     patterns: Vec<Vec<u64>>,
     inputs: usize,
@@ -116,7 +110,6 @@ impl SatSweep {
             propagations: 0,
             portion,
             cancel,
-            assumed: Vec::new(),
             patterns,
             inputs,
             gates: Vec::new(),
@@ -142,21 +135,11 @@ impl SatSweep {
         }
     }
 
-    /// Requires that one of these inputs has the given value. Signals that are merged later are equal only then.
-    pub fn assume(&mut self, clause: &[ValuedBit]) {
-        let clause: Vec<_> = clause.iter().map(|&(input, value)| (input as Signal + 2, value)).collect();
-        self.cones.clause(&clause);
-        self.assumed.push(clause);
-    }
-
     pub fn add(&mut self, network: &Network) -> Vec<(Signal, bool)> {
         let mut made: Vec<(Signal, bool)> = (0..2 + network.inputs as Signal).map(|signal| (signal, false)).collect();
         for gate in &network.gates {
             let [a, b] = gate.pins.map(|pin| made[pin as usize]);
-            let mut function = gate.function;
-            for (pin, (_, inverted)) in [a, b].into_iter().enumerate() {
-                function = if inverted { function.with_input_inverted(pin) } else { function };
-            }
+            let function = inverted(gate.function, [a.1, b.1]);
             let (function, pins) = if a.0 <= b.0 { (function, [a.0, b.0]) } else { (function.swapped(), [b.0, a.0]) };
             let key = pins.iter().fold(u128::from(function.bits()), |key, &pin| key << 32 | u128::from(pin));
             let known = self.known.get(&key).copied().unwrap_or_else(|| {
@@ -223,15 +206,6 @@ impl SatSweep {
         Compared::Equal
     }
 
-    /// Inputs at which signals, each maybe inverted, have these values.
-    pub fn pattern(&mut self, wanted: &[((Signal, bool), bool)]) -> Option<Vec<bool>> {
-        match self.solve(wanted, self.portion) {
-            Solved::Yes => Some(self.inputs_found()),
-            Solved::No => None,
-            Solved::Open => panic!("a solver without limits ends with an answer"),
-        }
-    }
-
     fn inputs_found(&self) -> Vec<bool> {
         (0..self.inputs).map(|input| self.cones.is_on(input as Signal + 2)).collect()
     }
@@ -241,7 +215,6 @@ impl SatSweep {
         if self.cones.calls >= MOST_CALLS && self.cones.variable.len() > MANY_VARIABLES {
             self.propagations += self.cones.propagations();
             self.cones = Cones::new(&self.cancel);
-            self.assumed.iter().for_each(|clause| self.cones.clause(clause));
         }
         let assumed: Vec<_> = wanted.iter().map(|&((signal, inverted), value)| (signal, value != inverted)).collect();
         let first_gate = 2 + self.inputs;

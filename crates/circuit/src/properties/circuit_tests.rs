@@ -5,7 +5,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::*;
 use crate::elaborate::MemoryPorts;
-use crate::passes::DissolveWires;
+use crate::passes::dissolve_wires;
 use crate::properties::system::is_on;
 use crate::registers::flip_flop;
 use crate::waves::{ClockRun, ClockStep};
@@ -228,7 +228,7 @@ fn random_circuits_are_equal_to_themselves_without_wires_and_rarely_to_others() 
     for _ in 0..150 {
         let source = crate::example::random_machine(&mut random);
         let mut plain = source.clone();
-        DissolveWires.run_on(&mut plain).unwrap();
+        dissolve_wires(&mut plain).unwrap();
         assert!(matches!(compared(&source, &plain), PropertyVerdict::Proved(_)), "{source}");
         let other = crate::example::random_machine(&mut random);
         if other.inputs().len() != source.inputs().len() || other.outputs().len() != source.outputs().len() {

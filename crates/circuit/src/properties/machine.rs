@@ -8,7 +8,7 @@
 
 use crate::and_graph::{AndGraph, AndLiteral};
 use crate::network::{Network, View};
-use crate::passes::{DissolveWires, Pass, Sweep};
+use crate::passes::{dissolve_wires, sweep};
 use crate::properties::solver::{ClauseSolver, Solved};
 use crate::properties::wording::NoSteps;
 use crate::waves::{ClockStep, StateBit, WaveError};
@@ -65,7 +65,7 @@ impl Machine {
     /// A circuit with feedback that is no flip-flop of one clock.
     fn settling(netlist: &Netlist, why: WaveError, allowed: &Network, cancel: &CancelFlag) -> Result<Self, NoSteps> {
         let mut plain = netlist.clone();
-        let is_plain = DissolveWires.run_on(&mut plain).and_then(|()| Sweep.run(&mut plain));
+        let is_plain = dissolve_wires(&mut plain).map(|()| sweep(&mut plain));
         if is_plain.is_err() || plain.cells().count() > MOST_CELLS {
             return Err(NoSteps::Memory(why));
         }

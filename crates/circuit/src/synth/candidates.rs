@@ -2,7 +2,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::network::Signal;
+use crate::network::{Signal, inverted};
 use nbc_base::model::Function;
 
 /// The most candidates that are tried in a visit.
@@ -43,6 +43,7 @@ type Literal = (Signal, bool);
 /// The function and the signal that a candidate's rest is combined with.
 type Outer = Option<(Function, Signal)>;
 
+#[derive(Default)]
 pub struct Finder {
     pub on: Vec<u64>,
     pub off: Vec<u64>,
@@ -58,17 +59,7 @@ pub struct Finder {
 
 impl Finder {
     pub fn new() -> Self {
-        Self {
-            on: Vec::new(),
-            off: Vec::new(),
-            divisors: Vec::new(),
-            exclusive: true,
-            found: Vec::new(),
-            hot: Vec::new(),
-            ands: Vec::new(),
-            ors: Vec::new(),
-            buckets: vec![Vec::new(); BUCKETS],
-        }
+        Self { exclusive: true, buckets: vec![Vec::new(); BUCKETS], ..Self::default() }
     }
 
     /// Finds candidates of up to two signals, and of three signals if they may be `deep`.
@@ -248,11 +239,7 @@ fn exclusive_fits(a: &[u64], b: &[u64], on: &[u64], off: &[u64], hot: &[usize]) 
 
 /// The function of two signals that is the AND (or the OR) of two literals of them.
 fn pair_function(one: bool, two: bool, and: bool) -> Function {
-    let mut function = if and { Function::AND } else { Function::OR };
-    for (pin, inverted) in [one, two].into_iter().enumerate() {
-        function = if inverted { function.with_input_inverted(pin) } else { function };
-    }
-    function
+    inverted(if and { Function::AND } else { Function::OR }, [one, two])
 }
 
 struct Fits {

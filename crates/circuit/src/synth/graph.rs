@@ -32,20 +32,23 @@ struct Scratch {
 /// Gates with their values; places of dead gates are used again.
 #[derive(Clone, Debug)]
 pub struct Graph<'p> {
-    prices: &'p Prices,
+    pub prices: &'p Prices,
     inputs: usize,
-    width: usize,
-    nodes: Vec<GraphNode>,
-    values: Vec<u64>,
+    /// 64-bit words of values of each signal.
+    pub width: usize,
+    pub nodes: Vec<GraphNode>,
+    /// Each signal's values in the row of its number.
+    pub all_values: Vec<u64>,
     fanout: Vec<Vec<Signal>>,
-    outputs: Vec<Signal>,
-    order: Vec<Signal>,
+    pub outputs: Vec<Signal>,
+    /// The gates in use, drivers first.
+    pub order: Vec<Signal>,
     /// The place of each gate in `order`.
     position: Vec<Option<ListIndex>>,
     free: Vec<Signal>,
-    cost: u32,
+    pub cost: u32,
     /// The gate that is about to be removed, which no new gate may read.
-    leaving: Option<Signal>,
+    pub leaving: Option<Signal>,
     scratch: Scratch,
 }
 
@@ -58,7 +61,7 @@ impl<'p> Graph<'p> {
             inputs: network.inputs,
             width,
             nodes: Vec::new(),
-            values: Vec::new(),
+            all_values: Vec::new(),
             fanout: Vec::new(),
             outputs: Vec::new(),
             order: Vec::new(),
@@ -92,25 +95,8 @@ impl<'p> Graph<'p> {
 
     fn source(&mut self, stage: u32, values: &[u64]) {
         self.nodes.push(GraphNode { function: Function::BUF, pins: [0; 2], refs: 0, alive: false, stage, arrival: 0 });
-        self.values.extend(values);
+        self.all_values.extend(values);
         self.fanout.push(Vec::new());
-    }
-
-    pub fn width(&self) -> usize {
-        self.width
-    }
-
-    pub fn cost(&self) -> u32 {
-        self.cost
-    }
-
-    pub fn prices(&self) -> &'p Prices {
-        self.prices
-    }
-
-    /// The gates in use, drivers first.
-    pub fn order(&self) -> &[Signal] {
-        &self.order
     }
 
     pub fn position(&self, signal: Signal) -> usize {
@@ -121,17 +107,8 @@ impl<'p> Graph<'p> {
         &self.nodes[signal as usize]
     }
 
-    /// The number of signals, sources first.
-    pub fn places(&self) -> usize {
-        self.nodes.len()
-    }
-
     pub fn first_gate(&self) -> Signal {
         2 + self.inputs as Signal
-    }
-
-    pub fn outputs(&self) -> &[Signal] {
-        &self.outputs
     }
 
     pub fn fanout(&self, signal: Signal) -> &[Signal] {
@@ -139,11 +116,7 @@ impl<'p> Graph<'p> {
     }
 
     pub fn values(&self, signal: Signal) -> &[u64] {
-        &self.values[signal as usize * self.width..][..self.width]
-    }
-
-    pub fn all_values(&self) -> &[u64] {
-        &self.values
+        &self.all_values[signal as usize * self.width..][..self.width]
     }
 
     /// A gate of the library, found or made.
@@ -185,7 +158,7 @@ impl<'p> Graph<'p> {
             }
             None => {
                 self.nodes.push(node);
-                self.values.resize(self.values.len() + self.width, 0);
+                self.all_values.resize(self.all_values.len() + self.width, 0);
                 self.fanout.push(Vec::new());
                 (self.nodes.len() - 1) as Signal
             }
@@ -233,16 +206,11 @@ impl<'p> Graph<'p> {
         let (a, b, out) = (a as usize * self.width, b as usize * self.width, signal as usize * self.width);
         let mut changed = 0;
         for i in 0..self.width {
-            let value = word(function, self.values[a + i], self.values[b + i]);
-            changed |= value ^ self.values[out + i];
-            self.values[out + i] = value;
+            let value = word(function, self.all_values[a + i], self.all_values[b + i]);
+            changed |= value ^ self.all_values[out + i];
+            self.all_values[out + i] = value;
         }
         changed != 0
-    }
-
-    /// Marks the gate that is about to be removed, so that no new gate reads it.
-    pub fn set_leaving(&mut self, gate: Option<Signal>) {
-        self.leaving = gate;
     }
 
     /// Whether two gates compute the same function of the same signals.

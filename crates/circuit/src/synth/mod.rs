@@ -1,7 +1,6 @@
 //! Logic synthesis: the search for few cells that compute the function of a circuit.
 
 mod candidates;
-mod care;
 mod chains;
 pub mod exact;
 mod graph;
@@ -16,6 +15,5 @@ mod walk;
 mod wide;
 
 pub(crate) use candidates::below;
-pub use care::CareSet;
-pub use reduce::{alternative, reduce, reduce_within};
+pub use reduce::{alternative, reduce};
 pub use wide::{CellNetwork, Coverer, NetworkCell, widen};

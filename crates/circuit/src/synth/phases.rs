@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::network::{Gate, Network, Signal};
+use crate::network::{self, Gate, Network, Signal};
 use crate::recipes::Operand;
 use crate::synth::candidates::below;
 use crate::synth::prices::Prices;
@@ -61,10 +61,7 @@ impl Source {
             let inverted = function == Function::NOT || function == Function::NOT_B;
             return Some(pin ^ usize::from(inverted));
         }
-        let mut function = function;
-        for (pin, phase) in pins.into_iter().enumerate() {
-            function = if phase % 2 == 1 { function.with_input_inverted(pin) } else { function };
-        }
+        let function = network::inverted(function, pins.map(|phase| phase % 2 == 1));
         let nodes = pins.map(|phase| (phase / 2) as Signal);
         if let Some(phase) = folded(function, nodes) {
             return Some(phase);
@@ -135,11 +132,8 @@ fn has_cell(function: Function, prices: &Prices) -> bool {
 }
 
 fn in_phases(function: Function, pins: [bool; 2], inverted: bool) -> Function {
-    let mut made = function;
-    for (pin, inverted) in pins.into_iter().enumerate() {
-        made = if inverted { made.with_input_inverted(pin) } else { made };
-    }
-    if inverted { Function::new(!made.bits() & 15) } else { made }
+    let made = network::inverted(function, pins);
+    if inverted { made.inverted() } else { made }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -8,7 +8,6 @@ use crate::cells::CellLibrary;
 use crate::network::{Network, Signal};
 use crate::options::{Effort, MapOptions, MappingObjective};
 use crate::synth::candidates::below;
-use crate::synth::care::CareSet;
 use crate::synth::chains::{balanced, levels};
 use crate::synth::exact::{self, ExactResult};
 use crate::synth::graph::{Graph, every_pattern};
@@ -22,11 +21,8 @@ use nbc_base::model::Function;
 
 /// The most inputs of a network that is searched as a whole.
 const WHOLE_INPUTS: usize = 12;
-const SMALL_INPUTS: usize = 4;
-const SMALL_STARTS: usize = 6;
 /// The most gates of a network that is searched as a whole.
 const WHOLE_GATES: usize = 600;
-const FULL_ROUNDS_GATES: usize = 1_500;
 /// The product of gates and 64-bit words of patterns above which a walk over every pattern makes fewer visits.
 const WHOLE_WORK: u64 = 1_200_000_000;
 /// The gates of a part of a wide network whose gates are seen in their surroundings, or in samples of the patterns.
@@ -35,9 +31,6 @@ const FAR_GATES: usize = 1_500;
 /// The visits to each gate, and to all gates at most, that make gates earlier at no cost.
 const SHORTENING_VISITS: u64 = 10;
 const MOST_SHORTENING: u64 = 20_000;
-/// The most gates of a network that is searched where some conditions hold, and the most visits times its gates.
-const MOST_CARE_GATES: u64 = 10_000;
-const CARE_WORK: u64 = 20_000_000;
 /// Above this number of gates, a network is only shared and mapped.
 const MOST_GATES: usize = 100_000;
 
@@ -88,26 +81,8 @@ pub fn alternative(network: &Network, prices: &Prices, visits: u64, random: &mut
         (true, _) => {
             walk::wander(network, prices, &every_pattern(network.inputs), WalkPlan { climb: 3, ..plan }, random)
         }
-        (false, _) => improve_on_samples(network, prices, &[], None, plan, random),
+        (false, _) => improve_on_samples(network, prices, &[], plan, random),
     }
-}
-
-/// A network of gates of any kind, as few as the effort finds, that is equal where the conditions hold.
-pub fn reduce_within(network: &Network, library: &CellLibrary, care: &CareSet, options: &MapOptions) -> Network {
-    let ideal = Prices::of(library).ideal();
-    let start = cover(network, &ideal, &[]).expect("there is a cell for every function");
-    let gates = start.gates.len() as u64;
-    if gates > MOST_CARE_GATES || gates == 0 {
-        return network.clone();
-    }
-    let visits = match options.effort {
-        Effort::Fast => 10 * gates,
-        Effort::Normal => 60 * gates,
-        Effort::High => 200 * gates,
-    };
-    let plan = WalkPlan { cancel: Some(&options.cancel), ..WalkPlan::downhill(visits.min(CARE_WORK / gates)) };
-    let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6363_6172_6573);
-    improve_on_samples(&start, &ideal, &[], Some(care), plan, &mut random)
 }
 
 /// The cheaper of two networks; of equal cost, the one with the shorter slowest path, or the first.
@@ -226,25 +201,18 @@ impl<'a> Reduction<'a> {
         let visits = match self.effort {
             Effort::Fast => (8 * gates).min(1_000),
             Effort::Normal => (25 * gates + gates * gates / 20).clamp(150, 6_000),
-            Effort::High => (1_000 * gates).clamp(10_000, 60_000),
         };
         let words = (1u64 << network.inputs).div_ceil(64);
         let visits = visits.min(WHOLE_WORK / (words * gates.max(1)));
         let downhill = self.downhill(visits * share);
         let bold = WalkPlan { climb: 400, patience: visits / 4, ..downhill };
-        let mut walk = || {
-            let first = walk::improve_all(network, self.prices, self.stages, downhill, random);
-            walk::improve_all(&first, self.prices, self.stages, bold, random)
-        };
-        // With few inputs a walk is cheap, so a new start is worth more than a longer walk.
-        let starts = if self.effort == Effort::High && network.inputs <= SMALL_INPUTS { SMALL_STARTS } else { 1 };
-        let first = walk();
-        (1..starts).fold(first, |best, _| cheaper(best, walk(), self.prices))
+        let first = walk::improve_all(network, self.prices, self.stages, downhill, random);
+        walk::improve_all(&first, self.prices, self.stages, bold, random)
     }
 
     fn search_wide(&self, network: &Network, share: u64, random: &mut ChaCha8Rng) -> Network {
         let round = Round::of(self.effort);
-        let rounds = rounds(self.effort, share, network.gates.len());
+        let rounds = if self.effort == Effort::Fast { 1 } else { 2 * share };
         (0..rounds).fold(network.clone(), |best, _| {
             let gates = best.gates.len() as u64;
             let first = below(random, NEAR_GATES) + 1;
@@ -261,7 +229,7 @@ impl<'a> Reduction<'a> {
             self.no_dearer(near, |near| {
                 in_parts(near, self.stages, first, FAR_GATES, |part, stages| {
                     let plan = self.downhill(round.far(part.gates.len() as u64, gates));
-                    improve_on_samples(part, self.prices, stages, None, plan, random)
+                    improve_on_samples(part, self.prices, stages, plan, random)
                 })
             })
         })
@@ -278,7 +246,6 @@ impl<'a> Reduction<'a> {
         let nodes = match self.effort {
             Effort::Fast => 10_000,
             Effort::Normal => 100_000,
-            Effort::High => 1_000_000_000,
         };
         let combinational = self.stages.iter().all(|&stage| stage == 0);
         if best.inputs > exact::MOST_INPUTS || !combinational || !self.prices.are_even() {
@@ -305,7 +272,6 @@ impl<'a> Reduction<'a> {
         let rounds = match self.effort {
             Effort::Fast => 1,
             Effort::Normal => 3,
-            Effort::High => 20,
         };
         let rank = |network: &Network| (depth(network, self.prices), cost(network, self.prices));
         let mut best = network.clone();
@@ -315,7 +281,7 @@ impl<'a> Reduction<'a> {
                 let plan = WalkPlan { delay, ..self.downhill((10 * now.gates.len() as u64).min(3_000)) };
                 now = match is_narrow(&now) {
                     true => walk::improve_all(&now, self.prices, self.stages, plan, random),
-                    false => improve_on_samples(&now, self.prices, self.stages, None, plan, random),
+                    false => improve_on_samples(&now, self.prices, self.stages, plan, random),
                 };
             }
             if rank(&now) < rank(&best) {
@@ -343,7 +309,6 @@ impl Round {
         match effort {
             Effort::Fast => Self { near: 2, most_near: 100_000, far: 0, most_far: 0, work: 0 },
             Effort::Normal => Self { near: 26, most_near: 130_000, far: 20, most_far: 10_000, work: 3_000_000 },
-            Effort::High => Self { near: 40, most_near: 400_000, far: 30, most_far: 20_000, work: 9_000_000 },
         }
     }
 
@@ -354,14 +319,6 @@ impl Round {
 
     fn far(&self, part: u64, all: u64) -> u64 {
         (self.far * part).min(self.most_far * part / all.max(1)).min(self.work / part.max(1))
-    }
-}
-
-fn rounds(effort: Effort, share: u64, gates: usize) -> u64 {
-    match effort {
-        Effort::Fast => 1,
-        Effort::Normal => 2 * share,
-        Effort::High => share * (6 * FULL_ROUNDS_GATES / gates.max(FULL_ROUNDS_GATES)).max(1) as u64,
     }
 }
 
@@ -402,18 +359,6 @@ mod tests {
     }
 
     #[test]
-    fn the_work_of_high_effort_is_bounded_for_any_size() {
-        let round = Round::of(Effort::High);
-        for gates in [200u64, 1_000, 2_000, 20_000, 100_000] {
-            let rounds = rounds(Effort::High, 4, gates as usize);
-            let parts = gates.div_ceil(FAR_GATES as u64);
-            let far = rounds * parts * round.far(gates / parts, gates) * (gates / parts);
-            let near = rounds * round.near(gates, gates);
-            assert!(far <= 300_000_000 && near <= 1_600_000, "{gates} gates take {far} and {near}");
-        }
-    }
-
-    #[test]
     fn a_decoder_of_the_fewest_cells_has_two_levels() {
         let excluded = Function::parse("nota_and_b").unwrap();
         let mut network = Network::new(3);
@@ -442,7 +387,7 @@ mod tests {
             network.outputs = (signals - 6..signals).collect();
             let library = library("nand not");
             for objective in [MappingObjective::Area, MappingObjective::Delay] {
-                let options = MapOptions { objective, effort: Effort::High, ..MapOptions::default() };
+                let options = MapOptions { objective, ..MapOptions::default() };
                 options.cancel.raise();
                 let cancelled = reduce(&network, &[], &library, &options).unwrap();
                 assert!(equal(&network, &cancelled).is_ok());

@@ -5,7 +5,6 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::network::Network;
 use crate::proof::{Comparison, random_word};
-use crate::synth::care::CareSet;
 use crate::synth::prices::Prices;
 use crate::synth::walk::{self, WalkPlan};
 
@@ -19,24 +18,21 @@ const PROPAGATIONS: u64 = 4_000;
 const MOST_SIGNALS: usize = 6;
 
 /// Searches for a cheaper network in `plan.visits` visits. Each call of the solver counts as one, and so do
-/// [`PROPAGATIONS`] of its propagations. Every network that it passes through is proved equal to the first, where the
-/// conditions of `care` hold if there are any.
+/// [`PROPAGATIONS`] of its propagations. Every network that it passes through is proved equal to the first.
 pub fn improve_on_samples(
     network: &Network,
     prices: &Prices,
     stages: &[u32],
-    care: Option<&CareSet>,
     plan: WalkPlan<'_>,
     random: &mut ChaCha8Rng,
 ) -> Network {
     if plan.is_cancelled() {
         return network.clone();
     }
-    let mut samples = Samples::new(network.inputs, care, random);
-    let clauses = care.map_or(&[][..], |care| &care.clauses);
+    let mut samples = Samples::new(network.inputs, random);
     let [mut batch, least, most] = BATCH;
     let mut now = network.clone();
-    let mut comparison = Comparison::within(network, clauses);
+    let mut comparison = Comparison::with(network);
     let mut work = 0;
     while work < plan.visits && !now.gates.is_empty() {
         let short = WalkPlan { visits: batch, ..plan };
@@ -59,47 +55,37 @@ pub fn improve_on_samples(
             }
         }
         if comparison.signals() > MOST_SIGNALS * network.signals() {
-            comparison = Comparison::within(&now, clauses);
+            comparison = Comparison::with(&now);
         }
     }
     now
 }
 
+/// Patterns of the inputs, `words[input][word]`.
 struct Samples {
     words: Vec<Vec<u64>>,
     next: usize,
-    /// Whether each input stays as it is in the neighbors of a pattern.
-    fixed: Vec<bool>,
 }
 
 impl Samples {
-    fn new(inputs: usize, care: Option<&CareSet>, random: &mut ChaCha8Rng) -> Self {
-        let fixed = (0..inputs).map(|input| care.is_some_and(|care| care.constrains(input))).collect();
-        let words = match care {
-            None => (0..inputs).map(|_| (0..WORDS).map(|word| random_word(word, random)).collect()).collect(),
-            Some(care) => care.words.iter().map(|words| spread(words)).collect(),
-        };
-        Self { words, next: WORDS, fixed }
+    fn new(inputs: usize, random: &mut ChaCha8Rng) -> Self {
+        let words = (0..inputs).map(|_| (0..WORDS).map(|word| random_word(word, random)).collect()).collect();
+        Self { words, next: WORDS }
     }
 
     /// Adds a pattern with 63 of its neighbors; if there are many already, they replace the oldest ones that were not
     /// random.
     fn learn(&mut self, pattern: &[bool], random: &mut ChaCha8Rng) {
         let at = if self.next < MOST_WORDS { self.next } else { WORDS + self.next % (MOST_WORDS - WORDS) };
-        for ((words, &value), &fixed) in self.words.iter_mut().zip(pattern).zip(&self.fixed) {
+        for (words, &value) in self.words.iter_mut().zip(pattern) {
             let mut draw = || rand::Rng::next_u64(random);
             // The first pattern is kept. Half of the others differ from it in one of sixteen inputs, half in one of
             // four.
             let near = draw() & draw();
             let flips = (near & draw() & draw() & 0xffff_ffff | near & !0xffff_ffff) & !1;
-            let flips = if fixed { 0 } else { flips };
             let word = flips ^ if value { !0 } else { 0 };
             if at < words.len() { words[at] = word } else { words.push(word) }
         }
         self.next += 1;
     }
-}
-
-fn spread(words: &[u64]) -> Vec<u64> {
-    (0..WORDS).map(|word| words[word * words.len() / WORDS]).collect()
 }

@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::network::{Gate, Network, Signal};
+use crate::network::{Gate, Network, Signal, inverted};
 use nbc_base::model::Function;
 
 const MOST_LITERALS: usize = 100;
@@ -241,10 +241,7 @@ impl Builder {
     }
 
     fn gate(&mut self, function: Function, pins: [Literal; 2]) -> Literal {
-        let mut function = function;
-        for (pin, literal) in pins.into_iter().enumerate() {
-            function = if literal % 2 == 1 { function.with_input_inverted(pin) } else { function };
-        }
+        let function = inverted(function, pins.map(|literal| literal % 2 == 1));
         let signals = pins.map(|pin| pin / 2);
         self.levels.push(1 + signals.map(|signal| self.levels[signal as usize]).into_iter().max().unwrap_or(0));
         2 * self.network.add(function, signals)

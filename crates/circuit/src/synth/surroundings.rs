@@ -59,9 +59,9 @@ impl Surroundings {
 
     fn mark_dependents(&mut self, graph: &Graph<'_>, gate: Signal) {
         self.depends.clear();
-        self.depends.resize(graph.places(), false);
+        self.depends.resize(graph.nodes.len(), false);
         self.depends[gate as usize] = true;
-        for &signal in &graph.order()[graph.position(gate) + 1..] {
+        for &signal in &graph.order[graph.position(gate) + 1..] {
             let [a, b] = graph.node(signal).pins;
             self.depends[signal as usize] = self.depends[a as usize] || self.depends[b as usize];
         }
@@ -109,7 +109,7 @@ impl Surroundings {
     /// Moves the leaves away from the gate while there are few, then adds gates that read signals in sight only.
     fn collect_before(&mut self, graph: &Graph<'_>) {
         self.inside.clear();
-        self.inside.resize(graph.places(), false);
+        self.inside.resize(graph.nodes.len(), false);
         let mut inner = Vec::new();
         self.leaves.iter().for_each(|&leaf| self.inside[leaf as usize] = true);
         while inner.len() < MOST_BEFORE
@@ -168,7 +168,7 @@ impl Surroundings {
         self.words.clear();
         self.words.resize(self.width, 0);
         self.words.resize(2 * self.width, !0);
-        self.places.resize(graph.places(), 0);
+        self.places.resize(graph.nodes.len(), 0);
         (self.places[0], self.places[1]) = (0, 1);
         for i in 0..self.before.len() {
             let signal = self.before[i];

@@ -65,23 +65,23 @@ pub fn improve(
         return walk.graph.network();
     }
     let mut best = walk.graph.network();
-    let mut best_cost = walk.graph.cost();
+    let mut best_cost = walk.graph.cost;
     let mut best_at = 0;
     for visit in 0..plan.visits {
-        if walk.graph.order().is_empty() || plan.is_cancelled() {
+        if walk.graph.order.is_empty() || plan.is_cancelled() {
             break;
         }
         let slack = u32::from(plan.climb > 0 && walk.below(plan.climb as usize) == 0);
-        if walk.visit(slack) && walk.graph.cost() < best_cost {
+        if walk.visit(slack) && walk.graph.cost < best_cost {
             best = walk.graph.network();
-            best_cost = walk.graph.cost();
+            best_cost = walk.graph.cost;
             best_at = visit;
         } else if visit - best_at > plan.patience {
             walk.graph = Graph::new(&best, prices, stages, patterns);
             best_at = visit;
         }
     }
-    if walk.graph.cost() == best_cost { walk.graph.network() } else { best }
+    if walk.graph.cost == best_cost { walk.graph.network() } else { best }
 }
 
 /// The network at the end of a walk over the patterns that can occur, be it more expensive or not: one of `plan.climb`
@@ -95,7 +95,7 @@ pub fn wander(
 ) -> Network {
     let mut walk = Walk::new(Graph::new(network, prices, &[], patterns), plan.delay, random);
     for _ in 0..plan.visits {
-        if walk.graph.order().is_empty() || plan.is_cancelled() {
+        if walk.graph.order.is_empty() || plan.is_cancelled() {
             break;
         }
         let slack = u32::from(plan.climb > 0 && walk.below(plan.climb as usize) == 0);
@@ -140,8 +140,8 @@ const MOST_DELAY_PRICE: u32 = 6;
 impl<'p, 'r> Walk<'p, 'r> {
     fn new(graph: Graph<'p>, delay: DelayGoal, random: &'r mut ChaCha8Rng) -> Self {
         Self {
-            selective: graph.order().len() > MANY_GATES,
-            exclusive: graph.prices().cost(Function::XOR).unwrap_or(0),
+            selective: graph.order.len() > MANY_GATES,
+            exclusive: graph.prices.cost(Function::XOR).unwrap_or(0),
             deadline: graph.depth(),
             graph,
             delay,
@@ -161,8 +161,8 @@ impl<'p, 'r> Walk<'p, 'r> {
     }
 
     fn visit(&mut self, slack: u32) -> bool {
-        let at = self.below(self.graph.order().len());
-        let gate = self.graph.order()[at];
+        let at = self.below(self.graph.order.len());
+        let gate = self.graph.order[at];
         match self.delay {
             DelayGoal::Keep => {
                 self.require();
@@ -179,7 +179,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         self.require();
         let (graph, required) = (&self.graph, &self.required);
         let late = |&&gate: &&Signal| graph.node(gate).arrival >= required[gate as usize];
-        let critical: Vec<Signal> = graph.order().iter().filter(late).copied().collect();
+        let critical: Vec<Signal> = graph.order.iter().filter(late).copied().collect();
         if !critical.is_empty() {
             let gate = critical[self.below(critical.len())];
             self.limit = Some(self.graph.node(gate).arrival - 1);
@@ -189,10 +189,10 @@ impl<'p, 'r> Walk<'p, 'r> {
 
     fn require(&mut self) {
         self.required.clear();
-        self.required.resize(self.graph.places(), self.deadline);
-        for &gate in self.graph.order().iter().rev() {
+        self.required.resize(self.graph.nodes.len(), self.deadline);
+        for &gate in self.graph.order.iter().rev() {
             let node = self.graph.node(gate);
-            let before = self.required[gate as usize].saturating_sub(self.graph.prices().clock(node.function));
+            let before = self.required[gate as usize].saturating_sub(self.graph.prices.clock(node.function));
             for pin in node.pins {
                 self.required[pin as usize] = self.required[pin as usize].min(before);
             }
@@ -202,8 +202,8 @@ impl<'p, 'r> Walk<'p, 'r> {
     /// Looks for a replacement of a gate that costs at most `slack`; returns whether the network changed.
     fn change(&mut self, gate: Signal, slack: u32) -> bool {
         let released = self.graph.released(gate) + slack;
-        let deep = released >= if self.selective { 2 * self.graph.prices().unit() } else { 2 };
-        self.finder.exclusive = !self.selective || released + 2 * self.graph.prices().unit() >= self.exclusive;
+        let deep = released >= if self.selective { 2 * self.graph.prices.unit() } else { 2 };
+        self.finder.exclusive = !self.selective || released + 2 * self.graph.prices.unit() >= self.exclusive;
         match self.surroundings.take() {
             Some(mut surroundings) => {
                 self.look_around(&mut surroundings, gate, deep);
@@ -212,13 +212,13 @@ impl<'p, 'r> Walk<'p, 'r> {
             None => {
                 self.observe(gate);
                 self.find_divisors(gate);
-                let rows = Rows { words: self.graph.all_values(), width: self.graph.width(), places: None };
+                let rows = Rows { words: &self.graph.all_values, width: self.graph.width, places: None };
                 self.finder.find(rows, deep, self.random);
             }
         }
-        self.graph.set_leaving(Some(gate));
+        self.graph.leaving = Some(gate);
         let changed = self.choose(gate, i64::from(slack));
-        self.graph.set_leaving(None);
+        self.graph.leaving = None;
         changed
     }
 
@@ -236,8 +236,8 @@ impl<'p, 'r> Walk<'p, 'r> {
     /// Finds the patterns in which the gate matters (`on`: and it is 1, `off`: and it is 0) and the gates that depend
     /// on it.
     fn observe(&mut self, gate: Signal) {
-        let width = self.graph.width();
-        let places = self.graph.places();
+        let width = self.graph.width;
+        let places = self.graph.nodes.len();
         self.flipped.resize(places * width, 0);
         self.changed.clear();
         self.changed.resize(places, false);
@@ -248,8 +248,8 @@ impl<'p, 'r> Walk<'p, 'r> {
         }
         self.changed[gate as usize] = true;
         self.after[gate as usize] = true;
-        for i in self.graph.position(gate) + 1..self.graph.order().len() {
-            let signal = self.graph.order()[i];
+        for i in self.graph.position(gate) + 1..self.graph.order.len() {
+            let signal = self.graph.order[i];
             let [a, b] = self.graph.node(signal).pins;
             self.after[signal as usize] = self.after[a as usize] || self.after[b as usize];
             if self.changed[a as usize] || self.changed[b as usize] {
@@ -259,7 +259,7 @@ impl<'p, 'r> Walk<'p, 'r> {
         let Finder { on, off, .. } = &mut self.finder;
         on.clear();
         on.resize(width, 0);
-        for &output in self.graph.outputs() {
+        for &output in &self.graph.outputs {
             if self.changed[output as usize] {
                 let flipped = &self.flipped[output as usize * width..][..width];
                 for (i, (value, flipped)) in self.graph.values(output).iter().zip(flipped).enumerate() {
@@ -274,7 +274,7 @@ impl<'p, 'r> Walk<'p, 'r> {
     }
 
     fn flip(&mut self, signal: Signal, pins: [Signal; 2]) -> bool {
-        let width = self.graph.width();
+        let width = self.graph.width;
         let function = self.graph.node(signal).function;
         let mut changed = 0;
         let out = signal as usize * width;
@@ -294,7 +294,7 @@ impl<'p, 'r> Walk<'p, 'r> {
     fn find_divisors(&mut self, gate: Signal) {
         let stage = self.graph.node(gate).stage;
         let sources = 2..self.graph.first_gate();
-        let all = sources.chain(self.graph.order().iter().copied());
+        let all = sources.chain(self.graph.order.iter().copied());
         let (after, graph) = (&self.after, &self.graph);
         self.finder.divisors.clear();
         self.finder.divisors.extend(all.filter(|&signal| !after[signal as usize] && graph.node(signal).stage <= stage));
@@ -333,9 +333,9 @@ impl<'p, 'r> Walk<'p, 'r> {
     }
 
     fn weigh(&mut self, gate: Signal, candidate: Replacement) -> Option<i64> {
-        let before = i64::from(self.graph.cost());
+        let before = i64::from(self.graph.cost);
         let root = self.build(candidate)?;
-        let change = i64::from(self.graph.cost()) - before - i64::from(self.hold_and_release(root, gate));
+        let change = i64::from(self.graph.cost) - before - i64::from(self.hold_and_release(root, gate));
         let same = self.graph.node(root).alive && self.graph.same(root, gate);
         let late = self.limit.is_some_and(|limit| self.graph.node(root).arrival > limit);
         self.graph.release(root);

@@ -34,7 +34,7 @@ impl<'k, F: Fn(NetId) -> &'k CellKind> Delay<'_, F> {
     }
 
     /// When an update that nothing drives changes: inputs and constants at once, a cell of a loop after its clock.
-    fn launch(&self, phase: &Phase, update: &NetUpdate) -> Option<u32> {
+    pub fn launch(&self, phase: &Phase, update: &NetUpdate) -> Option<u32> {
         let net = phase.net(update);
         match self.netlist.node(net) {
             Node::Input(_) | Node::Constant(_) => Some(0),
@@ -53,10 +53,6 @@ pub(super) struct Arrivals {
 }
 
 impl Arrivals {
-    pub fn of<'k>(delay: &Delay<'_, impl Fn(NetId) -> &'k CellKind>, phase: &Phase) -> Self {
-        Self::from(delay, phase, |update| delay.launch(phase, update))
-    }
-
     /// The changes after those of the updates for which `start` gives a time.
     pub fn from<'k>(
         delay: &Delay<'_, impl Fn(NetId) -> &'k CellKind>,

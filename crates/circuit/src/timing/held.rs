@@ -8,9 +8,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::cells::CellLibrary;
-use crate::passes::{Pass, Sweep};
+use crate::passes::sweep;
 use crate::storage::{Follower, Inverters, Latch};
-use crate::timing::pulsed::WhyKept;
 use crate::{Cell, FlipFlop, NetId, Netlist, Storage};
 use nbc_base::model::Function;
 
@@ -19,6 +18,14 @@ pub struct Held {
     pub netlist: Netlist,
     pub latches: Vec<NetId>,
     pub kept: Vec<(NetId, WhyKept)>,
+}
+
+/// Why a latch stays as it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum WhyKept {
+    NotOneBit,
+    /// Such as where its data depend on what opens it.
+    NotRecognized,
 }
 
 /// The multiplexer that shows its second input while the first is 1, and else the third; and that for the opposite.
@@ -139,7 +146,7 @@ fn make(netlist: &Netlist, plans: &[(usize, Plan)], library: &CellLibrary) -> (N
             made.connect(latch, pin, net);
         }
     }
-    Sweep.run(&mut made).expect("a sweep always succeeds");
+    sweep(&mut made);
     (made, latches)
 }
 
@@ -156,7 +163,7 @@ mod tests {
     use crate::cells::CellKind;
     use crate::example::{latch, multiplexer_library};
     use crate::map::map;
-    use crate::passes::DissolveWires;
+    use crate::passes::dissolve_wires;
     use crate::{Delayed, Delays, Timing, registers};
 
     fn held(source: &Netlist) -> Held {
@@ -193,7 +200,7 @@ mod tests {
         let [data, clock] = ["d", "clk"].map(|name| source.add_input(name));
         let q = registers::flip_flop(&mut source, "q", data, clock, false);
         source.add_output("q", q);
-        DissolveWires.run_on(&mut source).unwrap();
+        dissolve_wires(&mut source).unwrap();
         let Held { netlist, latches, .. } = held(&source);
         assert_eq!((netlist.cells().count(), latches.len()), (2, 2), "{netlist}");
         let timing = Timing::of(&netlist, &multiplexer_library(), Delays::Clock);

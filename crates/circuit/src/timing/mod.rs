@@ -8,7 +8,6 @@ mod arrivals;
 mod clock;
 mod held;
 mod phase;
-mod pulsed;
 mod update;
 mod wording;
 
@@ -21,8 +20,7 @@ use crate::{NetId, Netlist, Node, Storage, Unphased, WhyUnphased};
 
 pub use arrivals::Delays;
 pub use clock::{ClockPath, ClockTimes, InputTimes, PathEnds};
-pub use held::Held;
-pub use pulsed::{Pulse, Pulsed, PulsedRegisters, WhyKept};
+pub use held::{Held, WhyKept};
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {
@@ -57,7 +55,7 @@ impl Timing {
         let timed: Vec<(Phase, Arrivals)> = phases
             .into_iter()
             .map(|phase| {
-                let arrivals = Arrivals::of(&delay, &phase);
+                let arrivals = Arrivals::from(&delay, &phase, |update| delay.launch(&phase, update));
                 (phase, arrivals)
             })
             .collect();

@@ -11,30 +11,24 @@ use crate::network::{Network, Signal};
 use crate::proof::{self, Method};
 use crate::waves::clock_step::ClockStep;
 use crate::waves::machine::{WaveMachine, WaveState};
-use crate::waves::wording::CertifyError;
+use crate::waves::wording::{has_other_starts, is_different, is_mixed, reads_no_state};
 use crate::{NetId, Node};
 use nbc_base::model::Function;
-
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Certificate {
-    pub method: Method,
-}
 
 /// A net or a constant as a listener reads it, by steps later.
 type Place = (Result<NetId, bool>, i64);
 
 /// Proves that each of a machine's threads makes the steps of its source.
-pub fn certify(step: &ClockStep, machine: &WaveMachine) -> Result<Certificate, CertifyError> {
+pub fn certify(step: &ClockStep, machine: &WaveMachine) -> Result<Method, String> {
     let checker = Checker::new(step, machine)?;
     checker.check_starts()?;
     let needed = checker.needed_bits();
     let (one, two) = (checker.source(&needed), checker.machine(&needed)?);
-    let method = proof::equal(&one, &two).map_err(|(output, _)| {
+    proof::equal(&one, &two).map_err(|(output, _)| {
         let bit = |at: usize| step.state[needed[at]].name.clone();
         let net = step.outputs.get(output).cloned();
-        CertifyError::Different { net: net.unwrap_or_else(|| bit(output - step.outputs.len())) }
-    })?;
-    Ok(Certificate { method })
+        is_different(&net.unwrap_or_else(|| bit(output - step.outputs.len())))
+    })
 }
 
 struct Checker<'a> {
@@ -47,7 +41,7 @@ struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(step: &'a ClockStep, machine: &'a WaveMachine) -> Result<Self, CertifyError> {
+    fn new(step: &'a ClockStep, machine: &'a WaveMachine) -> Result<Self, String> {
         let mut checker = Self { step, machine, later: BTreeMap::new(), bits: BTreeMap::new() };
         for (id, _) in machine.netlist.cells() {
             for (pin, net) in (0..).zip(machine.netlist.pins(id)) {
@@ -64,12 +58,12 @@ impl<'a> Checker<'a> {
         Ok(checker)
     }
 
-    fn mixed(&self, id: NetId) -> CertifyError {
-        CertifyError::Mixed { net: self.machine.netlist.net_name(id) }
+    fn mixed(&self, id: NetId) -> String {
+        is_mixed(&self.machine.netlist.net_name(id))
     }
 
     /// The first beat of a step in which a net shows the step; `None` for constants.
-    fn shown(&self, net: NetId) -> Result<Option<i64>, CertifyError> {
+    fn shown(&self, net: NetId) -> Result<Option<i64>, String> {
         Ok(match self.machine.netlist.node(net) {
             Node::Constant(_) => None,
             Node::Input(_) => {
@@ -80,7 +74,7 @@ impl<'a> Checker<'a> {
         })
     }
 
-    fn steps(&self, beats: i64, id: NetId) -> Result<i64, CertifyError> {
+    fn steps(&self, beats: i64, id: NetId) -> Result<i64, String> {
         let period = i64::from(self.machine.period);
         (beats % period == 0).then(|| beats / period).ok_or_else(|| self.mixed(id))
     }
@@ -111,8 +105,8 @@ impl<'a> Checker<'a> {
     }
 
     /// The bit of the state at a place that starts so.
-    fn bit(&self, (net, later): Place, starts: &[bool], reader: NetId) -> Result<usize, CertifyError> {
-        let missing = || CertifyError::NoState { net: self.machine.netlist.net_name(reader) };
+    fn bit(&self, (net, later): Place, starts: &[bool], reader: NetId) -> Result<usize, String> {
+        let missing = || reads_no_state(&self.machine.netlist.net_name(reader));
         self.bits.get(&(self.place(net, later), starts)).copied().ok_or_else(missing)
     }
 
@@ -127,11 +121,11 @@ impl<'a> Checker<'a> {
     }
 
     /// Whether every bit starts as in the source, and every pin as the bit that it reads.
-    fn check_starts(&self) -> Result<(), CertifyError> {
+    fn check_starts(&self) -> Result<(), String> {
         for (bit, state) in self.step.state.iter().zip(&self.machine.state) {
             let first = state.starts.first().copied();
             if first != Some(bit.start) || state.starts.len() as i64 != state.later {
-                return Err(CertifyError::Start { net: bit.name.clone() });
+                return Err(has_other_starts(&bit.name));
             }
         }
         for (&(id, pin), starts) in &self.machine.held {
@@ -176,15 +170,10 @@ impl<'a> Checker<'a> {
         let (ports, outputs) = (self.step.inputs.len(), self.step.outputs.len());
         let mut made = Network::new(self.inputs());
         let mut copy = |is_late: bool| {
-            let logic = &self.step.logic;
-            let mut signals: Vec<Signal> = vec![0, 1];
-            signals.extend((0..ports).map(|port| made.input(self.port(port, is_late))));
+            let port = |port| made.input(self.port(port, is_late));
             let bit = |bit| self.equal(bit).map_or_else(Signal::from, |bit| made.input(2 * ports + bit));
-            signals.extend((0..self.step.state.len()).map(bit));
-            for gate in &logic.gates {
-                signals.push(made.add(gate.function, gate.pins.map(|pin| signals[pin as usize])));
-            }
-            logic.outputs.iter().map(|&output| signals[output as usize]).collect::<Vec<_>>()
+            let inputs: Vec<Signal> = (0..ports).map(port).chain((0..self.step.state.len()).map(bit)).collect();
+            made.include(&self.step.logic, &inputs)
         };
         let is_clocked = self.machine.clock.is_some();
         let (shown, next) = (copy(is_clocked), copy(false));
@@ -193,7 +182,7 @@ impl<'a> Checker<'a> {
     }
 
     /// The machine, as a circuit of steps.
-    fn machine(&self, needed: &[usize]) -> Result<Network, CertifyError> {
+    fn machine(&self, needed: &[usize]) -> Result<Network, String> {
         let mut steps = Steps { checker: self, made: Network::new(self.inputs()), signals: BTreeMap::new() };
         let mut outputs = Vec::new();
         let is_clocked = i64::from(self.machine.clock.is_some());
@@ -229,7 +218,7 @@ struct Steps<'a> {
 
 impl Steps<'_> {
     /// What a pin reads that starts so: a bit of the state, or else a constant, a port or a cell.
-    fn signal(&mut self, (net, later): Place, starts: &[bool], reader: NetId) -> Result<Signal, CertifyError> {
+    fn signal(&mut self, (net, later): Place, starts: &[bool], reader: NetId) -> Result<Signal, String> {
         let checker = self.checker;
         if !starts.is_empty() {
             let bit = checker.equal(checker.bit((net, later), starts, reader)?);
@@ -245,11 +234,11 @@ impl Steps<'_> {
                 Ok(self.made.input(checker.port(port.expect("an input is listed"), later == 1)))
             }
             Node::Cell(_) if later == 0 => self.cell(net),
-            _ => Err(CertifyError::NoState { net: checker.machine.netlist.net_name(reader) }),
+            _ => Err(reads_no_state(&checker.machine.netlist.net_name(reader))),
         }
     }
 
-    fn cell(&mut self, root: NetId) -> Result<Signal, CertifyError> {
+    fn cell(&mut self, root: NetId) -> Result<Signal, String> {
         let mut waiting = vec![root];
         while let Some(&id) = waiting.last() {
             if self.signals.contains_key(&id) {
@@ -275,7 +264,7 @@ impl Steps<'_> {
             }
             match missing {
                 Some(before) if waiting.contains(&before) => {
-                    return Err(CertifyError::Mixed { net: netlist.net_name(before) });
+                    return Err(is_mixed(&netlist.net_name(before)));
                 }
                 Some(before) => waiting.push(before),
                 None => {

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use crate::cells::CellKind;
 use crate::network::{Network, Signal, View};
-use crate::passes::{DissolveWires, Pass, Sweep};
+use crate::passes::{dissolve_wires, sweep};
 use crate::signal_blocks::SignalBlocks;
 use crate::storage::{Follower, Inverters};
 use crate::waves::wording::WaveError;
@@ -52,8 +52,8 @@ impl ClockStep {
     pub fn of(source: &Netlist) -> Result<Self, WaveError> {
         const KIND: CellKind = CellKind::uniform(1, 1.0);
         let mut netlist = source.clone();
-        DissolveWires.run_on(&mut netlist).map_err(WaveError::Netlist)?;
-        Sweep.run(&mut netlist).map_err(WaveError::Netlist)?;
+        dissolve_wires(&mut netlist).map_err(WaveError::Netlist)?;
+        sweep(&mut netlist);
         let storage = Storage::of(&netlist, |_| &KIND);
         if let Some(unphased) = storage.unphased.first() {
             return Err(WaveError::Loop { net: netlist.net_name(unphased.nets[0]) });
@@ -120,9 +120,7 @@ impl ClockStep {
 
     /// The next state and the outputs before it, from the values of the ports and the state.
     pub fn run(&self, inputs: &[bool], state: &[bool]) -> (Vec<bool>, Vec<bool>) {
-        let words: Vec<u64> = inputs.iter().chain(state).map(|&bit| u64::from(bit)).collect();
-        let values = self.logic.simulate(&words);
-        let shown: Vec<bool> = self.logic.outputs.iter().map(|&output| values[output as usize] & 1 == 1).collect();
+        let shown = self.logic.run(inputs.iter().chain(state).copied());
         let (outputs, next) = shown.split_at(self.outputs.len());
         (outputs.to_vec(), next.to_vec())
     }

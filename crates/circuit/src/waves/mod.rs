@@ -10,15 +10,14 @@ mod clock_step;
 mod graph;
 mod machine;
 mod phases;
-mod run;
 mod search;
 mod wording;
 
-pub use certify::{Certificate, certify};
+pub use certify::certify;
 pub use clock_run::{ClockRun, LANES};
 pub use clock_step::{ClockStep, StateBit};
 pub use machine::{Reading, WaveMachine, WaveOutput, WaveState};
-pub use wording::{CertifyError, WaveError};
+pub use wording::WaveError;
 
 use crate::cells::CellLibrary;
 use crate::network::Network;
@@ -54,16 +53,8 @@ pub fn balance(source: &Netlist, library: &CellLibrary, options: &WaveOptions) -
     }
     let period = options.cycles.map(|cycles| cycles / beat);
     let short = |least: u32| WaveError::ShortStep { wanted: options.cycles.unwrap_or(0), least: least * beat };
-    let found = |effort| {
-        let mapping = MapOptions { effort, ..options.mapping.clone() };
-        search(&logic, mappings(&logic.network, &cells, &mapping)?, &cells, period, &mapping).map_err(short)
-    };
-    let mut balanced = found(options.mapping.effort)?;
-    if options.mapping.effort == Effort::High {
-        // A random walk may miss what a shorter one finds.
-        let quick = found(Effort::Normal)?;
-        balanced = if quick.weight < balanced.weight { quick } else { balanced };
-    }
+    let starts = mappings(&logic.network, &cells, &options.mapping)?;
+    let balanced = search(&logic, starts, &cells, period, &options.mapping).map_err(short)?;
     let blocks = logic.blocks(&step, &WaveCells::new(&cells).of(&balanced.network));
     WaveMachine::new(&step, &balanced.graph, &blocks, &balanced.phases, &cells, beat).ok_or(WaveError::NoBuffer)
 }

@@ -84,7 +84,6 @@ pub fn search(
         _ if gates > MOST_GATES => 0,
         Effort::Fast => 0,
         Effort::Normal => (100 * gates).min(900_000 / (gates + 40)),
-        Effort::High => (1_000 * gates).min(6_000_000 / (gates + 40)),
     };
     let (mut best, mut now) = (best.clone(), best);
     for round in 0..rounds {

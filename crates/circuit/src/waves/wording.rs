@@ -1,6 +1,5 @@
 //! Why a circuit cannot be a wave machine, as data, and how it is worded.
 
-use std::error::Error;
 use std::fmt;
 
 use crate::{MapError, NetlistError};
@@ -20,12 +19,6 @@ pub enum WaveError {
     Starts { net: String },
     UnevenStep { wanted: u32, beat: u32 },
     ShortStep { wanted: u32, least: u32 },
-}
-
-impl From<MapError> for WaveError {
-    fn from(error: MapError) -> Self {
-        Self::Unmapped(error)
-    }
 }
 
 impl fmt::Display for WaveError {
@@ -56,8 +49,6 @@ impl fmt::Display for WaveError {
     }
 }
 
-impl Error for WaveError {}
-
 impl WaveError {
     pub fn help(&self) -> Option<String> {
         Some(match self {
@@ -65,7 +56,7 @@ impl WaveError {
             Self::Unmapped(error) => return error.help(),
             Self::NoBuffer => "a `buf`, `and` or `or` robot that is quick enough for the beat suffices".to_owned(),
             Self::Loop { .. } | Self::Latch { .. } => {
-                "in a wave machine every loop passes a `register`; `registers: pulsed` allows latches".to_owned()
+                "in a wave machine every loop passes a `register`; `registers: mux` allows latches".to_owned()
             }
             Self::GatedClock { .. } => {
                 "let every register change in each step, and keep a value with `if enable then new else old`".to_owned()
@@ -82,27 +73,18 @@ impl WaveError {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum CertifyError {
-    /// The phase of a net does not fit that of its driver, so machines would mix.
-    Mixed { net: String },
-    /// A pin reads a state that the source does not have.
-    NoState { net: String },
-    /// A pin or a bit of the state starts with other values.
-    Start { net: String },
-    /// An output or the next value of a bit differs.
-    Different { net: String },
+pub(super) fn is_mixed(net: &str) -> String {
+    format!("the phase of `{net}` does not fit its driver")
 }
 
-impl fmt::Display for CertifyError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Mixed { net } => write!(f, "the phase of `{net}` does not fit its driver"),
-            Self::NoState { net } => write!(f, "`{net}` reads a state that the source does not have"),
-            Self::Start { net } => write!(f, "`{net}` has other start values"),
-            Self::Different { net } => write!(f, "`{net}` differs"),
-        }
-    }
+pub(super) fn reads_no_state(net: &str) -> String {
+    format!("`{net}` reads a state that the source does not have")
 }
 
-impl Error for CertifyError {}
+pub(super) fn has_other_starts(net: &str) -> String {
+    format!("`{net}` has other start values")
+}
+
+pub(super) fn is_different(net: &str) -> String {
+    format!("`{net}` differs")
+}

@@ -38,7 +38,7 @@ const ACTUATOR: &[Fact] = &[("kind", "actuator")];
 const SENSOR: &[Fact] = &[("kind", "sensor")];
 /// The noise that is drawn.
 const DRAWN: &[Fact] = &[("start", ""), ("missed", ""), ("dead", "")];
-const HOLDS: &[Fact] = &[("registers", "master_slave"), ("registers", "pulsed"), ("registers", "mux")];
+const HOLDS: &[Fact] = &[("registers", "master_slave"), ("registers", "mux")];
 const WAVES: &[Fact] = &[("registers", "waves")];
 const NETWORKS: &[Fact] = &[("genome", "cppn")];
 const VOXELS: &[Fact] = &[("genome", "voxels")];
@@ -107,7 +107,7 @@ const RECORDS: [(&str, &[RecordField]); 8] = [
             field("library", Name(NameKind::Library), ALWAYS),
             field("hold", Word(&["auto"]), HOLDS),
             field("window", Value, HOLDS),
-            field("registers", Word(&["master_slave", "mux", "pulsed", "waves"]), ALWAYS),
+            field("registers", Word(&["master_slave", "mux", "waves"]), ALWAYS),
             field("beat", Value, WAVES),
             field("step", Value, WAVES),
             field("world", Name(NameKind::World), ALWAYS),
@@ -243,7 +243,7 @@ schedule spots(spot) { left for 9 steps right for 9 steps }
             ("swarm", "circuit") => ["f", "g"],
             ("swarm", "library") | ("evolution", "start") => ["shipped", "few"],
             ("swarm", "hold" | "window" | "beat" | "step") | ("evolution", "fixed") => ["3 cycles", "6 cycles"],
-            ("swarm", "registers") => ["master_slave", "pulsed"],
+            ("swarm", "registers") => ["master_slave", "mux"],
             (_, "world") => ["paper", "rough"],
             ("evolution", "box") => ["4 x 4", "6 x 6"],
             ("evolution", "materials") => ["[bone, muscle]", "[flesh, muscle]"],

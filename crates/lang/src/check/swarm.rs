@@ -18,12 +18,8 @@ pub const DEFAULT_LIBRARY: &str = "shipped";
 /// In cycles.
 const MAX_WINDOW: u32 = 1000;
 
-const REGISTERS: [(&str, RegisterStyle); 4] = [
-    ("master_slave", RegisterStyle::MasterSlave),
-    ("pulsed", RegisterStyle::Pulsed),
-    ("mux", RegisterStyle::Mux),
-    ("waves", RegisterStyle::Waves),
-];
+const REGISTERS: [(&str, RegisterStyle); 3] =
+    [("master_slave", RegisterStyle::MasterSlave), ("mux", RegisterStyle::Mux), ("waves", RegisterStyle::Waves)];
 
 /// In cycles.
 const MAX_STEP: u32 = 100_000;

@@ -97,7 +97,6 @@ pub fn widen(
         _ if size > MOST_GATES || size == 0 => 0,
         Effort::Fast => 0,
         Effort::Normal => (60 * size).min(200_000 / (size + 40)),
-        Effort::High => (2_000 * size).min(6_000_000 / (size + 40)),
     };
     let mut random = ChaCha8Rng::seed_from_u64(0x6e62_6377_6964_6572);
     let (mut start, mut level) = (now.clone(), weight(&best));
