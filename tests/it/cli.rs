@@ -406,6 +406,7 @@ fn timings_of_an_evolution_include_archive_and_development() {
 }
 
 #[test]
+#[cfg(feature = "cluster")]
 fn workers_and_a_device_cannot_both_simulate() {
     let bench = Bench::new();
     for command in [&["evolve"][..], &["library", "verify"], &["library", "add", "run", "--into", "robots"]] {
@@ -418,9 +419,11 @@ fn workers_and_a_device_cannot_both_simulate() {
 fn logic_needs_no_place_where_robots_are_simulated() {
     let bench = Bench::new();
     bench.file("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
-    for (place, name) in
-        [(["--device", "gpu"], "--device <DEVICE>"), (["--nats", "nats://localhost:4222"], "--nats <URL>")]
-    {
+    for (place, name) in [
+        (["--device", "gpu"], "--device <DEVICE>"),
+        #[cfg(feature = "cluster")]
+        (["--nats", "nats://localhost:4222"], "--nats <URL>"),
+    ] {
         let ran = bench.run(&[&["test", "gate.nb", "--logic"][..], &place].concat());
         ran.expect_fault(&["'--logic'", "cannot be used with", name]);
     }
