@@ -1,5 +1,5 @@
-// Bundles the page into dist/, with the licenses of the packages in it, the page of exported files and, in report/, the
-// scripts and the style of the pages of results, which use no package; with --tests, the unit tests into build/unit/;
+// Bundles the page into dist/, with the licenses of the packages in it and, in report/, the scripts and the style of
+// the pages of results, which use no package; with --tests, the unit tests into build/unit/;
 // with --tab PROGRAM FOLDER, the page that needs no server into a folder, with the program as WebAssembly.
 // The bytes depend only on the sources and the locked packages, so that they can be committed and compared.
 
@@ -39,7 +39,6 @@ async function page() {
   writeFileSync("dist/index.html", readFileSync("src/index.html"));
   writeFileSync("dist/class.html", readFileSync("src/class.html"));
   writeFileSync("dist/NOTICES.txt", notices(Object.keys(bundled.metafile.inputs)));
-  writeFileSync("dist/player.html", await player());
   mkdirSync("dist/report");
   for (const report of ["run", "evolution", "sheets"]) {
     writeFileSync(`dist/report/${report}.js`, await bundle(script, `src/report/${report}.ts`));
@@ -48,16 +47,10 @@ async function page() {
 }
 
 /**
- * The page for a file of its own. It contains its script and style, and its policy permits these alone: nothing can be
- * loaded, and nothing that the program adds can be a script.
+ * The page of a browser tab as a file of its own: only the sources of a circuit are missing. It contains its script and
+ * style, both packed, and its policy permits these alone: nothing can be loaded, and nothing that the program adds can
+ * be a script.
  */
-async function player() {
-  const code = await bundle(script, "src/player/main.ts");
-  const data = inert("data", "application/octet-stream");
-  return alone({ script: code, style: await bundle(sheet, "src/style/player.css"), data });
-}
-
-/** The same with the whole program: only the sources of a circuit are missing. Script and style are packed, too. */
 async function livePage(packed) {
   const inside = {
     style: await bundle(sheet, "src/style/app.css"),

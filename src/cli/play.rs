@@ -5,16 +5,17 @@ use std::sync::Arc;
 
 use clap::Args;
 use clap::builder::RangedU64ValueParser;
-use nbc_play::{PUBLIC_PAGE, live_page, live_template};
+use nbc_play::{PUBLIC_PAGE, live_page, live_template, recorded_page, recorded_runs};
 use nbc_play_server::{LessonSource, PlayOptions, PlayServer, is_token};
 use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
-use nbc_session::{Choice, Session};
+use nbc_session::{Choice, CompileOptions, Session};
 use nbc_swarm::Room;
 use serde_json::json;
 
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
+use crate::cli::runs::run_list;
 use crate::cli::source_path::source_path;
 use crate::cli::wording;
 use crate::cli::{Context, Failure, Interrupt, OutputFormat, Status};
@@ -30,8 +31,9 @@ const MOST_PAGES: u64 = PlayOptions::MOST_PAGES as u64;
 /// address and opens it. The page can read and write only below the current folder, or the file's folder if that is
 /// elsewhere. Everyone who knows the address can use the page. Ctrl-C stops the server.
 ///
-/// With `--export`, it starts no server. It writes one HTML file in which the circuit can be played without nbc and
-/// without a network: a recording, or with `--live` the whole page with its physics, tests and editor.
+/// With `--export`, it starts no server. It writes one HTML file that a browser opens without nbc and without a network:
+/// the recorded tests and simulations, as `nbc run` does, or with `--live` the whole page with its physics, tests and
+/// editor.
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc play
@@ -58,7 +60,7 @@ pub struct PlayArguments {
     /// The secret part of the address, at least 16 letters and digits, instead of a random one
     #[arg(long, value_name = "TEXT", value_parser = token)]
     token: Option<String>,
-    /// Write the circuit to this HTML file, which plays without a server, and start none
+    /// Write this HTML file, which needs no server, and start none: the tests and simulations, recorded
     #[arg(long, value_name = "OUT", requires = "file", value_parser = new_path())]
     #[arg(conflicts_with_all = [
         "port", "host", "no_open", "page", "token", "lessons", "class", "public_page", "pages",
@@ -122,7 +124,7 @@ fn write_page(
     context: &mut Context,
 ) -> Result<Status, Failure> {
     let template = if live { Some(live_template().ok_or_else(wording::no_live_pages)?) } else { None };
-    let mut session = Session::new(DiskWorld).with_poses(Room::LIVE);
+    let mut session = Session::new(DiskWorld).with_poses(Room::SWARM);
     let checked = session.open(source_path(file)?)?;
     let (choice, options) = (making.choice(), making.options()?);
     let page = if let Some(template) = template {
@@ -130,9 +132,16 @@ fn write_page(
         context.tell(&warnings.list, &warnings.sources);
         page
     } else {
-        let compiled = session.compile(&checked, &checked.circuit(&choice)?, &options)?;
-        context.tell(&compiled.warnings, &checked.sources);
-        nbc_play::export(&session, &checked, &compiled)?
+        let (list, interrupt) = (recorded_runs(&checked, &choice)?, Interrupt::watch()?);
+        let options = CompileOptions { cancel: interrupt.cancel(), ..options };
+        let report = run_list(&session, &checked, &list, options, &interrupt)?;
+        if interrupt.is_raised() {
+            return Ok(Status::Interrupted);
+        }
+        let of_tests = report.tests.iter().flat_map(|run| &run.warnings);
+        let warnings = of_tests.chain(report.simulations.iter().flat_map(|run| &run.warnings));
+        context.warn(&checked, checked.diagnostics.iter().chain(warnings));
+        recorded_page(&file.to_string_lossy(), &report)
     };
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
     let (bytes, name) = (page.html.len(), output.display());

@@ -10,7 +10,7 @@ use crate::cli::options::files::FilesArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::timings::{TimedStage, Timings};
-use crate::cli::runs::{CompleteRun, chosen_runs, in_physics, run_list, unknown_run};
+use crate::cli::runs::{CompleteRun, run_list, unknown_run};
 use crate::cli::source_path::{result_path, source_path};
 use crate::cli::{Context, Failure, Interrupt, OpenDevice, OutputFormat, Status, runs};
 use nbc_session::report::{
@@ -103,7 +103,7 @@ impl RunArguments {
 
     fn chosen<'f>(&'f self, file: &'f Checked) -> Result<RunList<'f>, Failure> {
         let choice = self.making.choice();
-        let list = in_physics(chosen_runs(file, self.only.as_deref(), &choice)?);
+        let list = RunList::chosen(file, self.only.as_deref(), &choice)?.in_physics();
         if !list.is_empty() {
             return Ok(list);
         }

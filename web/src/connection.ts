@@ -1,7 +1,6 @@
 // The line for everything but the language server: requests with their answers, events and frames.
 
 import type { Dial, Line } from "./line";
-import type { SwarmServer } from "./live/server";
 import { Observable } from "./observable";
 import type { PlayEvent, Refusal, ServerMessage } from "./protocol";
 import { RequestError, type Fields, type Result, type Verb } from "./request";
@@ -27,7 +26,7 @@ export const CANCELLED = "cancelled";
 const FIRST_WAIT = 250;
 const LONGEST_WAIT = 4000;
 
-export class Connection implements SwarmServer {
+export class Connection {
   readonly state = new Observable<ConnectionState>("connecting");
   readonly events = new Observable<PlayEvent | null>(null);
   /** Receives each frame. */

@@ -117,55 +117,6 @@ export type ExampleEntry = {
   about: string,
 };
 
-export type ExportedRobot = {
-  /** The index of its walk. */
-  walk: number,
-  /** Its output before the first cycle. */
-  start: boolean,
-  /** Cycles of the same stimuli after which it answers. */
-  delay: number,
-  /** For each stimulus, what it senses in the first cycles instead of its source. */
-  held: Array<string>,
-};
-
-/** A row: the digits `0` and `1` of the inputs, and for the outputs also `-`. */
-export type ExportedRow = {
-  inputs: string,
-  expected: string,
-};
-
-/** A recorded cycle under one pattern, as a loop. */
-export type ExportedStride = {
-  /** Voxels that the robot moves in it. */
-  shift: number,
-  /** Base64 of numbers as in a frame, without the motion of the whole. */
-  poses: string,
-};
-
-/** A circuit that a page plays without a server: the swarm, how its robots walk, and the rows of the tests. */
-export type ExportedSwarm = {
-  version: string,
-  file: string,
-  swarm: ShownSwarm,
-  /** Cycles for which robots sense the same; more than one only in wave machines. */
-  beat: number,
-  robots: Array<ExportedRobot>,
-  /** How each of the different robots walks. */
-  walks: Array<ExportedWalk>,
-  tests: Array<ExportedTest>,
-};
-
-export type ExportedTest = {
-  title: string,
-  rows: Array<ExportedRow>,
-};
-
-export type ExportedWalk = {
-  /** The directions, such as `RRRL`. */
-  letters: string,
-  strides: Array<ExportedStride>,
-};
-
 /** A file that was read or saved and has another stamp, or none because it is gone. */
 export type FileChange = {
   path: string,

@@ -54,7 +54,7 @@ export class TakeAway {
         button("Program (.nb)", () => this.#program(), { "data-take": "nb" }),
         button("Schematic (SVG)", () => this.#schematic(), { "data-take": "schematic" }),
         button("Live page (HTML, no server)", () => void this.#export(true), { "data-take": "live" }),
-        button("Recorded page (HTML, smaller)", () => void this.#export(false), { "data-take": "player" }),
+        button("Recorded page of the tests (HTML)", () => void this.#export(false), { "data-take": "recorded" }),
         ...PICTURES.map(([what, label]) => button(label, () => void this.#take(what, label), { "data-take": what })),
         element("label", {}, "of the last ", this.#cycles, " cycles"),
         this.#status,
@@ -102,13 +102,13 @@ export class TakeAway {
     return takenName({ circuit, swarm, what, ending, ...(cycles ? { cycles } : {}) });
   }
 
-  /** The circuit as a page of its own, with the whole simulator or as a recording. */
+  /** The circuit as a page of its own, with the whole simulator, or its tests and simulations as they were recorded. */
   async #export(live: boolean): Promise<void> {
     const choice = this.program.choice.value;
     if (choice !== null) {
       await this.program.settled();
       const path = this.program.path.value;
-      const named = (ending: string): string => this.#name(live ? "live" : "player", ending);
+      const named = (ending: string): string => this.#name(live ? "live" : "recorded", ending);
       await this.#make("the page", named, async signal => {
         await (live ? this.ways.prepare() : null);
         return this.connection.request("export", { path, live, ...choice }, { signal });

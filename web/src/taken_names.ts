@@ -2,7 +2,7 @@
 
 import type { TakeKind } from "./protocol";
 
-const KINDS: Record<TakeKind | "live" | "player" | "schematic", string> = {
+const KINDS: Record<TakeKind | "live" | "recorded" | "schematic", string> = {
   page: "report",
   gif: "film",
   png: "spacetime",
@@ -10,7 +10,7 @@ const KINDS: Record<TakeKind | "live" | "player" | "schematic", string> = {
   vcd: "waveforms",
   csv: "cycles",
   live: "live",
-  player: "recorded",
+  recorded: "recorded",
   schematic: "schematic",
 };
 

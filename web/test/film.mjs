@@ -2,7 +2,7 @@
 
 import { execFileSync } from "node:child_process";
 import { mkdirSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 
 import gifenc from "gifenc";
@@ -105,15 +105,13 @@ async function processor(url) {
   await page.leave();
 }
 
-/** An adder as a page of its own, with its truth table. */
+/** The recorded tests of an adder as a page of its own. */
 async function exported(folder) {
   const file = join(folder, "full_adder.html");
-  execFileSync(process.env.NBC, ["play", CIRCUITS + "full_adder.nb", "--export", file]);
+  execFileSync(resolve(process.env.NBC), ["play", "full_adder.nb", "--export", file], { cwd: CIRCUITS });
   const page = await visit(pathToFileURL(file).href, { viewport: { width: 1280, height: 860 }, offline: true });
-  await walking(page);
-  await page.locator('.table [data-row="110"] button').click();
-  await cyclesLater(page, 10);
-  await page.screenshot({ path: place("player.png") });
+  await page.locator(".sheet svg").first().waitFor();
+  await page.screenshot({ path: place("recorded.png") });
   await page.leave();
 }
 

@@ -120,7 +120,7 @@ test("what is pointed at is marked in all views, and a robot can be followed alo
 });
 
 test("every kind of file can be taken away", async () => {
-  const kinds = ["nb", "schematic", "svg", "csv", "vcd", "png", "page", "gif", "player"];
+  const kinds = ["nb", "schematic", "svg", "csv", "vcd", "png", "page", "gif", "recorded"];
   const names = new Set();
   await here.page.locator(".take summary").click();
   for (const kind of kinds) {

@@ -9,7 +9,7 @@ test("files of different things have different names", () => {
     { ...latch, what: "page", ending: "html", cycles: [1, 40] },
     { ...latch, what: "page", ending: "html", cycles: [2, 41] },
     { ...latch, what: "live", ending: "html" },
-    { ...latch, what: "player", ending: "html" },
+    { ...latch, what: "recorded", ending: "html" },
     { ...latch, what: "schematic", ending: "svg" },
     { ...latch, what: "svg", ending: "svg", cycles: [1, 40] },
     { ...latch, what: "png", ending: "png", cycles: [1, 40] },

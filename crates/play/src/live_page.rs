@@ -6,8 +6,8 @@ use std::sync::{Arc, Mutex};
 use serde::Serialize;
 use serde_json::to_string;
 
-use crate::export::ExportedPage;
 use crate::lock::lock;
+use crate::recorded_page::ExportedPage;
 use nbc_base::diag::Diagnostics;
 use nbc_base::source::{
     CancelFlag, EntryKind, FileError, OverlayWorld, SharedWorld, SourceWorld, VerilogError, VerilogFiles,

@@ -38,7 +38,6 @@ pub(super) enum Refused {
     ClassName { most: usize },
     ClassNameTaken { name: String },
     Internal,
-    Export(Box<Diagnostic>),
     NoLivePages,
     Source(Diagnostics),
 }
@@ -90,7 +89,6 @@ impl Refused {
             Self::NoExample(name) => format!("there is no example `{name}`"),
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
-            Self::Export(found) => found.message.clone(),
             Self::NoLivePages => "this nbc has nothing to make live pages of".to_owned(),
             Self::NoClass => "this page is in no class".to_owned(),
             Self::ClassFull { most } => format!("the class has {most} members, and no room for another one"),
@@ -115,7 +113,6 @@ impl Refused {
             Self::ClassNameTaken { .. } => Some("choose another name".to_owned()),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
-            Self::Export(found) => found.help.clone(),
             Self::NoLivePages => Some("take a recorded page".to_owned()),
             Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
             _ => None,

@@ -2,16 +2,16 @@
 
 use std::io;
 
-use crate::export::export;
 use crate::jobs::Job;
 use crate::live_page::live_page;
-use crate::programs;
+use crate::recorded_page::{recorded_page, recorded_runs};
 use crate::refusal::Refused;
 use crate::request::TakeKind;
 use crate::site::{PlaySite, SCHEME};
 use nbc_base::model::CYCLE_STEPS;
 use nbc_session::report::{self, FRAMES_PER_CYCLE, Film, Stage, SwarmOutcome};
-use nbc_session::{Checked, Choice, Excerpt, RunEnd, Session, SimulationRun, run_page};
+use nbc_session::{Checked, Choice, CompileOptions, Excerpt, RunEnd, Session, SimulationRun, TestOptions, run_page};
+use nbc_swarm::{Level, Room};
 
 pub(super) const HTML: &str = "text/html; charset=utf-8";
 const MOST_CYCLES: u32 = 200;
@@ -54,17 +54,20 @@ pub(super) fn make(session: &Session, excerpt: &Excerpt, kind: TakeKind, job: &m
     })
 }
 
-pub(super) fn exported(
-    session: &Session,
+pub(super) fn recorded(
+    site: &PlaySite,
     checked: &Checked,
     choice: &Choice,
-    job: &Job,
+    job: &mut Job,
 ) -> Result<(String, Vec<u8>), Refused> {
-    let (circuit, options) = programs::chosen(checked, choice, job)?;
-    let compiled = session.compile(checked, &circuit, &options)?;
+    let name = checked.circuit(choice)?.circuit;
+    let list = recorded_runs(checked, choice)?;
+    let session = Session::new(site.folder.world()).with_poses(Room::SWARM);
+    let compile = CompileOptions { swarm: choice.swarm.clone(), ..job.options() };
+    let report = session.run_list(checked, &list, &TestOptions { level: Some(Level::Physics), compile }, job)?;
     job.check()?;
-    let page = export(session, checked, &compiled).map_err(|found| Refused::Export(found.into()))?;
-    Ok((format!("{}.html", compiled.plan.circuit.circuit), page.html.into_bytes()))
+    let source = checked.path.rsplit('/').next().unwrap_or_default();
+    Ok((format!("{name}.html"), recorded_page(source, &report).html.into_bytes()))
 }
 
 pub(super) fn live(

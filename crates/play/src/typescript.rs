@@ -1,5 +1,5 @@
-//! The types of the messages for the page: `web/src/protocol.ts` is made from those of the requests, of the server's
-//! messages, and of exported pages. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
+//! The types of the messages for the page: `web/src/protocol.ts` is made from those of the requests and of the
+//! server's messages. `NBC_UPDATE_PROTOCOL=1 cargo test -p nbc-play protocol` rewrites it.
 
 use std::any::TypeId;
 use std::collections::{BTreeMap, BTreeSet};
@@ -8,7 +8,7 @@ use std::path::Path;
 
 use ts_rs::{Config, TS, TypeVisitor};
 
-use crate::message::{ClassCourse, ClassRoll, ExportedSwarm, ServerMessage};
+use crate::message::{ClassCourse, ClassRoll, ServerMessage};
 use crate::request::Request;
 
 const HEAD: &str = "\
@@ -74,7 +74,6 @@ fn the_protocol_of_the_page_is_that_of_the_server() {
     let mut declared = Declared { config, seen: BTreeSet::new(), texts: BTreeMap::new() };
     declared.visit::<Request>();
     declared.visit::<ServerMessage>();
-    declared.visit::<ExportedSwarm>();
     declared.visit::<ClassCourse>();
     declared.visit::<ClassRoll>();
     let texts: Vec<String> = declared.texts.into_values().collect();

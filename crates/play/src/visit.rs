@@ -252,10 +252,10 @@ impl Visit {
             }
             Verb::Export { path, circuit, swarm, live } => {
                 let choice = Choice { circuit: Some(circuit), swarm };
-                self.with_program(path, move |session, checked, job| {
+                self.with_program(path, move |_, checked, job| {
                     let (name, bytes) = match live {
                         true => taking::live(&site, checked, &choice, job)?,
-                        false => taking::exported(session, checked, &choice, job)?,
+                        false => taking::recorded(&site, checked, &choice, job)?,
                     };
                     let url = site.shell.keep(&name, taking::HTML, bytes);
                     Ok(Some(RequestResult::Export(TakenFile { url, name })))

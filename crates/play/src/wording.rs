@@ -1,13 +1,9 @@
-//! Why circuits cannot be exported.
+//! Why a program cannot be exported.
 
 use nbc_base::diag::{Code, Diagnostic};
 
-pub(super) fn too_many_robots(robots: usize, most: u64) -> Diagnostic {
-    let message = format!("the circuit needs {robots} robots; an exported page has at most {most}");
-    Diagnostic::without_place(Code::BadValue, message).with_help("choose a smaller circuit with `--circuit`")
-}
-
-pub(super) fn too_many_bodies(bodies: usize, most: usize) -> Diagnostic {
-    let message = format!("the swarm has {bodies} different bodies; an exported page has at most {most}");
-    Diagnostic::without_place(Code::BadValue, message).with_help("export it in a world without `noise`")
+pub(super) fn nothing_to_record(name: &str) -> Diagnostic {
+    Diagnostic::without_place(Code::Empty, format!("`{name}` has no test and no simulation to record")).with_help(
+        "write a test: `test my_circuit { a b | q` and a row for each input pattern; a live page (`--live`) needs none",
+    )
 }

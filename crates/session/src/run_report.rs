@@ -1,8 +1,12 @@
 //! A list of tests and simulations, and the results of running it.
 
-use nbc_base::model::{CircuitTest, Program, Simulation};
+use nbc_base::diag::Diagnostics;
+use nbc_base::model::{CircuitTest, Instance, Program, Simulation, Stimulation};
+use nbc_circuit::is_same_instance;
 use nbc_swarm::RobotFault;
 
+use crate::checked::Checked;
+use crate::choice::Choice;
 use crate::report;
 use crate::simulation::SimulationRun;
 use crate::test::TestRun;
@@ -17,6 +21,32 @@ pub struct RunList<'a> {
 impl<'a> RunList<'a> {
     pub fn all(program: &'a Program) -> Self {
         Self { tests: program.tests.iter().collect(), simulations: program.simulations.iter().collect() }
+    }
+
+    /// Those of the chosen circuit or swarm. `only` is a name that tests and simulations have.
+    pub fn chosen(checked: &'a Checked, only: Option<&'a str>, choice: &Choice) -> Result<Self, Diagnostics> {
+        let chosen = if *choice == Choice::default() { None } else { Some(checked.circuit(choice)?) };
+        let is_chosen = |circuit: &Instance| {
+            chosen.as_ref().is_none_or(|chosen| is_same_instance(&checked.program, chosen, circuit))
+        };
+        let mut list = match only {
+            Some(name) => {
+                Self { tests: checked.tests(name).collect(), simulations: checked.simulations(name).collect() }
+            }
+            None => Self::all(&checked.program),
+        };
+        list.tests.retain(|test| is_chosen(&test.circuit));
+        list.simulations.retain(|simulation| {
+            is_chosen(&simulation.circuit) && choice.swarm.as_ref().is_none_or(|name| *name == simulation.swarm)
+        });
+        Ok(list)
+    }
+
+    /// Without tests for ever, which are decided at the level of logic alone.
+    #[must_use]
+    pub fn in_physics(mut self) -> Self {
+        self.tests.retain(|test| !matches!(test.stimulation, Stimulation::Ever { .. }));
+        self
     }
 
     pub fn len(&self) -> usize {

@@ -2,7 +2,7 @@
 
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::draw::wording;
-use crate::cli::runs::{CompleteRun, chosen_runs, in_physics, names_of_tests, run_list};
+use crate::cli::runs::{CompleteRun, names_of_tests, run_list};
 use crate::cli::{Failure, Interrupt};
 use nbc_base::model::CircuitTest;
 use nbc_session::store::DiskWorld;
@@ -33,7 +33,7 @@ impl DrawRequest {
         let file = session.open(&self.what)?;
         self.named.check(std::slice::from_ref(&file))?;
         let choice = self.making.choice();
-        let chosen = in_physics(chosen_runs(&file, None, &choice)?);
+        let chosen = RunList::chosen(&file, None, &choice)?.in_physics();
         let test = match &self.test {
             Some(name) => Some(test_called(&file, name)?),
             None => chosen.tests.first().copied(),
@@ -66,7 +66,7 @@ fn run_one(
 }
 
 fn test_called<'f>(file: &'f Checked, name: &'f str) -> Result<&'f CircuitTest, Failure> {
-    let called = in_physics(RunList { tests: file.tests(name).collect(), ..RunList::default() });
+    let called = RunList { tests: file.tests(name).collect(), ..RunList::default() }.in_physics();
     called.tests.into_iter().next().ok_or_else(|| {
         let known: Vec<String> = names_of_tests(file).into_iter().collect();
         wording::unknown_test(&file.path, name, &known).into()

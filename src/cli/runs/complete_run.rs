@@ -2,7 +2,6 @@
 
 use crate::cli::{Failure, Interrupt, Progress};
 use nbc_base::diag::Diagnostic;
-use nbc_base::model::Stimulation;
 use nbc_session::report::{Scheme, SwarmOutcome};
 use nbc_session::{
     Checked, CompileOptions, RunEnd, RunList, RunReport, Session, SimulationRun, SwarmRun, TestOptions, TestRun,
@@ -48,12 +47,6 @@ impl CompleteRun {
             Self::Simulation(run) => &run.warnings,
         }
     }
-}
-
-/// Tests for ever are decided at the level of logic alone.
-pub(in crate::cli) fn in_physics(mut list: RunList<'_>) -> RunList<'_> {
-    list.tests.retain(|test| !matches!(test.stimulation, Stimulation::Ever { .. }));
-    list
 }
 
 pub(in crate::cli) fn run_list(

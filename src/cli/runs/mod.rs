@@ -4,5 +4,5 @@ mod complete_run;
 mod names;
 pub(super) mod wording;
 
-pub(super) use complete_run::{CompleteRun, in_physics, run_list, run_page};
-pub(super) use names::{chosen_runs, names_of_tests, unknown_run};
+pub(super) use complete_run::{CompleteRun, run_list, run_page};
+pub(super) use names::{names_of_tests, unknown_run};

@@ -15,14 +15,14 @@ use crate::cli::options::files::FilesArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::queue::{self, QueueArguments};
-use crate::cli::runs::{chosen_runs, unknown_run};
+use crate::cli::runs::unknown_run;
 use crate::cli::source_path::source_path;
 use crate::cli::task_executor::threads;
 use crate::cli::{Context, Failure, Interrupt, OpenDevice, OutputFormat, Progress, Status, runs};
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{self, Schema};
 use nbc_session::store;
-use nbc_session::{Checked, CompileOptions, RunEnd, Session, TestCase, TestOptions};
+use nbc_session::{Checked, CompileOptions, RunEnd, RunList, Session, TestCase, TestOptions};
 use nbc_sim::LaneBackend;
 use nbc_swarm::{Executor, Level, Task, TaskResult, TestVerdict};
 
@@ -174,7 +174,7 @@ impl TestArguments {
             let compile = self.named.of(file, making.clone());
             let compile = CompileOptions { cancel: interrupt.cancel(), ..compile };
             let options = TestOptions { level: self.level(), compile };
-            for test in chosen_runs(file, self.only.as_deref(), &choice)?.tests {
+            for test in RunList::chosen(file, self.only.as_deref(), &choice)?.tests {
                 cases.extend(session.cases(file, test, &options)?.into_iter().map(|case| (number, case)));
             }
         }

@@ -1,5 +1,6 @@
 // The swarm of this session: what it consists of, where its run is, and the requests that drive it.
 
+import type { Connection } from "../connection";
 import { decodeFrame, isFrameOf, type Frame } from "../frame";
 import { RunLog } from "../log";
 import { Observable } from "../observable";
@@ -8,7 +9,6 @@ import type { BitSource, ShownSwarm } from "../protocol";
 import type { Fields } from "../request";
 import { Selection } from "../selection";
 import { Playback } from "./playback";
-import type { SwarmServer } from "./server";
 import { threadAt } from "./waves";
 
 export interface AutomaticClock {
@@ -48,7 +48,7 @@ export class LiveSwarm {
   #proposed: ((swarm: ShownSwarm) => string | null) | null = null;
   #rests = false;
 
-  constructor(private readonly server: SwarmServer) {
+  constructor(private readonly server: Connection) {
     server.onframe = buffer => this.#receive(buffer);
     server.events.on(event => {
       if (event?.event === "stopped") {

@@ -14,16 +14,11 @@ export class TruthView {
     "data-do": "truth",
     title: "What the outputs are for all inputs",
   });
-  #open: boolean;
+  #open = recall<boolean>("truth") ?? false;
   #rows = new Map<string, HTMLElement>();
   #marked: HTMLElement | undefined;
 
-  /** Shown from the start if it is `open`, unless the reader has chosen. */
-  constructor(
-    private readonly swarm: LiveSwarm,
-    open: boolean,
-  ) {
-    this.#open = recall<boolean>("truth") ?? open;
+  constructor(private readonly swarm: LiveSwarm) {
     swarm.definition.follow(definition => this.#build(definition));
     swarm.inputs.on(() => this.#mark());
   }

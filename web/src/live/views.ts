@@ -1,5 +1,4 @@
-// The views of a swarm: its inputs and outputs, the controls, the stage and the diagrams. The page of `nbc play` and
-// exported pages both show them.
+// The views of a swarm: its inputs and outputs, the controls, the stage and the diagrams.
 
 import { element, fill, iconButton } from "../element";
 import type { ShownSwarm } from "../protocol";
@@ -28,17 +27,16 @@ export class SwarmViews {
   readonly #animation: Animation;
   readonly #legend = element("div", { class: "legends" });
 
-  /** The views below a `head`; whether the truth table is shown from the start. */
+  /** The views below a `head`. */
   constructor(
     private readonly swarm: LiveSwarm,
     head: HTMLElement,
-    showsTruth = false,
   ) {
     this.#animation = new Animation(swarm);
     const wake = (): void => this.#animation.wake();
     const timeline = new Timeline();
     const [inputs, outputs] = [new InputPanel(swarm), new OutputPanel(swarm)];
-    const truth = new TruthView(swarm, showsTruth);
+    const truth = new TruthView(swarm);
     const state = new StateView(swarm);
     const filling = new Filling(this.host);
     this.stage = new Stage(swarm, wake);
