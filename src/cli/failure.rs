@@ -52,8 +52,4 @@ failures! {
     Diagnostic,
     #[cfg(feature = "cluster")]
     nbc_cluster::ClusterError,
-    #[cfg(feature = "play")]
-    nbc_play::ExportError,
-    #[cfg(feature = "play")]
-    nbc_play_server::PlayError,
 }

@@ -140,7 +140,7 @@ struct Cli {
 }
 
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Status {
-    let arguments = options::circuit::with_named_files(arguments);
+    let arguments = options::files::with_named_files(arguments);
     let parsed = usage::with_negative_numbers(Cli::command())
         .try_get_matches_from(&arguments)
         .and_then(|found| Cli::from_arg_matches(&found));
@@ -192,5 +192,19 @@ mod tests {
             all.insert("play".to_owned());
         }
         assert_eq!(makers, all);
+    }
+
+    #[test]
+    fn the_manual_names_every_command_and_option() {
+        fn check(command: &clap::Command, path: &str, manual: &str) {
+            assert!(manual.contains(path), "docs/commands.md does not name `{path}`");
+            for option in command.get_arguments().filter_map(clap::Arg::get_long) {
+                assert!(manual.contains(&format!("--{option}")), "docs/commands.md does not name `{path} --{option}`");
+            }
+            command.get_subcommands().for_each(|inner| check(inner, &format!("{path} {}", inner.get_name()), manual));
+        }
+        let pages = ["commands", "gpu", "cluster"]
+            .map(|page| std::fs::read_to_string(format!("{}/docs/{page}.md", env!("CARGO_MANIFEST_DIR"))).unwrap());
+        check(&Cli::command(), "nbc", &pages.concat());
     }
 }

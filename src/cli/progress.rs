@@ -22,14 +22,14 @@ struct State {
     done: u64,
     total: u64,
     note: String,
-    pace: Pace,
-}
-
-/// When to write lines without a terminal.
-#[derive(Clone, Debug)]
-struct Pace {
+    /// When the next line is due without a terminal.
     next: Duration,
 }
+
+/// The time before the first line, and the first interval between lines.
+const LEAST: Duration = Duration::from_secs(10);
+/// The longest interval between lines.
+const MOST: Duration = Duration::from_secs(60);
 
 impl Progress {
     pub fn new(what: &'static str, total: u64) -> Self {
@@ -43,7 +43,7 @@ impl Progress {
         bar.set_style(style.expect("a well-formed template").progress_chars("=> "));
         bar.set_prefix(what);
         bar.set_position(from);
-        let state = State { what, from, done: from, total, note: String::new(), pace: Pace::default() };
+        let state = State { what, from, done: from, total, note: String::new(), next: LEAST };
         Self { bar, started: Instant::now(), state: Mutex::new(state) }
     }
 
@@ -108,8 +108,11 @@ impl State {
 
     /// A line for a log, if one is due.
     fn line(&mut self, elapsed: Duration) -> Option<String> {
-        let due = self.done < self.total && self.pace.is_due(elapsed);
-        due.then(|| format!("{}: {} of {}{}\n", self.what, self.done, self.total, self.rest(elapsed)))
+        if self.done >= self.total || elapsed < self.next {
+            return None;
+        }
+        self.next = elapsed + elapsed.clamp(LEAST, MOST);
+        Some(format!("{}: {} of {}{}\n", self.what, self.done, self.total, self.rest(elapsed)))
     }
 
     fn rest(&self, elapsed: Duration) -> String {
@@ -132,27 +135,6 @@ impl State {
     }
 }
 
-impl Pace {
-    /// The time before the first line, and the first interval between lines.
-    const LEAST: Duration = Duration::from_secs(10);
-    /// The longest interval between lines.
-    const MOST: Duration = Duration::from_secs(60);
-
-    fn is_due(&mut self, elapsed: Duration) -> bool {
-        let due = elapsed >= self.next;
-        if due {
-            self.next = elapsed + elapsed.clamp(Self::LEAST, Self::MOST);
-        }
-        due
-    }
-}
-
-impl Default for Pace {
-    fn default() -> Self {
-        Self { next: Self::LEAST }
-    }
-}
-
 /// At least one second.
 fn duration(time: Duration) -> String {
     let seconds = time.as_secs_f64();
@@ -170,7 +152,7 @@ mod tests {
     use super::*;
 
     fn state(from: u64, done: u64, total: u64) -> State {
-        State { what: "measuring", from, done, total, note: String::new(), pace: Pace::default() }
+        State { what: "measuring", from, done, total, note: String::new(), next: LEAST }
     }
 
     fn rest(state: &State, seconds: f64) -> String {

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 
-use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::files::FilesArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::timings::{TimedStage, Timings};

@@ -427,27 +427,6 @@ fn logic_needs_no_place_where_robots_are_simulated() {
 }
 
 #[test]
-#[cfg(not(feature = "cluster"))]
-fn a_program_without_work_on_several_machines_says_how_to_get_it() {
-    let bench = Bench::new();
-    bench.file("own.nb", "evolution own { from: gates, generations: 1, seed: 1 }\n");
-    bench.file("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
-    let url = "nats://localhost:4222";
-    for arguments in [
-        &["worker", "--nats"][..],
-        &["workers", "--nats"],
-        &["evolve", "own.nb", "--nats"],
-        &["library", "verify", "--nats"],
-        &["test", "gate.nb", "--nats"],
-    ] {
-        bench.run(&[arguments, &[url]].concat()).expect_fault(&[
-            "this program was built without work on several machines",
-            "build it with `cargo build --release --features cluster`",
-        ]);
-    }
-}
-
-#[test]
 fn what_is_looked_up_by_name_offers_the_nearest_one() {
     let bench = Bench::new();
     bench.file("passing.nb", flip(true));

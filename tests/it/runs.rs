@@ -7,7 +7,7 @@ use serde_json::Value;
 use crate::support::bench::{Bench, Ran};
 
 /// A correct robot, and one with the same body whose file has errors.
-const TURNER: &str = "format: 1
+const TURNER: &str = "format: 2
 name: turner
 behavior: RRLL
 body: ['55555', '55511', '30441', '30411', '33311']

@@ -107,7 +107,7 @@ proptest! {
         let netlist = mapped(&text(&elements), &CellLibrary::uniform(Function::all().filter(|f| f.arity() == 2)));
         let library = robots(most, &mut random);
         let bound = Timing::of(&netlist, &cells(&library), Delays::Clock).hold;
-        check(&assemble(&netlist, &library).unwrap(), bound, &mut random);
+        check(&assemble(&netlist, &library), bound, &mut random);
     }
 }
 
@@ -121,7 +121,7 @@ fn registers_of_quick_robots_settle_in_every_row() {
     );
     let library = robots(1, &mut random);
     let bound = Timing::of(&netlist, &cells(&library), Delays::Clock).hold;
-    assert_eq!(check(&assemble(&netlist, &library).unwrap(), bound, &mut random), 12);
+    assert_eq!(check(&assemble(&netlist, &library), bound, &mut random), 12);
 }
 
 /// The mean and the longest hold of the rows of a circuit of the gallery.
@@ -178,7 +178,7 @@ fn slow_robots_that_drive_each_other_keep_their_start_values() {
     );
     let mut library = robots(1, &mut random);
     library.robots.iter_mut().for_each(|robot| robot.character.clock = 4);
-    let assembly = assemble(&netlist, &library).unwrap();
+    let assembly = assemble(&netlist, &library);
     assert_eq!(assembly.start_cycles(), 4);
     let mut settling = Settling::new(&assembly, 1);
     let start: Vec<Option<bool>> = assembly.members.iter().map(|member| Some(member.start)).collect();

@@ -3,7 +3,6 @@
 
 /** The niches of an archive that have changed in a generation. */
 export type ArchiveChange = {
-  /** The request. */
   id: number,
   generation: number,
   axes: Array<AxisEntry>,
@@ -14,7 +13,6 @@ export type ArchiveChange = {
 /** The name of an axis and its number of bins. */
 export type AxisEntry = [string, number];
 
-/** Where a bit comes from. */
 export type BitSource = { "input": number }
   | { "robot": number }
   | { "constant": boolean };
@@ -32,7 +30,6 @@ export type CharacterSketch = {
 /** A test by its number in the program, or the text of one that is not in it, such as one that refutes a property. */
 export type ChosenTest = number | string;
 
-/** A circuit whose parameters are known. */
 export type CircuitEntry = {
   name: string,
   /** What `compile` takes, such as `adder[8]`. */
@@ -41,12 +38,10 @@ export type CircuitEntry = {
   line: number,
 };
 
-/** The answer to `prove`: what is known of each property, in order. */
 export type ClaimAnswer = {
   properties: Array<PropertyAnswer>,
 };
 
-/** A `prove` declaration. */
 export type ClaimEntry = {
   index: number,
   circuit: string,
@@ -55,41 +50,32 @@ export type ClaimEntry = {
   properties: Array<PropertyEntry>,
 };
 
-/** The answer to `lessons` of the teacher's page. */
 export type ClassCourse = {
-  /** The lessons, in order. */
   lessons: Array<ClassLesson>,
 };
 
-/** A lesson of the course. */
 export type ClassLesson = {
-  /** The name, which is unique. */
   name: string,
-  /** The title, for people. */
   title: string,
   /** The tasks of its steps. */
   steps: Array<string>,
 };
 
-/** A member of the class. */
 export type ClassMember = {
-  /** The name that the learner has chosen. */
   name: string,
   /** Where the learner is; none outside of lessons. */
   place: ClassPlace | null,
-  /** The lessons that are finished. */
+  /** The number of finished lessons. */
   finished: number,
   /** Seconds since the place has changed. */
   seconds: number,
 };
 
-/** The answer to `join`. */
 export type ClassName = {
   /** With it, the page can join by this name again. */
   key: string,
 };
 
-/** Where a learner is. */
 export type ClassPlace = {
   /** The name of the lesson. */
   lesson: string,
@@ -99,15 +85,11 @@ export type ClassPlace = {
   size: number | null,
 };
 
-/** The answer to `members` of the teacher's page. */
 export type ClassRoll = {
-  /** The members, in the order of their names. */
   members: Array<ClassMember>,
-  /** The most members. */
   most: number,
 };
 
-/** Poses as text. */
 export type EncodedGait = {
   /** Poses in a cycle. */
   frames: number,
@@ -116,13 +98,11 @@ export type EncodedGait = {
   poses: string,
 };
 
-/** The answer to `evolve`. */
 export type EvolutionEnd = {
   generations: number,
   evaluations: number,
 };
 
-/** A search for bodies. */
 export type EvolveRequest = {
   /** The body to start from, if it is not a random one. */
   body: Array<string> | null,
@@ -132,13 +112,11 @@ export type EvolveRequest = {
   seed: number,
 };
 
-/** An example that comes with the program. */
 export type ExampleEntry = {
   name: string,
   about: string,
 };
 
-/** A robot at the level of logic. */
 export type ExportedRobot = {
   /** The index of its walk. */
   walk: number,
@@ -166,27 +144,22 @@ export type ExportedStride = {
 
 /** A circuit that a page plays without a server: the swarm, how its robots walk, and the rows of the tests. */
 export type ExportedSwarm = {
-  /** The version of the program that made it. */
   version: string,
-  /** The name of the source file. */
   file: string,
   swarm: ShownSwarm,
   /** Cycles for which robots sense the same; more than one only in wave machines. */
   beat: number,
-  /** Each robot of the swarm. */
   robots: Array<ExportedRobot>,
   /** How each of the different robots walks. */
   walks: Array<ExportedWalk>,
   tests: Array<ExportedTest>,
 };
 
-/** The rows of a test. */
 export type ExportedTest = {
   title: string,
   rows: Array<ExportedRow>,
 };
 
-/** How a robot walks under each pattern of its stimuli. */
 export type ExportedWalk = {
   /** The directions, such as `RRRL`. */
   letters: string,
@@ -199,18 +172,15 @@ export type FileChange = {
   stamp: string | null,
 };
 
-/** A file of the served folder. */
 export type FileEntry = {
   path: string,
   size: number,
 };
 
-/** A file that was saved. */
 export type FileStamp = {
   stamp: string | null,
 };
 
-/** A file or an example. */
 export type FileText = {
   path: string,
   text: string,
@@ -218,20 +188,17 @@ export type FileText = {
   stamp: string | null,
 };
 
-/** A diagnostic. */
 export type Finding = {
-  /** `nbc explain CODE` tells more. */
   code: string,
   severity: "error" | "warning",
   message: string,
   help: string | null,
-  /** The places, the main one first. */
+  /** The main one first. */
   labels: Array<FindingLabel>,
   /** Notes at other places. */
   related: Array<FindingLabel>,
 };
 
-/** A place of a text, and what is there. */
 export type FindingLabel = {
   file: string,
   start: TextPlace,
@@ -239,45 +206,37 @@ export type FindingLabel = {
   text: string,
 };
 
-/** The answer to `hello`. */
 export type Greeting = {
   version: string,
-  /** The name of the folder. */
   folder: string,
-  /** Its `file:` URI, for the language server. */
+  /** The `file:` URI of the folder, for the language server. */
   root: string,
-  /** The file to open first, if the command line names one. */
+  /** The file to open first. */
   file: string | null,
   files: Array<FileEntry>,
   examples: Array<ExampleEntry>,
   limits: PlayLimits,
   /** Whether pages with the whole program in them can be made. */
   live_pages: boolean,
-  /** The address of a page that everybody can open, for links to it. */
+  /** The address of a public page, for links to it. */
   public_page: string | null,
-  /** Whether there is a class to join. */
   class: boolean,
   cycle_seconds: number,
 };
 
-/** A body to keep as a robot. */
 export type KeepRequest = {
   /** The program that is to use it. Its robots are beside it. */
   path: string | null,
   name: string,
   body: Array<string>,
-  /** Whether a robot of that name is replaced. */
   replace?: boolean,
 };
 
-/** A robot file that was written. */
 export type KeptRobot = {
   path: string,
-  /** A declaration of a library with it. */
   use: string,
 };
 
-/** A condition of a step. */
 export type LessonCheck = { "is": "shows", values: { [key in string]: number }, }
   | { "is": "keeps", values: { [key in string]: number }, }
   | { "is": "hides", patterns: Array<{ [key in string]: number }>, }
@@ -297,13 +256,10 @@ export type LessonCheck = { "is": "shows", values: { [key in string]: number }, 
   | { "is": "evolving" }
   | { "is": "niche-chosen" };
 
-/** How a check compares. */
 export type LessonComparison = "<=" | ">=" | "=";
 
-/** What a check counts. */
 export type LessonCount = "robots" | "cycles" | "niches" | "threads";
 
-/** A lesson. */
 export type LessonEntry = {
   /** The name of its file without the number and the ending. */
   name: string,
@@ -314,55 +270,46 @@ export type LessonEntry = {
   program: string | null,
   /** The same as checks look at it. */
   written: WrittenProgram | null,
-  /** The tab in which it begins. */
   tab: LessonTab,
-  /** Hints for all of its steps. */
   hints: Array<string>,
   /** The size of the best known circuit, where the learner makes one. */
   best: LessonGoal | null,
   steps: Array<LessonStep>,
 };
 
-/** The size of a circuit. */
 export type LessonGoal = {
   number: number,
   of: LessonMeasure,
 };
 
-/** The answer to `lessons`. */
 export type LessonList = {
-  /** The lessons in their order. */
   lessons: Array<LessonEntry>,
   /** What is wrong with the files of an author; such a file gives no lesson. */
   findings: Array<Finding>,
 };
 
-/** How a circuit is measured: by its robots, or by the gates of what is written. */
+/** How a circuit is measured: by its robots, or by the gates of its source. */
 export type LessonMeasure = "robots" | "gates";
 
-/** A step of a lesson. */
 export type LessonStep = {
   task: string,
-  /** It is done when all of these hold at once. */
+  /** The step is done when all of these hold at once. */
   checks: Array<LessonCheck>,
   /** Hints for this step alone. */
   hints: Array<string>,
 };
 
-/** A tab of the page in which a lesson can begin. */
 export type LessonTab = "swarm" | "tests" | "robots";
 
-/** A row of such a table. */
 export type ListingRow = {
-  /** The digits of the output for which it is, `-` for any; the first row that fits is the one. */
+  /** The digits of the output for which it is, `-` for any; the first row that fits counts. */
   bits: string,
-  /** These, and what the table has for them, as in the source. */
+  /** These digits, and what the table has for them, as in the source. */
   at: string,
   text: string,
   line: number,
 };
 
-/** The best body of a niche. */
 export type NicheEntry = {
   /** The bin on each axis. */
   place: Array<number>,
@@ -372,10 +319,8 @@ export type NicheEntry = {
   function: string,
 };
 
-/** An object without fields. */
 export type Nothing = Record<symbol, never>;
 
-/** A material that can be painted. */
 export type PaletteEntry = {
   /** Its character in the rows of bodies. */
   code: string,
@@ -385,14 +330,12 @@ export type PaletteEntry = {
   look: number,
 };
 
-/** What a page is told without a request. */
+/** Events sent without a request. */
 export type PlayEvent = { "event": "archive" } & ArchiveChange
   | { "event": "changed" } & FileChange
   | { "event": "stopped", reason: string, };
 
-/** What a page may ask for at most. */
 export type PlayLimits = {
-  /** Robots of a swarm. */
   robots: number,
   /** Cycles that can be gone back. */
   cycles: number,
@@ -400,7 +343,6 @@ export type PlayLimits = {
   message: number,
 };
 
-/** A port. */
 export type PortEntry = {
   name: string,
   width: number,
@@ -408,23 +350,19 @@ export type PortEntry = {
   members?: Array<[string, string]>,
 };
 
-/** How a body walks, and which gate it is. */
 export type ProbeReport = {
   /** Under each pattern: 00, 01, 10 and 11, or 000 to 111. */
   gaits: Array<EncodedGait>,
   letters: string,
   function: string,
   displacement: Array<number>,
-  /** None if it was not asked for. */
   character: CharacterSketch | null,
   points: number,
   voxels: Array<[number, number, number, number, number]>,
   looks: Array<VoxelLook>,
 };
 
-/** A checked program. */
 export type ProgramReport = {
-  /** The number of errors among the diagnostics. */
   errors: number,
   diagnostics: Array<Finding>,
   circuits: Array<CircuitEntry>,
@@ -433,7 +371,6 @@ export type ProgramReport = {
   written: WrittenProgram,
 };
 
-/** What is known of a property. */
 export type PropertyAnswer = {
   verdict: "proved" | "refuted" | "undecided",
   /** What the verdict is based on, in words. */
@@ -442,13 +379,11 @@ export type PropertyAnswer = {
   test: string | null,
 };
 
-/** A property that is to be proved. */
 export type PropertyEntry = {
   property: string,
   line: number,
 };
 
-/** The answer to a refused request. */
 export type Refusal = {
   message: string,
   help: string | null,
@@ -459,7 +394,6 @@ export type Refusal = {
   diagnostics: Array<Finding>,
 };
 
-/** A request with its number. */
 export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "lessons" }
   | { "do": "files" }
@@ -483,14 +417,13 @@ export type Request = { id: number, } & ({ "do": "hello" }
   | { "do": "keep" } & KeepRequest
   | { "do": "evolve" } & EvolveRequest
   | { "do": "take", what: TakeKind, cycles: number, }
-  | { "do": "export", path: string, circuit: string, swarm: string | null, /** Whether the page has the whole program in it, or else a recording. */
+  | { "do": "export", path: string, circuit: string, swarm: string | null, /** Whether the page gets the whole program, or else a recording. */
 live: boolean, }
   | { "do": "join", name: string, key?: string, }
   | { "do": "progress", place: ClassPlace | null, finished: number, }
   | { "do": "leave" }
   | { "do": "cancel", of: number, });
 
-/** A robot of a library. */
 export type RobotCard = {
   name: string,
   function: string,
@@ -506,20 +439,17 @@ export type RobotCard = {
   clock: number,
   margin: number,
   errors: number,
-  /** Whether it comes with the program. */
   shipped: boolean,
   /** Whether it is of the materials that can be painted, so that it can be probed. */
   painted: boolean,
 };
 
-/** The answer to `robots`. */
 export type RobotCards = {
   robots: Array<RobotCard>,
   looks: Array<VoxelLook>,
   palette: Array<PaletteEntry>,
 };
 
-/** The verdict of a row. */
 export type RowResult = {
   /** Its number, from 1; both halves of a pulse have the same. */
   row: number,
@@ -534,7 +464,6 @@ export type RowResult = {
   cycles: number | null,
 };
 
-/** The value of a port. */
 export type RowValue = {
   /** The digits `0`, `1` and `-`. */
   bits: string,
@@ -542,7 +471,6 @@ export type RowValue = {
   text: string,
 };
 
-/** A message of the server. */
 export type ServerMessage = { id: number, } & ({ "to": "hello", "ok": Greeting }
   | { "to": "lessons", "ok": LessonList }
   | { "to": "files", "ok": Array<FileEntry> }
@@ -582,7 +510,6 @@ export type ShownEnvironment = {
 
 /** A table over an output, such as the instructions of a machine or the transitions of its states. */
 export type ShownListing = {
-  /** The output that chooses the row. */
   port: string,
   rows: Array<ListingRow>,
 };
@@ -598,11 +525,10 @@ export type ShownMemory = {
   words: Array<string>,
   /** For each of its reads the addresses, each with the cycles before it. */
   reads: Array<Array<[number, number]>>,
-  /** The words that are written, each with the cycles before it and its address. */
+  /** The written words, each with the cycles before it and its address. */
   writes: Array<[number, number, string]>,
 };
 
-/** A register of the circuit. */
 export type ShownRegister = {
   /** The name of its net, after those of the calls that it is in where another has the same. */
   name: string,
@@ -610,17 +536,14 @@ export type ShownRegister = {
   robots: Array<number>,
 };
 
-/** A schematic, of which the page shows a sheet at a time. */
 export type ShownSchematic = {
   /** The sheets, each after the one around it; the first shows the whole. */
   sheets: Array<ShownSheet>,
-  /** The bodies of the robots, each an SVG. */
   bodies: Array<string>,
   /** For each robot, the sheet that shows it. */
   homes: Array<number>,
 };
 
-/** A test that gives the inputs of a swarm. */
 export type ShownScript = {
   title: string,
   /** The cycles whose inputs it gives. */
@@ -628,17 +551,13 @@ export type ShownScript = {
   environment: ShownEnvironment | null,
 };
 
-/** A part of a circuit. */
 export type ShownSheet = {
   name: string,
   about: string,
-  /** The sheet around it. */
   outer: number | null,
-  /** An SVG. */
   svg: string,
 };
 
-/** The swarm of a page. */
 export type ShownSwarm = {
   /** Counts the swarms of a connection; frames have its lowest byte. */
   number: number,
@@ -652,7 +571,6 @@ export type ShownSwarm = {
   /** The gates of the circuit as it is written. */
   gates: number,
   registers: Array<ShownRegister>,
-  /** The table of the circuit over one of its outputs. */
   listing: ShownListing | null,
   looks: Array<VoxelLook>,
   schematic: ShownSchematic,
@@ -666,9 +584,7 @@ export type ShownSwarm = {
   ground: Array<Array<number>>,
   /** Poses in a cycle. */
   frames: number,
-  /** What it is as a wave machine. */
   waves: ShownWaves | null,
-  /** The test that gives its inputs. */
   script: ShownScript | null,
 };
 
@@ -689,12 +605,10 @@ export type ShownWaves = {
   registers: Array<WaveRegister>,
 };
 
-/** The answer to `compile` and to `replay`. */
 export type SwarmAnswer = {
   swarm: ShownSwarm,
 };
 
-/** A robot of the swarm. */
 export type SwarmRobot = {
   /** The name by which files and the schematic know its net. */
   net: string,
@@ -706,7 +620,6 @@ export type SwarmRobot = {
   robot: string,
   /** Words with their texts. */
   about: Array<[string, string]>,
-  /** The source of each of its stimuli. */
   senses: Array<BitSource>,
   /** The rows from the top. */
   body: Array<string>,
@@ -714,29 +627,25 @@ export type SwarmRobot = {
   size: [number, number],
   /** The numbers of the corner points around each voxel, and its index in the looks. */
   voxels: Array<[number, number, number, number, number]>,
-  /** The number of points. */
   points: number,
   clock: number,
   margin: number,
   errors: number,
 };
 
-/** Files that a page can take away. */
 export type TakeKind = "page" | "gif" | "png" | "svg" | "vcd" | "csv";
 
-/** A file to take away. */
 export type TakenFile = {
-  /** Its address, relative to the page. It works once. */
+  /** Relative to the page. It works once. */
   url: string,
   name: string,
 };
 
-/** The answer to `test`: a result for each swarm of its circuit in each world of the test. */
+/** A result for each swarm of its circuit in each world of the test. */
 export type TestAnswer = {
   results: Array<TestResult>,
 };
 
-/** A test. */
 export type TestEntry = {
   index: number,
   circuit: string,
@@ -752,17 +661,14 @@ export type TestEntry = {
   rows: Array<TestRowEntry>,
 };
 
-/** A level of a test. */
 export type TestLevel = "logic" | "physics";
 
-/** The verdict of a test. */
 export type TestResult = {
   circuit: string,
   title: string,
   swarm: string | null,
   /** The world of the swarm; none at the level of logic. */
   world: string | null,
-  /** The robot that failed, if one did, and when. */
   fault: string | null,
   level: TestLevel,
   passed: boolean,
@@ -770,13 +676,11 @@ export type TestResult = {
   inputs: Array<PortEntry>,
   outputs: Array<PortEntry>,
   rows: Array<RowResult>,
-  /** What the environment wrote as text. */
   printed: string | null,
   /** How a test for ever was decided, in words. */
   proof: string | null,
 };
 
-/** A row of a test. */
 export type TestRowEntry = {
   row: number,
   line: number,
@@ -791,11 +695,9 @@ export type TextPlace = {
   column: number,
 };
 
-/** How the voxels of a material look. */
 export type VoxelLook = {
   name: string,
   color: string,
-  /** The color of its mark. */
   ink: string | null,
   /** Polygons within the unit square. */
   mark: Array<Array<[number, number]>> | null,
@@ -810,14 +712,12 @@ export type WaveBit = {
   starts: Array<boolean>,
 };
 
-/** A register of a wave machine. */
 export type WaveRegister = {
   name: string,
   /** The most significant first. */
   bits: Array<WaveBit>,
 };
 
-/** A program as it is written. */
 export type WrittenProgram = {
   /** Its tokens, with a space between two. */
   text: string,

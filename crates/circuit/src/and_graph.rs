@@ -1,7 +1,6 @@
 //! And-inverter graphs: every function is made of and-gates of two pins, which may be inverted.
 
-use std::collections::BTreeMap;
-
+use crate::interned::Interned;
 use crate::network::{Gate, Network};
 use nbc_base::model::Function;
 
@@ -15,17 +14,14 @@ pub(crate) struct AndGraph {
     /// The number of signals that are no gates.
     sources: usize,
     /// The pins of each gate, the larger first.
-    pub(crate) ands: Vec<[AndLiteral; 2]>,
-    known: BTreeMap<[AndLiteral; 2], AndLiteral>,
+    pub(crate) ands: Interned<[AndLiteral; 2]>,
 }
 
 impl AndGraph {
-    /// A graph without gates.
     pub(crate) fn new(sources: usize) -> Self {
-        Self { sources, ands: Vec::new(), known: BTreeMap::new() }
+        Self { sources, ands: Interned::default() }
     }
 
-    /// The literal of a source.
     pub(crate) fn source(&self, at: usize) -> AndLiteral {
         assert!(at < self.sources, "the source exists");
         2 * (at + 1)
@@ -33,24 +29,19 @@ impl AndGraph {
 
     /// The number of signals, but for the constant.
     pub(crate) fn signals(&self) -> usize {
-        self.sources + self.ands.len()
+        self.sources + self.ands.items.len()
     }
 
-    /// Both.
     pub(crate) fn and(&mut self, a: AndLiteral, b: AndLiteral) -> AndLiteral {
         match [a.max(b), a.min(b)] {
             [_, 0] => 0,
             [a, 1] => a,
             [a, b] if a == b => a,
             [a, b] if a ^ b == 1 => 0,
-            pins => *self.known.entry(pins).or_insert_with(|| {
-                self.ands.push(pins);
-                2 * (self.sources + self.ands.len())
-            }),
+            pins => 2 * (self.sources + 1 + self.ands.number(pins)),
         }
     }
 
-    /// At least one.
     pub(crate) fn or(&mut self, a: AndLiteral, b: AndLiteral) -> AndLiteral {
         self.and(a ^ 1, b ^ 1) ^ 1
     }
@@ -64,7 +55,6 @@ impl AndGraph {
         self.or(then, otherwise)
     }
 
-    /// A function of two literals.
     pub(crate) fn function(&mut self, function: Function, [a, b]: [AndLiteral; 2]) -> AndLiteral {
         if function.arity() < 2 {
             return match (function.depends_on(0), function.depends_on(1)) {

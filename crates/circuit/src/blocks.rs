@@ -1,6 +1,5 @@
 //! Blocks: the calls that cells come from, as a tree.
 
-/// A block of a netlist.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct BlockId(u32);
 
@@ -9,7 +8,6 @@ impl BlockId {
     pub const TOP: Self = Self(0);
 }
 
-/// A call of a circuit.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Block {
     name: String,
@@ -17,7 +15,6 @@ struct Block {
     outer: BlockId,
 }
 
-/// The blocks of a netlist, and the block of each of its nodes.
 #[derive(Clone, Debug, Default)]
 pub struct Blocks {
     /// All but the outermost, each after the one around it.
@@ -31,7 +28,6 @@ pub fn keeps_state(circuit: &str) -> bool {
 }
 
 impl Blocks {
-    /// Adds a block inside another.
     pub fn add(&mut self, name: impl Into<String>, circuit: impl Into<String>, outer: BlockId) -> BlockId {
         self.inner.push(Block { name: name.into(), circuit: circuit.into(), outer });
         BlockId(self.inner.len() as u32)
@@ -46,12 +42,10 @@ impl Blocks {
         around
     }
 
-    /// The name of a call; empty for the circuit itself.
     pub fn name(&self, block: BlockId) -> &str {
         self.block(block).map_or("", |block| &block.name)
     }
 
-    /// The circuit that is called; empty for the circuit itself.
     pub fn circuit(&self, block: BlockId) -> &str {
         self.block(block).map_or("", |block| &block.circuit)
     }
@@ -60,12 +54,10 @@ impl Blocks {
         (block.0 as usize).checked_sub(1).map(|at| &self.inner[at])
     }
 
-    /// The block of the node with this index.
     pub(crate) fn of(&self, node: usize) -> BlockId {
         self.of.get(node).copied().unwrap_or_default()
     }
 
-    /// Puts the node with this index into a block.
     pub(crate) fn put(&mut self, node: usize, block: BlockId) {
         if block != BlockId::TOP || node < self.of.len() {
             self.of.resize(self.of.len().max(node + 1), BlockId::TOP);
@@ -73,7 +65,6 @@ impl Blocks {
         }
     }
 
-    /// The same blocks, for another netlist.
     pub(crate) fn without_nodes(&self) -> Self {
         Self { inner: self.inner.clone(), of: Vec::new() }
     }

@@ -5,10 +5,8 @@ use std::collections::BTreeMap;
 use crate::{NetId, Netlist};
 use nbc_base::model::Function;
 
-/// The data of the robot that computes a function.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CellKind {
-    /// Its price; 1 counts robots.
     pub cost: u32,
     /// Cycles for which its inputs must be held so that its output is correct, for any earlier inputs.
     pub clock: u32,
@@ -43,7 +41,6 @@ impl CellKind {
     }
 }
 
-/// The cells to build from: for each available function, the properties of the robot that computes it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CellLibrary {
     // Functions of two inputs come before those of three.
@@ -51,33 +48,27 @@ pub struct CellLibrary {
 }
 
 impl CellLibrary {
-    /// A library of these functions, every cell costing one robot and one cycle.
     pub fn uniform(functions: impl IntoIterator<Item = Function>) -> Self {
         functions.into_iter().map(|function| (function, CellKind::uniform(1, 1.0))).collect()
     }
 
-    /// Adds or replaces the cell of a function.
     pub fn insert(&mut self, function: Function, kind: CellKind) {
         self.kinds.insert(function, kind);
     }
 
-    /// The cell of a function.
     pub fn get(&self, function: Function) -> Option<&CellKind> {
         self.kinds.get(&function)
     }
 
-    /// The kind of each cell of a netlist; a cell of no kind takes one cycle.
     pub fn kinds_of<'a>(&'a self, netlist: &'a Netlist) -> impl Fn(NetId) -> &'a CellKind {
         const OTHER: CellKind = CellKind::uniform(1, 0.0);
         move |id| netlist.cell(id).and_then(|cell| self.get(cell.function)).unwrap_or(&OTHER)
     }
 
-    /// The functions of two inputs, in order of their bits.
     pub fn functions(&self) -> impl Iterator<Item = Function> + '_ {
         self.kinds().map(|(function, _)| function)
     }
 
-    /// Whether it has cells of three inputs.
     pub fn is_wide(&self) -> bool {
         self.kinds.last_key_value().is_some_and(|(function, _)| function.inputs() == 3)
     }
@@ -87,7 +78,6 @@ impl CellLibrary {
         self.all().filter(|(function, _)| function.inputs() == 2)
     }
 
-    /// All functions with their cells, those of two inputs first.
     pub fn all(&self) -> impl Iterator<Item = (Function, &CellKind)> {
         self.kinds.iter().map(|(&function, kind)| (function, kind))
     }
@@ -97,7 +87,6 @@ impl CellLibrary {
         self.all().filter(|(_, kind)| quality(kind) >= least).map(|(f, kind)| (f, kind.clone())).collect()
     }
 
-    /// Whether these cells and constants can make every boolean function.
     pub fn is_complete(&self) -> bool {
         self.reachable() == u16::MAX
     }
@@ -129,7 +118,6 @@ impl CellLibrary {
     }
 }
 
-/// The functions at hand before any cell: both inputs and the constants.
 const START: u16 = 1 << 0b0000 | 1 << 0b1111 | 1 << 0b1100 | 1 << 0b1010;
 
 /// The function that one cell makes of two functions of a set.
@@ -145,9 +133,7 @@ pub(crate) fn compose(function: Function, a: u8, b: u8) -> u8 {
 
 impl FromIterator<(Function, CellKind)> for CellLibrary {
     fn from_iter<I: IntoIterator<Item = (Function, CellKind)>>(kinds: I) -> Self {
-        let mut library = Self::default();
-        kinds.into_iter().for_each(|(function, kind)| library.insert(function, kind));
-        library
+        Self { kinds: kinds.into_iter().collect() }
     }
 }
 

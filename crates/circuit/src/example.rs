@@ -8,7 +8,6 @@ use crate::registers::flip_flop;
 use crate::{CellLibrary, NetId, Netlist};
 use nbc_base::model::Function;
 
-/// The paper's D latch as elaboration writes it: two wires for the feedback.
 pub fn latch() -> Netlist {
     let mut netlist = Netlist::new("d_latch");
     let d = netlist.add_input("d");
@@ -27,7 +26,6 @@ pub fn latch() -> Netlist {
     netlist
 }
 
-/// A full adder as a textbook writes it.
 pub fn full_adder() -> Netlist {
     let mut netlist = Netlist::new("full_adder");
     let [a, b, c] = ["a", "b", "cin"].map(|name| netlist.add_input(name));
@@ -41,12 +39,10 @@ pub fn full_adder() -> Netlist {
     netlist
 }
 
-/// A library of the functions with these names, every cell costing one robot and one cycle.
 pub fn library(names: &str) -> CellLibrary {
     CellLibrary::uniform(names.split_whitespace().map(|name| Function::parse(name).unwrap()))
 }
 
-/// All cells of two inputs, an inverter, and the multiplexers.
 pub fn multiplexer_library() -> CellLibrary {
     let cells = Function::all().filter(|function| function.arity() == 2 || *function == Function::NOT);
     CellLibrary::uniform(cells.chain(Function::MUX.arrangements()))
@@ -65,7 +61,6 @@ pub fn network(inputs: usize, gates: &[(u8, u16, u16)]) -> Network {
     network
 }
 
-/// A random machine with some ports and registers.
 pub fn random_machine(random: &mut ChaCha8Rng) -> Netlist {
     let mut draw = |bound: usize| (random.next_u32() as usize) % bound;
     let mut netlist = Netlist::new("machine");

@@ -15,6 +15,7 @@ mod example;
 pub mod formats;
 mod guarded;
 mod index;
+pub mod interned;
 pub mod known;
 pub mod levels;
 mod logic;

@@ -10,7 +10,6 @@ use crate::{NetId, Netlist, Node, Timing};
 /// The times of a memory element, in cycles. They hold for robots with delays between one cycle and their clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Memory {
-    /// The nets of the element.
     pub nets: Vec<NetId>,
     /// The length of the pulse that sets the element, at its input: the change passes every cell of the element once.
     pub pulse: u32,

@@ -5,38 +5,27 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::cells::{CellLibrary, compose};
 use nbc_base::model::Function;
 
-/// An operand of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Operand {
     /// Input `a` (0) or `b` (1).
     Input(u8),
-    /// The constant 0 or 1.
     Constant(bool),
-    /// The result of an earlier step.
     Step(u8),
 }
 
-/// One cell of a recipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Step {
-    /// The function of the cell.
     pub function: Function,
-    /// The operands of its pins.
     pub pins: [Operand; 2],
 }
 
-/// Cells that make a function; the last one has the result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Recipe {
-    /// The cells in order; each reads earlier ones only.
     pub steps: Vec<Step>,
-    /// The step, input or constant that has the function.
     pub result: Operand,
-    /// The total cost of the cells.
     pub cost: u32,
 }
 
-/// The cheapest recipe of each of the sixteen functions.
 #[derive(Clone, Debug)]
 pub struct Recipes {
     recipes: Vec<Option<Recipe>>,
@@ -77,18 +66,15 @@ impl Recipes {
         Self { recipes }
     }
 
-    /// The cheapest recipe of a function, if the library can make it.
     pub fn get(&self, function: Function) -> Option<&Recipe> {
         self.recipes[usize::from(function.bits())].as_ref()
     }
 
-    /// The cost of a function, if the library can make it.
     pub fn cost(&self, function: Function) -> Option<u32> {
         self.get(function).map(|recipe| recipe.cost)
     }
 }
 
-/// The operands available before the first step.
 const START: [(u8, Operand); 4] = [
     (0b1100, Operand::Input(0)),
     (0b1010, Operand::Input(1)),
@@ -128,7 +114,6 @@ fn extensions(library: &CellLibrary, set: u16, steps: &[(Step, u8)]) -> Vec<(u32
     extensions
 }
 
-/// The recipe of the function with these bits, of the steps that it needs.
 fn recipe(cost: u32, steps: &[(Step, u8)], bits: u8) -> Recipe {
     let result = operands(steps).into_iter().find(|&(made, _)| made == bits).map(|(_, operand)| operand);
     let result = result.expect("a function that was found is at hand");

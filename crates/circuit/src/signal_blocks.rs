@@ -10,15 +10,12 @@ use crate::network::{Network, Signal, View};
 use crate::synth::CellNetwork;
 use crate::{BlockId, Netlist};
 
-/// Samples by which cells are compared, 64 in a word.
 const WORDS: usize = 8;
 
-/// The block of each signal of a network, if a cell of the source drives it.
 #[derive(Clone, Debug)]
 pub(crate) struct SignalBlocks(pub Vec<Option<BlockId>>);
 
 impl SignalBlocks {
-    /// Those of a view of a netlist.
     pub fn of(netlist: &Netlist, view: &View) -> Self {
         let mut blocks = vec![None; view.network.signals()];
         for (id, _) in netlist.cells() {
@@ -99,7 +96,6 @@ mod tests {
     use crate::{Cell, CellLibrary, NetId};
     use nbc_base::model::Function;
 
-    /// Two adders of two bits in their own blocks, one after the other.
     fn two_adders() -> Netlist {
         let mut netlist = Netlist::new("two");
         let [a, b, c, d] = ["a", "b", "c", "d"].map(|name| netlist.add_input(name));

@@ -4,13 +4,11 @@ use std::ops::Not;
 
 use crate::graph::{GateGraph, Literal};
 
-/// The sum of two bits and a carry, and the new carry.
 fn full_adder(graph: &mut GateGraph, a: Literal, b: Literal, carry: Literal) -> (Literal, Literal) {
     let half = graph.xor(a, b);
     (graph.xor(half, carry), graph.mux(half, carry, a))
 }
 
-/// The sum of two words of the same width, and the carry.
 pub fn add(graph: &mut GateGraph, a: &[Literal], b: &[Literal], mut carry: Literal) -> (Vec<Literal>, Literal) {
     let mut sum = Vec::new();
     for (&a, &b) in a.iter().zip(b) {
@@ -25,23 +23,19 @@ fn inverted(word: &[Literal]) -> Vec<Literal> {
     word.iter().map(|bit| bit.not()).collect()
 }
 
-/// Whether a word is less than another of the same width.
 pub fn less(graph: &mut GateGraph, a: &[Literal], b: &[Literal]) -> Literal {
     a.iter().zip(b).fold(Literal::FALSE, |less, (&a, &b)| graph.majority(a.not(), b, less))
 }
 
-/// Whether two words of the same width are equal.
 pub fn equal(graph: &mut GateGraph, a: &[Literal], b: &[Literal]) -> Literal {
     let same = a.iter().zip(b).map(|(&a, &b)| graph.xor(a, b).not()).collect();
     graph.every(same)
 }
 
-/// The difference of two words of the same width.
 pub fn subtract(graph: &mut GateGraph, a: &[Literal], b: &[Literal]) -> Vec<Literal> {
     add(graph, a, &inverted(b), Literal::TRUE).0
 }
 
-/// The product of two words.
 pub fn multiply(graph: &mut GateGraph, a: &[Literal], b: &[Literal]) -> Vec<Literal> {
     let mut product = vec![Literal::FALSE; a.len() + b.len()];
     for (at, &bit) in b.iter().enumerate() {
@@ -68,7 +62,6 @@ pub fn divide(graph: &mut GateGraph, a: &[Literal], b: &[Literal]) -> (Vec<Liter
     (quotient, rest)
 }
 
-/// The whole part of the square root of a word.
 pub fn root(graph: &mut GateGraph, word: &[Literal]) -> Vec<Literal> {
     let mut word = word.to_vec();
     if word.len() % 2 == 1 {
@@ -99,7 +92,6 @@ fn take(graph: &mut GateGraph, from: &mut [Literal], word: &[Literal]) -> Litera
     fits
 }
 
-/// The number of ones, as a word.
 pub fn count(graph: &mut GateGraph, bits: &[Literal]) -> Vec<Literal> {
     let (mut column, mut word) = (bits.to_vec(), Vec::new());
     loop {
@@ -117,6 +109,11 @@ pub fn count(graph: &mut GateGraph, bits: &[Literal]) -> Vec<Literal> {
         }
         column = carries;
     }
+}
+/// The majority of votes, of which there is one less than a power of two: the highest bit of their count.
+pub fn majority(graph: &mut GateGraph, votes: &[Literal]) -> Literal {
+    assert!((votes.len() + 1).is_power_of_two(), "the highest bit of the count is the majority");
+    *count(graph, votes).last().expect("a count has a bit")
 }
 
 /// The entry of a table at the number that a word is; entries after the last are that one.
@@ -136,7 +133,6 @@ mod tests {
     use super::*;
     use crate::bits::Bits;
 
-    /// The values of a word over all values of some input bits.
     fn values(graph: &GateGraph, inputs: usize, word: &[Literal]) -> Vec<usize> {
         let columns: Vec<Bits> =
             (0..inputs).map(|bit| Bits::of((0..1usize << inputs).map(|row| row >> bit & 1 == 1))).collect();

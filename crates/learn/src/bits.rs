@@ -1,6 +1,5 @@
 //! Sets of rows: a bit for each row, in words.
 
-/// A bit for each row.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Bits {
     words: Vec<u64>,
@@ -8,14 +7,12 @@ pub struct Bits {
 }
 
 impl Bits {
-    /// The same bit for all rows.
     pub fn all(rows: usize, bit: bool) -> Self {
         let mut bits = Self { words: vec![if bit { u64::MAX } else { 0 }; rows.div_ceil(64)], rows };
         bits.trim();
         bits
     }
 
-    /// A bit for each row, in order.
     pub fn of(bits: impl IntoIterator<Item = bool>) -> Self {
         let (mut words, mut rows) = (Vec::new(), 0);
         for bit in bits {
@@ -37,33 +34,27 @@ impl Bits {
         }
     }
 
-    /// The number of rows.
     pub fn rows(&self) -> usize {
         self.rows
     }
 
-    /// The bit of a row.
     pub fn get(&self, row: usize) -> bool {
         self.words[row / 64] >> (row % 64) & 1 == 1
     }
 
-    /// The number of ones.
     pub fn count(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// The number of rows with ones in both.
     pub fn count_and(&self, other: &Self) -> usize {
         self.words.iter().zip(&other.words).map(|(one, two)| (one & two).count_ones() as usize).sum()
     }
 
-    /// The number of rows with ones in all three.
     pub fn count_and_3(&self, two: &Self, three: &Self) -> usize {
         let words = self.words.iter().zip(&two.words).zip(&three.words);
         words.map(|((one, two), three)| (one & two & three).count_ones() as usize).sum()
     }
 
-    /// The rows with ones, in order.
     pub fn ones(&self) -> impl Iterator<Item = usize> + '_ {
         self.words.iter().enumerate().flat_map(|(at, &word)| {
             let mut rest = word;
@@ -77,7 +68,6 @@ impl Bits {
         })
     }
 
-    /// The bits of an operation on each word.
     fn with(&self, other: &Self, operation: impl Fn(u64, u64) -> u64) -> Self {
         let words = self.words.iter().zip(&other.words).map(|(&one, &two)| operation(one, two)).collect();
         let mut bits = Self { words, rows: self.rows };
@@ -85,27 +75,22 @@ impl Bits {
         bits
     }
 
-    /// Ones where both have ones.
     pub fn and(&self, other: &Self) -> Self {
         self.with(other, |one, two| one & two)
     }
 
-    /// Ones where the other has zeros.
     pub fn and_not(&self, other: &Self) -> Self {
         self.with(other, |one, two| one & !two)
     }
 
-    /// Ones where one of them has ones.
     pub fn or(&self, other: &Self) -> Self {
         self.with(other, |one, two| one | two)
     }
 
-    /// Ones where they differ.
     pub fn xor(&self, other: &Self) -> Self {
         self.with(other, |one, two| one ^ two)
     }
 
-    /// The inverse.
     pub fn not(&self) -> Self {
         self.with(self, |one, _| !one)
     }

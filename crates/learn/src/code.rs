@@ -11,10 +11,8 @@ use crate::graph::{GateGraph, Literal};
 use crate::tree::{DecisionTree, Feature, Growth};
 use crate::votes::Votes;
 
-/// The size of a code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct CodeShape {
-    /// The bits of the code.
     pub bits: usize,
     /// The votes for each bit: one less than a power of two.
     pub votes: usize,
@@ -31,7 +29,6 @@ impl fmt::Display for CodeShape {
     }
 }
 
-/// The most classes.
 const MOST_CLASSES: usize = 32;
 
 /// How many divisions of the classes into two are rated.
@@ -40,7 +37,7 @@ const RATED: usize = 96;
 /// The tables by which a division is rated.
 const RATING_VOTES: usize = 11;
 
-/// One row of so many rates the divisions that are learned from the others.
+/// One row of so many rates the divisions; these are learned from the others.
 const RATING: usize = 4;
 
 /// How often a choice of a code begins at random, and how many changes it then tries.
@@ -53,13 +50,10 @@ const DISTANCE: u32 = 3;
 /// What rows say of several output bits that are one number.
 #[derive(Clone, Debug)]
 pub struct Classes {
-    /// The input bits.
     pub inputs: Vec<Bits>,
-    /// The numbers, in order.
     pub values: Vec<u64>,
     /// For each row, the place of its number.
     pub of_row: Vec<usize>,
-    /// The output bits of a number, as many as the port has.
     pub width: usize,
     /// So many rows after each other belong together.
     pub group: usize,
@@ -86,14 +80,8 @@ impl Classes {
     fn side(&self, division: u64) -> Bits {
         Bits::of(self.of_row.iter().map(|class| division >> class & 1 == 1))
     }
-
-    fn features(&self, graph: &GateGraph) -> Vec<Feature> {
-        let feature = |(at, bits): (usize, &Bits)| Feature { literal: graph.input(at), bits: bits.clone() };
-        self.inputs.iter().enumerate().map(feature).collect()
-    }
 }
 
-/// A code that is being learned.
 #[derive(Clone, Debug)]
 pub struct CodeFitting {
     shape: CodeShape,
@@ -102,10 +90,8 @@ pub struct CodeFitting {
     /// The divisions that may become bits of the code, and on which side of them the rating rows seem to be.
     divisions: Vec<u64>,
     sides: Vec<Bits>,
-    /// The divisions that are bits of the code.
     code: Vec<u64>,
     votes: Vec<Votes>,
-    /// The votes that were chosen again.
     again: usize,
 }
 
@@ -113,7 +99,7 @@ impl CodeFitting {
     /// A fitting that has not begun. The stream of random numbers is that of the seed and the output port.
     pub fn new(shape: CodeShape, classes: &Classes, seed: u64, port: usize) -> Self {
         let graph = GateGraph::new(classes.inputs.len());
-        let features = classes.features(&graph);
+        let features = Feature::of_inputs(&graph, &classes.inputs);
         let mut random = stream(seed, port, 0);
         let count = classes.values.len();
         // The first class is always on the side of the zeros, because a division is as good as its inverse.
@@ -129,7 +115,6 @@ impl CodeFitting {
         Self { shape, graph, features, divisions, sides: Vec::new(), code: Vec::new(), votes: Vec::new(), again: 0 }
     }
 
-    /// The size of the code.
     pub fn shape(&self) -> CodeShape {
         self.shape
     }
@@ -157,7 +142,6 @@ impl CodeFitting {
         true
     }
 
-    /// Chooses a vote again, each once. Returns false when all are.
     fn choose_again(&mut self, classes: &Classes) -> bool {
         let (bit, vote) = (self.again / self.shape.votes, self.again % self.shape.votes);
         if bit == self.code.len() {
@@ -218,8 +202,7 @@ impl CodeFitting {
         best.map_or_else(Vec::new, |(_, code)| code.into_iter().map(|at| self.divisions[at]).collect())
     }
 
-    /// The output bits, the highest first, with their graph.
-    pub fn finish(mut self, classes: &Classes) -> (GateGraph, Vec<Literal>) {
+    pub fn finish(&mut self, classes: &Classes) -> (GateGraph, Vec<Literal>) {
         let bits: Vec<Literal> = self.votes.iter().map(|votes| votes.build(&mut self.graph, &self.features)).collect();
         // Every word that is nearest to one code word; what comes of those farther away is of no account.
         let mut words: Vec<(u64, u64, f64)> = Vec::new();
@@ -247,26 +230,23 @@ impl CodeFitting {
             DecisionTree::grow(&features, &target, &weights, growth).build(&mut self.graph, &features)
         });
         let outputs = outputs.collect();
-        (self.graph, outputs)
+        (std::mem::take(&mut self.graph), outputs)
     }
 }
 
 /// The weights of words by the bits in which they differ from the nearest code word.
 const WEIGHTS: [f64; 3] = [100.0, 1.0, 0.01];
 
-/// The stream of random numbers for a part of the work.
 fn stream(seed: u64, port: usize, part: u64) -> ChaCha8Rng {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     random.set_stream(2 + 2 * port as u64 + part);
     random
 }
 
-/// The rows by which divisions are rated.
 fn rating_rows(classes: &Classes) -> impl Iterator<Item = usize> {
     (0..classes.of_row.len()).filter(|row| (row / classes.group).is_multiple_of(RATING))
 }
 
-/// The sides of a division on which the rating rows seem to be, learned from the other rows.
 fn rated(classes: &Classes, features: &[Feature], division: u64) -> Bits {
     let rated: Vec<usize> = rating_rows(classes).collect();
     let learned: Vec<usize> =

@@ -10,7 +10,6 @@ pub struct Cubes {
     cubes: Vec<Vec<(usize, bool)>>,
 }
 
-/// The most cubes.
 const MOST: usize = 400;
 
 impl Cubes {
@@ -31,7 +30,6 @@ impl Cubes {
         Self { cubes }
     }
 
-    /// The cubes as gates.
     pub fn build(&self, graph: &mut GateGraph, features: &[Feature]) -> Literal {
         let literal = |&(feature, value): &(usize, bool)| features[feature].literal.inverted_if(!value);
         let terms = self.cubes.iter().map(|cube| graph.every(cube.iter().map(literal).collect())).collect();

@@ -5,7 +5,6 @@ use std::collections::BTreeMap;
 use crate::bits::Bits;
 use nbc_circuit::rows::PortRow;
 
-/// An output bit in all rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Wanted {
     /// The rows that say what it is.
@@ -14,19 +13,14 @@ pub struct Wanted {
     pub value: Bits,
 }
 
-/// Rows of values, column by column.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Examples {
-    /// The input bits.
     pub inputs: Vec<Bits>,
-    /// The output bits.
     pub outputs: Vec<Wanted>,
-    /// The number of rows.
     pub rows: usize,
 }
 
 impl Examples {
-    /// The columns of rows, which all have as many bits.
     pub fn of(rows: &[PortRow]) -> Self {
         let (inputs, outputs) = rows.first().map_or((0, 0), |row| (row.inputs.len(), row.outputs.len()));
         let input = |at: usize| Bits::of(rows.iter().map(|row| row.inputs[at]));
@@ -38,7 +32,6 @@ impl Examples {
         Self { inputs, outputs, rows: rows.len() }
     }
 
-    /// Some of the rows, in this order.
     pub fn pick(&self, rows: &[usize]) -> Self {
         let pick = |bits: &Bits| bits.pick(rows);
         let wanted = |wanted: &Wanted| Wanted { known: pick(&wanted.known), value: pick(&wanted.value) };
@@ -72,14 +65,11 @@ impl Examples {
 /// An output bit that is to be learned: input bits and what it is, in the rows that say so.
 #[derive(Clone, Debug)]
 pub struct OutputRows {
-    /// The input bits.
     pub inputs: Vec<Bits>,
-    /// The output bit.
     pub target: Bits,
 }
 
 impl OutputRows {
-    /// Some of the rows, in this order.
     pub fn pick(&self, rows: &[usize]) -> Self {
         Self { inputs: self.inputs.iter().map(|input| input.pick(rows)).collect(), target: self.target.pick(rows) }
     }

@@ -1,11 +1,10 @@
 //! Small forests: trees that are grown one after another on the rows that those before get wrong, and their majority.
 
-use crate::arithmetic::count;
+use crate::arithmetic::majority;
 use crate::bits::Bits;
 use crate::graph::{GateGraph, Literal};
 use crate::tree::{DecisionTree, Feature, Growth};
 
-/// Trees that vote with the same weight.
 #[derive(Clone, Debug)]
 pub struct Forest {
     growth: Growth,
@@ -19,34 +18,38 @@ pub struct Forest {
 const STEP: f64 = 0.3;
 
 impl Forest {
-    /// A forest without trees.
     pub fn new(rows: usize, growth: Growth) -> Self {
         Self { growth, margins: vec![0.0; rows], trees: Vec::new() }
     }
 
     /// Grows a tree more.
     pub fn grow(&mut self, features: &[Feature], target: &Bits) {
-        let weights: Vec<f64> = self.margins.iter().map(|margin| libm::exp(-STEP * margin)).collect();
-        let scale = weights.len() as f64 / weights.iter().sum::<f64>();
-        let weights: Vec<f64> = weights.into_iter().map(|weight| weight * scale).collect();
+        let weights = weights(&self.margins, STEP);
         let tree = DecisionTree::grow(features, target, &weights, self.growth);
         let wrong = tree.answers(features, target.rows()).xor(target);
-        for (row, margin) in self.margins.iter_mut().enumerate() {
-            *margin += if wrong.get(row) { -1.0 } else { 1.0 };
-        }
+        count_votes(&mut self.margins, &wrong, 1.0);
         self.trees.push(tree);
     }
 
-    /// The number of trees.
     pub fn len(&self) -> usize {
         self.trees.len()
     }
 
-    /// The majority of the trees as gates. Their number is one less than a power of two, so that it is the highest bit
-    /// of their count.
     pub fn build(&self, graph: &mut GateGraph, features: &[Feature]) -> Literal {
-        assert!((self.trees.len() + 1).is_power_of_two(), "the highest bit of the count is the majority");
         let votes: Vec<Literal> = self.trees.iter().map(|tree| tree.build(graph, features)).collect();
-        *count(graph, &votes).last().expect("a count has a bit")
+        majority(graph, &votes)
+    }
+}
+
+/// The weights of rows, 1 on average; `margins` says how many more votes for a row were right than wrong.
+pub fn weights(margins: &[f64], step: f64) -> Vec<f64> {
+    let weights: Vec<f64> = margins.iter().map(|margin| libm::exp(-step * margin)).collect();
+    let scale = weights.len() as f64 / weights.iter().sum::<f64>();
+    weights.into_iter().map(|weight| weight * scale).collect()
+}
+
+pub fn count_votes(margins: &mut [f64], wrong: &Bits, times: f64) {
+    for (row, margin) in margins.iter_mut().enumerate() {
+        *margin += if wrong.get(row) { -times } else { times };
     }
 }

@@ -1,20 +1,17 @@
 //! The circuit while it is learned: gates that are shared if they are equal, with inverted connections.
 
-use std::collections::BTreeMap;
 use std::ops::Not;
 
 use crate::bits::Bits;
 use nbc_base::model::Function;
+use nbc_circuit::interned::Interned;
 use nbc_circuit::{NetId, Netlist};
 
-/// A net of a graph, perhaps inverted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Literal(u32);
 
 impl Literal {
-    /// Always 0.
     pub const FALSE: Self = Self(0);
-    /// Always 1.
     pub const TRUE: Self = Self(1);
 
     fn of(node: usize) -> Self {
@@ -29,13 +26,11 @@ impl Literal {
         self.0 & 1 == 1
     }
 
-    /// The literal or its inverse.
     #[must_use]
     pub fn inverted_if(self, invert: bool) -> Self {
         Self(self.0 ^ u32::from(invert))
     }
 
-    /// The constant of a value.
     pub fn constant(value: bool) -> Self {
         Self::FALSE.inverted_if(value)
     }
@@ -49,11 +44,8 @@ impl Not for Literal {
     }
 }
 
-/// What drives a net.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Gate {
-    Zero,
-    Input,
     And(Literal, Literal),
     Xor(Literal, Literal),
     /// The second if the first, else the third.
@@ -66,16 +58,13 @@ enum Gate {
 impl Gate {
     fn pins(self) -> Vec<Literal> {
         match self {
-            Self::Zero | Self::Input => Vec::new(),
             Self::And(a, b) | Self::Xor(a, b) => vec![a, b],
             Self::Mux(a, b, c) | Self::Majority(a, b, c) | Self::Table([a, b, c], _) => vec![a, b, c],
         }
     }
 
-    /// The AND gates that it is made of.
     fn ands(self) -> usize {
         match self {
-            Self::Zero | Self::Input => 0,
             Self::And(..) => 1,
             Self::Xor(..) | Self::Mux(..) => 3,
             Self::Majority(..) => 4,
@@ -92,43 +81,30 @@ impl Gate {
     }
 }
 
-/// Gates over input bits, drivers first.
-#[derive(Clone, Debug)]
+/// Gates over input bits, drivers first. The node of a net is 0 for the constant, then the inputs, then the gates.
+#[derive(Clone, Debug, Default)]
 pub struct GateGraph {
-    gates: Vec<Gate>,
-    known: BTreeMap<Gate, Literal>,
+    gates: Interned<Gate>,
     inputs: usize,
 }
 
 impl GateGraph {
-    /// A graph of inputs alone.
     pub fn new(inputs: usize) -> Self {
-        let mut gates = vec![Gate::Zero];
-        gates.resize(inputs + 1, Gate::Input);
-        Self { gates, known: BTreeMap::new(), inputs }
+        Self { gates: Interned::default(), inputs }
     }
 
-    /// The net of an input.
     pub fn input(&self, at: usize) -> Literal {
         Literal::of(at + 1)
     }
 
-    /// The nets of all inputs.
     pub fn inputs(&self) -> Vec<Literal> {
         (0..self.inputs).map(|at| self.input(at)).collect()
     }
 
     fn gate(&mut self, gate: Gate) -> Literal {
-        if let Some(&known) = self.known.get(&gate) {
-            return known;
-        }
-        let literal = Literal::of(self.gates.len());
-        self.gates.push(gate);
-        self.known.insert(gate, literal);
-        literal
+        Literal::of(1 + self.inputs + self.gates.number(gate))
     }
 
-    /// Both.
     pub fn and(&mut self, a: Literal, b: Literal) -> Literal {
         let (a, b) = (a.min(b), a.max(b));
         match (a, b) {
@@ -140,12 +116,10 @@ impl GateGraph {
         }
     }
 
-    /// One of them.
     pub fn or(&mut self, a: Literal, b: Literal) -> Literal {
         self.and(a.not(), b.not()).not()
     }
 
-    /// Whether they differ.
     pub fn xor(&mut self, a: Literal, b: Literal) -> Literal {
         let invert = a.is_inverted() != b.is_inverted();
         let (a, b) = (a.inverted_if(a.is_inverted()), b.inverted_if(b.is_inverted()));
@@ -185,7 +159,6 @@ impl GateGraph {
         self.gate(Gate::Mux(select, yes, no))
     }
 
-    /// At least two of the three.
     pub fn majority(&mut self, a: Literal, b: Literal, c: Literal) -> Literal {
         let mut pins = [a, b, c];
         pins.sort_unstable();
@@ -230,7 +203,6 @@ impl GateGraph {
         self.mux(a, yes, no)
     }
 
-    /// Any of them, as a balanced tree.
     pub fn any(&mut self, mut terms: Vec<Literal>) -> Literal {
         while terms.len() > 1 {
             terms = terms.chunks(2).map(|pair| if let [a, b] = *pair { self.or(a, b) } else { pair[0] }).collect();
@@ -238,18 +210,17 @@ impl GateGraph {
         terms.first().copied().unwrap_or(Literal::FALSE)
     }
 
-    /// All of them, as a balanced tree.
     pub fn every(&mut self, terms: Vec<Literal>) -> Literal {
         self.any(terms.into_iter().map(Literal::not).collect()).not()
     }
 
-    /// The gates that these nets depend on.
     fn cone(&self, outputs: &[Literal]) -> Vec<bool> {
-        let mut needed = vec![false; self.gates.len()];
+        let first = 1 + self.inputs;
+        let mut needed = vec![false; first + self.gates.items.len()];
         outputs.iter().for_each(|output| needed[output.node()] = true);
-        for node in (0..self.gates.len()).rev() {
-            if needed[node] {
-                self.gates[node].pins().iter().for_each(|pin| needed[pin.node()] = true);
+        for (at, gate) in self.gates.items.iter().enumerate().rev() {
+            if needed[first + at] {
+                gate.pins().iter().for_each(|pin| needed[pin.node()] = true);
             }
         }
         needed
@@ -258,25 +229,23 @@ impl GateGraph {
     /// The AND gates of these nets, inverters not counted: 1 for an AND, 3 for an exclusive or and for a multiplexer, 4
     /// for a majority of three.
     pub fn ands(&self, outputs: &[Literal]) -> usize {
-        let needed = self.cone(outputs);
-        self.gates.iter().zip(needed).filter(|(_, needed)| *needed).map(|(gate, _)| gate.ands()).sum()
+        let needed = self.cone(outputs).split_off(1 + self.inputs);
+        self.gates.items.iter().zip(needed).filter(|(_, needed)| *needed).map(|(gate, _)| gate.ands()).sum()
     }
 
-    /// Adds what another graph of the same inputs computes for a net.
     pub fn adopt(&mut self, other: &Self, literal: Literal) -> Literal {
         let needed = other.cone(&[literal]);
         let mut here = vec![Literal::FALSE];
         here.extend(self.inputs());
-        for (node, &gate) in other.gates.iter().enumerate().skip(other.inputs + 1) {
+        for &gate in &other.gates.items {
             let pin = |pin: Literal| here[pin.node()].inverted_if(pin.is_inverted());
             here.push(match gate {
-                _ if !needed[node] => Literal::FALSE,
+                _ if !needed[here.len()] => Literal::FALSE,
                 Gate::And(a, b) => self.and(pin(a), pin(b)),
                 Gate::Xor(a, b) => self.xor(pin(a), pin(b)),
                 Gate::Mux(a, b, c) => self.mux(pin(a), pin(b), pin(c)),
                 Gate::Majority(a, b, c) => self.majority(pin(a), pin(b), pin(c)),
                 Gate::Table(pins, bits) => self.table(pins.map(pin), bits),
-                Gate::Zero | Gate::Input => unreachable!("gates follow the inputs"),
             });
         }
         here[literal.node()].inverted_if(literal.is_inverted())
@@ -289,21 +258,19 @@ impl GateGraph {
     pub fn values(&self, inputs: &[Bits], outputs: &[Literal]) -> Vec<Bits> {
         let rows = inputs[0].rows();
         let needed = self.cone(outputs);
-        let mut values: Vec<Option<Bits>> = vec![None; self.gates.len()];
-        values[0] = Some(Bits::all(rows, false));
-        for (value, input) in values[1..].iter_mut().zip(inputs) {
-            *value = Some(input.clone());
-        }
+        let mut values = vec![Some(Bits::all(rows, false))];
+        values.extend(inputs.iter().cloned().map(Some));
         let read = |values: &[Option<Bits>], literal: Literal| {
             let value = values[literal.node()].as_ref().expect("drivers come first");
             if literal.is_inverted() { value.not() } else { value.clone() }
         };
-        for node in self.inputs + 1..self.gates.len() {
-            if !needed[node] {
+        for gate in &self.gates.items {
+            if !needed[values.len()] {
+                values.push(None);
                 continue;
             }
-            let pins: Vec<Bits> = self.gates[node].pins().into_iter().map(|pin| read(&values, pin)).collect();
-            values[node] = Some(match self.gates[node] {
+            let pins: Vec<Bits> = gate.pins().into_iter().map(|pin| read(&values, pin)).collect();
+            values.push(Some(match gate {
                 Gate::And(..) => pins[0].and(&pins[1]),
                 Gate::Xor(..) => pins[0].xor(&pins[1]),
                 Gate::Mux(..) => pins[0].and(&pins[1]).or(&pins[2].and_not(&pins[0])),
@@ -312,21 +279,19 @@ impl GateGraph {
                     let at = |row: usize| pins.iter().fold(0, |at, pin| at << 1 | usize::from(pin.get(row)));
                     Bits::of((0..rows).map(|row| bits >> at(row) & 1 == 1))
                 }
-                Gate::Zero | Gate::Input => unreachable!("gates follow the inputs"),
-            });
+            }));
         }
         outputs.iter().map(|&output| read(&values, output)).collect()
     }
 
-    /// The netlist of these nets, with a cell for each gate.
     pub fn netlist(&self, name: &str, inputs: &[String], outputs: &[(String, Literal)]) -> Netlist {
         let mut netlist = Netlist::new(name);
         let literals: Vec<Literal> = outputs.iter().map(|(_, literal)| *literal).collect();
         let needed = self.cone(&literals);
         let mut nets: Vec<Option<NetId>> = vec![None];
         nets.extend(inputs.iter().map(|input| Some(netlist.add_input(input))));
-        for (node, &gate) in self.gates.iter().enumerate().skip(self.inputs + 1) {
-            nets.push(needed[node].then(|| {
+        for &gate in &self.gates.items {
+            nets.push(needed[nets.len()].then(|| {
                 let pins = gate.pins();
                 let drivers: Vec<NetId> =
                     pins.iter().map(|pin| nets[pin.node()].expect("drivers come first")).collect();
@@ -362,7 +327,6 @@ fn function(gate: Gate, pins: &[Literal]) -> Function {
             }
             Gate::Majority(..) => u8::from(pin(0)) + u8::from(pin(1)) + u8::from(pin(2)) >= 2,
             Gate::Table(_, bits) => bits >> row & 1 == 1,
-            Gate::Zero | Gate::Input => unreachable!("they have no pins"),
         }
     });
     Function::of(width, bits.fold(0, |bits, row| bits | 1 << row))
@@ -414,7 +378,7 @@ mod tests {
                 assert_eq!((values[at].get(row), found[at]), (expected(bits), expected(bits)), "{at} {bits:?}");
             }
         }
-        assert!(graph.gates.len() < 200, "equal gates are one, not {}", graph.gates.len());
+        assert!(graph.gates.items.len() < 200, "equal gates are one, not {}", graph.gates.items.len());
     }
 
     #[test]

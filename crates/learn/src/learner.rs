@@ -51,57 +51,41 @@ const TELLING: usize = 100;
 /// How much accuracy all permitted gates are worth: of two methods that are equally good, the smaller is taken.
 const PRICE: f64 = 0.002;
 
-/// A method that was tried on an output bit, or on all bits of its port.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tried {
-    /// The method, in words.
     pub method: String,
     /// The share of the choosing rows that it got right.
     pub accuracy: f64,
-    /// Its AND gates.
     pub ands: usize,
 }
 
-/// An output as it was learned.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LearnedOutput {
-    /// What it is, in words.
     pub what: String,
-    /// The methods that were tried, in order.
     pub tried: Vec<Tried>,
 }
 
-/// How many rows are right.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Accuracy {
     /// The rows in which every output is as wanted.
     pub right: usize,
-    /// All rows.
     pub rows: usize,
 }
 
-/// A circuit that was learned.
 #[derive(Clone, Debug)]
 pub struct LearnedCircuit {
-    /// Its gates.
     pub graph: GateGraph,
-    /// Its outputs.
     pub literals: Vec<Literal>,
-    /// The outputs, as they were learned.
     pub outputs: Vec<LearnedOutput>,
-    /// The rows that it was learned from.
     pub training: Examples,
-    /// The rows that were held out.
     pub held_out: Examples,
 }
 
 impl LearnedCircuit {
-    /// Its AND gates.
     pub fn ands(&self) -> usize {
         self.graph.ands(&self.literals)
     }
 
-    /// The bits of its outputs in rows.
     pub fn outputs_in(&self, rows: &Examples) -> Vec<Bits> {
         if rows.rows == 0 {
             vec![Bits::all(0, false); self.literals.len()]
@@ -110,20 +94,17 @@ impl LearnedCircuit {
         }
     }
 
-    /// How many rows it gets right.
     pub fn accuracy(&self, rows: &Examples) -> Accuracy {
         Accuracy { right: rows.right(&self.outputs_in(rows)).count(), rows: rows.rows }
     }
 }
 
-/// The training rows of an output bit.
 #[derive(Clone, Debug)]
 struct Parts {
     /// Those that methods learn from while they are compared.
     fit: OutputRows,
     /// Those that they are compared by.
     choose: OutputRows,
-    /// Both.
     all: OutputRows,
     /// Whether all values of the inputs are there, so that no row has to be foreseen: then all parts are the same.
     is_table: bool,
@@ -134,20 +115,16 @@ fn is_choosing(row: usize, group: usize) -> bool {
     (row / group).is_multiple_of(CHOOSING)
 }
 
-/// A method that may learn an output bit.
 #[derive(Clone, Debug)]
 struct Choice {
     method: LearningMethod,
     worth: f64,
-    /// The choosing rows that it gets wrong.
     wrong: usize,
     /// Whether it gets all rows to fit right.
     is_exact: bool,
-    /// What it has learned from the rows to fit.
     fitted: Fitted,
 }
 
-/// What was chosen for an output bit.
 #[derive(Clone, Debug)]
 struct BitChoice {
     choice: Choice,
@@ -166,43 +143,59 @@ fn is_clearly_more(wrong: usize, others: usize, rows: usize) -> bool {
     rows >= TELLING && more * more > wrong + others
 }
 
-/// The best code for all bits of a port.
 #[derive(Clone, Debug)]
 struct CodeChoice {
     shape: CodeShape,
     worth: f64,
-    /// The choosing rows that it gets wrong.
     wrong: usize,
-    /// What it has learned from the rows to fit.
     graph: GateGraph,
     literals: Vec<Literal>,
 }
 
-/// What is done for an output port.
+/// A method is tried on an output bit; the other methods come after it.
 #[derive(Clone, Debug)]
-enum Phase {
-    /// A method is tried on an output bit; the others come after it.
-    Trying { parts: Parts, fitting: Fitting, methods: Vec<LearningMethod>, tried: Vec<Tried>, found: Vec<Choice> },
-    /// A code is tried on all bits; the others come after it.
-    Coding { classes: Classes, fitting: CodeFitting, shapes: Vec<CodeShape>, best: Option<CodeChoice> },
-    /// The chosen method learns an output bit from all training rows, and if that is not exact, `others` do.
-    Again { parts: Parts, fitting: Fitting, others: Vec<LearningMethod>, learned: Option<Fitted> },
-    /// The chosen code learns all bits from all training rows.
-    CodingAgain { classes: Classes, fitting: CodeFitting, choice: CodeChoice },
+struct Trial {
+    parts: Parts,
+    fitting: Fitting,
+    methods: Vec<LearningMethod>,
+    tried: Vec<Tried>,
+    found: Vec<Choice>,
 }
 
-/// An output port that is being learned.
+#[derive(Clone, Debug)]
+enum Phase {
+    Trying(Trial),
+    /// A code is tried on all bits; the others come after it.
+    Coding {
+        classes: Classes,
+        fitting: CodeFitting,
+        shapes: Vec<CodeShape>,
+        best: Option<CodeChoice>,
+    },
+    /// The chosen method learns an output bit from all training rows, and if that is not exact, `others` do.
+    Again {
+        parts: Parts,
+        fitting: Fitting,
+        others: Vec<LearningMethod>,
+        learned: Option<Fitted>,
+    },
+    /// The chosen code learns all bits from all training rows.
+    CodingAgain {
+        classes: Classes,
+        fitting: CodeFitting,
+        choice: CodeChoice,
+    },
+}
+
 #[derive(Clone, Debug)]
 struct PortWork {
     /// Its number, and its output bits.
     port: usize,
     bits: Range<usize>,
     phase: Phase,
-    /// The choices for the bits whose methods were tried.
     choices: Vec<BitChoice>,
     /// What the bits are that have learned from all training rows.
     learned: Vec<Fitted>,
-    /// What was tried on all bits together.
     codes: Vec<Tried>,
 }
 
@@ -210,7 +203,6 @@ struct PortWork {
 #[derive(Clone, Debug)]
 pub struct Learner {
     options: LearnOptions,
-    /// The widths of the output ports.
     ports: Vec<usize>,
     training: Examples,
     held_out: Examples,
@@ -257,7 +249,7 @@ impl Learner {
         let parts = self.parts(output);
         let mut methods = LearningMethod::all();
         let fitting = Fitting::new(methods.remove(0), &parts.fit.inputs);
-        Phase::Trying { parts, fitting, methods, tried: Vec::new(), found: Vec::new() }
+        Phase::Trying(Trial { parts, fitting, methods, tried: Vec::new(), found: Vec::new() })
     }
 
     /// The training rows of an output bit. If nothing is held out, equal rows have the value of most of them.
@@ -291,7 +283,7 @@ impl Learner {
         let Some(work) = &self.work else { return (all as u64, all as u64) };
         let before: usize = self.ports[..work.port].iter().map(|&width| of_port(width)).sum();
         let own = match &work.phase {
-            Phase::Trying { methods: left, .. } => work.choices.len() * methods + methods - 1 - left.len(),
+            Phase::Trying(trial) => work.choices.len() * methods + methods - 1 - trial.methods.len(),
             Phase::Coding { shapes, .. } => {
                 work.bits.len() * methods + (CodeShape::ALL.len() - 1 - shapes.len()) * methods
             }
@@ -304,100 +296,12 @@ impl Learner {
 
     /// Does the next portion, such as a tree. Returns false when all is done.
     pub fn advance(&mut self) -> bool {
-        let Some(PortWork { port, bits, phase, mut choices, mut learned, mut codes }) = self.work.take() else {
-            return false;
-        };
-        let next = match phase {
-            Phase::Trying { parts, fitting, methods, tried, found } => {
-                match self.try_method(parts, fitting, methods, tried, found, &choices) {
-                    Tries::More(phase) => Some(*phase),
-                    Tries::Best(choice) => {
-                        choices.push(choice);
-                        Some(if choices.len() < bits.len() {
-                            self.trying(bits.start + choices.len())
-                        } else if let Some(classes) = self.classes(&bits, false)
-                            && !choices.iter().all(|bit| bit.is_final)
-                        {
-                            self.coding(CodeShape::ALL.to_vec(), None, classes, port)
-                        } else {
-                            self.again(&bits, &choices, 0)
-                        })
-                    }
-                }
-            }
-            Phase::Coding { classes, mut fitting, shapes, best } => {
-                let seed = self.options.seed;
-                if fitting.advance(&classes, seed, port) {
-                    Some(Phase::Coding { classes, fitting, shapes, best })
-                } else {
-                    let shape = fitting.shape();
-                    let (graph, literals) = fitting.finish(&classes);
-                    let Rating { worth, wrong, tried, .. } = self.rate(&graph, &literals, &bits, shape.to_string());
-                    let best = match worth {
-                        Some(worth) if best.as_ref().is_none_or(|best| worth > best.worth) => {
-                            Some(CodeChoice { shape, worth, wrong, graph, literals })
-                        }
-                        _ => best,
-                    };
-                    codes.push(tried);
-                    Some(if shapes.is_empty() {
-                        let won = best.filter(|best| self.is_better(best, &choices, &bits));
-                        // All training rows may have too many values, though those to learn from have few.
-                        match won.and_then(|choice| Some((choice, self.classes(&bits, true)?))) {
-                            Some((choice, all)) => {
-                                let fitting = CodeFitting::new(choice.shape, &all, seed, port);
-                                Phase::CodingAgain { classes: all, fitting, choice }
-                            }
-                            None => self.again(&bits, &choices, 0),
-                        }
-                    } else {
-                        self.coding(shapes, best, classes, port)
-                    })
-                }
-            }
-            Phase::Again { parts, fitting, mut others, learned: first } => match fitting.advance(&parts.all) {
-                FittingStep::More(fitting) => Some(Phase::Again { parts, fitting, others, learned: first }),
-                FittingStep::Done(found) => {
-                    let at = learned.len();
-                    // From more rows it may have grown too large.
-                    let found = found.filter(|found| found.ands() <= choices[at].gates);
-                    let is_exact = found.as_ref().is_some_and(|found| found.accuracy(&parts.all) == 1.0);
-                    let best = match (first, found) {
-                        (Some(first), Some(_)) if !is_exact => first,
-                        (first, found) => found.or(first).unwrap_or_else(|| choices[at].choice.fitted.clone()),
-                    };
-                    if !is_exact && !others.is_empty() {
-                        let fitting = Fitting::new(others.remove(0), &parts.all.inputs);
-                        Some(Phase::Again { parts, fitting, others, learned: Some(best) })
-                    } else {
-                        let constant = Fitted::most(&parts.all);
-                        let is_worse = best.accuracy(&parts.all) < constant.accuracy(&parts.all);
-                        learned.push(if is_worse { constant } else { best });
-                        (at + 1 < bits.len()).then(|| self.again(&bits, &choices, at + 1))
-                    }
-                }
-            },
-            Phase::CodingAgain { classes, mut fitting, choice } => {
-                if fitting.advance(&classes, self.options.seed, port) {
-                    Some(Phase::CodingAgain { classes, fitting, choice })
-                } else {
-                    let what = fitting.shape().to_string();
-                    let (graph, literals) = fitting.finish(&classes);
-                    let fits = graph.ands(&literals) <= self.share(bits.len()).min(self.left(&[]));
-                    let (graph, literals) = if fits { (graph, literals) } else { (choice.graph, choice.literals) };
-                    learned.extend(literals.into_iter().map(|literal| Fitted {
-                        graph: graph.clone(),
-                        literal,
-                        what: what.clone(),
-                    }));
-                    None
-                }
-            }
-        };
-        if let Some(phase) = next {
-            self.work = Some(PortWork { port, bits, phase, choices, learned, codes });
+        let Some(mut work) = self.work.take() else { return false };
+        if self.learn_more(&mut work) {
+            self.work = Some(work);
             return true;
         }
+        let PortWork { port, bits, choices, mut learned, codes, .. } = work;
         let rows = self.port_rows(&bits, |_| true);
         let (number, most) = rows.most_frequent();
         let mut graph = GateGraph::new(rows.inputs.len());
@@ -416,37 +320,113 @@ impl Learner {
         self.work.is_some()
     }
 
-    /// The next portion of a method that is tried, after the choices for the bits before.
-    fn try_method(
-        &self,
-        parts: Parts,
-        fitting: Fitting,
-        mut methods: Vec<LearningMethod>,
-        mut tried: Vec<Tried>,
-        mut found: Vec<Choice>,
-        before: &[BitChoice],
-    ) -> Tries {
+    /// Does the next portion for a port. Returns false when its bits are learned.
+    fn learn_more(&self, work: &mut PortWork) -> bool {
+        let PortWork { port, bits, phase, choices, learned, codes } = work;
+        let seed = self.options.seed;
+        *phase = match phase {
+            Phase::Trying(trial) => {
+                let Some(choice) = self.try_method(trial, choices) else { return true };
+                choices.push(choice);
+                if choices.len() < bits.len() {
+                    self.trying(bits.start + choices.len())
+                } else if let Some(classes) = self.classes(bits, false)
+                    && !choices.iter().all(|bit| bit.is_final)
+                {
+                    let mut shapes = CodeShape::ALL.to_vec();
+                    let fitting = CodeFitting::new(shapes.remove(0), &classes, seed, *port);
+                    Phase::Coding { classes, fitting, shapes, best: None }
+                } else {
+                    self.again(bits, choices, 0)
+                }
+            }
+            Phase::Coding { classes, fitting, shapes, best } => {
+                if fitting.advance(classes, seed, *port) {
+                    return true;
+                }
+                let shape = fitting.shape();
+                let (graph, literals) = fitting.finish(classes);
+                let Rating { worth, wrong, tried, .. } = self.rate(&graph, &literals, bits, shape.to_string());
+                codes.push(tried);
+                if let Some(worth) = worth
+                    && best.as_ref().is_none_or(|best| worth > best.worth)
+                {
+                    *best = Some(CodeChoice { shape, worth, wrong, graph, literals });
+                }
+                if !shapes.is_empty() {
+                    *fitting = CodeFitting::new(shapes.remove(0), classes, seed, *port);
+                    return true;
+                }
+                let won = best.take().filter(|best| self.is_better(best, choices, bits));
+                // All training rows may have too many values, though those to learn from have few.
+                match won.and_then(|choice| Some((choice, self.classes(bits, true)?))) {
+                    Some((choice, classes)) => {
+                        let fitting = CodeFitting::new(choice.shape, &classes, seed, *port);
+                        Phase::CodingAgain { classes, fitting, choice }
+                    }
+                    None => self.again(bits, choices, 0),
+                }
+            }
+            Phase::Again { parts, fitting, others, learned: first } => {
+                let FittingStep::Done(found) = fitting.advance(&parts.all) else { return true };
+                let at = learned.len();
+                // From more rows it may have grown too large.
+                let found = found.filter(|found| found.ands() <= choices[at].gates);
+                let is_exact = found.as_ref().is_some_and(|found| found.accuracy(&parts.all) == 1.0);
+                let best = match (first.take(), found) {
+                    (Some(first), Some(_)) if !is_exact => first,
+                    (first, found) => found.or(first).unwrap_or_else(|| choices[at].choice.fitted.clone()),
+                };
+                if !is_exact && !others.is_empty() {
+                    *fitting = Fitting::new(others.remove(0), &parts.all.inputs);
+                    *first = Some(best);
+                    return true;
+                }
+                let constant = Fitted::most(&parts.all);
+                let is_worse = best.accuracy(&parts.all) < constant.accuracy(&parts.all);
+                learned.push(if is_worse { constant } else { best });
+                if learned.len() == bits.len() {
+                    return false;
+                }
+                self.again(bits, choices, at + 1)
+            }
+            Phase::CodingAgain { classes, fitting, choice } => {
+                if fitting.advance(classes, seed, *port) {
+                    return true;
+                }
+                let what = fitting.shape().to_string();
+                let (mut graph, mut literals) = fitting.finish(classes);
+                if graph.ands(&literals) > self.share(bits.len()).min(self.left(&[])) {
+                    (graph, literals) = (choice.graph.clone(), choice.literals.clone());
+                }
+                let fitted = |literal| Fitted { graph: graph.clone(), literal, what: what.clone() };
+                learned.extend(literals.into_iter().map(fitted));
+                return false;
+            }
+        };
+        true
+    }
+
+    /// Does the next portion of a method that is tried, after the choices for the bits before. Returns the best method
+    /// after the last.
+    fn try_method(&self, trial: &mut Trial, before: &[BitChoice]) -> Option<BitChoice> {
+        let Trial { parts, fitting, methods, tried, found } = trial;
         let method = fitting.method();
         let left = self.left(before);
         let share = self.share(1).min(left);
         let mut is_right = false;
-        match fitting.advance(&parts.fit) {
-            FittingStep::More(fitting) => {
-                return Tries::More(Box::new(Phase::Trying { parts, fitting, methods, tried, found }));
-            }
-            FittingStep::Done(None) => {}
-            FittingStep::Done(Some(fitted)) => {
-                let (accuracy, ands) = (fitted.accuracy(&parts.choose), fitted.ands());
-                tried.push(Tried { method: method.to_string(), accuracy, ands });
-                let is_exact = fitted.accuracy(&parts.fit) == 1.0;
-                // The smallest exact circuit of a table may take what others leave.
-                if ands <= if parts.is_table && is_exact { left } else { share } {
-                    is_right = is_exact && accuracy == 1.0;
-                    let wrong = fitted.wrong(&parts.choose);
-                    found.push(Choice { method, worth: self.worth(accuracy, ands, 1), wrong, is_exact, fitted });
-                    let better = |one: &Choice, two: &Choice| two.worth.total_cmp(&one.worth);
-                    found.sort_by(|one, two| better(one, two).then(one.fitted.ands().cmp(&two.fitted.ands())));
-                }
+        let FittingStep::Done(fitted) = fitting.advance(&parts.fit) else { return None };
+        if let Some(fitted) = fitted {
+            let (accuracy, ands) = (fitted.accuracy(&parts.choose), fitted.ands());
+            tried.push(Tried { method: method.to_string(), accuracy, ands });
+            let is_exact = fitted.accuracy(&parts.fit) == 1.0;
+            // The smallest exact circuit of a table may take what others leave.
+            if ands <= if parts.is_table && is_exact { left } else { share } {
+                is_right = is_exact && accuracy == 1.0;
+                let wrong = fitted.wrong(&parts.choose);
+                found.push(Choice { method, worth: self.worth(accuracy, ands, 1), wrong, is_exact, fitted });
+                let better = |one: &Choice, two: &Choice| two.worth.total_cmp(&one.worth);
+                found.sort_by(|one, two| better(one, two).then(one.fitted.ands().cmp(&two.fitted.ands())));
             }
         }
         if is_right && parts.is_table && parts.fit.target.rows() <= FEW {
@@ -461,10 +441,10 @@ impl Learner {
             methods.extend(method.smaller_tree(parts.fit.target.rows()));
         }
         if methods.is_empty() {
-            return Tries::Best(self.chosen(found, tried, &parts, share));
+            return Some(self.chosen(std::mem::take(found), std::mem::take(tried), parts, share));
         }
-        let fitting = Fitting::new(methods.remove(0), &parts.fit.inputs);
-        Tries::More(Box::new(Phase::Trying { parts, fitting, methods, tried, found }))
+        *fitting = Fitting::new(methods.remove(0), &parts.fit.inputs);
+        None
     }
 
     /// The best of the methods that were tried on an output bit. If nothing is held out, an exact one is better than
@@ -499,12 +479,6 @@ impl Learner {
     /// What an accuracy is worth with so many AND gates for so many output bits.
     fn worth(&self, accuracy: f64, ands: usize, bits: usize) -> f64 {
         accuracy - PRICE * ands as f64 / self.share(bits).max(1) as f64
-    }
-
-    /// The next code.
-    fn coding(&self, mut shapes: Vec<CodeShape>, best: Option<CodeChoice>, classes: Classes, port: usize) -> Phase {
-        let fitting = CodeFitting::new(shapes.remove(0), &classes, self.options.seed, port);
-        Phase::Coding { classes, fitting, shapes, best }
     }
 
     /// The chosen method for an output bit, on all training rows.
@@ -554,10 +528,6 @@ impl Learner {
         code.worth > alone.worth.unwrap_or(0.0) && (!is_exact || is_clear)
     }
 
-    /// The circuit.
-    ///
-    /// # Panics
-    /// When there is more to do.
     pub fn finish(self) -> LearnedCircuit {
         assert!(self.work.is_none(), "all portions are done");
         let Self { graph, literals, outputs, training, held_out, .. } = self;
@@ -565,19 +535,11 @@ impl Learner {
     }
 }
 
-/// A circuit for all bits of a port, by the choosing rows.
 struct Rating {
-    /// `None` if it has too many gates.
     worth: Option<f64>,
     wrong: usize,
     rows: usize,
     tried: Tried,
-}
-
-/// How far the methods for an output bit came.
-enum Tries {
-    More(Box<Phase>),
-    Best(BitChoice),
 }
 
 #[cfg(test)]
@@ -585,7 +547,6 @@ mod tests {
     use super::*;
     use crate::examples::Wanted;
 
-    /// Rows of input bits with output bits.
     fn examples(inputs: usize, outputs: usize, rows: &[(u64, u64)]) -> Examples {
         let bits = |width: usize, number: &dyn Fn(usize) -> u64| -> Vec<Bits> {
             (0..width).map(|bit| Bits::of((0..rows.len()).map(|row| number(row) >> bit & 1 == 1))).collect()
@@ -626,7 +587,6 @@ mod tests {
         }
     }
 
-    /// Numbers that look random.
     fn random(at: u64) -> u64 {
         (at + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29).wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 33
     }

@@ -11,42 +11,30 @@ use crate::graph::{GateGraph, Literal};
 use crate::recognize;
 use crate::tree::{DecisionTree, Feature, Growth, add_fringe};
 
-/// A way to learn an output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum LearningMethod {
-    /// The value of most rows.
     Constant,
-    /// The exclusive or of some inputs.
     Parity,
-    /// A function of the number of ones.
     Count,
     /// A bit of arithmetic of the inputs in their order.
     Arithmetic,
-    /// A chain of majorities.
     Chain,
     /// A multiplexer for each input and value of the inputs before, if all values are there.
     Table,
-    /// Two-level logic of the rows with ones, or with zeros.
+    /// Two-level logic of the rows with ones, or with zeros; each cube has at least so many rows.
     Cubes {
-        /// Whether the cubes are those of the ones.
         ones: bool,
-        /// The fewest rows of a cube.
         least: usize,
     },
-    /// A decision tree, perhaps with features of pairs.
+    /// A decision tree with at least `leaf` rows on each side of a question, and so many rounds of features of pairs.
     Tree {
-        /// The fewest rows on each side of a question.
         leaf: usize,
-        /// The most rounds of new features.
         fringes: usize,
     },
-    /// The majority of small trees, perhaps with the features of a tree.
+    /// The majority of small trees, one less than a power of two, perhaps with the features of a tree.
     Forest {
-        /// The number of trees: one less than a power of two.
         trees: usize,
-        /// The depth of each tree.
         depth: usize,
-        /// The most rounds of new features.
         fringes: usize,
     },
 }
@@ -89,10 +77,8 @@ impl LearningMethod {
 /// The smallest of the trees that are always tried has at least so many rows on each side of a question.
 const MOST_LEAF: usize = 12;
 
-/// The most rounds in which features are added.
 const FRINGES: usize = 6;
 
-/// The most features, inputs included.
 const MOST_FEATURES: usize = 1_000;
 
 /// The fewest rows on each side of a question of a forest.
@@ -123,52 +109,41 @@ impl fmt::Display for LearningMethod {
     }
 }
 
-/// An output that is learned by one method.
 #[derive(Clone, Debug)]
 pub struct Fitting {
     method: LearningMethod,
     graph: GateGraph,
     features: Vec<Feature>,
-    /// The rounds of features so far.
     fringes: usize,
     forest: Option<Forest>,
 }
 
-/// What a method has learned.
 #[derive(Clone, Debug)]
 pub struct Fitted {
-    /// The graph of its gates.
     pub graph: GateGraph,
-    /// The output.
     pub literal: Literal,
     /// What it is in words.
     pub what: String,
 }
 
-/// How far a portion of work came.
 pub enum FittingStep {
-    /// There is more to do.
-    More(Fitting),
+    More,
     /// It is done; `None` if the method finds nothing in such rows.
     Done(Option<Fitted>),
 }
 
 impl Fitting {
-    /// A fitting that has not begun.
     pub fn new(method: LearningMethod, inputs: &[Bits]) -> Self {
         let graph = GateGraph::new(inputs.len());
-        let feature = |(at, bits): (usize, &Bits)| Feature { literal: graph.input(at), bits: bits.clone() };
-        let features = inputs.iter().enumerate().map(feature).collect();
+        let features = Feature::of_inputs(&graph, inputs);
         Self { method, graph, features, fringes: 0, forest: None }
     }
 
-    /// The method.
     pub fn method(&self) -> LearningMethod {
         self.method
     }
 
-    /// Does the next portion, such as a tree.
-    pub fn advance(mut self, subject: &OutputRows) -> FittingStep {
+    pub fn advance(&mut self, subject: &OutputRows) -> FittingStep {
         let OutputRows { inputs, target } = subject;
         let found = match self.method {
             LearningMethod::Constant => return FittingStep::Done(Some(Fitted::most(subject))),
@@ -189,7 +164,7 @@ impl Fitting {
             LearningMethod::Tree { leaf, fringes } => {
                 let tree = self.tree(target, leaf as f64);
                 if self.widen(&tree, fringes) {
-                    return FittingStep::More(self);
+                    return FittingStep::More;
                 }
                 Some((tree.build(&mut self.graph, &self.features), self.method.to_string()))
             }
@@ -197,19 +172,19 @@ impl Fitting {
                 if self.forest.is_none() && fringes > 0 {
                     let tree = self.tree(target, FOREST_LEAF);
                     if self.widen(&tree, fringes) {
-                        return FittingStep::More(self);
+                        return FittingStep::More;
                     }
                 }
                 let growth = Growth { depth, leaf: FOREST_LEAF };
                 let forest = self.forest.get_or_insert_with(|| Forest::new(target.rows(), growth));
                 forest.grow(&self.features, target);
                 if forest.len() < trees {
-                    return FittingStep::More(self);
+                    return FittingStep::More;
                 }
                 Some((forest.build(&mut self.graph, &self.features), self.method.to_string()))
             }
         };
-        FittingStep::Done(found.map(|(literal, what)| Fitted { graph: self.graph, literal, what }))
+        FittingStep::Done(found.map(|(literal, what)| Fitted { graph: std::mem::take(&mut self.graph), literal, what }))
     }
 
     fn tree(&self, target: &Bits, leaf: f64) -> DecisionTree {
@@ -228,28 +203,23 @@ impl Fitting {
 }
 
 impl Fitted {
-    /// A value for all rows.
     pub fn constant(inputs: usize, value: bool) -> Self {
         let literal = Literal::constant(value);
         Self { graph: GateGraph::new(inputs), literal, what: LearningMethod::Constant.to_string() }
     }
 
-    /// The value of most rows.
     pub fn most(OutputRows { inputs, target }: &OutputRows) -> Self {
         Self::constant(inputs.len(), target.count() * 2 > target.rows())
     }
 
-    /// The share of rows that it gets right.
     pub fn accuracy(&self, rows: &OutputRows) -> f64 {
         1.0 - self.wrong(rows) as f64 / rows.target.rows().max(1) as f64
     }
 
-    /// The number of rows that it gets wrong.
     pub fn wrong(&self, OutputRows { inputs, target }: &OutputRows) -> usize {
         self.graph.values(inputs, &[self.literal])[0].xor(target).count()
     }
 
-    /// Its AND gates.
     pub fn ands(&self) -> usize {
         self.graph.ands(&[self.literal])
     }

@@ -63,10 +63,8 @@ pub fn of_count(graph: &mut GateGraph, inputs: &[Bits], target: &Bits) -> Guess 
     (entry(graph, &word, &table), "a function of the number of ones".to_owned())
 }
 
-/// The most input bits of which products, quotients and roots are tried.
 const MOST_WIDE: usize = 64;
 
-/// The pairs of words of the same width that the input bits may be, in each order.
 fn pairs(bits: &[Literal]) -> Vec<(Vec<Literal>, Vec<Literal>)> {
     let half = bits.len() / 2;
     if !bits.len().is_multiple_of(2) || half == 0 {
@@ -126,10 +124,8 @@ pub fn arithmetic(graph: &mut GateGraph, inputs: &[Bits], target: &Bits) -> Opti
     best.map(|(_, guess)| guess)
 }
 
-/// The share of rows that a link of a chain may get wrong.
 const TOLERATED: f64 = 0.01;
 
-/// The fewest rows from which a link is chosen.
 const FEWEST: usize = 12;
 
 /// A chain of majorities, such as a carry or a comparison, of inputs in any order and perhaps inverted: where two

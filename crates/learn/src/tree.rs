@@ -5,28 +5,27 @@ use std::collections::BTreeMap;
 use crate::bits::Bits;
 use crate::graph::{GateGraph, Literal};
 
-/// The deepest tree.
 const MOST_DEPTH: usize = 48;
 
-/// A net that a tree may ask for, with its bits in the rows.
 #[derive(Clone, Debug)]
 pub struct Feature {
-    /// The net.
     pub literal: Literal,
-    /// Its bit in each row.
     pub bits: Bits,
 }
+impl Feature {
+    pub fn of_inputs(graph: &GateGraph, inputs: &[Bits]) -> Vec<Self> {
+        let feature = |(literal, bits): (Literal, &Bits)| Self { literal, bits: bits.clone() };
+        graph.inputs().into_iter().zip(inputs).map(feature).collect()
+    }
+}
 
-/// How a tree is grown.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Growth {
-    /// The most questions on a path.
     pub depth: usize,
     /// The least weight of rows on each side of a question.
     pub leaf: f64,
 }
 
-/// A decision tree.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DecisionTree {
     /// An answer, with the weight of the rows that come there.
@@ -36,7 +35,6 @@ pub enum DecisionTree {
 }
 
 impl DecisionTree {
-    /// Grows a tree of rows with weights.
     pub fn grow(features: &[Feature], target: &Bits, weights: &[f64], growth: Growth) -> Self {
         let rows: Vec<usize> = (0..target.rows()).filter(|&row| weights[row] > 0.0).collect();
         Self::of_rows(features, target, weights, Growth { depth: growth.depth.min(MOST_DEPTH), ..growth }, &rows)
@@ -62,7 +60,6 @@ impl DecisionTree {
         }
     }
 
-    /// The answers in all rows.
     pub fn answers(&self, features: &[Feature], rows: usize) -> Bits {
         match self {
             Self::Leaf(answer, _) => Bits::all(rows, *answer),
@@ -73,7 +70,6 @@ impl DecisionTree {
         }
     }
 
-    /// The tree as multiplexers.
     pub fn build(&self, graph: &mut GateGraph, features: &[Feature]) -> Literal {
         match self {
             Self::Leaf(answer, _) => Literal::constant(*answer),
@@ -110,12 +106,9 @@ impl DecisionTree {
     }
 }
 
-/// Two features as one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum Pair {
-    /// Both have these values.
     Both((usize, bool), (usize, bool)),
-    /// They differ.
     Differ(usize, usize),
 }
 
@@ -129,7 +122,6 @@ impl Pair {
     }
 }
 
-/// The feature whose two sides are the purest, by the Gini impurity; the first of equal ones.
 fn best_split(
     features: &[Feature],
     target: &Bits,
@@ -159,7 +151,6 @@ fn best_split(
     best.map(|(_, at)| at)
 }
 
-/// The most features that a round of fringes adds.
 const ADDED: usize = 64;
 
 /// Adds features for pairs of questions at the fringe of a tree, such as the exclusive or of two features (Pagallo and

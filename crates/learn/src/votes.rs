@@ -2,8 +2,9 @@
 //! of three senses and one more see nine features. Votes are added one after another on the rows that those before get
 //! wrong.
 
-use crate::arithmetic::count;
+use crate::arithmetic::majority;
 use crate::bits::Bits;
+use crate::forest::{count_votes, weights};
 use crate::graph::{GateGraph, Literal};
 use crate::tree::Feature;
 
@@ -14,7 +15,6 @@ struct Table {
     entries: [bool; 8],
 }
 
-/// A function of three tables.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Vote {
     tables: [Table; 3],
@@ -24,7 +24,6 @@ struct Vote {
 /// Votes that count the same.
 #[derive(Clone, Debug)]
 pub struct Votes {
-    /// How many more votes were right than wrong, for each row.
     margins: Vec<f64>,
     votes: Vec<Vote>,
 }
@@ -38,68 +37,49 @@ const ROUNDS: usize = 2;
 /// The most features of which all pairs are tried: those that alone tell most.
 const SHORTLIST: usize = 64;
 
-/// The fewest rows for which a table is chosen again.
 const FEWEST: usize = 10;
 
 impl Votes {
-    /// No votes.
     pub fn new(rows: usize) -> Self {
         Self { margins: vec![0.0; rows], votes: Vec::new() }
     }
 
-    /// Adds a vote; a simple one is a table alone.
     pub fn add(&mut self, features: &[Feature], target: &Bits, is_simple: bool) {
-        let weights = self.weights();
+        let weights = weights(&self.margins, STEP);
         let vote = if is_simple { Vote::simple } else { Vote::new }(features, target, &weights);
         self.count(&vote, features, target, 1.0);
         self.votes.push(vote);
     }
 
-    /// Chooses a vote again, for the rows that the others get wrong.
     pub fn choose_again(&mut self, at: usize, features: &[Feature], target: &Bits) {
         self.count(&self.votes[at].clone(), features, target, -1.0);
-        let vote = Vote::new(features, target, &self.weights());
+        let vote = Vote::new(features, target, &weights(&self.margins, STEP));
         self.count(&vote, features, target, 1.0);
         self.votes[at] = vote;
     }
 
-    /// The weights of the rows for the next vote.
-    fn weights(&self) -> Vec<f64> {
-        let weights: Vec<f64> = self.margins.iter().map(|margin| libm::exp(-STEP * margin)).collect();
-        let scale = weights.len() as f64 / weights.iter().sum::<f64>();
-        weights.into_iter().map(|weight| weight * scale).collect()
-    }
-
-    /// Counts a vote so many times.
     fn count(&mut self, vote: &Vote, features: &[Feature], target: &Bits, times: f64) {
         let wrong = vote.answers(features).xor(target);
-        for (row, margin) in self.margins.iter_mut().enumerate() {
-            *margin += if wrong.get(row) { -times } else { times };
-        }
+        count_votes(&mut self.margins, &wrong, times);
     }
 
-    /// The number of votes.
     pub fn len(&self) -> usize {
         self.votes.len()
     }
 
-    /// The rows in which more votes say 1 than 0.
     pub fn answers(&self, features: &[Feature]) -> Bits {
         let votes: Vec<Bits> = self.votes.iter().map(|vote| vote.answers(features)).collect();
         let is_most = |row: usize| votes.iter().filter(|vote| vote.get(row)).count() * 2 > votes.len();
         Bits::of((0..features[0].bits.rows()).map(is_most))
     }
 
-    /// The majority as gates. The number of votes is one less than a power of two.
     pub fn build(&self, graph: &mut GateGraph, features: &[Feature]) -> Literal {
-        assert!((self.votes.len() + 1).is_power_of_two(), "the highest bit of the count is the majority");
         let votes: Vec<Literal> = self.votes.iter().map(|vote| vote.build(graph, features)).collect();
-        *count(graph, &votes).last().expect("a count has a bit")
+        majority(graph, &votes)
     }
 }
 
 impl Vote {
-    /// A vote that is the best table.
     fn simple(features: &[Feature], target: &Bits, weights: &[f64]) -> Self {
         let rows: Vec<usize> = (0..target.rows()).collect();
         let table = Table::best(features, target, weights, &rows);
@@ -133,7 +113,6 @@ impl Vote {
         vote
     }
 
-    /// The entries that get most rows right.
     fn choose_entries(&mut self, features: &[Feature], target: &Bits, weights: &[f64]) {
         let answers = self.tables.each_ref().map(|table| table.answers(features));
         let mut sums = [0.0; 8];
@@ -229,7 +208,6 @@ impl Table {
     }
 }
 
-/// The entries of a table as bits, the first the lowest.
 fn bits_of(entries: &[bool; 8]) -> u8 {
     entries.iter().rev().fold(0, |bits, &entry| bits << 1 | u8::from(entry))
 }

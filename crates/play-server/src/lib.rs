@@ -17,7 +17,6 @@ mod threads;
 mod token;
 mod wording;
 
-use std::io;
 use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, TcpStream};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,20 +24,20 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use nbc_base::diag::{Diagnostics, io_words};
+use nbc_base::diag::{Diagnostic, Diagnostics, io_words};
 use nbc_play::{Class, LocalLine, PlaySite, Visit};
 use nbc_session::CompileOptions;
 use nbc_session::store::{FolderWorld, PrivateFile};
 
 pub use lesson_source::LessonSource;
 pub use token::is_token;
-pub use wording::PlayError;
 
 use disk_folder::DiskFolder;
 use page::Page;
 use served::{Served, Taught};
 use threads::Threads;
 use token::random_token;
+use wording::missing;
 
 const LOOK: Duration = Duration::from_millis(100);
 /// The start and the end of the name of the file that a browser opens. With a file, the token is not in the arguments
@@ -79,20 +78,16 @@ pub struct PlayServer {
 }
 
 impl PlayServer {
-    pub fn bind(options: &PlayOptions) -> Result<Self, PlayError> {
+    pub fn bind(options: &PlayOptions) -> Result<Self, Diagnostic> {
         let (folder, file) = place(options.file.as_deref())?;
         let token = options.token.clone().map_or_else(random_token, Ok)?;
-        let page = Page::of(options.page.as_deref()).map_err(|error| {
-            let folder = options.page.clone().unwrap_or_default();
-            missing(&folder, &error)
-        })?;
-        let refused = |error: io::Error| PlayError::Address {
-            host: options.host.clone(),
-            port: options.port,
-            reason: io_words(&error),
-        };
-        let listener = TcpListener::bind((options.host.as_str(), options.port)).map_err(refused)?;
-        let port = listener.local_addr().map_err(system)?.port();
+        let folder_of_page = options.page.as_deref();
+        let page =
+            Page::of(folder_of_page).map_err(|error| missing(folder_of_page.unwrap_or(Path::new("")), &error))?;
+        let (host, port) = (options.host.clone(), options.port);
+        let bound = TcpListener::bind((host.as_str(), port));
+        let listener = bound.map_err(|error| wording::cannot_listen(&host, port, &error))?;
+        let port = listener.local_addr().map_err(|error| wording::system(&io_words(&error)))?.port();
         let threads = Arc::new(Threads::new(&options.lessons));
         let mut site = PlaySite {
             folder: Arc::new(DiskFolder::new(folder.clone())),
@@ -111,7 +106,6 @@ impl PlayServer {
         }
         let pages = options.pages.unwrap_or(served::PAGES).clamp(1, PlayOptions::MOST_PAGES);
         let most_sockets = pages * served::SOCKETS_OF_PAGE;
-        let host = options.host.clone();
         let served = Served { page, host, port, taught, most_sockets, ..Served::new(folder, site, threads, token) };
         Ok(Self { listener, served: Arc::new(served) })
     }
@@ -193,14 +187,6 @@ pub fn serve_texts(folder: &Path, texts: &[&str]) {
     }
 }
 
-fn system(error: io::Error) -> PlayError {
-    PlayError::System { reason: io_words(&error) }
-}
-
-fn missing(path: &Path, error: &io::Error) -> PlayError {
-    PlayError::File { path: path.display().to_string(), reason: io_words(error) }
-}
-
 fn redirect(address: &str) -> String {
     format!(
         "<!doctype html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n\
@@ -210,7 +196,7 @@ fn redirect(address: &str) -> String {
     )
 }
 
-fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), PlayError> {
+fn place(file: Option<&Path>) -> Result<(FolderWorld, Option<String>), Diagnostic> {
     let open = |folder: &Path| FolderWorld::new(folder).map_err(|error| missing(folder, &error));
     let here = open(Path::new("."))?;
     let Some(file) = file else { return Ok((here, None)) };

@@ -9,28 +9,24 @@ use std::path::Path;
 
 use flate2::Compression;
 use flate2::write::GzEncoder;
-use tungstenite::http::{HeaderMap, HeaderValue, header};
+use tungstenite::http::{HeaderMap, HeaderValue, StatusCode, header};
 
-use crate::http::{HttpAnswer, content};
+use crate::http::{HttpAnswer, content, status};
 
-/// The cache header of files that never change.
 const IMMUTABLE: HeaderValue = HeaderValue::from_static("private, max-age=31536000, immutable");
 
-/// The texts of the page.
 pub(super) struct Page {
-    own: Parts,
-    teacher: Parts,
+    pub(super) own: Parts,
+    pub(super) teacher: Parts,
 }
 
-/// A document, its script and its style.
-struct Parts {
-    html: Part,
+pub(super) struct Parts {
+    pub(super) html: Part,
     script: Part,
     style: Part,
 }
 
-/// A text of the page, also compressed.
-struct Part {
+pub(super) struct Part {
     /// The last part of its address.
     name: String,
     kind: &'static str,
@@ -39,7 +35,6 @@ struct Part {
 }
 
 impl Default for Page {
-    /// The one in the program.
     fn default() -> Self {
         let own = Parts::new(
             ("app", include_str!("../page/index.html")),
@@ -56,7 +51,6 @@ impl Default for Page {
 }
 
 impl Page {
-    /// The page in a folder, or else the one in the program.
     pub(super) fn of(folder: Option<&Path>) -> io::Result<Self> {
         let Some(folder) = folder else { return Ok(Self::default()) };
         let read = |name: &str| fs::read_to_string(folder.join(name));
@@ -64,30 +58,10 @@ impl Page {
         let teacher = ("class", &*read("class.html")?);
         Ok(Self { own, teacher: Parts::new(teacher, read("class.js")?.into(), read("class.css")?.into()) })
     }
-
-    /// The document, which a browser asks for each time.
-    pub(super) fn document(&self, request: &HeaderMap) -> HttpAnswer {
-        self.own.html.answer(request)
-    }
-
-    /// A script or a style by its name.
-    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
-        self.own.part(name, request)
-    }
-
-    /// The document of the teacher's page.
-    pub(super) fn teacher(&self, request: &HeaderMap) -> HttpAnswer {
-        self.teacher.html.answer(request)
-    }
-
-    /// A script or a style of the teacher's page by its name.
-    pub(super) fn part_of_teacher(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
-        self.teacher.part(name, request)
-    }
 }
 
 impl Parts {
-    /// The parts whose document names `STEM.js` and `STEM.css`.
+    /// The document names `STEM.js` and `STEM.css`.
     fn new((stem, html): (&str, &str), script: Cow<'static, str>, style: Cow<'static, str>) -> Self {
         let script = Part::new(hashed(stem, "js", &script), "text/javascript; charset=utf-8", script);
         let style = Part::new(hashed(stem, "css", &style), "text/css; charset=utf-8", style);
@@ -96,11 +70,13 @@ impl Parts {
         Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
     }
 
-    fn part(&self, name: &str, request: &HeaderMap) -> Option<HttpAnswer> {
-        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name)?;
+    /// The script or the style of that name.
+    pub(super) fn part(&self, name: &str, request: &HeaderMap) -> HttpAnswer {
+        let part = [&self.script, &self.style].into_iter().find(|part| part.name == name);
+        let Some(part) = part else { return status(StatusCode::NOT_FOUND) };
         let mut response = part.answer(request);
         response.headers_mut().insert(header::CACHE_CONTROL, IMMUTABLE);
-        Some(response)
+        response
     }
 }
 
@@ -111,7 +87,7 @@ impl Part {
         Self { name, kind, packed: packing.finish().expect("memory takes any bytes"), text }
     }
 
-    fn answer(&self, request: &HeaderMap) -> HttpAnswer {
+    pub(super) fn answer(&self, request: &HeaderMap) -> HttpAnswer {
         let packs = accepts_gzip(request);
         let mut response = content(self.kind, if packs { &*self.packed } else { self.text.as_bytes() });
         let headers = response.headers_mut();
@@ -123,7 +99,6 @@ impl Part {
     }
 }
 
-/// A name with a hash of the text.
 fn hashed(stem: &str, ending: &str, text: &str) -> String {
     let mut hasher = DefaultHasher::new();
     text.hash(&mut hasher);
@@ -148,7 +123,7 @@ mod tests {
         let (one, two) = (page("a"), page("b"));
         assert_ne!(one.script.name, two.script.name);
         assert_eq!(one.html.text, format!("<script src=\"{}\">", one.script.name));
-        assert!(one.part("app.js", &HeaderMap::new()).is_none());
+        assert_eq!(one.part("app.js", &HeaderMap::new()).status(), StatusCode::NOT_FOUND);
     }
 
     #[test]

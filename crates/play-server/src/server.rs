@@ -56,9 +56,9 @@ fn resource(served: &Served, path: &[&str], headers: &HeaderMap) -> HttpAnswer {
             *full.status_mut() = StatusCode::SERVICE_UNAVAILABLE;
             Some(full)
         }
-        [""] => Some(served.page.document(headers)),
+        [""] => Some(served.page.own.html.answer(headers)),
         ["take", number, name] => take(served, number, name),
-        [name] => served.page.part(name, headers),
+        [name] => Some(served.page.own.part(name, headers)),
         _ => None,
     };
     found.unwrap_or_else(|| status(StatusCode::NOT_FOUND))

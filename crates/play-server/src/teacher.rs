@@ -8,16 +8,12 @@ use crate::http::{HttpAnswer, content, status};
 use crate::served::Served;
 use nbc_play::{Class, course};
 
-/// Answers a request to the address of the teacher's page.
 pub(super) fn answer(served: &Served, class: &Class, request: &Request) -> HttpAnswer {
     match request.uri().path().split('/').nth(2) {
-        Some("") => served.page.teacher(request.headers()),
+        Some("") => served.page.teacher.html.answer(request.headers()),
         Some("members") => json(&class.roll(served.now())),
         Some("lessons") => json(&course(served.site.shell.lessons())),
-        Some(name) => {
-            let part = served.page.part_of_teacher(name, request.headers());
-            part.unwrap_or_else(|| status(StatusCode::NOT_FOUND))
-        }
+        Some(name) => served.page.teacher.part(name, request.headers()),
         None => status(StatusCode::NOT_FOUND),
     }
 }

@@ -1,27 +1,20 @@
-//! The reasons for which pages cannot be served, and their messages.
+//! Why pages cannot be served.
 
-use nbc_base::diag::{Code, Diagnostic};
+use std::io;
+use std::path::Path;
 
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PlayError {
-    Address { host: String, port: u16, reason: String },
-    File { path: String, reason: String },
-    System { reason: String },
+use nbc_base::diag::{Code, Diagnostic, io_words};
+
+pub(super) fn cannot_listen(host: &str, port: u16, error: &io::Error) -> Diagnostic {
+    let message = format!("cannot listen at {host}, port {port}: {}", io_words(error));
+    Diagnostic::without_place(Code::BadValue, message).with_help("`--port 0` takes any free port")
 }
 
-impl From<PlayError> for Diagnostic {
-    fn from(error: PlayError) -> Self {
-        match error {
-            PlayError::Address { host, port, reason } => {
-                let message = format!("cannot listen at {host}, port {port}: {reason}");
-                Self::without_place(Code::BadValue, message).with_help("`--port 0` takes any free port")
-            }
-            PlayError::File { path, reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot read `{path}`: {reason}"))
-            }
-            PlayError::System { reason } => {
-                Self::without_place(Code::Unreadable, format!("cannot start the server: {reason}"))
-            }
-        }
-    }
+pub(super) fn missing(path: &Path, error: &io::Error) -> Diagnostic {
+    Diagnostic::without_place(Code::Unreadable, format!("cannot read `{}`: {}", path.display(), io_words(error)))
+}
+
+/// The system does not provide something, such as threads.
+pub(super) fn system(reason: &str) -> Diagnostic {
+    Diagnostic::without_place(Code::Unreadable, format!("cannot start the server: {reason}"))
 }

@@ -59,7 +59,7 @@ impl SharedSearch {
             return Ok(PortionEnd::More);
         }
         job.check()?;
-        let end = EvolutionEnd { generations, evaluations: search.evaluations() };
+        let end = EvolutionEnd { generations, evaluations: search.counts().evaluations };
         Ok(PortionEnd::Done(Some(RequestResult::Evolve(end))))
     }
 
@@ -103,11 +103,13 @@ fn change(search: &BodySearch, id: u64, changed: &[NicheKey]) -> ArchiveChange {
         letters: elite.behavior.to_string(),
         function: elite.behavior.function().name(),
     };
+    // A niche of this search has one elite.
+    let niches = search.archive().niches().map(|(key, elites)| (key, &elites[0]));
     ArchiveChange {
         id,
         generation: search.generation(),
         axes: evolution.descriptors.iter().map(axis).collect(),
-        niches: search.best().filter(|(key, _)| changed.contains(key)).map(niche).collect(),
-        evaluations: search.evaluations(),
+        niches: niches.filter(|(key, _)| changed.contains(key)).map(niche).collect(),
+        evaluations: search.counts().evaluations,
     }
 }

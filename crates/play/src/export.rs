@@ -11,8 +11,9 @@ use flate2::write::ZlibEncoder;
 use crate::history::FRAMES;
 use crate::message::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
 use crate::programs::describe;
-use crate::wording::ExportError;
+use crate::wording;
 use nbc_base::budget::Limit;
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::{
     Behavior, Body, CYCLE_STEPS, Direction, GroundProfile, Pattern, Schedule, Setting, Stimulation, TestRow,
 };
@@ -39,7 +40,7 @@ pub struct ExportedPage {
 }
 
 /// The session must record poses for a live swarm.
-pub fn export(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedPage, ExportError> {
+pub fn export(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedPage, Diagnostic> {
     let data = exported(session, checked, compiled)?;
     let text = serde_json::to_vec(&data).expect("a swarm can be written as JSON");
     let mut packing = ZlibEncoder::new(Vec::new(), Compression::best());
@@ -51,11 +52,11 @@ pub fn export(session: &Session, checked: &Checked, compiled: &Compiled) -> Resu
     Ok(ExportedPage { html: html.replacen(DATA, &format!("{DATA}{packed}"), 1), circuit, robots })
 }
 
-fn exported(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedSwarm, ExportError> {
+fn exported(session: &Session, checked: &Checked, compiled: &Compiled) -> Result<ExportedSwarm, Diagnostic> {
     let members = &compiled.assembly.members;
     let robots = members.len();
     if Limit::PageRobots.permit(robots as u64).is_err() {
-        return Err(ExportError::TooManyRobots { robots, most: Limit::PageRobots.most() as usize });
+        return Err(wording::too_many_robots(robots, Limit::PageRobots.most()));
     }
     let mut bodies: Vec<(&Body, Behavior)> = Vec::new();
     let mut place = |body, behavior| match bodies.iter().position(|known| *known == (body, behavior)) {
@@ -80,7 +81,7 @@ fn exported(session: &Session, checked: &Checked, compiled: &Compiled) -> Result
     let robots: Vec<ExportedRobot> =
         members.iter().map(|member| one(member, place(&member.robot.body, member.robot.behavior))).collect();
     if bodies.len() > MOST_BODIES {
-        return Err(ExportError::TooManyBodies { bodies: bodies.len(), most: MOST_BODIES });
+        return Err(wording::too_many_bodies(bodies.len(), MOST_BODIES));
     }
     let mut swarm = describe(1, checked, compiled, &session.swarm(compiled));
     // The walks are those on flat ground.

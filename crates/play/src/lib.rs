@@ -48,4 +48,3 @@ pub use outbox::Line;
 pub use shell::{CancelSource, Crew, PageFolder, Portion, Portions, Shell, WorkKind};
 pub use site::{PUBLIC_PAGE, PlaySite};
 pub use visit::Visit;
-pub use wording::ExportError;

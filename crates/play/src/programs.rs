@@ -5,10 +5,9 @@ use std::sync::Arc;
 
 use crate::history::FRAMES;
 use crate::jobs::{Job, JobWork, PortionEnd};
-use crate::message::finding::findings;
 use crate::message::{
     CircuitEntry, ClaimAnswer, ClaimEntry, PortEntry, ProgramReport, RequestResult, ShownSwarm, ShownWaves,
-    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WrittenProgram, listed, looks,
+    SwarmAnswer, SwarmRobot, TestAnswer, TestEntry, TestResult, TestRowEntry, WrittenProgram, findings, listed, looks,
 };
 use crate::refusal::Refused;
 use crate::runner::{LoadingSwarm, RunningSwarm};

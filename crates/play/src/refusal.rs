@@ -4,8 +4,7 @@ use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
-use crate::message::finding::{Finding, findings};
-use crate::wording::ExportError;
+use crate::message::{Finding, findings};
 use nbc_base::diag::{Diagnostic, Diagnostics, io_words, visible};
 use nbc_base::model::Fault;
 use nbc_base::source::FileError;
@@ -39,7 +38,7 @@ pub(super) enum Refused {
     ClassName { most: usize },
     ClassNameTaken { name: String },
     Internal,
-    Export(ExportError),
+    Export(Box<Diagnostic>),
     NoLivePages,
     Source(Diagnostics),
 }
@@ -91,7 +90,7 @@ impl Refused {
             Self::NoExample(name) => format!("there is no example `{name}`"),
             Self::Name(name) => format!("`{name}` cannot be the name of a robot"),
             Self::Body(reason) => reason.clone(),
-            Self::Export(error) => Diagnostic::from(error.clone()).message,
+            Self::Export(found) => found.message.clone(),
             Self::NoLivePages => "this nbc has nothing to make live pages of".to_owned(),
             Self::NoClass => "this page is in no class".to_owned(),
             Self::ClassFull { most } => format!("the class has {most} members, and no room for another one"),
@@ -116,7 +115,7 @@ impl Refused {
             Self::ClassNameTaken { .. } => Some("choose another name".to_owned()),
             Self::Busy { .. } => Some("wait for one of them, or cancel it".to_owned()),
             Self::TooManyRobots { .. } => Some("test it with `nbc test`".to_owned()),
-            Self::Export(error) => Diagnostic::from(error.clone()).help,
+            Self::Export(found) => found.help.clone(),
             Self::NoLivePages => Some("take a recorded page".to_owned()),
             Self::Source(found) => found.list.iter().find(|one| one.is_error())?.help.clone(),
             _ => None,
@@ -146,12 +145,6 @@ impl From<Refused> for Refusal {
         let (message, help, code) = (refused.message(), refused.help(), refused.code());
         let instead = if let Refused::NotOwn { own, .. } = refused { Some(own) } else { None };
         Self { message, help, code, instead, diagnostics }
-    }
-}
-
-impl From<ExportError> for Refused {
-    fn from(error: ExportError) -> Self {
-        Self::Export(error)
     }
 }
 

@@ -1,6 +1,6 @@
 //! The requests of a page; docs/play-protocol.md describes them.
 
-use serde::{Deserialize, Serialize};
+use serde::Deserialize;
 #[cfg(test)]
 use ts_rs::TS;
 
@@ -128,7 +128,7 @@ pub(super) enum ChosenTest {
     Shown(String),
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[cfg_attr(test, derive(TS))]
 #[serde(rename_all = "lowercase")]
 pub(super) enum TestLevel {
@@ -169,15 +169,6 @@ pub(super) enum TakeKind {
     Svg,
     Vcd,
     Csv,
-}
-
-impl From<Level> for TestLevel {
-    fn from(level: Level) -> Self {
-        match level {
-            Level::Logic => Self::Logic,
-            Level::Physics => Self::Physics,
-        }
-    }
 }
 
 impl From<TestLevel> for Level {

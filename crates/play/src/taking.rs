@@ -63,7 +63,7 @@ pub(super) fn exported(
     let (circuit, options) = programs::chosen(checked, choice, job)?;
     let compiled = session.compile(checked, &circuit, &options)?;
     job.check()?;
-    let page = export(session, checked, &compiled)?;
+    let page = export(session, checked, &compiled).map_err(|found| Refused::Export(found.into()))?;
     Ok((format!("{}.html", compiled.plan.circuit.circuit), page.html.into_bytes()))
 }
 

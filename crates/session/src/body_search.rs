@@ -3,7 +3,7 @@
 use nbc_base::model::{Body, Evolution};
 use nbc_base::source::MemoryWorld;
 use nbc_sim::Simulator;
-use nbc_swarm::evolve::{CandidateOutcome, NeighborSearch, NicheKey, Scores};
+use nbc_swarm::evolve::{Candidate, CandidateOrigin, CandidateOutcome, Elite, NicheKey, Scores, Search};
 use nbc_swarm::{evaluate_bodies, walk};
 
 use crate::session::Session;
@@ -12,7 +12,7 @@ const BATCH: u32 = 16;
 
 #[derive(Clone, Debug)]
 pub struct BodySearch {
-    search: NeighborSearch,
+    search: Search,
 }
 
 /// Bodies to be measured anywhere: the result depends on these values alone.
@@ -28,24 +28,30 @@ impl BodySearch {
         if let Some(start) = &start {
             evolution.palette = start.palette().clone();
         }
-        Self { search: NeighborSearch::new(evolution, start, seed) }
+        Self { search: Search::around(&evolution, start, seed) }
     }
 
-    pub fn search(&self) -> &NeighborSearch {
+    pub fn search(&self) -> &Search {
         &self.search
     }
 
     pub fn ask(&self, wanted: impl Fn(&Body) -> bool) -> BodyTrials {
-        let mut bodies = self.search.ask();
-        bodies.retain(wanted);
+        let asked = self.search.ask().into_iter().map(|candidate| candidate.body);
+        let bodies = asked.filter(wanted).collect();
         BodyTrials { evolution: self.search.evolution().clone(), bodies }
     }
 
     /// Ends a generation. `found` is in the order of `bodies`. Returns the niches whose best body has changed.
     pub fn tell(&mut self, bodies: Vec<Body>, found: Vec<Option<Scores>>) -> Vec<NicheKey> {
-        let evaluated = bodies.len() as u64;
-        let both = bodies.into_iter().zip(found);
-        self.search.tell(evaluated, both.filter_map(|(body, scores)| Some((body, scores?))).collect())
+        let before = self.search.archive().clone();
+        let told = bodies.into_iter().zip(found).map(|(body, scores)| {
+            let outcome = scores.map_or(CandidateOutcome::Inconsistent, CandidateOutcome::Measured);
+            (Candidate::of_voxels(CandidateOrigin::Random, body), outcome)
+        });
+        let (candidates, outcomes): (Vec<_>, Vec<_>) = told.unzip();
+        self.search.tell(&candidates, &outcomes);
+        let is_new = |(key, elites): &(&NicheKey, &[Elite])| before.elites_of(key) != *elites;
+        self.search.archive().niches().filter(is_new).map(|(key, _)| key.clone()).collect()
     }
 }
 

@@ -124,7 +124,7 @@ pub(super) fn compile(
             nbc_swarm::assemble_waves(machine, &library)
         }
     };
-    let mut assembly = assembly.expect("the netlist was mapped onto this library").in_world(plan.world.world);
+    let mut assembly = assembly.in_world(plan.world.world);
     name_values(program, &plan.circuit, &mut assembly);
     let weak_robots = nbc_swarm::weak_robots(&assembly);
     let circuit = plan.circuit.to_string();

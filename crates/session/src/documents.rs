@@ -214,22 +214,29 @@ mod tests {
         assert_eq!(documents.checked("a.nb").diagnostics, []);
     }
 
-    struct CountingTranslator(MemoryWorld, Arc<AtomicUsize>);
+    /// Counts its readings, the first of which may be cancelled.
+    struct Translator {
+        world: MemoryWorld,
+        count: Arc<AtomicUsize>,
+        is_cancelled: bool,
+    }
 
-    impl SourceWorld for CountingTranslator {
+    impl SourceWorld for Translator {
         fn read(&self, path: &str) -> Result<String, FileError> {
-            self.0.read(path)
+            self.world.read(path)
         }
 
         fn read_verilog(&self, _: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
-            self.1.fetch_add(1, Ordering::Relaxed);
+            if self.count.fetch_add(1, Ordering::Relaxed) == 0 && self.is_cancelled {
+                return Err(VerilogError::Cancelled);
+            }
             let blif = ".model f\n.inputs a\n.outputs q\n.names a q\n0 1\n.end\n".to_owned();
             let module = VerilogModule { name: "f".to_owned(), blif, ..VerilogModule::default() };
             Ok(VerilogModules { modules: vec![module], ..VerilogModules::default() })
         }
 
         fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-            self.0.list(folder)
+            self.world.list(folder)
         }
     }
 
@@ -239,7 +246,7 @@ mod tests {
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
         let count = Arc::new(AtomicUsize::new(0));
-        let mut documents = Documents::new(Box::new(CountingTranslator(world, count.clone())));
+        let mut documents = Documents::new(Box::new(Translator { world, count: count.clone(), is_cancelled: false }));
         let mut check = |path, text: &str| {
             documents.update(path, 0, text);
             assert_eq!(documents.checked("a.nb").diagnostics, []);
@@ -255,29 +262,12 @@ mod tests {
         assert_eq!(check("a.nb", changed), 4);
     }
 
-    struct CancelledTranslator(CountingTranslator);
-
-    impl SourceWorld for CancelledTranslator {
-        fn read(&self, path: &str) -> Result<String, FileError> {
-            self.0.read(path)
-        }
-
-        fn read_verilog(&self, files: &VerilogFiles) -> Result<VerilogModules, VerilogError> {
-            let modules = self.0.read_verilog(files);
-            if self.0.1.load(Ordering::Relaxed) == 1 { Err(VerilogError::Cancelled) } else { modules }
-        }
-
-        fn list(&self, folder: &str) -> Result<Vec<String>, FileError> {
-            self.0.list(folder)
-        }
-    }
-
     #[test]
     fn a_source_is_checked_again_when_a_reading_was_cancelled() {
         let mut world = MemoryWorld::default();
         world.insert("a.nb", "use \"f.v\"\ncircuit g(a) -> (q) { q = f(a) }");
         world.insert("f.v", "module f(input a, output q);");
-        let mut documents = Documents::new(Box::new(CancelledTranslator(CountingTranslator(world, Arc::default()))));
+        let mut documents = Documents::new(Box::new(Translator { world, count: Arc::default(), is_cancelled: true }));
         assert!(documents.checked("a.nb").has_errors());
         assert!(!documents.is_known("a.nb"));
         assert_eq!(documents.checked("a.nb").diagnostics, []);

@@ -149,62 +149,53 @@ mod tests {
 
     use super::*;
     use nbc_base::model::Image;
-    use nbc_base::source::Sources;
 
-    type FaultAtPlace = (String, String);
-
-    fn read(text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
-        read_of(2, text)
-    }
-
-    fn read_of(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Vec<FaultAtPlace>> {
-        let mut sources = Sources::default();
-        let id = sources.add("--schedule", text);
-        let told = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
-        parse(sources.file(id), stimuli).map(|schedule| schedule.spells.into_iter().map(told).collect()).map_err(
-            |faults| {
-                faults.into_iter().map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned())).collect()
-            },
-        )
-    }
-
-    fn check(text: &str, expected: &[(&str, u32)]) {
-        assert_eq!(read(text), Ok(expected.iter().map(|&(bits, steps)| (bits.to_owned(), steps)).collect()));
-    }
-
-    fn check_fault(text: &str, message: &str, place: &str) {
-        let faults = read(text).unwrap_err();
-        assert_eq!(faults, [(message.to_owned(), place.to_owned())]);
+    /// The spells, or the messages with the texts at their places.
+    fn read(stimuli: usize, text: &str) -> Result<Vec<(String, u32)>, Vec<(String, String)>> {
+        let shown = |spell: Spell| (spell.pattern.digits(stimuli), spell.steps);
+        match read_schedule("--schedule", text, stimuli) {
+            Ok(schedule) => Ok(schedule.spells.into_iter().map(shown).collect()),
+            Err(Diagnostics { list, sources }) => Err(list
+                .into_iter()
+                .map(|fault| (fault.message, sources.text(fault.labels[0].span).to_owned()))
+                .collect()),
+        }
     }
 
     #[test]
-    fn entries_are_cycles_or_env_steps() {
-        check("00*10 01*56steps", &[("00", 840), ("01", 56)]);
-        check("  11*1cycle\n10*2cycles ", &[("11", 84), ("10", 168)]);
-    }
-
-    #[test]
-    fn patterns_have_a_digit_for_each_stimulus() {
-        assert_eq!(read_of(3, "011*1 100*2steps"), Ok(vec![("011".to_owned(), 84), ("100".to_owned(), 2)]));
-        let fault = ("invalid stimulus pattern `01`".to_owned(), "01".to_owned());
-        assert_eq!(read_of(3, "011*1 01*1"), Err(vec![fault]));
-        check_fault("011*1", "invalid stimulus pattern `011`", "011");
+    fn entries_are_cycles_or_env_steps_and_have_a_digit_for_each_stimulus() {
+        for (stimuli, text, expected) in [
+            (2, "00*10 01*56steps", [("00", 840), ("01", 56)]),
+            (2, "  11*1cycle\n10*2cycles ", [("11", 84), ("10", 168)]),
+            (3, "011*1 100*2steps", [("011", 84), ("100", 2)]),
+        ] {
+            assert_eq!(read(stimuli, text), Ok(expected.map(|(bits, steps)| (bits.to_owned(), steps)).to_vec()));
+        }
     }
 
     #[test]
     fn errors_have_places() {
-        check_fault("00*10 02*10", "invalid stimulus pattern `02`", "02");
-        check_fault("00*0", "the duration `0` is too short", "0");
-        check_fault("00*0steps", "the duration `0steps` is too short", "0steps");
-        check_fault("00", "missing duration after `00`", "00");
-        check_fault("00*", "the duration `` is too short", "");
-        check_fault("00*-1", "`-1` is not a duration", "-1");
-        check_fault("00*10s", "`10s` is not a duration", "10s");
-        check_fault("", "the schedule is empty", "");
-        check_fault("0*1", "invalid stimulus pattern `0`", "0");
-        check_fault("é*1", "invalid stimulus pattern `é`", "é");
         let long = "9".repeat(40);
-        check_fault(&format!("00*{long}"), &format!("the duration `{long}` is too long"), &long);
+        for (stimuli, text, message, place) in [
+            (3, "011*1 01*1", "invalid stimulus pattern `01`", "01"),
+            (2, "011*1", "invalid stimulus pattern `011`", "011"),
+            (2, "00*10 02*10", "invalid stimulus pattern `02`", "02"),
+            (2, "0*1", "invalid stimulus pattern `0`", "0"),
+            (2, "é*1", "invalid stimulus pattern `é`", "é"),
+            (2, "00*0", "the duration `0` is too short", "0"),
+            (2, "00*0steps", "the duration `0steps` is too short", "0steps"),
+            (2, "00*", "the duration `` is too short", ""),
+            (2, "00", "missing duration after `00`", "00"),
+            (2, "00*-1", "`-1` is not a duration", "-1"),
+            (2, "00*10s", "`10s` is not a duration", "10s"),
+            (2, "", "the schedule is empty", ""),
+            (2, &format!("00*{long}"), &format!("the duration `{long}` is too long"), &long),
+        ] {
+            assert_eq!(read(stimuli, text), Err(vec![(message.to_owned(), place.to_owned())]));
+        }
+        assert_eq!(read(2, "02*1 00*0").unwrap_err().len(), 2, "every error is reported");
+        let total = read(2, &"00*100000 ".repeat(2)).unwrap_err();
+        assert_eq!(total[0].0, "the schedule of 16800000 env steps is too long");
     }
 
     #[test]
@@ -239,16 +230,5 @@ mod tests {
         let five: Vec<NamedImages> = (0..5).map(|i| set(&format!("s{i}"), &images[..1])).collect();
         let faults = read_image_schedule("", "s0*1 s1*1 s2*1 s3*1 s4*1", &five, size).unwrap_err();
         assert_eq!(faults.list[0].message, "the schedule shows too many sets of images");
-    }
-
-    #[test]
-    fn every_error_is_reported() {
-        assert_eq!(read("02*1 00*0").unwrap_err().len(), 2);
-    }
-
-    #[test]
-    fn the_total_length_is_limited() {
-        let text = "00*100000 ".repeat(2);
-        assert_eq!(read(&text).unwrap_err()[0].0, "the schedule of 16800000 env steps is too long");
     }
 }

@@ -112,7 +112,7 @@ impl Default for Constants {
 }
 
 impl Constants {
-    /// The constants of a world, which has them times its factors (docs/physics.md 15).
+    /// These constants times the factors of a world (docs/physics.md 15).
     pub fn in_world(&self, factors: &WorldFactors) -> Self {
         let WorldFactors { friction, gravity, stiffness, drag, damping, swelling } = *factors;
         Self {

@@ -4,16 +4,13 @@ use std::collections::BTreeSet;
 
 use nbc_base::model::{Body, MaterialKind, Response};
 
+/// A voxel. The target width or height of an active one is number `channel` of the targets; the points of a fixed one
+/// never move.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GridCell {
     Rigid,
     Soft,
-    /// Has a target width or height: number `channel` of the targets.
-    Active {
-        channel: u16,
-        axis: DriveAxis,
-    },
-    /// Its points never move.
+    Active { channel: u16, axis: DriveAxis },
     Fixed,
 }
 

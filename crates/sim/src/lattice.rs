@@ -15,11 +15,15 @@ pub struct Lattice {
     width: usize,
     height: usize,
     points: Vec<LatticePoint>,
-    edges: Vec<Edge>,
+    /// Ordered by the places of their ends, row by row.
+    pub(crate) edges: Vec<Edge>,
     voxels: Vec<Voxel>,
-    driven: Vec<DrivenEdge>,
-    fixed: Vec<usize>,
-    parts: Vec<LatticePart>,
+    /// The edges that active voxels drive.
+    pub(crate) driven: Vec<DrivenEdge>,
+    /// The points that never move, in order.
+    pub(crate) fixed: Vec<usize>,
+    /// The objects, from top to bottom; a body is one.
+    pub(crate) parts: Vec<LatticePart>,
 }
 
 /// An object of its own in a lattice: some of its rows.
@@ -109,36 +113,17 @@ impl Lattice {
         &self.points
     }
 
-    /// The edges, ordered by the places of their ends, row by row.
-    pub fn edges(&self) -> &[Edge] {
-        &self.edges
-    }
-
     /// The voxels in reading order.
     pub fn voxels(&self) -> &[Voxel] {
         &self.voxels
-    }
-
-    pub fn driven(&self) -> &[DrivenEdge] {
-        &self.driven
-    }
-
-    /// The points that never move, in order.
-    pub fn fixed(&self) -> &[usize] {
-        &self.fixed
-    }
-
-    /// The objects, from top to bottom; a body is one.
-    pub fn parts(&self) -> &[LatticePart] {
-        &self.parts
     }
 
     pub fn part_of(&self, row: usize) -> usize {
         part_at(&self.parts, row)
     }
 
-    /// The start position of point `point`, in meters, for a body whose left side is `start` voxels from the start of
-    /// the ground, rounded as in docs/physics.md 2.
+    /// The start of a point in meters, for a body whose lower left corner is at `origin`, in voxels, rounded as in
+    /// docs/physics.md 2.
     pub fn start(&self, point: usize, origin: [f64; 2], constants: &Constants) -> [f64; 2] {
         let LatticePoint { column, row, .. } = self.points[point];
         corner(origin, self.height, column, row, constants)
@@ -149,8 +134,8 @@ fn part_at(parts: &[LatticePart], row: usize) -> usize {
     parts.partition_point(|part| part.top <= row) - 1
 }
 
-/// The start of a lattice point of an object, in meters: of its column and row in the object, whose lower left corner
-/// is `origin` voxels from that of the world (docs/physics.md 2).
+/// The start of a lattice point in meters, from its column and row in an object whose lower left corner is at `origin`,
+/// in voxels of the world (docs/physics.md 2).
 pub fn corner([left, bottom]: [f64; 2], height: usize, column: usize, row: usize, constants: &Constants) -> [f64; 2] {
     let cell = constants.cell;
     [left * cell + column as f64 * cell, (bottom * cell + height as f64 * cell) - row as f64 * cell]
@@ -211,9 +196,8 @@ impl Builder<'_> {
         self.grid.cell(voxel.row as isize, voxel.column as isize).expect("a voxel is not empty")
     }
 
-    /// Voxels share the points that Evolution Gym's do: a corner is that of the voxel across a side, if they are joined
-    /// and that has been visited, or that of the diagonal voxel which one of them is joined to. Of several the last
-    /// counts.
+    /// Voxels share points as in Evolution Gym: a corner is that of the voxel across a side, if both are joined and
+    /// that one was visited, or that of a diagonal voxel to which one of them is joined. The last of several counts.
     fn points_and_voxels(&self) -> (Vec<LatticePoint>, Vec<Voxel>) {
         let (mut points, mut voxels): (Vec<LatticePoint>, Vec<Voxel>) = (Vec::new(), Vec::new());
         // The corners of the voxels in the row above and in this row.
@@ -351,20 +335,17 @@ mod tests {
     fn check(rows: &[&str], points: usize, edges: usize, surface: usize) {
         let lattice = lattice(rows);
         let sides = lattice.voxels().iter().flat_map(|voxel| voxel.surface).filter(|&is_surface| is_surface).count();
-        let found = (lattice.points().len(), lattice.edges().len(), sides);
+        let found = (lattice.points().len(), lattice.edges.len(), sides);
         assert_eq!(found, (points, edges, surface), "{rows:?}");
     }
 
     #[test]
-    fn counts() {
+    fn voxels_share_points_and_edges_with_neighbors() {
         check(&["3"], 4, 6, 4);
         check(&["34", "12"], 9, 20, 8);
         check(&["33333"; 5], 36, 110, 20);
         check(&["333", "303", "333"], 16, 40, 16);
-    }
-
-    #[test]
-    fn voxels_that_meet_only_diagonally_have_points_of_their_own() {
+        // Voxels that meet only diagonally have points of their own.
         check(&["30", "03"], 8, 12, 8);
         check(&["30", "33"], 8, 16, 8);
         let twins = lattice(&["30", "03"]);
@@ -379,9 +360,9 @@ mod tests {
             Lattice::of(&[&grid], &Constants::default())
         };
         let counts = |lattice: &Lattice| {
-            let doubled = lattice.edges().iter().filter(|edge| edge.doubled).count();
+            let doubled = lattice.edges.iter().filter(|edge| edge.doubled).count();
             let strays = lattice.voxels().iter().filter(|voxel| voxel.strays.is_some()).count();
-            (lattice.points().len(), lattice.edges().len(), doubled, strays)
+            (lattice.points().len(), lattice.edges.len(), doubled, strays)
         };
         // A slit from below, from the left and from the right ends at a point of all four.
         for apart in [[2, 3], [0, 2], [1, 3]] {
@@ -413,7 +394,7 @@ mod tests {
             let two = lattice(rows);
             let voxel = two.voxels()[1];
             let ends = [voxel.corners[0], voxel.corners[3]];
-            let shared = two.edges().iter().find(|e| ends.contains(&e.a) && ends.contains(&e.b)).unwrap();
+            let shared = two.edges.iter().find(|e| ends.contains(&e.a) && ends.contains(&e.b)).unwrap();
             shared.stiffness
         };
         assert_eq!(stiffness(&["11"]), 3e8 / 3.5);

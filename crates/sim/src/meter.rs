@@ -20,7 +20,6 @@ pub enum Part {
 impl Part {
     pub const ALL: [Self; 5] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping, Self::Device];
 
-    /// The parts of this processor's work.
     pub const OF_LANES: [Self; 4] = [Self::Springs, Self::Contact, Self::Limits, Self::Bookkeeping];
 
     pub fn name(self) -> &'static str {

@@ -19,7 +19,6 @@ pub struct ObjectCenter {
 /// Columns of terrain around the center of mass of an object, each as wide as a voxel.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
-    /// The number of columns to the left of that in the middle, and to the right.
     pub columns: usize,
     /// The farthest that is seen, in voxels.
     pub reach: f64,

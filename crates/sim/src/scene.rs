@@ -27,15 +27,10 @@ pub struct Scene {
 
 #[derive(Clone, Debug)]
 enum Placed {
-    /// In the lattice of what moves.
-    Moving {
-        points: Range<usize>,
-        channels: Range<usize>,
-    },
+    Moving { points: Range<usize>, channels: Range<usize> },
     Still(Still),
 }
 
-/// Points that never move.
 #[derive(Clone, Debug)]
 struct Still {
     /// In meters, in order of creation.
@@ -45,8 +40,8 @@ struct Still {
     voxels: Vec<[usize; CORNERS]>,
 }
 
-/// Evolution Gym's π, the cosine that it takes for those above 1, and the product of two distances from the center of
-/// mass, in square meters, below which it takes that, too.
+/// Evolution Gym's constants: π, the cosine that it uses instead of values above 1, and the product of two distances
+/// from the center of mass, in square meters, below which it uses that cosine, too.
 #[allow(clippy::approx_constant, reason = "Evolution Gym's number")]
 const PI: f64 = 3.1415926;
 const ALMOST: f64 = 0.99999;
@@ -89,7 +84,7 @@ impl Scene {
             let part = lattice.part_of(at.row);
             let object = &objects[moving[part]];
             let origin = object.at.map(|axis| axis as f64);
-            corner(origin, object.grid.height(), at.column, at.row - lattice.parts()[part].top, constants)
+            corner(origin, object.grid.height(), at.column, at.row - lattice.parts[part].top, constants)
         };
         let position: Vec<[f64; 2]> = (0..lattice.points().len()).map(place).collect();
         let start = State { previous: position.clone(), velocity: vec![[0.0; 2]; position.len()], position };
@@ -195,6 +190,6 @@ impl Scene {
 
     /// The parts that must agree in scenes whose robots share the lanes of a kernel: their first rows.
     pub(crate) fn tops(&self) -> Vec<usize> {
-        self.lattice.parts().iter().map(|part| part.top).collect()
+        self.lattice.parts.iter().map(|part| part.top).collect()
     }
 }

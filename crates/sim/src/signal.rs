@@ -18,18 +18,10 @@ pub struct Signals {
 #[derive(Clone, Copy, Debug)]
 enum Signal {
     Still,
-    /// A sample for each env step of the period.
-    Periodic {
-        drive: Drive,
-        clip: [f64; 2],
-    },
+    Periodic { drive: Drive, clip: [f64; 2] },
     Sensed(Response),
-    /// By the value of an image over a place in a box: row and column, height and width.
-    Seen {
-        response: Response,
-        place: [usize; 2],
-        size: [usize; 2],
-    },
+    // By the value of an image over a place in a box: row and column, height and width.
+    Seen { response: Response, place: [usize; 2], size: [usize; 2] },
 }
 
 impl Signals {

@@ -15,7 +15,7 @@ pub struct State {
 }
 
 impl State {
-    /// At rest on the ground, the left side `start` voxels from the start of the ground (docs/physics.md 1 and 2).
+    /// At rest, with the lower left corner at `origin`, in voxels (docs/physics.md 1 and 2).
     pub fn start(lattice: &Lattice, origin: [f64; 2], constants: &Constants) -> Self {
         let position: Vec<_> = (0..lattice.points().len()).map(|p| lattice.start(p, origin, constants)).collect();
         Self { previous: position.clone(), velocity: vec![[0.0; 2]; position.len()], position }

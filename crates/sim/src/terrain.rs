@@ -11,7 +11,7 @@ use nbc_base::model::GroundProfile;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Terrain {
     /// Those at a surface, by object and then in reading order.
-    voxels: Vec<TerrainVoxel>,
+    pub voxels: Vec<TerrainVoxel>,
     columns: usize,
     /// For each cell row by row from below, the number of its voxel plus one, or zero.
     cells: Vec<u32>,
@@ -57,10 +57,6 @@ impl Terrain {
         let code = |at: usize| if is_there(at / columns, at % columns) { 5 } else { 0 };
         let codes: Vec<u8> = (0..rows * columns).map(code).collect();
         Self::new([(&Grid::structure(columns, rows, &codes), [0, 0])], constants)
-    }
-
-    pub fn voxels(&self) -> &[TerrainVoxel] {
-        &self.voxels
     }
 
     /// Calls `found` with the number of each voxel in a cell that overlaps a box in meters, row by row from below.
@@ -115,7 +111,7 @@ mod tests {
         assert_eq!(near([0.05, 0.05], [0.15, 0.25]), [0, 1]);
         assert_eq!(near([-9.0, -9.0], [9.0, 9.0]), [0, 1, 2, 4, 5, 3]);
         assert_eq!(near([f64::NAN; 2], [f64::NAN; 2]), [0usize; 0]);
-        let tower = terrain.voxels()[3];
+        let tower = terrain.voxels[3];
         assert_eq!((tower.surface, tower.corners[0].y), ([true, true, false, true], (0.1 + 2.0 * 0.1) - 0.0));
     }
 }

@@ -4,7 +4,6 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::AssembleError;
 use crate::cells::choose;
 use crate::noise::RobotNoise;
 use nbc_base::model::{Body, Column, Library, PhysicsWorld, Robot, Setting};
@@ -42,7 +41,6 @@ pub struct Member {
     pub block: Vec<String>,
     pub robot: Robot,
     pub senses: Vec<StimulusSource>,
-    /// Its output before the first cycle.
     pub start: bool,
     /// What it senses in the first cycles instead of each source; empty in swarms that are no wave machines.
     pub held: Vec<Vec<bool>>,
@@ -52,10 +50,8 @@ pub struct Member {
 pub struct Assembly {
     pub circuit: String,
     pub inputs: Vec<Column>,
-    /// The robots, in order of the netlist's cells.
     pub members: Vec<Member>,
     pub outputs: Vec<Column>,
-    /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
     /// Cycles for which robots sense the same; more than one only in wave machines.
     pub beat: u32,
@@ -121,7 +117,7 @@ impl Assembly {
     }
 }
 
-/// [`Assembly::start_cycles`] of robots with these clocks.
+/// [`Assembly::start_cycles`] for these clocks.
 pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
     clocks.into_iter().map(|clock| clock as usize).max().unwrap_or(0).max(LEAST_START)
 }
@@ -134,22 +130,21 @@ pub(super) fn start_cycles(clocks: impl IntoIterator<Item = u32>) -> usize {
 /// one input is connected to the stimulus that its robot depends on; the other stimulus stays absent. Robots without a
 /// start value start as if the circuit had settled with all inputs 0. Otherwise both robots of a memory element would
 /// be driven, and could keep switching each other forever.
-/// Panics when the netlist still has wires, which `dissolve-wires` takes out.
-pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, AssembleError> {
+/// Panics when the netlist still has wires, which `dissolve-wires` takes out, or was not mapped onto this library.
+pub fn assemble(netlist: &Netlist, library: &Library) -> Assembly {
     let signals = number_signals(netlist);
     let before = Logic::new(netlist);
     let mut members = Vec::new();
     for (id, cell) in netlist.cells() {
         let pins: Vec<StimulusSource> = netlist.pins(id).into_iter().map(|net| signals[&net]).collect();
-        let missing = AssembleError::MissingFunction { function: cell.function };
-        let fit = choose(library, cell.function).ok_or(missing)?;
+        let fit = choose(library, cell.function).expect("the netlist was mapped onto this library");
         let senses = fit.stimuli(&pins, StimulusSource::Constant);
         let blocks = netlist.blocks();
         let block = blocks.around(netlist.block(id)).into_iter().map(|block| blocks.name(block).to_owned()).collect();
         let (net, start, held) = (netlist.net_name(id), before.value(id), vec![Vec::new(); senses.len()]);
         members.push(Member { net, block, robot: fit.robot.clone(), senses, start, held });
     }
-    Ok(Assembly {
+    Assembly {
         circuit: netlist.name.clone(),
         inputs: ports(netlist, netlist.inputs()),
         members,
@@ -157,19 +152,19 @@ pub fn assemble(netlist: &Netlist, library: &Library) -> Result<Assembly, Assemb
         shown: netlist.outputs().iter().map(|&id| signals[&netlist.pins(id)[0]]).collect(),
         beat: 1,
         world: PhysicsWorld::default(),
-    })
+    }
 }
 
 /// The swarm of a wave machine: as [`assemble`], with what the pins that read state sense at first.
-pub fn assemble_waves(machine: &WaveMachine, library: &Library) -> Result<Assembly, AssembleError> {
-    let mut assembly = assemble(&machine.netlist, library)?;
+pub fn assemble_waves(machine: &WaveMachine, library: &Library) -> Assembly {
+    let mut assembly = assemble(&machine.netlist, library);
     assembly.beat = machine.beat;
     for ((id, cell), member) in machine.netlist.cells().zip(&mut assembly.members) {
         let pins = (0..).zip(machine.netlist.pins(id)).map(|(pin, _)| machine.held_bits(id, pin)).collect::<Vec<_>>();
         let fit = choose(library, cell.function).expect("the cell has a robot");
         member.held = fit.stimuli(&pins, |_| Vec::new());
     }
-    Ok(assembly)
+    assembly
 }
 
 fn ports(netlist: &Netlist, bits: &[NetId]) -> Vec<Column> {
@@ -216,48 +211,24 @@ mod tests {
         Robot { name: function.name().to_owned(), behavior: function.into(), ..plain.nameless().robot }
     }
 
-    fn check(function: Function, robots: &[Function], expected: Result<(&str, &[StimulusSource]), AssembleError>) {
-        let mut netlist = Netlist::new("one");
-        let pins: Vec<_> = (0..function.arity()).map(|i| netlist.add_input(format!("i{i}"))).collect();
-        let gate = netlist.add_gate(function, &pins);
-        netlist.add_output("y", gate);
-        let library = Library { robots: robots.iter().copied().map(robot).collect() };
-        let found = assemble(&netlist, &library).map(|assembly| {
+    #[test]
+    fn a_cell_gets_the_first_robot_that_computes_it_with_its_inputs_in_any_order() {
+        let input = StimulusSource::Input;
+        let check = |function: Function, robots: &[Function], name: &str, senses: [StimulusSource; 2]| {
+            let mut netlist = Netlist::new("one");
+            let pins: Vec<_> = (0..function.arity()).map(|i| netlist.add_input(format!("i{i}"))).collect();
+            let gate = netlist.add_gate(function, &pins);
+            netlist.add_output("y", gate);
+            let library = Library { robots: robots.iter().copied().map(robot).collect() };
+            let assembly = assemble(&netlist, &library);
             assert_eq!(assembly.outputs, [Column::new("y", 1)]);
             assert_eq!(assembly.shown, [StimulusSource::Robot(0)]);
-            (assembly.members[0].robot.name.clone(), assembly.members[0].senses.clone())
-        });
-        assert_eq!(found, expected.map(|(name, senses)| (name.to_owned(), senses.to_vec())));
-    }
-
-    #[test]
-    fn a_cell_gets_the_robot_of_its_function() {
-        let senses = [StimulusSource::Input(0), StimulusSource::Input(1)];
-        check(Function::NAND, &[Function::AND, Function::NAND], Ok(("nand", &senses)));
-    }
-
-    #[test]
-    fn a_robot_with_exchanged_inputs_is_accepted() {
-        let (here, there) = (Function::new(0b0100), Function::new(0b0010));
-        check(here, &[there], Ok(("nota_and_b", &[StimulusSource::Input(1), StimulusSource::Input(0)])));
-    }
-
-    #[test]
-    fn an_inverter_reads_the_stimulus_its_robot_depends_on() {
-        check(
-            Function::NOT,
-            &[Function::NOT],
-            Ok(("not", &[StimulusSource::Input(0), StimulusSource::Constant(false)])),
-        );
-        check(
-            Function::NOT,
-            &[Function::NOT_B],
-            Ok(("notb", &[StimulusSource::Constant(false), StimulusSource::Input(0)])),
-        );
-    }
-
-    #[test]
-    fn a_function_without_a_robot_is_reported() {
-        check(Function::XOR, &[Function::AND], Err(AssembleError::MissingFunction { function: Function::XOR }));
+            assert_eq!((assembly.members[0].robot.name.as_str(), &assembly.members[0].senses[..]), (name, &senses[..]));
+        };
+        check(Function::NAND, &[Function::AND, Function::NAND], "nand", [input(0), input(1)]);
+        check(Function::new(0b0100), &[Function::new(0b0010)], "nota_and_b", [input(1), input(0)]);
+        // An inverter reads the stimulus that its robot depends on.
+        check(Function::NOT, &[Function::NOT], "not", [input(0), StimulusSource::Constant(false)]);
+        check(Function::NOT, &[Function::NOT_B], "notb", [StimulusSource::Constant(false), input(0)]);
     }
 }

@@ -32,9 +32,9 @@ fn radius(character: &Character) -> f64 {
     character.radius.as_ref().map_or(0.0, |found| found.radius)
 }
 
-/// The robots of a library that react within so many cycles, and show nothing else before if that is one. All cost a
-/// wave machine one beat, and an error would stay in it, so the sturdiest are first, or the widest where the objective
-/// is the margin.
+/// The robots of a library that react within so many cycles, and never glitch if that is one. All cost a wave machine
+/// one beat, and an error would stay in it, so the sturdiest come first, or the widest where the objective is the
+/// margin.
 pub fn within_beat(library: &Library, beat: u32, objective: MappingObjective) -> Library {
     let is_quick = |robot: &&Robot| {
         let character = &robot.character;
@@ -51,14 +51,12 @@ pub fn cells(library: &Library) -> CellLibrary {
     Function::all().chain(wide).filter_map(|function| Some((function, kind(library, function)?))).collect()
 }
 
-/// A robot as a cell of some function.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Fit<'a> {
     pub robot: &'a Robot,
     pub uses: Vec<StimulusUse>,
 }
 
-/// What a stimulus of a robot is in a cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StimulusUse {
     /// A pin of the cell; absent if the cell does not have that pin.

@@ -4,7 +4,6 @@
 use crate::distance::WalkMemory;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask};
 use crate::evolve::{Candidate, CandidateOutcome, Rivals, Search};
-use crate::gate::GateObjective;
 use crate::{Work, distance, gate, seeing};
 use nbc_base::model::{Body, Evolution, SearchObjective};
 use nbc_sim::Simulator;
@@ -41,8 +40,7 @@ pub(crate) fn evaluate_remembering(
 ) -> Vec<Evaluated> {
     match protocol.objective {
         SearchObjective::Distance => distance::evaluate(simulator, memory, protocol, tasks),
-        SearchObjective::Gate => gate::evaluate(simulator, GateObjective::Settled, protocol, tasks),
-        SearchObjective::Wave => gate::evaluate(simulator, GateObjective::Wave, protocol, tasks),
+        SearchObjective::Gate | SearchObjective::Wave => gate::evaluate(simulator, protocol, tasks),
         SearchObjective::Images => seeing::evaluate(simulator, protocol, tasks),
     }
 }
@@ -51,8 +49,7 @@ pub(crate) fn evaluate_remembering(
 pub fn full_steps(protocol: &EvaluationProtocol) -> u64 {
     match protocol.objective {
         SearchObjective::Distance => protocol.distance_steps(),
-        SearchObjective::Gate => gate::steps(GateObjective::Settled, protocol),
-        SearchObjective::Wave => gate::steps(GateObjective::Wave, protocol),
+        SearchObjective::Gate | SearchObjective::Wave => gate::steps(protocol),
         SearchObjective::Images => u64::from(protocol.variable.steps()),
     }
 }

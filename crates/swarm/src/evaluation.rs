@@ -9,7 +9,6 @@ use nbc_base::model::{
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct EvaluationProtocol {
-    /// The stimuli of its bodies: two or three.
     pub stimuli: usize,
     pub objective: SearchObjective,
     /// The behaviors as which gates are scored, the nearest of them; if there are none, what the body does.
@@ -19,7 +18,6 @@ pub struct EvaluationProtocol {
     pub shown: ImageOrder,
     /// The length of each simulation under one constant pattern, in env steps.
     pub fixed_steps: u32,
-    /// The world of all simulations but those in `others`.
     pub world: PhysicsWorld,
     /// Further worlds in which the gate objective evaluates bodies.
     pub others: Vec<PhysicsWorld>,

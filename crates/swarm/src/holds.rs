@@ -6,7 +6,6 @@ use rand::{Rng, RngExt};
 
 use nbc_base::model::{Behavior, CYCLE_STEPS, Direction, Pattern, Schedule, Spell, Trajectory};
 
-/// Patterns with the number of cycles of each hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct HoldPlan(pub Vec<(Pattern, u32)>);
 

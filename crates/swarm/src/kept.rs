@@ -24,7 +24,6 @@ struct KeptRobot {
     clock: u32,
     /// The env step of its fault, and which one it is.
     fault: Option<(u32, u8)>,
-    /// The last samples of its path.
     path: Vec<f64>,
 }
 

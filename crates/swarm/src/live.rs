@@ -22,14 +22,11 @@ pub struct LiveSwarm {
     sensing: Sensing,
     /// Env steps of a cycle at whose end something is read, in order.
     stops: BTreeSet<u32>,
-    /// Env steps from frame to frame of the recording.
     stride: u32,
     trace: SwarmTrace,
-    /// Cycles that were simulated and are no longer in the trace.
     forgotten: usize,
 }
 
-/// A swarm at the end of a cycle, with its trace and recording.
 #[derive(Clone, Debug)]
 pub struct SwarmSnapshot {
     robots: Vec<Snapshot>,
@@ -38,7 +35,6 @@ pub struct SwarmSnapshot {
     forgotten: usize,
 }
 
-/// A cycle of a swarm before its robots have moved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BegunCycle {
     inputs: Vec<bool>,
@@ -124,7 +120,6 @@ impl LiveSwarm {
     }
 
     /// Ends a begun cycle with the states of all robots, part by part in order, as [`LiveSwarm::step`] would.
-    /// Panics when robots or stops are missing.
     pub fn end(&mut self, begun: BegunCycle, parts: &[PartStates]) -> Result<&CycleTrace, RobotFault> {
         let robots: usize = parts.iter().map(|part| part[0].len()).sum();
         assert_eq!(robots, self.flock.len(), "a state for each robot");
@@ -164,7 +159,6 @@ impl LiveSwarm {
     }
 
     /// Sets the swarm to a snapshot of it or of a swarm of the same assembly, trace and recording included.
-    /// Panics when the snapshot is of another number of robots.
     pub fn restore(&mut self, snapshot: &SwarmSnapshot) {
         assert_eq!(snapshot.robots.len(), self.flock.len(), "a snapshot is of the same swarm");
         for (i, robot) in snapshot.robots.iter().enumerate() {
@@ -176,7 +170,6 @@ impl LiveSwarm {
     }
 
     /// The swarm as plain data, from which it goes on with the same bits.
-    /// Panics when a part of its trace was forgotten.
     pub fn keep(&self) -> KeptSwarm {
         assert_eq!(self.forgotten, 0, "the outputs of all cycles are kept");
         let needed = self.window * SwarmTrace::SAMPLES_PER_CYCLE + 1;
@@ -187,8 +180,8 @@ impl LiveSwarm {
         KeptSwarm::new(self.trace.cycles.iter().map(|cycle| &cycle.bits[..]), (0..self.flock.len()).map(robot))
     }
 
-    /// Sets a swarm at its start to a kept one of the same assembly that had these inputs in its cycles; whether it can
-    /// be one. The paths of the robots before that are not known, and stand still at 0.
+    /// Continues a swarm at its start from a kept one of the same assembly with these inputs; returns whether it fits.
+    /// Earlier paths of the robots are unknown, and stay at 0.
     pub fn go_on(&mut self, kept: &KeptSwarm, assembly: &Assembly, inputs: &[Vec<bool>]) -> bool {
         let outputs = kept.outputs(assembly.members.len()).filter(|cycles| cycles.len() <= inputs.len());
         let Some(outputs) = outputs else { return false };
@@ -217,7 +210,7 @@ impl LiveSwarm {
         true
     }
 
-    /// Takes the robots from stop to stop of a cycle by `reach`, with the number of each stop and its env step.
+    /// Moves the robots from stop to stop of a cycle by `reach`, which gets the number and the env step of each stop.
     fn go_through(&mut self, mut reach: impl FnMut(&mut dyn Flock, usize, u32)) {
         for (at, &stop) in self.stops.iter().enumerate() {
             reach(&mut *self.flock, at, stop);

@@ -16,8 +16,7 @@ pub struct Measurement {
     pub character: Character,
 }
 
-/// The displacement of each body in the paper's fixed simulations, in voxels, one for each pattern; or the fault of one
-/// of them.
+/// The displacements of each body in the paper's fixed simulations, in voxels.
 pub fn walk(simulator: &Simulator, bodies: &[Body]) -> Vec<Result<Displacements, Fault>> {
     fixed_displacements(simulator, &Setting::default(), bodies, FIXED_STEPS)
 }

@@ -10,7 +10,6 @@ use nbc_base::model::{
     Body, CYCLE_STEPS, Drive, Material, MaterialKind, Palette, Response, Schedule, Spell, WorldNoise,
 };
 
-/// The name of the material of voxels that never move.
 const DEAD: &str = "dead";
 
 #[derive(Clone, Copy, Debug)]
@@ -58,7 +57,6 @@ impl<'a> RobotNoise<'a> {
         unit(&mut rng) < self.noise.missed
     }
 
-    /// A schedule as it senses it.
     pub(crate) fn sensed(self, schedule: &Schedule) -> Schedule {
         if self.noise.missed <= 0.0 {
             return schedule.clone();

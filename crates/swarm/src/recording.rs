@@ -38,15 +38,12 @@ impl Room {
 
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recording {
-    /// Poses in each cycle, evenly spaced.
     pub frames_per_cycle: u32,
     pub robots: Vec<Recorded>,
 }
 
-/// One robot over time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Recorded {
-    /// Its place in the flock.
     pub robot: usize,
     /// Each voxel's points, by their numbers, and its material code.
     pub voxels: Vec<([usize; 4], u8)>,
@@ -58,7 +55,6 @@ pub struct Recorded {
 }
 
 impl Recording {
-    /// An empty recording of these robots of a flock at its start, with a frame every `stride` env steps.
     pub fn new(flock: &dyn Flock, robots: impl IntoIterator<Item = usize>, stride: u32) -> Self {
         let robots = robots.into_iter().map(|robot| Recorded::new(flock, robot)).collect();
         Self { frames_per_cycle: CYCLE_STEPS / stride, robots }
@@ -73,7 +69,6 @@ impl Recording {
         }
     }
 
-    /// Forgets the frames of the last cycle.
     pub(super) fn forget_cycle(&mut self) {
         for recorded in &mut self.robots {
             let length = 2 * recorded.points * self.frames_per_cycle as usize;

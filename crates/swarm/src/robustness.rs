@@ -15,9 +15,7 @@ use nbc_base::model::{PhysicsWorld, Variation};
 pub struct RobotMargin {
     pub net: String,
     pub robot: String,
-    /// The cycle, from 0 at the test's start.
     pub cycle: usize,
-    /// Voxels a cycle.
     pub margin: f64,
 }
 
@@ -30,7 +28,6 @@ pub struct WorldTrial {
     /// The robot that was wrong first; `None` if the test passed or a robot failed, or if each robot did what its
     /// stimuli require, but some had missed theirs or had no time.
     pub first_failing: Option<RobotMargin>,
-    /// The smallest margin.
     pub least: Option<RobotMargin>,
 }
 

@@ -10,7 +10,6 @@ use nbc_base::model::{
 };
 use nbc_sim::Simulator;
 
-/// The stimuli of a behavior, which number the sets of images.
 const STIMULI: usize = 2;
 
 /// How far a body walks before images, in the direction of a behavior.
@@ -26,8 +25,7 @@ pub struct ImageDistance {
 }
 
 impl ImageDistance {
-    /// That of a body with these displacements, each before an image of the set of that number.
-    /// Panics when there are no images.
+    /// The distance of a body with these displacements, each before an image of the set with that number.
     pub fn of(sets: &ImageSets, walked: &[(Pattern, f64)]) -> Self {
         let all = sets.behaviors().map(|behavior| (behavior, least(behavior, walked.iter().copied())));
         let best = all.fold(None, |best: Option<(Behavior, f64)>, one| match best {
@@ -49,12 +47,10 @@ fn least(behavior: Behavior, walked: impl Iterator<Item = (Pattern, f64)>) -> f6
     walked.map(|(set, moved)| moved * behavior.direction(set).sign()).fold(f64::INFINITY, f64::min)
 }
 
-/// The sets of images that a schedule shows, as the patterns that number them.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImageSets(Vec<Pattern>);
 
 impl ImageSets {
-    /// The most sets that a behavior can tell apart.
     pub const MOST: usize = 1 << STIMULI;
 
     pub fn of(schedule: &Schedule) -> Self {
@@ -123,7 +119,6 @@ struct Viewer<'a> {
 }
 
 impl Viewer<'_> {
-    /// Whether it may enter the archive, whatever it does before the other images.
     fn is_admitted(&self, sets: &ImageSets) -> bool {
         let bound = |behavior| [least(behavior, self.walked.iter().copied()); 2];
         sets.behaviors().any(|behavior| self.task.rivals.admit(behavior, &bound(behavior)))

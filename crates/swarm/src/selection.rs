@@ -9,7 +9,6 @@ use nbc_base::model::{Behavior, Fault, Provenance, Robot};
 
 /// The longest clock of a gate that is measured in full, in cycles.
 const LONGEST_CLOCK: u32 = 4;
-/// The cost of a full measurement, in screenings.
 pub const MEASUREMENT_COST: u64 = 4;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -103,7 +102,6 @@ impl Selection {
 }
 
 impl Selected {
-    /// The better one first.
     fn compare(&self, other: &Self, wide_margin: f64) -> Ordering {
         let place = |found: &Self| match found {
             Self::Robot(_) => 0,
@@ -143,7 +141,6 @@ impl Rank {
     }
 }
 
-/// The rank of elites before screening: both fitnesses have equal weight.
 fn worth(elite: &Elite) -> f64 {
     elite.fitness[0] + elite.fitness[1]
 }
@@ -183,11 +180,7 @@ mod tests {
             generation: 1,
             evaluations: 1,
         };
-        let (program, version, evolution) = ("nbc".to_owned(), "0".to_owned(), "small".to_owned());
-        RobotCandidate {
-            elite,
-            provenance: Provenance { program, version, evolution, seed: 1, generation: 1, evaluations: 1 },
-        }
+        RobotCandidate { elite, provenance: Provenance::default() }
     }
 
     #[test]

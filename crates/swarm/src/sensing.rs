@@ -8,7 +8,6 @@ use nbc_base::model::{Pattern, WorldNoise};
 pub(super) struct Sensing {
     /// Cycles at the start in which robots sense the start values of the others.
     start: usize,
-    /// Cycles for which robots sense the same.
     beat: usize,
     outputs: Vec<bool>,
     /// What each robot senses in the first cycles instead of its sources.

@@ -25,7 +25,6 @@ pub struct Settling<'a> {
 }
 
 impl<'a> Settling<'a> {
-    /// A swarm before its first cycle, whose outputs are read over `window` cycles.
     pub fn new(assembly: &'a Assembly, window: usize) -> Self {
         let members = &assembly.members[..];
         let clock = |member: &Member| member.robot.character.clock as usize + window - 1;

@@ -5,11 +5,9 @@ use nbc_sim::Simulator;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SwarmConditions {
-    /// The input ports' bits in each cycle.
     pub inputs: Vec<Vec<bool>>,
     /// Cycles over which a displacement is measured; its sign is the output. The paper's is one.
     pub window: usize,
-    /// The room for a recording of poses, if one is made.
     pub poses: Option<Room>,
 }
 

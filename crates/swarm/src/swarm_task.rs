@@ -12,7 +12,6 @@ pub struct SwarmTask {
     pub conditions: SwarmConditions,
 }
 
-/// The output of each robot at the end of each cycle.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SwarmBits {
     /// The cycles in order; fewer than those of the task if it was stopped or a robot failed.
@@ -25,10 +24,8 @@ pub struct SwarmBits {
 #[derive(Clone, Debug, PartialEq)]
 pub struct PlainMember {
     pub body: Body,
-    /// The clock of its character, in cycles.
     pub clock: u32,
     pub senses: Vec<StimulusSource>,
-    /// Its output before the first cycle.
     pub start: bool,
     /// What it senses in the first cycles instead of each source.
     pub held: Vec<Vec<bool>>,
@@ -78,23 +75,18 @@ impl SwarmTask {
 impl PlainMember {
     /// The robot with nothing but what its simulation needs.
     pub(super) fn nameless(self) -> Member {
-        let none = String::new;
-        let character = Character {
-            clock: self.clock,
-            switches: 0,
-            error_rate: 0.0,
-            glitch_rate: 0.0,
-            margin: 0.0,
-            topples: false,
-            settle: Vec::new(),
-            radius: None,
-        };
-        let provenance =
-            Provenance { program: none(), version: none(), evolution: none(), seed: 0, generation: 0, evaluations: 0 };
         let displacement = Displacements::zero(self.senses.len());
-        let (name, behavior) = (none(), displacement.behavior());
-        let robot = Robot { name, behavior, body: self.body, displacement, character, provenance, genotype: None };
-        Member { net: none(), block: Vec::new(), robot, senses: self.senses, start: self.start, held: self.held }
+        let robot = Robot {
+            name: String::new(),
+            behavior: displacement.behavior(),
+            body: self.body,
+            displacement,
+            character: Character { clock: self.clock, ..Character::default() },
+            provenance: Provenance::default(),
+            genotype: None,
+        };
+        let (net, block) = (String::new(), Vec::new());
+        Member { net, block, robot, senses: self.senses, start: self.start, held: self.held }
     }
 }
 
@@ -105,7 +97,6 @@ impl SwarmBits {
     }
 
     /// The trace of the swarm through these inputs, without the paths of its robots.
-    /// Panics when the bits belong to another swarm.
     pub fn trace(&self, assembly: &Assembly, inputs: &[Vec<bool>]) -> SwarmTrace {
         let mut trace = Sensing::replayed(assembly, &self.cycles, inputs).1;
         if let Some((robot, fault)) = self.fault {

@@ -11,9 +11,7 @@ pub struct SwarmTrace {
     pub circuit: String,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
-    /// The source of each bit of the output ports.
     pub shown: Vec<StimulusSource>,
-    /// Samples of the robots' paths in one cycle.
     pub samples_per_cycle: usize,
     pub robots: Vec<RobotTrace>,
     /// The cycles, first to last. One in which a robot failed has no outputs and is not among them.
@@ -51,7 +49,6 @@ pub struct CycleTrace {
 impl SwarmTrace {
     pub(super) const SAMPLES_PER_CYCLE: usize = 12;
 
-    /// The trace before the first cycle, without the places of the robots.
     pub(super) fn begin(assembly: &Assembly) -> Self {
         let robot = |member: &Member| RobotTrace {
             net: member.net.clone(),

@@ -37,7 +37,6 @@ pub struct TestVerdict {
     pub level: Level,
     /// Whether all rows passed, or as many as the test asks for.
     pub passed: bool,
-    /// The file of its rows, if the source does not have them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_from: Option<RowSource>,
     pub inputs: Vec<Column>,
@@ -67,7 +66,7 @@ impl TestVerdict {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct RowVerdict {
     /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
     pub row: usize,

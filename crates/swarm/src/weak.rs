@@ -13,7 +13,6 @@ pub const THIN_MARGIN: f64 = 0.02;
 pub struct WeakRobot {
     pub robot: String,
     pub nets: Vec<String>,
-    /// The share of measured switches with a wrong output.
     pub error_rate: f64,
     /// Its margin in voxels a cycle.
     pub margin: f64,

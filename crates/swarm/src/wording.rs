@@ -1,30 +1,23 @@
-//! Errors of the assembly of swarms, faults of their robots, and their messages.
+//! The fault that ends a swarm, and its message.
 
 use std::error::Error;
 use std::fmt;
 
-use crate::RobotFault;
-use nbc_base::model::Function;
+use serde::Serialize;
 
-/// A netlist for which a library lacks robots.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum AssembleError {
-    /// No robot computes a cell's function.
-    MissingFunction {
-        /// What the cell computes.
-        function: Function,
-    },
+use nbc_base::model::FaultKind;
+
+/// The robot of a swarm whose simulation failed first. The swarm has no outputs from its cycle on.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct RobotFault {
+    pub net: String,
+    pub robot: String,
+    /// The cycle, from 0 at the start.
+    pub cycle: usize,
+    /// The env step that was abandoned, from 1 at the start.
+    pub env_step: u32,
+    pub kind: FaultKind,
 }
-
-impl fmt::Display for AssembleError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::MissingFunction { function } => write!(f, "the library has no robot for `{function}`"),
-        }
-    }
-}
-
-impl Error for AssembleError {}
 
 impl fmt::Display for RobotFault {
     /// `robot nand_5x5 on net q became unstable in cycle 3`

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::cli::draw::kind::{Kind, kinds};
+use crate::cli::draw::kinds::{Kind, kinds};
 use crate::cli::draw::request::DrawRequest;
 use crate::cli::options::new_path::new_path;
 

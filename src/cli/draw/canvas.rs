@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::cli::draw::picture::{Drawing, FilmFormat, KindDescription, PictureKind};
+use crate::cli::draw::picture::{Drawing, FilmFormat, PictureKind};
 use crate::cli::draw::wording;
 use crate::cli::{Failure, Progress};
 use nbc_session::report::{self, Film, Stage};
@@ -15,9 +15,9 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    pub(super) fn new(path: &Path, kind: &dyn PictureKind) -> Result<Self, Failure> {
+    pub(super) fn new(path: &Path, kind: &PictureKind) -> Result<Self, Failure> {
         let extension = path.extension().map(|text| text.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
-        let KindDescription { word, extensions, .. } = kind.description();
+        let PictureKind { word, extensions, .. } = kind;
         if extensions.contains(&extension.as_str()) {
             return Ok(Self { path: path.to_owned(), extension });
         }

@@ -3,8 +3,7 @@
 use std::collections::BTreeMap;
 use std::path::Path;
 
-use crate::cli::draw::titled_body::TitledBody;
-use crate::cli::draw::titled_robots::{NamedBody, TitledRobots};
+use crate::cli::draw::titled::{NamedBody, TitledBody, TitledRobots};
 use crate::cli::draw::wording;
 use crate::cli::evolution_folder::{PROGRESS, checkpoints, read_checkpoint, read_progress};
 use crate::cli::evolve::wording::gaps_in_curves;

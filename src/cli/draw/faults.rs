@@ -1,6 +1,6 @@
 //! The robots of a picture whose simulation fails. The picture shows them up to there, and a warning names each.
 
-use crate::cli::draw::titled_robots::NamedBody;
+use crate::cli::draw::titled::NamedBody;
 use crate::cli::draw::wording::faulty_robot;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Body, Fault, Schedule, Setting, Trajectory, Trial};

@@ -4,14 +4,17 @@ mod arguments;
 mod canvas;
 mod evolution_run;
 mod faults;
-mod kind;
+mod film;
+mod kinds;
 mod options;
 mod picture;
-mod pictures;
 mod program;
+mod program_pictures;
 mod request;
-mod titled_body;
-mod titled_robots;
+mod robot_pictures;
+mod run_pictures;
+mod spacetime;
+mod titled;
 pub(super) mod wording;
 
 use std::path::Path;
@@ -23,14 +26,14 @@ use nbc_session::report::Schema;
 use nbc_session::store;
 
 use canvas::Canvas;
-use kind::Kind;
+use kinds::Kind;
 use picture::{Drawn, PictureKind, SubjectKind};
 use request::DrawRequest;
-use titled_body::TitledBody;
+use titled::TitledBody;
 
 pub(super) use arguments::DrawArguments;
 pub(super) use evolution_run::{is_run, read as read_run};
-pub(super) use pictures::run_page;
+pub(super) use run_pictures::run_page;
 
 impl DrawArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
@@ -43,7 +46,7 @@ impl DrawArguments {
         context.tell(&faults, &Sources::default());
         context.wrote(&output);
         if context.format == OutputFormat::Json {
-            let drawn = serde_json::json!({ "file": output.display().to_string(), "kind": kind.description().word });
+            let drawn = serde_json::json!({ "file": output.display().to_string(), "kind": kind.word });
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)
@@ -60,12 +63,7 @@ fn subject_kind(what: &str) -> SubjectKind {
     }
 }
 
-fn draw(
-    kind: &dyn PictureKind,
-    subject: SubjectKind,
-    request: &DrawRequest,
-    context: &Context,
-) -> Result<Drawn, Failure> {
+fn draw(kind: &PictureKind, subject: SubjectKind, request: &DrawRequest, context: &Context) -> Result<Drawn, Failure> {
     match subject {
         SubjectKind::Program => kind.of_program(request),
         SubjectKind::Run => {
@@ -75,15 +73,15 @@ fn draw(
             kind.of_robot(&robot, request)
         }
         SubjectKind::Library => draw_library(kind, request),
-        SubjectKind::Robot => kind.of_robot(&robot(&request.what, request.making.library())?, request),
+        SubjectKind::Robot => kind.of_robot(&robot(&request.what, &request.making.library)?, request),
     }
 }
 
-fn draw_library(kind: &dyn PictureKind, request: &DrawRequest) -> Result<Drawn, Failure> {
+fn draw_library(kind: &PictureKind, request: &DrawRequest) -> Result<Drawn, Failure> {
     let what = &request.what;
     let library = robots::robots_of(Path::new(what))?;
     let Some(behavior) = request.behavior else {
-        return kind.of_library(&titled_robots::of_library(what, &library), request);
+        return kind.of_library(&titled::of_library(what, &library), request);
     };
     let robot = library.robots_for(behavior.function()).next();
     kind.of_robot(&TitledBody::of(robot.ok_or_else(|| request.none_of(behavior))?), request)

@@ -6,17 +6,13 @@ use crate::cli::draw::wording;
 use nbc_base::diag::Diagnostic;
 
 /// Rejects the first option that cannot change the picture.
-pub(super) fn check_options(
-    request: &DrawRequest,
-    kind: &dyn PictureKind,
-    subject: SubjectKind,
-) -> Result<(), Diagnostic> {
+pub(super) fn check_options(request: &DrawRequest, kind: &PictureKind, subject: SubjectKind) -> Result<(), Diagnostic> {
     let is_program = subject == SubjectKind::Program;
     let has_robots = matches!(subject, SubjectKind::Library | SubjectKind::Run);
-    let takes = |option| kind.description().options.contains(&option);
+    let takes = |option| kind.options.contains(&option);
     let choice = request.making.choice();
-    let has_library = request.making.library().library.is_some();
-    let goal = request.making.goal().given();
+    let has_library = request.making.library.library.is_some();
+    let goal = request.making.goal.given();
     let options = [
         ("--at", request.at.is_some(), takes("--at"), "a pose"),
         ("--axes", !request.axes.is_empty(), takes("--axes"), "a heat map"),
@@ -36,7 +32,7 @@ pub(super) fn check_options(
     match options.into_iter().find(|(_, given, applies, _)| *given && !applies) {
         None => Ok(()),
         Some((option, .., applies_to)) => {
-            Err(wording::option_without_effect(&request.what, option, kind.description().word, applies_to))
+            Err(wording::option_without_effect(&request.what, option, kind.word, applies_to))
         }
     }
 }

@@ -3,8 +3,7 @@
 use crate::cli::Failure;
 use crate::cli::draw::evolution_run::best_champions;
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::titled_body::TitledBody;
-use crate::cli::draw::titled_robots::TitledRobots;
+use crate::cli::draw::titled::{TitledBody, TitledRobots};
 use crate::cli::draw::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_session::report::{EvolutionResults, Film, Stage, Svg};
@@ -49,7 +48,8 @@ pub(super) enum FilmFormat {
     Gif,
 }
 
-pub(super) struct KindDescription {
+/// A kind of picture. What it has no function for is refused, with the kind of subject that it is for.
+pub(super) struct PictureKind {
     pub(super) word: &'static str,
     pub(super) about: &'static str,
     /// Of its files.
@@ -58,40 +58,41 @@ pub(super) struct KindDescription {
     pub(super) options: &'static [&'static str],
     /// The subject to name if another is given. A kind for libraries also shows the best robots of a run.
     pub(super) subject: SubjectKind,
+    pub(super) robot: Option<fn(&TitledBody, &DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) library: Option<fn(&TitledRobots, &DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) run: Option<fn(&EvolutionResults, &DrawRequest) -> Result<Drawn, Failure>>,
+    pub(super) program: Option<fn(&DrawRequest) -> Result<Drawn, Failure>>,
 }
 
-impl KindDescription {
-    /// A kind of picture as SVG or PNG without options.
-    pub(super) fn new(word: &'static str, about: &'static str, subject: SubjectKind) -> Self {
-        Self { word, about, extensions: &["svg", "png"], options: &[], subject }
-    }
-}
-
-pub(super) trait PictureKind: Sync {
-    fn description(&self) -> KindDescription;
-
-    fn of_robot(&self, _robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
-        Err(self.refuse(SubjectKind::Robot, request))
+impl PictureKind {
+    /// A kind of picture as SVG or PNG without options and functions.
+    pub(super) const fn new(word: &'static str, about: &'static str, subject: SubjectKind) -> Self {
+        let (robot, library, run, program) = (None, None, None, None);
+        Self { word, about, extensions: &["svg", "png"], options: &[], subject, robot, library, run, program }
     }
 
-    fn of_library(&self, _robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
-        Err(self.refuse(SubjectKind::Library, request))
+    pub(super) fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
+        self.robot.ok_or_else(|| self.refuse(SubjectKind::Robot, request))?(robot, request)
     }
 
-    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
-        match self.description().subject {
-            SubjectKind::Library => self.of_library(&best_champions(results), request),
+    pub(super) fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
+        self.library.ok_or_else(|| self.refuse(SubjectKind::Library, request))?(robots, request)
+    }
+
+    pub(super) fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
+        match (self.run, self.subject) {
+            (Some(draw), _) => draw(results, request),
+            (None, SubjectKind::Library) => self.of_library(&best_champions(results), request),
             _ => Err(self.refuse(SubjectKind::Run, request)),
         }
     }
 
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
-        Err(self.refuse(SubjectKind::Program, request))
+    pub(super) fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
+        self.program.ok_or_else(|| self.refuse(SubjectKind::Program, request))?(request)
     }
 
     fn refuse(&self, given: SubjectKind, request: &DrawRequest) -> Failure {
-        let KindDescription { word, subject, .. } = self.description();
-        wording::other_kind(&request.what, noun(given), wanted(subject, given), word).into()
+        wording::other_kind(&request.what, noun(given), wanted(self.subject, given), self.word).into()
     }
 }
 

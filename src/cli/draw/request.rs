@@ -5,7 +5,7 @@ use clap::builder::PossibleValuesParser;
 
 use crate::cli::Failure;
 use crate::cli::draw::wording;
-use crate::cli::options::circuit::FilesArguments;
+use crate::cli::options::files::FilesArguments;
 use crate::cli::options::images::ImagesArguments;
 use crate::cli::options::making::MakingArguments;
 use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Pattern, Schedule, Spell};

@@ -1,11 +1,11 @@
 //! How a circuit is mapped: the goal, and the cells of `nbc build` and `nbc synth`, which need not be robots.
 
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::{Failure, robots};
 use nbc_circuit::{CellLibrary, Effort, MapOptions, MappingObjective};
-use nbc_session::CompileOptions;
 use nbc_session::store;
 
 #[derive(Args)]
@@ -29,28 +29,54 @@ pub(in crate::cli) struct CellsArguments {
 #[derive(Args)]
 pub(in crate::cli) struct GoalArguments {
     /// What to optimize; of several robots for a function, the one that suits it best is used [default: area]
-    #[arg(long, value_enum)]
-    objective: Option<ObjectiveWord>,
+    #[arg(long, value_parser = choice(OBJECTIVES))]
+    objective: Option<MappingObjective>,
     /// The amount of search [default: normal]
-    #[arg(long, value_enum)]
-    effort: Option<EffortWord>,
+    #[arg(long, value_parser = choice(EFFORTS))]
+    effort: Option<Effort>,
+}
+
+/// Words with their help and their values.
+type Words<T> = &'static [(&'static str, &'static str, T)];
+
+const OBJECTIVES: Words<MappingObjective> = &[
+    ("area", "Few robots", MappingObjective::Area),
+    ("delay", "Few cycles", MappingObjective::Delay),
+    ("margin", "Wide noise margins", MappingObjective::Margin),
+    (
+        "sturdy",
+        "Robots that bear the largest changes of the world, by the radius in their files",
+        MappingObjective::Sturdy,
+    ),
+];
+
+const EFFORTS: Words<Effort> = &[
+    ("fast", "A quick look", Effort::Fast),
+    ("normal", "Seconds for circuits of a few hundred cells", Effort::Normal),
+    ("high", "As good as it gets in minutes", Effort::High),
+];
+
+fn choice<T: Copy + Send + Sync + 'static>(words: Words<T>) -> impl TypedValueParser<Value = T> {
+    let values = words.iter().map(|(word, help, _)| PossibleValue::new(*word).help(*help));
+    PossibleValuesParser::new(values).try_map(move |found| {
+        let known = words.iter().find(|(word, ..)| *word == found);
+        known.map(|(.., value)| *value).ok_or("not one of the words")
+    })
 }
 
 impl GoalArguments {
-    pub(in crate::cli) fn options(&self) -> MapOptions {
-        let (objective, effort) = (self.objective.unwrap_or_default(), self.effort.unwrap_or_default());
-        MapOptions { objective: objective.into(), effort: effort.into(), ..MapOptions::default() }
+    pub(in crate::cli) fn objective(&self) -> MappingObjective {
+        self.objective.unwrap_or(MappingObjective::Area)
+    }
+
+    pub(in crate::cli) fn effort(&self) -> Effort {
+        self.effort.unwrap_or(Effort::Normal)
     }
 
     /// The first of its options that the user gave.
     pub(in crate::cli) fn given(&self) -> Option<&'static str> {
         let objective = self.objective.map(|_| "--objective");
         objective.or_else(|| self.effort.map(|_| "--effort"))
-    }
-
-    pub(in crate::cli) fn with(&self, options: CompileOptions) -> CompileOptions {
-        let MapOptions { objective, effort, .. } = self.options();
-        CompileOptions { objective, effort, ..options }
     }
 }
 
@@ -67,57 +93,11 @@ impl MappingArguments {
         if let Some(cells) = self.cells.chosen()? {
             return Ok(cells);
         }
-        let robots = self.library.library.as_deref().map(robots::robots_of).transpose()?;
-        let robots = robots.unwrap_or_else(store::shipped_library);
-        Ok(nbc_session::robot_cells(robots, self.options().objective))
+        let robots = self.library.library.as_deref().map_or_else(|| Ok(store::shipped_library()), robots::robots_of)?;
+        Ok(nbc_session::robot_cells(robots, self.goal.objective()))
     }
 
     pub(in crate::cli) fn options(&self) -> MapOptions {
-        self.goal.options()
-    }
-}
-
-#[derive(Clone, Copy, Default, ValueEnum)]
-enum ObjectiveWord {
-    /// Few robots
-    #[default]
-    Area,
-    /// Few cycles
-    Delay,
-    /// Wide noise margins
-    Margin,
-    /// Robots that bear the largest changes of the world, by the radius in their files
-    Sturdy,
-}
-
-#[derive(Clone, Copy, Default, ValueEnum)]
-enum EffortWord {
-    /// A quick look
-    Fast,
-    /// Seconds for circuits of a few hundred cells
-    #[default]
-    Normal,
-    /// As good as it gets in minutes
-    High,
-}
-
-impl From<ObjectiveWord> for MappingObjective {
-    fn from(word: ObjectiveWord) -> Self {
-        match word {
-            ObjectiveWord::Area => Self::Area,
-            ObjectiveWord::Delay => Self::Delay,
-            ObjectiveWord::Margin => Self::Margin,
-            ObjectiveWord::Sturdy => Self::Sturdy,
-        }
-    }
-}
-
-impl From<EffortWord> for Effort {
-    fn from(word: EffortWord) -> Self {
-        match word {
-            EffortWord::Fast => Self::Fast,
-            EffortWord::Normal => Self::Normal,
-            EffortWord::High => Self::High,
-        }
+        MapOptions { objective: self.goal.objective(), effort: self.goal.effort(), ..MapOptions::default() }
     }
 }

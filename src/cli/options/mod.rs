@@ -1,7 +1,7 @@
 //! Options that several commands share.
 
-pub(super) mod circuit;
 pub(super) mod device;
+pub(super) mod files;
 pub(super) mod images;
 pub(super) mod making;
 pub(super) mod mapping;

@@ -10,8 +10,8 @@ use std::sync::Arc;
 use clap::Args;
 
 use crate::cli::in_order::in_order;
-use crate::cli::options::circuit::FilesArguments;
 use crate::cli::options::device::DeviceArguments;
+use crate::cli::options::files::FilesArguments;
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::queue::{self, QueueArguments};

@@ -80,7 +80,7 @@ pub struct SizeId(pub u32);
 pub struct NetSlot(pub u32);
 
 /// The place of a circuit in [`super::Program::circuits`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct CircuitId(pub u32);
 
 /// A width parameter: an integer known when the circuit is built.

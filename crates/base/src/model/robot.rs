@@ -28,7 +28,7 @@ impl Robot {
 }
 
 /// The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Character {
     /// Cycles for which an input pattern must be held so that the output is correct at the end of every hold.
@@ -115,7 +115,7 @@ impl TryFrom<TransitionRecord> for Transition {
 }
 
 /// The provenance of a robot: enough to make it again.
-#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     pub program: String,

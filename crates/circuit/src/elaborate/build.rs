@@ -3,25 +3,21 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-use crate::elaborate::frame::{Item, Scope};
 use crate::elaborate::module::{Bit, Module, ModuleId, ModuleNet, ModulePort, ModuleSignal, Passes, Sum};
-use crate::elaborate::wording::{ElaborateError, RangeError, shown_at, unknown_circuit};
+use crate::elaborate::unroll::{Item, Scope};
+use crate::elaborate::wording;
 use nbc_base::budget::{Limit, OverBudget, WorkBudget};
 use nbc_base::diag::{Diagnostic, Suggestion};
-use nbc_base::model::{Circuit, CircuitId, Column, Instance, NetSlot, Program};
+use nbc_base::model::{Circuit, CircuitId, Column, ExpressionId, Instance, NetSlot, Program};
 use nbc_base::source::Span;
 
-/// What a module is built from.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) struct ModuleKey {
     pub(super) circuit: CircuitId,
-    /// The values of its parameters.
     pub(super) arguments: Vec<i128>,
-    /// The inputs that have their default values, by their places.
     pub(super) absent: Vec<u32>,
 }
 
-/// Everything built so far.
 pub(super) struct Builder<'a> {
     pub(super) program: &'a Program,
     /// References of tests, which are numbered after the program's circuits.
@@ -30,19 +26,15 @@ pub(super) struct Builder<'a> {
     /// The module of each circuit and its parameters; `None` if it is invalid or under construction.
     known: BTreeMap<ModuleKey, Option<ModuleId>>,
     pub(super) diagnostics: Vec<Diagnostic>,
-    /// The same as a set, to find duplicates quickly.
     noted: BTreeSet<Diagnostic>,
     depth: usize,
-    /// The modules whose loops were checked.
     pub(super) inspected: Vec<bool>,
-    /// What modules pass from their inputs to their outputs, as far as it was needed.
     pub(super) passes: Passes,
     pub(super) budget: WorkBudget,
     /// Why nothing more is built, once the budget is used up.
     pub(super) over: Option<OverBudget>,
 }
 
-/// The most errors that are kept; far fewer are shown.
 const MOST_FAULTS: usize = 10_000;
 
 impl<'a> Builder<'a> {
@@ -72,13 +64,12 @@ impl<'a> Builder<'a> {
             return None;
         }
         let taken = self.budget.take(limit, amount);
-        taken.map_err(|over| self.end(over, place)).ok()
-    }
-
-    /// Builds nothing more.
-    fn end(&mut self, over: OverBudget, place: Span) {
-        self.over = Some(over);
-        self.fault(over.at(place));
+        taken
+            .map_err(|over| {
+                self.over = Some(over);
+                self.fault(over.at(place));
+            })
+            .ok()
     }
 
     pub(super) fn module(&self, id: ModuleId) -> &Module {
@@ -90,33 +81,32 @@ impl<'a> Builder<'a> {
         self.program.circuits.get(at).unwrap_or_else(|| self.references[at - self.program.circuits.len()])
     }
 
-    /// The module of a test's reference.
     pub(super) fn reference(&mut self, circuit: &'a Circuit) -> Option<ModuleId> {
         self.references.push(circuit);
         self.with_defaults(CircuitId((self.program.circuits.len() + self.references.len() - 1) as u32))
     }
 
-    /// Adds an error, unless it is a duplicate.
     pub(super) fn fault(&mut self, fault: Diagnostic) {
         if self.diagnostics.len() < MOST_FAULTS && self.noted.insert(fault.clone()) {
             self.diagnostics.push(fault);
         }
     }
 
-    /// Moves the errors after the first `known` ones that are in another file to `place`. There the circuit is used;
+    /// Moves the errors after the first `known` ones that are in another file to `place`, where the circuit is used:
     /// the user may not know the file that declares it.
     pub(super) fn show_at(&mut self, place: Span, known: usize) {
         for fault in &mut self.diagnostics[known..] {
             if fault.labels.first().is_some_and(|label| label.span.file != place.file) {
-                shown_at(fault, place);
+                wording::shown_at(fault, place);
             }
         }
     }
 
-    /// The module of a circuit that is named from outside.
     pub(super) fn instance(&mut self, instance: &Instance) -> Option<ModuleId> {
-        let Some(at) = self.program.circuits.iter().position(|circuit| circuit.name == instance.circuit) else {
-            self.fault(unknown(self.program, instance));
+        let circuits = &self.program.circuits;
+        let Some(at) = circuits.iter().position(|circuit| circuit.name == instance.circuit) else {
+            let meant = Suggestion::of(&instance.circuit, circuits.iter().map(|circuit| circuit.name.as_str()));
+            self.fault(wording::unknown_circuit(&instance.circuit, &meant));
             return None;
         };
         let circuit = CircuitId(at as u32);
@@ -131,7 +121,6 @@ impl<'a> Builder<'a> {
         self.build(ModuleKey { circuit, arguments, absent: Vec::new() })
     }
 
-    /// The module of a circuit whose parameters all have defaults.
     pub(super) fn with_defaults(&mut self, circuit: CircuitId) -> Option<ModuleId> {
         let parameters = &self.circuit(circuit).parameters;
         if parameters.iter().any(|parameter| parameter.default.is_none()) {
@@ -141,14 +130,13 @@ impl<'a> Builder<'a> {
         self.build(ModuleKey { circuit, arguments, absent: Vec::new() })
     }
 
-    /// The module of a circuit with these parameters and without some of its inputs.
     pub(super) fn build(&mut self, key: ModuleKey) -> Option<ModuleId> {
         if let Some(known) = self.known.get(&key) {
             return *known;
         }
         let place = self.circuit(key.circuit).span;
         if Limit::Hierarchy.permit(self.depth as u64 + 1).is_err() {
-            self.fault(ElaborateError::TooDeep { most: Limit::Hierarchy.most() }.at(place));
+            self.fault(wording::too_deep(place));
             return None;
         }
         self.take(Limit::Modules, 1, place)?;
@@ -165,7 +153,6 @@ impl<'a> Builder<'a> {
         id
     }
 
-    /// The circuits of the program that were built, in the order of the program.
     pub(super) fn instances(&self) -> impl Iterator<Item = Instance> + '_ {
         let built = self.known.iter().filter(|(key, module)| {
             let is_declared = (key.circuit.0 as usize) < self.program.circuits.len();
@@ -177,12 +164,10 @@ impl<'a> Builder<'a> {
         })
     }
 
-    /// The ports of a module, as columns of a test.
     pub(super) fn columns(&self, id: ModuleId) -> (Vec<Column>, Vec<Column>) {
         let module = self.module(id);
         let columns = |ports: &[ModulePort]| ports.iter().map(|port| self.column(module, port)).collect();
-        let (inputs, outputs) = (columns(&module.inputs), columns(&module.outputs));
-        (inputs, outputs)
+        (columns(&module.inputs), columns(&module.outputs))
     }
 
     /// The net of that name which is no port, and where it is declared; `None` if there are several, as of a loop.
@@ -208,53 +193,34 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// A module that is being built.
 pub(super) struct ModuleBuilder<'a, 'b> {
     pub(super) builder: &'b mut Builder<'a>,
     pub(super) circuit: &'a Circuit,
     pub(super) module: Module,
     pub(super) frames: Vec<Scope>,
     pub(super) items: Vec<Item<'a>>,
-    /// The constants 0 and 1, if they exist already.
     pub(super) constants: [Option<Bit>; 2],
-    /// Circuits inside that have no name of their own.
     pub(super) unnamed: usize,
     /// Whether all nets without a width wait for each other.
     pub(super) only_loops: bool,
-    /// Whether the module has an error and cannot be used.
     pub(super) failed: bool,
-    /// The place of what is being built.
     pub(super) place: Span,
 }
 
 impl<'a, 'b> ModuleBuilder<'a, 'b> {
     fn new(builder: &'b mut Builder<'a>, id: CircuitId) -> Self {
         let circuit = builder.circuit(id);
-        let module = Module {
-            circuit: id,
-            inputs: Vec::new(),
-            outputs: Vec::new(),
-            signals: Vec::new(),
-            nets: Vec::new(),
-            sites: Vec::new(),
-            starts: Vec::new(),
-            output_bits: Vec::new(),
-            memories: Vec::new(),
-            sum: Sum::default(),
-        };
-        let (frames, items) = (Vec::new(), Vec::new());
-        let place = circuit.span;
         Self {
             builder,
             circuit,
-            module,
-            frames,
-            items,
+            module: Module { circuit: id, ..Module::default() },
+            frames: Vec::new(),
+            items: Vec::new(),
             constants: [None; 2],
             unnamed: 0,
             only_loops: false,
             failed: false,
-            place,
+            place: circuit.span,
         }
     }
 
@@ -286,7 +252,6 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         self.builder.fault(fault);
     }
 
-    /// Counts what is about to be made.
     pub(super) fn take(&mut self, limit: Limit, amount: u64) -> Option<()> {
         let taken = self.builder.take(limit, amount, self.place);
         self.failed |= taken.is_none();
@@ -314,7 +279,6 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         Some(())
     }
 
-    /// Makes a net with a width an input of the module.
     pub(super) fn input(&mut self, net: usize) {
         let first = self.module.inputs.iter().map(|port| port.width).sum::<u32>();
         let port = self.module.port(net);
@@ -324,42 +288,34 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         self.module.inputs.push(port);
     }
 
-    /// Makes a net with a width an output of the module.
     pub(super) fn output(&mut self, net: usize) {
         let port = self.module.port(net);
         self.module.output_bits.extend(port.first..port.first + port.width);
         self.module.outputs.push(port);
     }
 
-    /// Gives an input that a call leaves out its default value.
     fn absent(&mut self, net: usize) -> Option<()> {
         let default = self.circuit.nets[net].default.expect("only inputs with a value are left out");
-        let (value, span) = (self.size(default, 0)?, self.circuit.sizes[default.0 as usize].span);
+        let span = self.circuit.sizes[default.0 as usize].span;
+        let value = self.unsigned(default, 0, span)?;
         let ModuleNet { first, width, .. } = self.module.nets[net];
-        let width = width?;
-        let Ok(value) = u128::try_from(value) else {
-            self.fault(RangeError::NegativeConstant { value }.at(span));
-            return None;
-        };
-        for (bit, value) in (first..).zip(self.fitting_bits(value, width, span)?) {
+        for (bit, value) in (first..).zip(self.fitting_bits(value, width?, span)?) {
             self.module.signals[bit as usize] = ModuleSignal::Constant(value);
         }
         Some(())
     }
 
-    /// Adds an array of so many words of this width, or another net.
     pub(super) fn give_array(&mut self, net: usize, width: u32, words: Option<u32>) {
         let bits = u64::from(width) * u64::from(words.unwrap_or(1));
         if Limit::Width.permit(bits).is_err() {
             let span = self.module.nets[net].span;
-            self.fault(RangeError::NetWidth { width: bits.into(), most: Limit::Width.most() }.at(span));
+            self.fault(wording::net_width(bits.into(), span));
             return;
         }
         self.module.nets[net].words = words;
         self.give_width(net, bits as u32);
     }
 
-    /// Adds a net of this width.
     pub(super) fn give_width(&mut self, net: usize, width: u32) {
         // The first bit was counted when the net was opened.
         if self.take(Limit::Nets, u64::from(width).saturating_sub(1)).is_none() {
@@ -372,13 +328,11 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         self.module.signals.extend((0..width).map(signal));
     }
 
-    /// Declared widths of the nets inside, for each turn of each loop.
     pub(super) fn declared_width(&mut self, slot: NetSlot, frame: u32) -> Option<u32> {
         let size = self.circuit.nets[slot.0 as usize].width?;
         self.width(size, frame)
     }
 
-    /// The number of words of an array.
     pub(super) fn declared_words(&mut self, slot: NetSlot, frame: u32) -> Option<u32> {
         let size = self.circuit.nets[slot.0 as usize].words?;
         self.width(size, frame)
@@ -395,7 +349,7 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
             let missing: Vec<_> = bits.filter(|&bit| !self.is_driven(bit)).map(|bit| bit - first).collect();
             let span = *span;
             if let Some(bits) = undriven_bits(name, &missing, width.unwrap_or(0)) {
-                self.fault(ElaborateError::Undriven { bits }.at(span));
+                self.fault(wording::undriven(&bits, span));
             }
         }
     }
@@ -404,19 +358,16 @@ impl<'a, 'b> ModuleBuilder<'a, 'b> {
         !matches!(self.module.signals[bit as usize], ModuleSignal::Net { driver: None, .. })
     }
 
-    /// Sums up what the circuit will have when it is flattened.
     fn total(&mut self) {
         let sum = Sum::of(&self.module, &self.builder.modules, self.circuit.name.len());
         let over = sum.counts().into_iter().find(|(limit, count)| limit.permit(*count).is_err());
         if let Some((limit, count)) = over {
-            let circuit = self.circuit.name.clone();
-            self.fault(ElaborateError::TooLarge { circuit, count, limit }.at(self.circuit.span));
+            self.fault(wording::too_large(&self.circuit.name, count, limit, self.circuit.span));
         }
         self.module.sum = sum;
     }
 
-    /// The span of an expression.
-    pub(super) fn span(&self, expression: nbc_base::model::ExpressionId) -> Span {
+    pub(super) fn span(&self, expression: ExpressionId) -> Span {
         self.circuit.expressions[expression.0 as usize].span
     }
 }
@@ -430,12 +381,6 @@ fn undriven_bits(name: &str, missing: &[u32], width: u32) -> Option<String> {
         (bit, 0) => format!("{name}[{bit}]"),
         (low, run) => format!("{name}[{}..{low}]", low + run),
     })
-}
-
-/// A circuit that the program does not declare: a bug of the caller, or a name from the command line.
-fn unknown(program: &Program, instance: &Instance) -> Diagnostic {
-    let names = program.circuits.iter().map(|circuit| circuit.name.as_str());
-    unknown_circuit(&instance.circuit, &Suggestion::of(&instance.circuit, names))
 }
 
 #[cfg(test)]

@@ -3,11 +3,10 @@
 use std::ops::Range;
 
 use crate::elaborate::build::{ModuleBuilder, ModuleKey};
-use crate::elaborate::frame::Item;
 use crate::elaborate::module::{Bit, ModuleId, ModuleSignal, Site};
-use crate::elaborate::outside::IndexedNet;
 use crate::elaborate::table::TableValues;
-use crate::elaborate::wording::{ElaborateError, OperandText, RangeError, Wide, WidthError};
+use crate::elaborate::unroll::Item;
+use crate::elaborate::wording::{self, OperandText};
 use crate::index::ListIndex;
 use nbc_base::budget::Limit;
 use nbc_base::model::{
@@ -15,24 +14,18 @@ use nbc_base::model::{
 };
 use nbc_base::source::Span;
 
-/// `a` without `b`.
-const A_WITHOUT_B: u8 = 0b0100;
+const A_WITHOUT_B: Function = Function::new(0b0100);
 
-/// An expression that calls a circuit.
 struct Call<'c> {
     callee: CircuitId,
-    /// Its parameters; `None` if not given.
     arguments: &'c [Option<SizeId>],
     operands: &'c [Option<ExpressionId>],
-    /// The turns of the loops around it.
     frame: u32,
     span: Span,
 }
 
-/// What a part of an expression counts beside its bits, in steps.
 const PART_STEPS: u64 = 12;
 
-/// The word and the bits that are taken of a net.
 type NetPart = (Option<SizeId>, Option<(SizeId, SizeId)>);
 
 /// The values of the parts of an expression, each of which is used once.
@@ -52,7 +45,6 @@ impl Parts {
 }
 
 impl ModuleBuilder<'_, '_> {
-    /// Builds one statement.
     pub(super) fn item(&mut self, at: u32) {
         let item = self.items[at as usize];
         self.place = self.span(item.value);
@@ -72,7 +64,6 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// The number of bits that a statement drives with one value, if it is known.
     fn targets_width(&mut self, item: &Item<'_>) -> Option<u32> {
         if item.targets.len() != 1 && !item.joined {
             return None;
@@ -81,14 +72,12 @@ impl ModuleBuilder<'_, '_> {
         widths.into_iter().try_fold(0u32, |sum, width| sum.checked_add(width?))
     }
 
-    /// The number of bits of a target; one of a value that is discarded as a part of another.
     fn target_bits(&mut self, target: &Target, frame: u32) -> Option<u32> {
         let Some(slot) = target.net else { return Some(1) };
         let (_, bits) = self.target_range(slot, target, frame)?;
         Some(bits.len() as u32)
     }
 
-    /// The net of a target, and the bits of it that are driven.
     fn target_range(&mut self, slot: NetSlot, target: &Target, frame: u32) -> Option<(usize, Range<u32>)> {
         let net = self.net(slot, frame);
         self.module.nets[net].width?;
@@ -96,20 +85,18 @@ impl ModuleBuilder<'_, '_> {
     }
 
     /// Lets the parts of a value drive targets, the highest first.
-    fn drive_parts(&mut self, item: &Item<'_>, value: &[Bit], by: u32, span: Span) {
+    fn drive_parts(&mut self, item: &Item<'_>, value: &[Bit], by: u32, span: Span) -> Option<()> {
         let mut widths = Vec::new();
         for target in item.targets {
-            let Some(width) = self.target_bits(target, item.frame) else { return };
-            widths.push(width);
+            widths.push(self.target_bits(target, item.frame)?);
         }
         let total: u32 = widths.iter().sum();
         if value.len() as u32 != total {
             let found = OperandText { span, ..self.operand(item.value, value) };
             let (first, last) = (item.targets[0].span, item.targets[item.targets.len() - 1].span);
-            self.fault(
-                WidthError::Wrong { what: Wide::Parts { targets: first.to(last) }, expected: total, found }.into(),
-            );
-            return;
+            let what = "the value whose parts are named";
+            self.fault(wording::wrong_width(what, total, &found, Some(first.to(last))));
+            return None;
         }
         let mut high = value.len();
         for (target, width) in item.targets.iter().zip(widths) {
@@ -117,9 +104,9 @@ impl ModuleBuilder<'_, '_> {
             self.drive(target, &value[low..high], item.frame, by, span);
             high = low;
         }
+        Some(())
     }
 
-    /// A target as the name of a circuit inside.
     fn target_name(&self, target: &Target, frame: u32) -> Option<String> {
         let net = &self.module.nets[self.net(target.net?, frame)];
         let size = target.word.or(target.bits.map(|(high, _)| high));
@@ -129,23 +116,21 @@ impl ModuleBuilder<'_, '_> {
         Some(bit.map_or_else(|| net.name.clone(), |bit| format!("{}[{bit}]", net.name)))
     }
 
-    /// Lets a value drive a target.
     fn drive(&mut self, target: &Target, value: &[Bit], frame: u32, by: u32, span: Span) {
         let Some(slot) = target.net else { return };
         let Some((net, bits)) = self.target_range(slot, target, frame) else { return };
         let name = self.module.nets[net].name.clone();
         if value.len() != bits.len() {
             let found = OperandText { span, ..self.operand(self.items[by as usize].value, value) };
-            let what = Wide::Value { net: name, target: target.span };
-            self.fault(WidthError::Wrong { what, expected: bits.len() as u32, found }.into());
+            let what = format!("the value of `{name}`");
+            self.fault(wording::wrong_width(&what, bits.len() as u32, &found, Some(target.span)));
             return;
         }
         if let Some(array) = self.circuit.nets[slot.0 as usize].selects
             && let Some(words) = self.words_of(array, frame)
         {
-            let name = self.circuit.nets[array.0 as usize].name.clone();
-            let index = self.items[by as usize].value;
-            self.look_outside(IndexedNet { name, count: words, is_word: true }, index, value);
+            let (name, index) = (&self.circuit.nets[array.0 as usize].name, self.items[by as usize].value);
+            self.look_outside(name, (words, true), index, value);
         }
         let first = self.module.nets[net].first;
         for (bit, &driver) in bits.clone().zip(value) {
@@ -165,16 +150,16 @@ impl ModuleBuilder<'_, '_> {
             return;
         }
         let (first, net) = (*by, *net);
-        let first = self.items[first as usize].targets.iter().map(|target| target.span).next().unwrap_or(span);
-        let net = self.module.nets[net as usize].name.clone();
-        self.fault(ElaborateError::DrivenAgain { net, first: (first != span).then_some(first) }.at(span));
+        let first = self.items[first as usize].targets.first().map_or(span, |target| target.span);
+        let net = &self.module.nets[net as usize].name;
+        self.fault(wording::driven_again(net, (first != span).then_some(first), span));
     }
 
     fn start(&mut self, start: SizeId, first: Bit, width: u32, frame: u32) {
         let Some(value) = self.size(start, frame) else { return };
         if value < 0 || (width < 63 && value >= 1 << width) {
             let span = self.circuit.sizes[start.0 as usize].span;
-            self.fault(RangeError::StartValue { value, width }.at(span));
+            self.fault(wording::start_value(value, width, span));
             return;
         }
         let bit = |at: u32| at < 63 && value >> at & 1 == 1;
@@ -219,11 +204,7 @@ impl ModuleBuilder<'_, '_> {
             }
             ExpressionKind::Number { width, value } => self.number(*width, *value, frame, span)?,
             ExpressionKind::Computed { width, value } => {
-                let value = self.size(*value, frame)?;
-                let Ok(value) = u128::try_from(value) else {
-                    self.fault(RangeError::NegativeConstant { value }.at(span));
-                    return None;
-                };
+                let value = self.unsigned(*value, frame, span)?;
                 self.number(*width, value, frame, span)?
             }
             ExpressionKind::Net(slot) => self.bits(*slot, (None, None), frame)?,
@@ -256,7 +237,6 @@ impl ModuleBuilder<'_, '_> {
         Some(vec![value])
     }
 
-    /// The constant 0 or 1.
     pub(super) fn constant(&mut self, value: bool) -> Bit {
         if let Some(known) = self.constants[usize::from(value)] {
             return known;
@@ -266,9 +246,8 @@ impl ModuleBuilder<'_, '_> {
         made
     }
 
-    /// Whether a net is this constant.
-    pub(super) fn is_constant(&self, bit: Bit, value: bool) -> bool {
-        self.constants[usize::from(value)] == Some(bit)
+    pub(super) fn constant_of(&self, bit: Bit) -> Option<bool> {
+        [false, true].into_iter().find(|&value| self.constants[usize::from(value)] == Some(bit))
     }
 
     /// Adds a signal. If there is no room for it, it is any other: the module has failed.
@@ -297,7 +276,7 @@ impl ModuleBuilder<'_, '_> {
     /// The bits of a number, the lowest first; reports a number that does not fit into the width.
     pub(super) fn fitting_bits(&mut self, value: u128, width: u32, span: Span) -> Option<Vec<bool>> {
         if width < u128::BITS && value >> width != 0 {
-            self.fault(RangeError::ConstantWidth { value, width }.at(span));
+            self.fault(wording::constant_width(value, width, span));
             return None;
         }
         Some((0..width).map(|bit| bit < u128::BITS && value >> bit & 1 == 1).collect())
@@ -311,7 +290,6 @@ impl ModuleBuilder<'_, '_> {
         Some(bits.map(|bit| self.known(first + bit)).collect())
     }
 
-    /// The constant that a bit is, or the bit itself.
     fn known(&mut self, bit: Bit) -> Bit {
         match self.module.signals[bit as usize] {
             ModuleSignal::Constant(value) => self.constant(value),
@@ -319,7 +297,6 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// The bits of a net, of a word of it, or of a slice of either.
     fn range(
         &mut self,
         net: usize,
@@ -334,7 +311,7 @@ impl ModuleBuilder<'_, '_> {
                 let at = self.size(word, frame)?;
                 let Some(at) = u32::try_from(at).ok().filter(|at| *at < words) else {
                     let span = self.circuit.sizes[word.0 as usize].span;
-                    self.fault(RangeError::NoSuchWord { net: name, word: at, words }.at(span));
+                    self.fault(wording::no_such_word(&name, at, words, span));
                     return None;
                 };
                 (at * (width / words), width / words)
@@ -363,12 +340,12 @@ impl ModuleBuilder<'_, '_> {
         let places = SizeKind::log2(words.into()).max(1) as u32;
         if value.len() as u32 != places {
             let found = self.operand(index, &value);
-            let what = Wide::Index { net: name, words };
-            self.fault(WidthError::Wrong { what, expected: places, found }.into());
+            let what = format!("the value that selects one of {words} of `{name}`");
+            self.fault(wording::wrong_width(&what, places, &found, None));
             return None;
         }
         let is_word = self.module.nets[net].words.is_some();
-        self.look_outside(IndexedNet { name: name.clone(), count: words, is_word }, index, &value);
+        self.look_outside(&name, (words, is_word), index, &value);
         let word = width / words;
         let bits = match bits {
             Some(bits) => self.slice(bits, word, &name, frame)?,
@@ -398,7 +375,7 @@ impl ModuleBuilder<'_, '_> {
         let bits = u64::try_from(times).ok().map(|times| times.saturating_mul(value.len() as u64));
         if bits.is_none_or(|bits| Limit::Width.permit(bits).is_err()) {
             let span = self.circuit.sizes[count.0 as usize].span;
-            self.fault(RangeError::Repetitions { times, most: Limit::Width.most() }.at(span));
+            self.fault(wording::repetitions(times, span));
             return None;
         }
         Some(value.repeat(times as usize))
@@ -414,7 +391,7 @@ impl ModuleBuilder<'_, '_> {
         let width = values[0].len();
         if let Some(at) = values.iter().position(|value| value.len() != width) {
             let [first, second] = [0, at].map(|at| self.operand(operands[at], &values[at]));
-            self.fault(WidthError::Operands { operator: operator.word(), first, second }.into());
+            self.fault(wording::unequal(&format!("the operands of `{}`", operator.word()), &first, &second));
             return None;
         }
         Some((0..width).map(|bit| self.operation_bit(operator, values.iter().map(|value| value[bit]), span)).collect())
@@ -445,42 +422,36 @@ impl ModuleBuilder<'_, '_> {
         let [condition, then, otherwise] = &values[..] else { unreachable!("a choice has three parts") };
         if condition.len() != 1 {
             let found = self.operand(parts[0], condition);
-            self.fault(WidthError::Wrong { what: Wide::Condition, expected: 1, found }.into());
+            self.fault(wording::wide_condition(&found));
             return None;
         }
         if then.len() != otherwise.len() {
             let (first, second) = (self.operand(parts[1], then), self.operand(parts[2], otherwise));
-            self.fault(WidthError::Branches { first, second }.into());
+            self.fault(wording::unequal("the branches", &first, &second));
             return None;
         }
-        Some(
-            then.iter()
-                .zip(otherwise)
-                .map(|(&then, &otherwise)| self.select(condition[0], then, otherwise, span))
-                .collect(),
-        )
+        let pairs = then.iter().zip(otherwise);
+        Some(pairs.map(|(&then, &otherwise)| self.select(condition[0], then, otherwise, span)).collect())
     }
 
     /// `then` if the condition is 1, else `otherwise`. A choice by a constant needs no gates.
     pub(super) fn select(&mut self, condition: Bit, then: Bit, otherwise: Bit, span: Span) -> Bit {
-        if let Some(value) = [false, true].into_iter().find(|&value| self.is_constant(condition, value)) {
+        if let Some(value) = self.constant_of(condition) {
             return if value { then } else { otherwise };
         }
         let chosen = self.gate(Function::AND, [condition, then], span);
-        let other = self.gate(Function::new(A_WITHOUT_B), [otherwise, condition], span);
+        let other = self.gate(A_WITHOUT_B, [otherwise, condition], span);
         self.gate(Function::OR, [chosen, other], span)
     }
 
-    /// `value` if the condition is 0, else 0.
     fn unless(&mut self, condition: Bit, value: Bit, span: Span) -> Bit {
-        match [false, true].into_iter().find(|&known| self.is_constant(condition, known)) {
+        match self.constant_of(condition) {
             Some(false) => value,
             Some(true) => self.constant(false),
-            None => self.gate(Function::new(A_WITHOUT_B), [value, condition], span),
+            None => self.gate(A_WITHOUT_B, [value, condition], span),
         }
     }
 
-    /// Instantiates a circuit; `values` are the operands.
     fn call(&mut self, call: Call, values: Vec<Option<Vec<Bit>>>, name: Option<String>) -> Option<Vec<Vec<Bit>>> {
         let id = self.callee(&call, &values)?;
         let name = name.unwrap_or_else(|| {
@@ -492,15 +463,16 @@ impl ModuleBuilder<'_, '_> {
         let site = self.module.sites.len() as u32;
         let inputs = values.into_iter().flatten().flatten().collect();
         self.module.sites.push(Site { module: id, inputs, name });
-        let mut bits = 0..;
         let outputs: Vec<u32> = self.builder.module(id).outputs.iter().map(|port| port.width).collect();
-        let mut output = |width| {
-            bits.by_ref().take(width as usize).map(|bit| self.signal(ModuleSignal::Output { site, bit })).collect()
+        let mut bit = 0;
+        let mut output = |width: u32| {
+            let bits = bit..bit + width;
+            bit += width;
+            bits.map(|bit| self.signal(ModuleSignal::Output { site, bit })).collect()
         };
         Some(outputs.into_iter().map(&mut output).collect())
     }
 
-    /// A value with the name that advice calls it by.
     pub(super) fn operand(&self, id: ExpressionId, value: &[Bit]) -> OperandText {
         let kind = &self.circuit.expressions[id.0 as usize].kind;
         let net = match kind {
@@ -515,7 +487,6 @@ impl ModuleBuilder<'_, '_> {
         OperandText { width: value.len() as u32, span: self.span(id), net, constant }
     }
 
-    /// The module of a called circuit, if its parameters and the widths of the operands fit.
     fn callee(&mut self, call: &Call, values: &[Option<Vec<Bit>>]) -> Option<ModuleId> {
         let mut arguments = Vec::new();
         for size in call.arguments {
@@ -539,8 +510,8 @@ impl ModuleBuilder<'_, '_> {
             if value.len() as u32 != expected {
                 let found = self.operand(operand, value);
                 let circuit = self.builder.circuit(call.callee);
-                let what = Wide::Operand { port: circuit.nets[port].name.clone(), circuit: circuit.name.clone() };
-                self.fault(WidthError::Wrong { what, expected, found }.into());
+                let what = format!("the operand `{}` of `{}`", circuit.nets[port].name, circuit.name);
+                self.fault(wording::wrong_width(&what, expected, &found, None));
                 return None;
             }
         }

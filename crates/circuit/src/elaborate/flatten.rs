@@ -2,23 +2,21 @@
 
 use crate::elaborate::build::Builder;
 use crate::elaborate::module::{ModuleId, ModuleSignal};
-use crate::elaborate::wording::ElaborateError;
+use crate::elaborate::wording;
 use crate::index::ListIndex;
 use crate::{BlockId, Blocks, Cell, NetId, Netlist};
 use nbc_base::diag::Diagnostic;
 use nbc_base::source::Span;
 
-/// An instance of a module: the offset of its signals, and its name.
+/// An instance of a module: `base` is the offset of its signals.
 struct Place {
     module: ModuleId,
     base: u32,
-    /// The signals that drive its inputs.
     inputs: Vec<u32>,
     prefix: String,
     block: BlockId,
 }
 
-/// The netlist of a module.
 pub(super) fn flatten(builder: &Builder<'_>, top: ModuleId, name: &str) -> Result<Netlist, Diagnostic> {
     let mut netlist = Netlist::new(name);
     let places = places(builder, top, netlist.blocks_mut());
@@ -26,9 +24,11 @@ pub(super) fn flatten(builder: &Builder<'_>, top: ModuleId, name: &str) -> Resul
     let mut nets = vec![None; same.len()];
     add_inputs(builder, top, &mut netlist, &mut nets);
     add_cells(builder, &places, &same, &mut netlist, &mut nets);
-    connect(builder, &places, &same, &mut netlist, &nets);
-    name_cells(builder, &places, &same, &mut netlist, &nets);
-    add_outputs(builder, top, &same, &mut netlist, &nets);
+    let net = |end: u32| nets[end as usize].expect("every signal ends in a net");
+    let nets: Vec<NetId> = same.into_iter().map(net).collect();
+    connect(builder, &places, &mut netlist, &nets);
+    name_cells(builder, &places, &mut netlist, &nets);
+    add_outputs(builder, top, &mut netlist, &nets);
     Ok(netlist)
 }
 
@@ -53,7 +53,6 @@ fn places(builder: &Builder<'_>, top: ModuleId, blocks: &mut Blocks) -> Vec<Plac
     places
 }
 
-/// For each signal, the one it is an alias of, if any.
 fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<ListIndex>> {
     let mut same = Vec::new();
     // The instances inside an instance are adjacent, after those inside earlier instances.
@@ -78,7 +77,6 @@ fn aliases(builder: &Builder<'_>, places: &[Place]) -> Vec<Option<ListIndex>> {
     same
 }
 
-/// The final driver of each signal, or a signal that drives itself.
 fn resolve(mut same: Vec<Option<ListIndex>>) -> Result<Vec<u32>, usize> {
     for start in 0..same.len() {
         let mut end = start;
@@ -99,7 +97,6 @@ fn resolve(mut same: Vec<Option<ListIndex>>) -> Result<Vec<u32>, usize> {
     Ok(same.into_iter().zip(0..).map(|(end, at)| end.map_or(at, ListIndex::get)).collect())
 }
 
-/// The nets of the signals of a place that are named.
 fn named<'a>(builder: &'a Builder<'_>, place: &'a Place) -> impl Iterator<Item = (u32, String, Span)> + 'a {
     let module = builder.module(place.module);
     module.signals.iter().enumerate().filter_map(move |(at, signal)| {
@@ -116,7 +113,7 @@ fn self_driven(builder: &Builder<'_>, places: &[Place], at: usize) -> Diagnostic
     let nets: Vec<_> = named(builder, place).collect();
     let (_, name, span) =
         nets.iter().find(|net| net.0 as usize == at).or(nets.first()).expect("only nets drive themselves");
-    ElaborateError::DrivenByItself { net: name.clone() }.at(*span)
+    wording::driven_by_itself(name, *span)
 }
 
 fn add_inputs(builder: &Builder<'_>, top: ModuleId, netlist: &mut Netlist, nets: &mut [Option<NetId>]) {
@@ -150,44 +147,41 @@ fn add_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mu
     }
 }
 
-fn connect(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
-    let driver = |bit: u32| nets[same[bit as usize] as usize].expect("every signal ends in a net");
+fn connect(builder: &Builder<'_>, places: &[Place], netlist: &mut Netlist, nets: &[NetId]) {
     for place in places {
         for (signal, at) in builder.module(place.module).signals.iter().zip(place.base as usize..) {
             let ModuleSignal::Gate { function, pins, .. } = *signal else { continue };
-            let cell = nets[at].expect("every gate is a cell");
             for (pin, bit) in pins.into_iter().enumerate().take(function.arity()) {
-                netlist.connect(cell, pin as u8, driver(place.base + bit));
+                netlist.connect(nets[at], pin as u8, nets[(place.base + bit) as usize]);
             }
         }
     }
 }
 
 /// Cells are called as the outermost net that they drive, and begin with its start value.
-fn name_cells(builder: &Builder<'_>, places: &[Place], same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
-    let net = |signal: u32| nets[same[signal as usize] as usize].expect("every signal ends in a net");
+fn name_cells(builder: &Builder<'_>, places: &[Place], netlist: &mut Netlist, nets: &[NetId]) {
     for place in places {
         for (signal, name, _) in named(builder, place) {
-            if let Some(cell) = netlist.cell_mut(net(signal)) {
+            if let Some(cell) = netlist.cell_mut(nets[signal as usize]) {
                 cell.name.get_or_insert(name);
             }
         }
         for &(bit, start) in &builder.module(place.module).starts {
-            if let Some(cell) = netlist.cell_mut(net(place.base + bit)) {
+            if let Some(cell) = netlist.cell_mut(nets[(place.base + bit) as usize]) {
                 cell.start.get_or_insert(start);
             }
         }
     }
 }
 
-fn add_outputs(builder: &Builder<'_>, top: ModuleId, same: &[u32], netlist: &mut Netlist, nets: &[Option<NetId>]) {
+fn add_outputs(builder: &Builder<'_>, top: ModuleId, netlist: &mut Netlist, nets: &[NetId]) {
     let module = builder.module(top);
     let mut first = 0;
-    for (column, &width) in builder.columns(top).1.iter().zip(module.outputs.iter().map(|port| &port.width)) {
-        for (name, bit) in column.bits().into_iter().zip((0..width).rev()) {
+    for (column, port) in builder.columns(top).1.iter().zip(&module.outputs) {
+        for (name, bit) in column.bits().into_iter().zip((0..port.width).rev()) {
             let signal = module.output_bits[(first + bit) as usize];
-            netlist.add_output(name, nets[same[signal as usize] as usize].expect("every signal ends in a net"));
+            netlist.add_output(name, nets[signal as usize]);
         }
-        first += width;
+        first += port.width;
     }
 }

@@ -6,16 +6,12 @@ use nbc_base::diag::Diagnostic;
 use nbc_base::model::Instance;
 use nbc_base::source::Span;
 
-/// What an [`Inspector`](super::Inspector) found while it built circuits.
 #[derive(Clone, Debug, Default)]
 pub struct Inspection {
-    /// Everything that is wrong, once each.
     pub diagnostics: Vec<Diagnostic>,
-    /// The widths of the nets of each circuit that was built.
     pub widths: NetWidths,
-    /// The circuits that were built without errors, with the values of their parameters.
     pub instances: Vec<Instance>,
-    /// Whether nobody waited for the result any more, so that a part of it is missing.
+    /// Whether it ended early, so that a part of the result is missing.
     pub is_cancelled: bool,
 }
 
@@ -32,7 +28,6 @@ impl Inspection {
 /// The widths of nets, by the places of their declarations. A net of a circuit with parameters may have several.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct NetWidths {
-    /// In order of place.
     list: Vec<(Span, u32)>,
 }
 

@@ -2,14 +2,13 @@
 
 use crate::elaborate::build::Builder;
 use crate::elaborate::size;
-use crate::elaborate::wording::ElaborateError;
+use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Circuit, CircuitId, Size, SizeKind};
 use nbc_base::source::Span;
 
 impl Builder<'_> {
-    /// A value for each parameter; reports an error.
     pub(super) fn arguments(
         &mut self,
         circuit: CircuitId,
@@ -18,13 +17,8 @@ impl Builder<'_> {
         span: Span,
     ) -> Option<Vec<i128>> {
         self.take(Limit::Steps, cost(self.circuit(circuit)), span)?;
-        match arguments(self.circuit(circuit), given, operands, span) {
-            Ok(arguments) => Some(arguments),
-            Err(fault) => {
-                self.fault(fault);
-                None
-            }
-        }
+        let arguments = arguments(self.circuit(circuit), given, operands, span);
+        arguments.map_err(|fault| self.fault(fault)).ok()
     }
 }
 
@@ -37,7 +31,6 @@ pub(super) fn cost(circuit: &Circuit) -> u64 {
     ports.len() as u64 + parts.sum::<u64>()
 }
 
-/// A value for each parameter.
 pub(super) fn arguments(
     circuit: &Circuit,
     mut given: Vec<Option<i128>>,
@@ -56,8 +49,7 @@ pub(super) fn arguments(
             (Some(value), _) => value,
             (None, Some(default)) => size::value(&circuit.sizes, default, &values)?,
             (None, None) => {
-                let (circuit, parameter) = (circuit.name.clone(), parameter.name.clone());
-                return Err(ElaborateError::UnknownParameter { circuit, parameter }.at(span));
+                return Err(wording::unknown_parameter(&circuit.name, &parameter.name, span));
             }
         };
         values.push(value);
@@ -65,12 +57,11 @@ pub(super) fn arguments(
     Ok(values)
 }
 
-/// The widths of the output ports of a circuit with these parameters.
 pub(super) fn output_widths(circuit: &Circuit, arguments: &[i128]) -> Option<Vec<u32>> {
-    let ports = &circuit.nets[circuit.inputs..circuit.inputs + circuit.outputs];
-    let width = |net: &nbc_base::model::Net| match net.width {
-        Some(width) => size::value(&circuit.sizes, width, arguments).ok().and_then(|width| u32::try_from(width).ok()),
-        None => Some(1),
-    };
-    ports.iter().map(width).collect()
+    (circuit.inputs..circuit.inputs + circuit.outputs).map(|net| port_width(circuit, net, arguments)).collect()
+}
+
+pub(super) fn port_width(circuit: &Circuit, net: usize, arguments: &[i128]) -> Option<u32> {
+    let Some(width) = circuit.nets[net].width else { return Some(1) };
+    u32::try_from(size::value(&circuit.sizes, width, arguments).ok()?).ok()
 }

@@ -4,14 +4,13 @@ use std::collections::BTreeSet;
 
 use crate::elaborate::build::Builder;
 use crate::elaborate::module::{Module, ModuleId, ModuleSignal, Passes, Site};
-use crate::elaborate::wording::ElaborateError;
+use crate::elaborate::wording;
 use nbc_base::budget::{Limit, OverBudget};
 use nbc_base::diag::Diagnostic;
 use petgraph::algo::kosaraju_scc;
 use petgraph::graph::{DiGraph, NodeIndex};
 
 impl Builder<'_> {
-    /// Warns of loops without a start value in a module and the circuits it contains.
     pub(super) fn look_for_loops(&mut self, top: ModuleId) {
         let mut open = vec![top];
         while let Some(id) = open.pop().filter(|_| self.over.is_none()) {
@@ -36,10 +35,13 @@ impl Builder<'_> {
             .iter()
             .flatten()
             .any(|&at| at >= module.signals.len() || matches!(module.signals[at], ModuleSignal::Output { .. }));
-        let exact = match has_sites {
-            false => coarse,
-            true if self.find_passes(id).is_none() => return Vec::new(),
-            true => loops(&self.graph(self.module(id), Some(&self.passes))),
+        let exact = if has_sites {
+            if self.find_passes(id).is_none() {
+                return Vec::new();
+            }
+            loops(&self.graph(self.module(id), Some(&self.passes)))
+        } else {
+            coarse
         };
         exact.iter().filter_map(|signals| warning(self.module(id), signals)).collect()
     }
@@ -77,7 +79,8 @@ impl Builder<'_> {
             graph.add_node(());
         }
         let mut edge = |from: usize, to: usize| _ = graph.add_edge(NodeIndex::new(from), NodeIndex::new(to), ());
-        let started = started(module);
+        let mut started = vec![false; signals];
+        module.starts.iter().for_each(|&(bit, _)| started[bit as usize] = true);
         for (at, signal) in module.signals.iter().enumerate() {
             match *signal {
                 ModuleSignal::Gate { function, pins, .. } => {
@@ -131,15 +134,6 @@ impl Builder<'_> {
     }
 }
 
-fn started(module: &Module) -> Vec<bool> {
-    let mut started = vec![false; module.signals.len()];
-    for &(bit, _) in &module.starts {
-        started[bit as usize] = true;
-    }
-    started
-}
-
-/// The loops of a graph, each as its nodes in order of numbers.
 fn loops(graph: &DiGraph<(), ()>) -> Vec<Vec<usize>> {
     let is_loop = |nodes: &Vec<NodeIndex>| nodes.len() > 1 || graph.contains_edge(nodes[0], nodes[0]);
     let numbers = |nodes: Vec<NodeIndex>| {
@@ -163,6 +157,6 @@ fn warning(module: &Module, signals: &[usize]) -> Option<Diagnostic> {
         }
     }
     let first = &module.nets[*nets.first()? as usize];
-    let nets = nets.iter().map(|&net| module.nets[net as usize].name.clone()).collect();
-    Some(ElaborateError::NoStart { nets }.at(first.span))
+    let nets: Vec<String> = nets.iter().map(|&net| module.nets[net as usize].name.clone()).collect();
+    Some(wording::no_start(&nets, first.span))
 }

@@ -1,13 +1,26 @@
 //! Memories of environments: what reads and writes them becomes ports of the module, after those that are declared. The
 //! words read are inputs; the addresses, and the words written, are outputs.
 
+use std::ops::Range;
+
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::memory_ports::MemoryPorts;
 use nbc_base::budget::Limit;
 use nbc_base::model::NetSlot;
 
+/// The ports of a memory, counted over the bits of the inputs and outputs of its environment; the highest bit of a port
+/// comes first.
+#[derive(Clone, Debug)]
+pub struct MemoryPorts {
+    pub memory: usize,
+    pub words: usize,
+    pub width: usize,
+    /// The output bits of the address, and the input bits of the word.
+    pub reads: Vec<[Range<usize>; 2]>,
+    /// The output bits of the address, the word, the enable and the clock.
+    pub writes: Vec<[Range<usize>; 4]>,
+}
+
 impl ModuleBuilder<'_, '_> {
-    /// Makes the accesses to memories ports of the module.
     pub(super) fn memory_ports(&mut self) {
         let circuit = self.circuit;
         for (at, memory) in circuit.memories.iter().enumerate() {
@@ -42,8 +55,7 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// Makes a net a port; returns its bits among those of all inputs or outputs.
-    fn access(&mut self, slot: NetSlot, frame: u32, is_input: bool) -> Option<std::ops::Range<usize>> {
+    fn access(&mut self, slot: NetSlot, frame: u32, is_input: bool) -> Option<Range<usize>> {
         let net = self.net(slot, frame);
         let Some(width) = self.declared_width(slot, frame) else {
             self.failed = true;

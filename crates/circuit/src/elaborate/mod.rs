@@ -8,12 +8,10 @@ mod build;
 mod dense;
 mod emit;
 mod flatten;
-mod frame;
 mod inspection;
 mod instance;
 mod loops;
 mod memories;
-mod memory_ports;
 mod module;
 mod numbers;
 mod outside;
@@ -26,9 +24,9 @@ mod width;
 mod wording;
 
 pub use inspection::{Inspection, NetWidths};
-pub use memory_ports::MemoryPorts;
+pub use memories::MemoryPorts;
 pub use table_faults::{table_fault, table_in_bits};
-pub use wording::TableError;
+pub use wording::{not_a_pattern, two_else};
 
 use crate::Netlist;
 use nbc_base::budget::WorkBudget;
@@ -37,32 +35,33 @@ use nbc_base::model::{Circuit, CircuitId, Column, Instance, Program};
 use nbc_base::source::Span;
 
 use build::Builder;
-use module::ModuleId;
+use module::{Module, ModuleId};
 
-/// The netlist of a circuit.
 pub fn elaborate(program: &Program, instance: &Instance) -> Result<Netlist, Vec<Diagnostic>> {
-    let mut builder = Builder::new(program);
-    let module = builder.instance(instance);
-    finish(builder, module, &instance.to_string())
+    changed(program, instance, |_| {})
 }
 
 /// The part of a circuit's netlist that drives a net: its outputs are the bits of the net declared at `net`, in every
 /// iteration of the loops around it. The rest is there too, without a listener.
 pub fn elaborate_net(program: &Program, instance: &Instance, net: Span) -> Result<Netlist, Vec<Diagnostic>> {
-    let mut builder = Builder::new(program);
-    let module = builder.instance(instance);
-    if let Some(ModuleId(at)) = module {
-        builder.modules[at as usize].show(net);
-    }
-    finish(builder, module, &instance.to_string())
+    changed(program, instance, |module| module.show(net))
 }
 
 /// The netlist of a circuit whose outputs are followed by nets inside it, which are declared at these places.
 pub fn elaborate_watched(program: &Program, instance: &Instance, nets: &[Span]) -> Result<Netlist, Vec<Diagnostic>> {
+    changed(program, instance, |module| nets.iter().for_each(|&net| module.watch(net)))
+}
+
+/// The netlist of a circuit whose module is changed once it is built.
+fn changed(
+    program: &Program,
+    instance: &Instance,
+    change: impl FnOnce(&mut Module),
+) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.instance(instance);
     if let Some(ModuleId(at)) = module {
-        nets.iter().for_each(|&net| builder.modules[at as usize].watch(net));
+        change(&mut builder.modules[at as usize]);
     }
     finish(builder, module, &instance.to_string())
 }
@@ -79,14 +78,12 @@ pub fn elaborate_environment(
     finish(builder, module, &name).map(|netlist| (netlist, memories))
 }
 
-/// The netlist of a test's reference.
 pub fn elaborate_reference(program: &Program, circuit: &Circuit) -> Result<Netlist, Vec<Diagnostic>> {
     let mut builder = Builder::new(program);
     let module = builder.reference(circuit);
     finish(builder, module, &circuit.name)
 }
 
-/// Whether two instances are the same circuit with the same parameters, given or by default.
 pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> bool {
     let complete = |instance: &Instance| {
         let circuit = program.circuit(&instance.circuit)?;
@@ -97,14 +94,11 @@ pub fn is_same_instance(program: &Program, one: &Instance, other: &Instance) -> 
     one == other || (one.circuit == other.circuit && complete(one).is_some_and(|all| Some(all) == complete(other)))
 }
 
-/// The netlist of a module, if it has no errors.
 fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Result<Netlist, Vec<Diagnostic>> {
-    let netlist = module.and_then(|module| match flatten::flatten(&builder, module, name) {
-        Ok(netlist) => Some(netlist),
-        Err(fault) => {
-            builder.diagnostics.push(fault);
-            None
-        }
+    let netlist = module.map(|module| flatten::flatten(&builder, module, name)).transpose();
+    let netlist = netlist.unwrap_or_else(|fault| {
+        builder.diagnostics.push(fault);
+        None
     });
     match netlist {
         Some(netlist) if builder.diagnostics.iter().all(|diagnostic| !diagnostic.is_error()) => Ok(netlist),
@@ -116,24 +110,20 @@ fn finish(mut builder: Builder<'_>, module: Option<ModuleId>, name: &str) -> Res
 pub struct Inspector<'a>(Builder<'a>);
 
 impl<'a> Inspector<'a> {
-    /// An inspector of the circuits of a program, which has not built any.
     pub fn new(program: &'a Program, budget: WorkBudget) -> Self {
         Self(Builder::within(program, budget))
     }
 
-    /// What may still be made of the program.
     pub fn budget(&mut self) -> &mut WorkBudget {
         &mut self.0.budget
     }
 
-    /// Checks a circuit without parameters, or with their defaults.
     pub fn inspect(&mut self, circuit: CircuitId) {
         if let Some(module) = self.0.with_defaults(circuit) {
             self.0.look_for_loops(module);
         }
     }
 
-    /// Checks the reference of a test.
     pub fn inspect_body(&mut self, circuit: &'a Circuit) {
         if let Some(module) = self.0.reference(circuit) {
             self.0.look_for_loops(module);
@@ -158,12 +148,10 @@ impl<'a> Inspector<'a> {
         self.0.inner_net(module, name)
     }
 
-    /// Whether a circuit with numbers for its first parameters has memory, if it can be built.
     pub fn has_memory(&mut self, circuit: CircuitId, arguments: &[u64], place: Span) -> bool {
         self.0.with_arguments(circuit, arguments, place).is_some_and(|module| self.0.has_memory(module))
     }
 
-    /// The errors found, and the widths and instances that were needed to find them.
     pub fn finish(self) -> Inspection {
         Inspection::of(self.0)
     }

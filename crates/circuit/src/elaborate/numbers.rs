@@ -4,7 +4,7 @@ use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::instance;
 use crate::elaborate::size;
 use crate::elaborate::width::ExpressionWidths;
-use crate::elaborate::wording::{ElaborateError, RangeError};
+use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, FreeNumber, OutputValue, SizeId, SizeKind, Table};
 
@@ -16,13 +16,11 @@ pub(super) struct NeededWidths {
 }
 
 impl NeededWidths {
-    /// The width of a part, if it is known.
     pub(super) fn of(&self, part: ExpressionId) -> Option<u32> {
         self.widths.get((part.0 - self.first) as usize).copied().flatten()
     }
 }
 
-/// Whether an expression is a number without a width, or a table with such outputs.
 fn is_free(kind: &ExpressionKind, tables: &[Table]) -> bool {
     match kind {
         ExpressionKind::Unsized(_) => true,
@@ -129,14 +127,9 @@ impl ModuleBuilder<'_, '_> {
             // A parameter that nothing tells is that of a number of one bit.
             values.push(given.or_else(|| parameter.default.and_then(default)).unwrap_or(1));
         }
-        let width = |net: usize| match callee.nets[net].width {
-            Some(size) => size::value(&callee.sizes, size, &values).ok().and_then(|width| u32::try_from(width).ok()),
-            None => Some(1),
-        };
-        (0..operands.len()).map(width).collect()
+        (0..operands.len()).map(|net| instance::port_width(callee, net, &values)).collect()
     }
 
-    /// The value and the width of a number without a width of its own.
     pub(super) fn free_number(
         &mut self,
         id: ExpressionId,
@@ -147,20 +140,13 @@ impl ModuleBuilder<'_, '_> {
         let span = self.span(id);
         let value = match number {
             FreeNumber::Literal(value) => value,
-            FreeNumber::Size(size) => {
-                let value = self.size(size, frame)?;
-                let Ok(value) = u128::try_from(value) else {
-                    self.fault(RangeError::NegativeConstant { value }.at(span));
-                    return None;
-                };
-                value
-            }
+            FreeNumber::Size(size) => self.unsigned(size, frame, span)?,
         };
         match needed {
             Some(width) => Some((value, width)),
             None if value <= 1 => Some((value, 1)),
             None => {
-                self.fault(ElaborateError::NumberWithoutWidth { value }.at(span));
+                self.fault(wording::number_without_width(value, span));
                 None
             }
         }
@@ -176,7 +162,7 @@ impl ModuleBuilder<'_, '_> {
         });
         if let Some((id, value)) = wide {
             let span = self.span(id);
-            self.fault(ElaborateError::NumberWithoutWidth { value }.at(span));
+            self.fault(wording::number_without_width(value, span));
         }
         wide.is_some()
     }

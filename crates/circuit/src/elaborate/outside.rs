@@ -3,17 +3,8 @@
 
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::module::Bit;
-use crate::elaborate::wording::{ElaborateError, RangeError};
+use crate::elaborate::wording;
 use nbc_base::model::{ExpressionId, ExpressionKind, NetSlot};
-
-/// What a value selects a part of.
-pub(super) struct IndexedNet {
-    pub(super) name: String,
-    /// The number of its words, or of its bits.
-    pub(super) count: u32,
-    /// Whether its parts are the words of an array.
-    pub(super) is_word: bool,
-}
 
 impl ModuleBuilder<'_, '_> {
     /// The number of words of an array or a memory.
@@ -24,21 +15,28 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// Warns of a value that can be outside, and refuses a constant that is.
-    pub(super) fn look_outside(&mut self, selected: IndexedNet, index: ExpressionId, value: &[Bit]) {
-        let IndexedNet { name: net, count, is_word } = selected;
+    /// Warns of a value that can select beyond the last of `count` words or bits of a net, and refuses a constant that
+    /// does.
+    pub(super) fn look_outside(
+        &mut self,
+        net: &str,
+        (count, is_word): (u32, bool),
+        index: ExpressionId,
+        value: &[Bit],
+    ) {
         let number = |is_one: &dyn Fn(Bit) -> bool| {
             value.iter().rev().fold(0u64, |number, &bit| number << 1 | u64::from(is_one(bit)))
         };
-        let (least, most) = (number(&|bit| self.is_constant(bit, true)), number(&|bit| !self.is_constant(bit, false)));
+        let least = number(&|bit| self.constant_of(bit) == Some(true));
+        let most = number(&|bit| self.constant_of(bit) != Some(false));
         if most < u64::from(count) || self.is_always_inside(index, count) {
             return;
         }
         let span = self.span(index);
         let fault = match (least == most, is_word) {
-            (true, true) => RangeError::NoSuchWord { net, word: least as i128, words: count }.at(span),
-            (true, false) => RangeError::NoSuchBit { net, bit: least as i128, width: count }.at(span),
-            (false, _) => ElaborateError::IndexOutside { net, count, most, is_word }.at(span),
+            (true, true) => wording::no_such_word(net, least as i128, count, span),
+            (true, false) => wording::no_such_bit(net, least as i128, count, span),
+            (false, _) => wording::index_outside(net, count, most, is_word, span),
         };
         self.fault(fault);
     }
@@ -46,8 +44,8 @@ impl ModuleBuilder<'_, '_> {
     /// The same for the operands of `select`.
     pub(super) fn look_selected(&mut self, operands: &[Option<ExpressionId>], values: &[Option<Vec<Bit>>]) {
         let ([Some(of), Some(index)], [Some(bits), Some(value)]) = (operands, values) else { return };
-        let name = self.operand(*of, bits).net.unwrap_or_else(|| "a".to_owned());
-        self.look_outside(IndexedNet { name, count: bits.len() as u32, is_word: false }, *index, value);
+        let net = self.operand(*of, bits).net;
+        self.look_outside(net.as_deref().unwrap_or("a"), (bits.len() as u32, false), *index, value);
     }
 
     /// Whether a value is a net with an enumeration whose members are all inside.

@@ -1,6 +1,6 @@
 //! Integers that are known when a circuit is built.
 
-use crate::elaborate::wording::RangeError;
+use crate::elaborate::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Size, SizeId, SizeKind};
 
@@ -21,7 +21,7 @@ pub(super) fn value(sizes: &[Size], root: SizeId, variables: &[i128]) -> Result<
             }
             kind => Some(leaf(kind, variables)),
         };
-        done.push(value.ok_or_else(|| RangeError::Overflow.at(size.span))?);
+        done.push(value.ok_or_else(|| wording::overflow(size.span))?);
     }
     Ok(done.pop().expect("a size has a value"))
 }

@@ -2,7 +2,7 @@
 
 use crate::elaborate::build::{Builder, ModuleBuilder};
 use crate::elaborate::module::{Bit, Module, ModuleId, ModuleSignal};
-use crate::elaborate::wording::ElaborateError;
+use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 
 impl Builder<'_> {
@@ -68,10 +68,8 @@ impl ModuleBuilder<'_, '_> {
         items.dedup();
         for item in items {
             let target = self.items[item as usize].targets.iter().find(|target| target.start.is_some());
-            if let Some((target, net)) = target.and_then(|target| Some((target, target.net?))) {
-                let net = self.circuit.nets[net.0 as usize].name.clone();
-                self.fault(ElaborateError::OtherStart { net }.at(target.span));
-            }
+            let Some((span, net)) = target.and_then(|target| Some((target.span, target.net?))) else { continue };
+            self.fault(wording::other_start(&self.circuit.nets[net.0 as usize].name, span));
         }
     }
 }

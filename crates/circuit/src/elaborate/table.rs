@@ -1,10 +1,10 @@
 //! Truth tables to gates.
 
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::dense::{Dense, Shape};
+use crate::elaborate::dense::{self, Shape};
 use crate::elaborate::module::Bit;
 use crate::elaborate::table_faults::{table_fault, table_in_bits};
-use crate::elaborate::wording::{ElaborateError, OperandText, WidthError};
+use crate::elaborate::wording::{self, OperandText};
 use nbc_base::budget::Limit;
 use nbc_base::model::{ExpressionId, Function, OutputValue, Table, TableOutput, TableRow};
 use nbc_base::source::Span;
@@ -17,7 +17,6 @@ const MAX_DENSE_BITS: usize = 12;
 enum OutputBit {
     /// A value, or a bit that the compiler chooses.
     Fixed(Option<bool>),
-    /// A net.
     Net(Bit),
 }
 
@@ -35,7 +34,6 @@ impl OutputBit {
 pub(super) struct TableValues<'a> {
     pub(super) expressions: &'a [ExpressionId],
     pub(super) bits: &'a [Vec<Bit>],
-    /// The width of the outputs, if it is known.
     pub(super) width: Option<u32>,
 }
 
@@ -48,7 +46,8 @@ impl ModuleBuilder<'_, '_> {
         let table = if table.is_in_bits() && !digits {
             table
         } else {
-            match table_in_bits(table, inputs.len()).and_then(|table| table_fault(&table).map_or(Ok(table), Err)) {
+            let found = table_in_bits(table, inputs.len());
+            match found.and_then(|table| table_fault(&table).map_or(Ok(table), Err)) {
                 Ok(table) => {
                     resolved = table;
                     &resolved
@@ -60,8 +59,7 @@ impl ModuleBuilder<'_, '_> {
             }
         };
         if let Some(row) = table.rows.iter().find(|row| row.bits().len() != inputs.len()) {
-            let error = ElaborateError::PatternWidth { found: row.bits().len(), expected: inputs.len() };
-            self.fault(error.at(row.span));
+            self.fault(wording::pattern_width(row.bits().len(), inputs.len(), row.span));
             return None;
         }
         let mut outputs: Vec<Vec<OutputBit>> = Vec::new();
@@ -72,14 +70,13 @@ impl ModuleBuilder<'_, '_> {
         if let Some(at) = outputs.iter().position(|output| output.len() != width) {
             let mut texts = table.outputs().zip(&outputs).map(|(output, bits)| self.output_text(output, bits, values));
             let (first, second) = (texts.next()?, texts.nth(at - 1)?);
-            self.fault(WidthError::Outputs { first, second }.into());
+            self.fault(wording::unequal("the outputs of the table", &first, &second));
             return None;
         }
         let patterns = if inputs.len() <= MAX_DENSE_BITS { 1 << inputs.len() } else { table.rows.len() };
         self.take(Limit::Steps, (patterns as u64).saturating_mul(width as u64))?;
         let column = |bit: usize| outputs.iter().map(|output| output[bit]).collect::<Vec<_>>();
-        let columns: Vec<_> = (0..width).map(column).collect();
-        Some(columns.iter().map(|column| self.table_bit(table, inputs, column)).collect())
+        Some((0..width).map(|bit| self.table_bit(table, inputs, &column(bit))).collect())
     }
 
     /// The bits of an output, the lowest first.
@@ -89,17 +86,14 @@ impl ModuleBuilder<'_, '_> {
                 Some(width) => width,
                 None if value <= 1 => 1,
                 None => {
-                    self.fault(ElaborateError::NumberWithoutWidth { value }.at(output.span));
+                    self.fault(wording::number_without_width(value, output.span));
                     return None;
                 }
             };
             let bits = self.fitting_bits(value, width, output.span)?;
             return Some(bits.into_iter().map(|bit| OutputBit::Fixed(Some(bit))).collect());
         }
-        let value = |bit| match [false, true].into_iter().find(|&value| self.is_constant(bit, value)) {
-            Some(value) => OutputBit::Fixed(Some(value)),
-            None => OutputBit::Net(bit),
-        };
+        let value = |bit| self.constant_of(bit).map_or(OutputBit::Net(bit), |value| OutputBit::Fixed(Some(value)));
         Some(match &output.value {
             OutputValue::Number(_) => unreachable!("numbers were handled"),
             OutputValue::Bits(bits) => bits.iter().rev().map(|&bit| OutputBit::Fixed(bit)).collect(),
@@ -123,8 +117,8 @@ impl ModuleBuilder<'_, '_> {
         let otherwise = otherwise.first().copied().unwrap_or(OutputBit::Fixed(None));
         let fixed: Option<Vec<_>> = rows.iter().map(|bit| bit.fixed()).collect();
         if let (Some(rows), Some(otherwise), true) = (fixed, otherwise.fixed(), inputs.len() <= MAX_DENSE_BITS) {
-            let dense = Dense::of(table, inputs.len(), &rows, otherwise);
-            return self.shape(&dense.shape(), inputs, table.span);
+            let outputs = dense::outputs(table, inputs.len(), &rows, otherwise);
+            return self.shape(&dense::shape(&outputs), inputs, table.span);
         }
         let mut terms = Vec::new();
         for (row, &bit) in table.rows.iter().zip(rows) {
@@ -146,14 +140,12 @@ impl ModuleBuilder<'_, '_> {
         }
     }
 
-    /// Whether the inputs match no row.
     fn no_row(&mut self, table: &Table, inputs: &[Bit]) -> Bit {
         let terms = table.rows.iter().map(|row| self.term(row, inputs, table.span)).collect();
         let any = self.join(Function::OR, terms, false, table.span);
         self.gate(Function::NOT, [any; 2], table.span)
     }
 
-    /// Whether the inputs match a row.
     fn term(&mut self, row: &TableRow, inputs: &[Bit], span: Span) -> Bit {
         let mut literals = Vec::new();
         for (value, &input) in row.bits().iter().rev().zip(inputs) {

@@ -1,6 +1,6 @@
 //! What is wrong with a truth table: it needs exactly one row for every pattern.
 
-use crate::elaborate::wording::TableError;
+use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{OutputValue, Table, TableOutput, TablePattern, TableRow};
@@ -17,7 +17,7 @@ pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
         };
         if let Some(value) = number {
             if width < 128 && value >> width != 0 {
-                return Err(TableError::WideNumber { value, width }.at(row.span));
+                return Err(wording::wide_number(value, width, row.span));
             }
             let bit = |bit: usize| Some(bit < 128 && value >> bit & 1 == 1);
             row.pattern = TablePattern::Bits((0..width).rev().map(bit).collect());
@@ -30,11 +30,11 @@ pub fn table_in_bits(table: &Table, width: usize) -> Result<Table, Diagnostic> {
 /// pairs of rows are compared, so there must be few.
 pub fn table_fault(table: &Table) -> Option<Diagnostic> {
     if Limit::TableRows.permit(table.rows.len() as u64).is_err() {
-        return Some(TableError::TooManyRows { rows: table.rows.len(), most: Limit::TableRows.most() }.at(table.span));
+        return Some(wording::too_many_rows(table.rows.len(), table.span));
     }
     let is_wide = |row: &&TableRow| Limit::TableBits.permit(row.bits().len() as u64).is_err();
     if let Some(row) = table.rows.iter().find(is_wide) {
-        return Some(TableError::TooManyBits { bits: row.bits().len(), most: Limit::TableBits.most() }.at(row.span));
+        return Some(wording::too_many_bits(row.bits().len(), row.span));
     }
     uneven(table.rows.iter().map(|row| (row.bits().len(), row.span)), "patterns")
         .or_else(|| uneven(table.outputs().filter_map(written), "outputs"))
@@ -50,12 +50,11 @@ fn written(output: &TableOutput) -> Option<(usize, Span)> {
     }
 }
 
-/// The first width that differs from the previous one.
-fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &'static str) -> Option<Diagnostic> {
+/// The first width that differs from the one before it.
+fn uneven(widths: impl Iterator<Item = (usize, Span)>, what: &str) -> Option<Diagnostic> {
     let widths: Vec<_> = widths.collect();
     let pair = widths.windows(2).find(|pair| pair[0].0 != pair[1].0)?;
-    let [(before, first), (here, span)] = [pair[0], pair[1]];
-    Some(TableError::Uneven { what, bits: [before, here], first }.at(span))
+    Some(wording::uneven(what, pair[0], pair[1]))
 }
 
 fn overlap(table: &Table) -> Option<Diagnostic> {
@@ -63,7 +62,7 @@ fn overlap(table: &Table) -> Option<Diagnostic> {
         |a: &TableRow, b: &TableRow| a.bits().iter().zip(b.bits()).all(|(a, b)| a.is_none() || b.is_none() || a == b);
     table.rows.iter().enumerate().find_map(|(at, row)| {
         let first = table.rows[..at].iter().find(|first| both(first, row))?;
-        Some(TableError::Overlap { first: first.span }.at(row.span))
+        Some(wording::overlap(first.span, row.span))
     })
 }
 
@@ -84,11 +83,10 @@ fn missing(table: &Table) -> Option<Diagnostic> {
     if !left.is_empty() {
         return None;
     }
-    let error = match example.is_empty() {
-        true => TableError::Empty,
-        false => TableError::MissingRow { pattern: example, rest: rest(table) },
-    };
-    Some(error.at(table.span))
+    Some(match example.is_empty() {
+        true => wording::no_rows(table.span),
+        false => wording::missing_row(&example, rest(table), table.span),
+    })
 }
 
 /// A row of zeros for the remaining patterns, and the end of the last row; `None` if the width of the outputs is not

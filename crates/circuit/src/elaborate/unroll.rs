@@ -3,13 +3,40 @@
 use std::ops::Range;
 
 use crate::elaborate::build::ModuleBuilder;
-use crate::elaborate::frame::{Item, Scope};
 use crate::elaborate::module::ModuleNet;
 use crate::elaborate::size;
-use crate::elaborate::wording::{ElaborateError, RangeError};
+use crate::elaborate::wording;
 use nbc_base::budget::Limit;
-use nbc_base::model::{Block, NetSlot, Size, SizeId, SizeKind, Statement};
+use nbc_base::model::{Block, ExpressionId, NetSlot, Size, SizeId, SizeKind, Statement, Target};
 use nbc_base::source::Span;
+
+/// A block of statements in one turn of the loops around it, with its nets.
+pub(super) struct Scope {
+    pub(super) parent: Option<u32>,
+    /// The first slot of the block's nets, and the net it is in this turn.
+    pub(super) first_slot: u32,
+    pub(super) first_net: u32,
+    pub(super) nets: u32,
+    pub(super) variables: Vec<i128>,
+    /// The loop variables as a suffix of names.
+    pub(super) turn: String,
+}
+
+impl Scope {
+    /// The first slot of the block's nets, its net in this iteration, and the number of slots.
+    pub(super) fn nets(&self) -> (u32, u32, u32) {
+        (self.first_slot, self.first_net, self.nets)
+    }
+}
+
+#[derive(Clone, Copy)]
+pub(super) struct Item<'a> {
+    pub(super) frame: u32,
+    pub(super) targets: &'a [Target],
+    /// Whether the targets are the parts of one value.
+    pub(super) joined: bool,
+    pub(super) value: ExpressionId,
+}
 
 impl<'a> ModuleBuilder<'a, '_> {
     /// Unrolls loops: fills the list of statements to build.
@@ -20,7 +47,7 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    /// A block in one turn of the loops around it, if there is room for it.
+    /// Opens a block in one turn of the loops around it, if there is room for it.
     fn open_frame(&mut self, parent: Option<u32>, block: &Block, variables: Vec<i128>, turn: String) -> Option<u32> {
         let first_net = self.module.nets.len() as u32;
         let nets = &self.circuit.nets[block.nets.start as usize..block.nets.end as usize];
@@ -47,7 +74,10 @@ impl<'a> ModuleBuilder<'a, '_> {
     fn unroll_block(&mut self, frame: u32, block: &'a Block) {
         for statement in &block.statements {
             if let Statement::Let { variable, value } = statement {
-                self.name_integer(frame, *variable, *value);
+                match self.size(*value, frame) {
+                    Some(value) => set_variable(&mut self.frames[frame as usize].variables, *variable, value),
+                    None => self.failed = true,
+                }
             }
         }
         for statement in &block.statements {
@@ -88,13 +118,6 @@ impl<'a> ModuleBuilder<'a, '_> {
         }
     }
 
-    fn name_integer(&mut self, frame: u32, variable: u32, value: SizeId) {
-        match self.size(value, frame) {
-            Some(value) => set_variable(&mut self.frames[frame as usize].variables, variable, value),
-            None => self.failed = true,
-        }
-    }
-
     fn unroll_loop(&mut self, frame: u32, variable: u32, range: (SizeId, SizeId), span: Span, body: &'a Block) {
         let (Some(from), Some(to)) = (self.size(range.0, frame), self.size(range.1, frame)) else {
             self.failed = true;
@@ -108,16 +131,13 @@ impl<'a> ModuleBuilder<'a, '_> {
         if from > to && is_fixed(range.1) {
             let is_literal =
                 [range.0, range.1].iter().all(|end| matches!(sizes[end.0 as usize].kind, SizeKind::Literal(_)));
-            self.fault(RangeError::DescendingLoop { ends: [from, to], is_literal }.at(span));
-            self.failed = true;
+            self.fault(wording::descending_loop([from, to], is_literal, span));
             return;
         }
         let turns = u64::try_from(to.saturating_sub(from).max(0)).unwrap_or(u64::MAX);
         let statements = turns.saturating_mul(body.statements.len() as u64 + 1);
         if Limit::Statements.permit(statements).is_err() {
-            let most = Limit::Statements.most();
-            self.fault(ElaborateError::TooManyTurns { statements, most }.at(span));
-            self.failed = true;
+            self.fault(wording::too_many_turns(statements, span));
             return;
         }
         for value in from..to {
@@ -149,41 +169,44 @@ impl<'a> ModuleBuilder<'a, '_> {
     pub(super) fn size(&mut self, size: SizeId, frame: u32) -> Option<i128> {
         let first = Size::first_part(&self.circuit.sizes, size);
         self.take(Limit::Steps, u64::from(size.0 - first.0))?;
-        match size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables) {
-            Ok(value) => Some(value),
-            Err(fault) => {
-                self.fault(fault);
-                None
-            }
+        let value = size::value(&self.circuit.sizes, size, &self.frames[frame as usize].variables);
+        value.map_err(|fault| self.fault(fault)).ok()
+    }
+
+    /// The value of a size that is a constant of the circuit, at `span`.
+    pub(super) fn unsigned(&mut self, size: SizeId, frame: u32, span: Span) -> Option<u128> {
+        let value = self.size(size, frame)?;
+        let unsigned = u128::try_from(value).ok();
+        if unsigned.is_none() {
+            self.fault(wording::negative_constant(value, span));
         }
+        unsigned
     }
 
     /// A width: a size from 1 to the most bits of a net.
     pub(super) fn width(&mut self, size: SizeId, frame: u32) -> Option<u32> {
         let value = self.size(size, frame)?;
-        if let Some(width) =
-            u32::try_from(value).ok().filter(|&width| width >= 1 && Limit::Width.permit(width.into()).is_ok())
-        {
-            return Some(width);
+        let width = u32::try_from(value).ok();
+        let width = width.filter(|&width| width >= 1 && Limit::Width.permit(width.into()).is_ok());
+        if width.is_none() {
+            self.fault(wording::net_width(value, self.circuit.sizes[size.0 as usize].span));
         }
-        let error = RangeError::NetWidth { width: value, most: Limit::Width.most() };
-        self.fault(error.at(self.circuit.sizes[size.0 as usize].span));
-        None
+        width
     }
 
     /// The bits of a slice of a net that wide.
     pub(super) fn slice(&mut self, bits: (SizeId, SizeId), width: u32, name: &str, frame: u32) -> Option<Range<u32>> {
         let (high, low) = (self.size(bits.0, frame)?, self.size(bits.1, frame)?);
         let ends = [bits.0, bits.1].map(|end| self.circuit.sizes[end.0 as usize]);
-        let (span, net) = (ends[0].span.to(ends[1].span), name.to_owned());
+        let span = ends[0].span.to(ends[1].span);
         if high < low {
             let is_literal = ends.iter().all(|end| matches!(end.kind, SizeKind::Literal(_)));
-            self.fault(RangeError::AscendingSlice { net, ends: [high, low], is_literal }.at(span));
+            self.fault(wording::ascending_slice(name, [high, low], is_literal, span));
             return None;
         }
         if low < 0 || high >= i128::from(width) {
             let bit = if low < 0 { low } else { high };
-            self.fault(RangeError::NoSuchBit { net, bit, width }.at(span));
+            self.fault(wording::no_such_bit(name, bit, width, span));
             return None;
         }
         Some(low as u32..high as u32 + 1)

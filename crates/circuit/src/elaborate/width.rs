@@ -4,19 +4,16 @@ use std::collections::VecDeque;
 
 use crate::elaborate::build::ModuleBuilder;
 use crate::elaborate::instance;
-use crate::elaborate::wording::ElaborateError;
+use crate::elaborate::wording;
 use nbc_base::budget::Limit;
 use nbc_base::model::{CircuitId, ExpressionId, ExpressionKind, NetSlot, OutputValue, SizeId, TableOutput};
 
-/// What the width of a part of an expression counts, in steps.
 const WIDTH_STEPS: u64 = 4;
 
-/// The width of a part of an expression.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum PartWidth {
-    /// So many bits.
     Known(u32),
-    /// As many as its context needs: it has only numbers without a width.
+    /// As many bits as its context needs: it has only numbers without a width.
     Free,
     /// Not known yet.
     Unknown,
@@ -27,12 +24,16 @@ impl PartWidth {
         width.map_or(Self::Unknown, Self::Known)
     }
 
-    /// The width, if it is known.
     fn bits(self) -> Option<u32> {
         match self {
             Self::Known(width) => Some(width),
             _ => None,
         }
+    }
+
+    /// The width as a part of a longer value, where numbers alone are bits.
+    fn joined(self) -> Option<u32> {
+        if self == Self::Free { Some(1) } else { self.bits() }
     }
 
     /// The width of parts that are equally wide: a known one before one that may become known.
@@ -57,7 +58,6 @@ impl ExpressionWidths {
         self.parts[(id.0 - self.first) as usize]
     }
 
-    /// The width of a part or of the whole, if it is known.
     pub(super) fn of(&self, id: ExpressionId) -> Option<u32> {
         match self.parts.get((id.0 - self.first) as usize) {
             Some(part) => part.bits(),
@@ -163,7 +163,7 @@ impl ModuleBuilder<'_, '_> {
             for net in self.driven_nets(item) {
                 if self.module.nets[net].width.is_none() {
                     let (net, span) = (self.module.nets[net].name.clone(), self.module.nets[net].span);
-                    self.fault(ElaborateError::UnknownWidth { net }.at(span));
+                    self.fault(wording::unknown_width(&net, span));
                 }
             }
         }
@@ -209,17 +209,10 @@ impl ModuleBuilder<'_, '_> {
                 one(width.map(|width| words.map_or(1, |words| width / words)))
             }
             ExpressionKind::Concatenation(parts) => {
-                let width = |part: &ExpressionId| match found.part(*part) {
-                    PartWidth::Free => Some(1),
-                    part => part.bits(),
-                };
-                one(parts.iter().try_fold(0u32, |sum, part| sum.checked_add(width(part)?)))
+                one(parts.iter().try_fold(0u32, |sum, part| sum.checked_add(found.part(*part).joined()?)))
             }
             ExpressionKind::Repetition { count, value } => {
-                let value = match found.part(*value) {
-                    PartWidth::Free => Some(1),
-                    part => part.bits(),
-                };
+                let value = found.part(*value).joined();
                 let count = self.size(*count, frame);
                 one(count.zip(value).and_then(|(count, value)| u32::try_from(count).ok()?.checked_mul(value)))
             }

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::fmt::Write;
 
 use crate::and_graph::{AndGraph, AndLiteral};
-use crate::formats::design::{Design, Forcing, Register, RegisterKind};
+use crate::formats::design::{Design, Register};
 use crate::formats::names::{FileNames, free};
-use crate::formats::wording::{AigerError, AigerPlace};
+use crate::formats::wording::aiger as wording;
+use crate::formats::wording::aiger::{AigerPlace, BadLiteral};
 use crate::network::View;
 use crate::{NetId, Netlist};
 use nbc_base::budget::Limit;
@@ -25,13 +26,10 @@ pub fn read(bytes: &[u8], clock: Option<&str>) -> Result<Design, Diagnostic> {
 pub(super) struct AigerReader<'b> {
     bytes: &'b [u8],
     at: usize,
-    /// The lines read so far.
     lines: usize,
-    /// The start of the last token.
-    place: AigerPlace,
+    pub(super) place: AigerPlace,
 }
 
-/// The numbers of the header.
 pub(super) struct AigerHeader {
     binary: bool,
     pub(super) variables: usize,
@@ -39,15 +37,12 @@ pub(super) struct AigerHeader {
     latches: usize,
     outputs: usize,
     ands: usize,
-    /// Properties and constraints, in files of version 1.9.
     bad: usize,
     constraints: usize,
 }
 
-/// A literal with its position.
 pub(super) type Placed = (usize, AigerPlace);
 
-/// A latch: its literal, its next literal, its start value.
 pub(super) struct AigerLatch {
     pub(super) literal: usize,
     pub(super) next: usize,
@@ -55,7 +50,6 @@ pub(super) struct AigerLatch {
     pub(super) place: AigerPlace,
 }
 
-/// A gate: its literal and the literals of its pins.
 #[derive(Clone, Copy)]
 pub(super) struct And {
     pub(super) out: usize,
@@ -63,7 +57,6 @@ pub(super) struct And {
     pub(super) place: AigerPlace,
 }
 
-/// The contents of a file before its symbols.
 pub(super) struct AigerGraph {
     pub(super) inputs: Vec<Placed>,
     pub(super) latches: Vec<AigerLatch>,
@@ -78,19 +71,15 @@ impl<'b> AigerReader<'b> {
         Self { bytes, at: 0, lines: 0, place: AigerPlace::Line(1) }
     }
 
-    pub(super) fn fault<T>(&self, error: AigerError) -> Result<T, Diagnostic> {
-        Err(error.at(self.place))
-    }
-
     fn line(&mut self) -> Result<&'b str, Diagnostic> {
         let rest = &self.bytes[self.at..];
         self.lines += 1;
         self.place = AigerPlace::Line(self.lines);
         let Some(end) = rest.iter().position(|&byte| byte == b'\n') else {
-            return self.fault(AigerError::EndOfFile);
+            return Err(wording::end_of_file(self.place));
         };
         let Ok(line) = std::str::from_utf8(&rest[..end]) else {
-            return self.fault(AigerError::NotText);
+            return Err(wording::not_text(self.place));
         };
         self.at += end + 1;
         Ok(line.trim_end_matches('\r'))
@@ -98,16 +87,13 @@ impl<'b> AigerReader<'b> {
 
     fn numbers(&mut self) -> Result<Vec<usize>, Diagnostic> {
         let line = self.line()?;
-        match line.split(' ').map(str::parse).collect() {
-            Ok(numbers) => Ok(numbers),
-            Err(_) => self.fault(AigerError::NotNumbers { found: excerpt(line) }),
-        }
+        line.split(' ').map(str::parse).collect::<Result<_, _>>().map_err(|_| wording::not_numbers(line, self.place))
     }
 
     fn literal(&mut self, what: &'static str) -> Result<Placed, Diagnostic> {
         match self.numbers()?[..] {
             [literal] => Ok((literal, self.place)),
-            ref numbers => self.fault(AigerError::PortLiterals { what, found: numbers.len() }),
+            ref numbers => Err(wording::port_literals(what, numbers.len(), self.place)),
         }
     }
 
@@ -117,36 +103,37 @@ impl<'b> AigerReader<'b> {
         let binary = match words.next() {
             Some("aig") => true,
             Some("aag") => false,
-            _ => return self.fault(AigerError::NotAiger { found: excerpt(line) }),
+            _ => return Err(wording::not_aiger(line, self.place)),
         };
         let Ok(numbers) = words.map(str::parse).collect::<Result<Vec<usize>, _>>() else {
-            return self.fault(AigerError::Header { found: excerpt(line) });
+            return Err(wording::header(line, self.place));
         };
+        let header_numbers = || wording::header_numbers(numbers.len(), self.place);
         let [variables, inputs, latches, outputs, ands, ref extra @ ..] = numbers[..] else {
-            return self.fault(AigerError::HeaderNumbers { found: numbers.len() });
+            return Err(header_numbers());
         };
         if extra.len() > EXTRA.len() {
-            return self.fault(AigerError::HeaderNumbers { found: numbers.len() });
+            return Err(header_numbers());
         }
         if let Some((&number, what)) = extra.iter().zip(EXTRA).skip(2).find(|(number, _)| **number > 0) {
-            return self.fault(AigerError::Liveness { what, number });
+            return Err(wording::liveness(what, number, self.place));
         }
         let [bad, constraints] = [0, 1].map(|at| extra.get(at).copied().unwrap_or(0));
         if let Some(&number) = numbers.iter().find(|&&number| Limit::AigerVariables.permit(number as u64).is_err()) {
-            return self.fault(AigerError::TooLarge { number, most: Limit::AigerVariables.most() });
+            return Err(wording::too_large(number, self.place));
         }
         // A binary file only states the number of its inputs.
         if Limit::AigerPorts.permit(inputs.max(latches) as u64).is_err() {
-            return self.fault(AigerError::TooManyPorts { most: Limit::AigerPorts.most() });
+            return Err(wording::too_many_ports(self.place));
         }
         let used = inputs + latches + ands;
         if used > variables || binary && used != variables {
-            return self.fault(AigerError::Sum { inputs, latches, ands, variables, binary });
+            return Err(wording::sum([inputs, latches, ands], variables, binary, self.place));
         }
         // Every output takes at least two bytes and every gate two, so the header cannot announce more than the file
         // contains.
         if [outputs, ands, bad, constraints].into_iter().fold(0, usize::saturating_add) > self.bytes.len() {
-            return self.fault(AigerError::TooShort { outputs, ands });
+            return Err(wording::too_short(outputs, ands, self.place));
         }
         Ok(AigerHeader { binary, variables, inputs, latches, outputs, ands, bad, constraints })
     }
@@ -155,7 +142,7 @@ impl<'b> AigerReader<'b> {
         let header = self.header()?;
         let counts = [header.bad, header.constraints];
         if let Some((number, what)) = counts.into_iter().zip(EXTRA).find(|(number, _)| *number > 0) {
-            return self.fault(AigerError::Property { what, number });
+            return Err(wording::property(what, number, self.place));
         }
         let graph = self.graph(&header)?;
         let mut design = build(&header, &graph, clock)?;
@@ -163,7 +150,6 @@ impl<'b> AigerReader<'b> {
         Ok(design)
     }
 
-    /// The file up to its symbols.
     pub(super) fn graph(&mut self, header: &AigerHeader) -> Result<AigerGraph, Diagnostic> {
         let mut inputs = Vec::with_capacity(header.inputs);
         for i in 0..header.inputs {
@@ -187,8 +173,8 @@ impl<'b> AigerReader<'b> {
             [latch, next] => (latch, next, Some(false)),
             [latch, next, start @ (0 | 1)] => (latch, next, Some(start == 1)),
             [latch, next, start] if start == latch => (latch, next, None),
-            [latch, _, start] => return self.fault(AigerError::LatchStart { latch, start }),
-            _ => return self.fault(AigerError::Latch),
+            [latch, _, start] => return Err(wording::latch_start(latch, start, self.place)),
+            _ => return Err(wording::latch(self.place)),
         };
         Ok(AigerLatch { literal, next, start, place: self.place })
     }
@@ -197,16 +183,15 @@ impl<'b> AigerReader<'b> {
         if !header.binary {
             return match self.numbers()?[..] {
                 [out, a, b] => Ok(And { out, pins: [a, b], place: self.place }),
-                ref numbers => self.fault(AigerError::GateLiterals { found: numbers.len() }),
+                ref numbers => Err(wording::gate_literals(numbers.len(), self.place)),
             };
         }
         let out = 2 * (header.inputs + header.latches + i + 1);
         let place = AigerPlace::Byte(self.at);
         let (first, second) = (self.delta()?, self.delta()?);
-        self.place = place;
         match out.checked_sub(first).and_then(|a| Some((a, a.checked_sub(second)?))) {
             Some((a, b)) if first > 0 => Ok(And { out, pins: [a, b], place }),
-            _ => self.fault(AigerError::GateOrder { gate: out }),
+            _ => Err(wording::gate_order(out, place)),
         }
     }
 
@@ -216,7 +201,7 @@ impl<'b> AigerReader<'b> {
         let mut value = 0;
         for shift in (0..35).step_by(7) {
             let Some(&byte) = self.bytes.get(self.at) else {
-                return self.fault(AigerError::EndOfFile);
+                return Err(wording::end_of_file(self.place));
             };
             self.at += 1;
             value |= usize::from(byte & 0x7f) << shift;
@@ -224,10 +209,9 @@ impl<'b> AigerReader<'b> {
                 return Ok(value);
             }
         }
-        self.fault(AigerError::LongNumber)
+        Err(wording::long_number(self.place))
     }
 
-    /// The kind, the number and the name of the next symbol.
     pub(super) fn symbol(&mut self) -> Result<Option<(&'b str, usize, &'b str)>, Diagnostic> {
         if self.at >= self.bytes.len() {
             return Ok(None);
@@ -240,13 +224,9 @@ impl<'b> AigerReader<'b> {
             let (kind, number) = place.split_at_checked(1)?;
             Some((kind, number.parse::<usize>().ok()?, name))
         });
-        match symbol.filter(|(_, _, name)| !name.is_empty()) {
-            Some(symbol) => Ok(Some(symbol)),
-            None => self.fault(AigerError::Symbol { found: excerpt(line) }),
-        }
+        symbol.filter(|(_, _, name)| !name.is_empty()).map(Some).ok_or_else(|| wording::not_a_symbol(line, self.place))
     }
 
-    /// Reads the names of ports and latches after the gates.
     fn symbols(&mut self, design: &mut Design) -> Result<(), Diagnostic> {
         let (inputs, outputs) = (design.inputs(), design.outputs());
         while let Some((kind, number, name)) = self.symbol()? {
@@ -260,7 +240,7 @@ impl<'b> AigerReader<'b> {
                 _ => None,
             };
             let Some(id) = known else {
-                return self.fault(AigerError::UnknownSymbol { found: excerpt(&format!("{kind}{number} {name}")) });
+                return Err(wording::unknown_symbol(&format!("{kind}{number} {name}"), self.place));
             };
             design.logic.rename(id, name);
         }
@@ -277,12 +257,6 @@ impl<'b> AigerReader<'b> {
     }
 }
 
-/// The start of a line, for messages.
-pub(super) fn excerpt(line: &str) -> String {
-    line.chars().take(40).collect()
-}
-
-/// The design of a graph.
 fn build(header: &AigerHeader, graph: &AigerGraph, clock: Option<&str>) -> Result<Design, Diagnostic> {
     let AigerGraph { inputs, latches, outputs, ands, .. } = graph;
     let mut logic = Netlist::new("circuit");
@@ -292,7 +266,7 @@ fn build(header: &AigerHeader, graph: &AigerGraph, clock: Option<&str>) -> Resul
     for (name, (literal, place)) in ports.chain(states) {
         match nets.get_mut(literal / 2).filter(|net| literal > 1 && literal & 1 == 0 && net.is_none()) {
             Some(net) => *net = Some(logic.add_input(name)),
-            None => return Err(AigerError::NotAnInput { literal }.at(place)),
+            None => return Err(wording::literal(BadLiteral::NotAnInput, literal, place)),
         }
     }
     let mut literals = Literals { inverted: vec![None; header.variables + 1], constants: [None; 2], nets };
@@ -302,24 +276,17 @@ fn build(header: &AigerHeader, graph: &AigerGraph, clock: Option<&str>) -> Resul
     }
     let shown = outputs.iter().enumerate().map(|(i, &placed)| (format!("o{i}"), placed));
     let nexts = latches.iter().enumerate().map(|(i, latch)| (format!("l{i}_next"), (latch.next, latch.place)));
-    let drivers: Vec<_> = shown.chain(nexts).collect();
-    let mut driven = Vec::with_capacity(drivers.len());
-    for (name, (literal, place)) in drivers {
-        match literals.net(&mut logic, literal) {
-            Some(net) => driven.push((name, net)),
-            None => return Err(AigerError::Undriven { literal }.at(place)),
-        }
+    let mut driven = Vec::new();
+    for (name, (literal, place)) in shown.chain(nexts) {
+        let net = literals.net(&mut logic, literal);
+        driven.push((name, net.ok_or_else(|| wording::literal(BadLiteral::Undriven, literal, place))?));
     }
-    driven.into_iter().for_each(|(name, net)| {
+    for (name, net) in driven {
         logic.add_output(name, net);
-    });
-    let clock = Some(clock.unwrap_or("clk").to_owned());
+    }
     let register = |(i, latch): (usize, &AigerLatch)| Register {
-        name: format!("l{i}"),
-        kind: RegisterKind::Rising,
-        clock: clock.clone(),
         start: latch.start,
-        forcing: Forcing::Never,
+        ..Register::flip_flop(format!("l{i}"), clock.unwrap_or(Register::CLOCK))
     };
     let registers = latches.iter().enumerate().map(register).collect();
     Ok(Design::new(logic, registers))
@@ -347,12 +314,12 @@ pub(super) fn sorted(ands: &[And], sources: &[bool]) -> Result<Vec<And>, Diagnos
                         ready = false;
                     }
                     Some(Some(pin)) if state[*pin] == 1 => {
-                        return Err(AigerError::Loop { literal: out }.at(place));
+                        return Err(wording::literal(BadLiteral::Loop, out, place));
                     }
                     Some(None) if literal > 1 && !sources[literal / 2] => {
-                        return Err(AigerError::Undriven { literal }.at(place));
+                        return Err(wording::literal(BadLiteral::Undriven, literal, place));
                     }
-                    None => return Err(AigerError::OverHeader { literal }.at(place)),
+                    None => return Err(wording::literal(BadLiteral::OverHeader, literal, place)),
                     _ => {}
                 }
             }
@@ -361,28 +328,26 @@ pub(super) fn sorted(ands: &[And], sources: &[bool]) -> Result<Vec<And>, Diagnos
                 order.push(ands[i]);
                 open.pop();
             } else if open.len() > ands.len() + 2 {
-                return Err(AigerError::Loop { literal: out }.at(place));
+                return Err(wording::literal(BadLiteral::Loop, out, place));
             }
         }
     }
     Ok(order)
 }
 
-/// The gate that defines each variable.
 fn gates_by_variable(ands: &[And], sources: &[bool]) -> Result<Vec<Option<usize>>, Diagnostic> {
     let mut gates: Vec<Option<usize>> = vec![None; sources.len()];
     for (i, &And { out, place, .. }) in ands.iter().enumerate() {
         let Some(gate) = gates.get_mut(out / 2).filter(|_| out > 1 && out & 1 == 0) else {
-            return Err(AigerError::NotAGate { literal: out }.at(place));
+            return Err(wording::literal(BadLiteral::NotAGate, out, place));
         };
         if sources[out / 2] || gate.replace(i).is_some() {
-            return Err(AigerError::DefinedTwice { literal: out }.at(place));
+            return Err(wording::literal(BadLiteral::DefinedTwice, out, place));
         }
     }
     Ok(gates)
 }
 
-/// Nets by literal; inverters are added where needed.
 struct Literals {
     nets: Vec<Option<NetId>>,
     inverted: Vec<Option<NetId>>,
@@ -430,7 +395,7 @@ fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool)
     let (shown, nexts) = outputs.split_at(design.outputs());
     let word = if binary { "aig" } else { "aag" };
     let total = graph.signals();
-    let mut text = format!("{word} {total} {ports} {latches} {} {}\n", shown.len(), graph.ands.len());
+    let mut text = format!("{word} {total} {ports} {latches} {} {}\n", shown.len(), graph.ands.items.len());
     let own = |i: usize| 2 * (i + 1);
     if !binary {
         (0..ports).for_each(|i| text.push_str(&format!("{}\n", own(i))));
@@ -442,7 +407,7 @@ fn text(graph: &AndGraph, design: &Design, outputs: &[AndLiteral], binary: bool)
     }
     shown.iter().for_each(|literal| text.push_str(&format!("{literal}\n")));
     let mut bytes = text.into_bytes();
-    for (i, &[a, b]) in graph.ands.iter().enumerate() {
+    for (i, &[a, b]) in graph.ands.items.iter().enumerate() {
         let out = own(ports + latches + i);
         if binary {
             push_delta(&mut bytes, out - a);

@@ -2,24 +2,21 @@
 //! 1.9 have outputs in the place of bad states.
 
 use crate::and_graph::AndLiteral;
-use crate::formats::aiger::{AigerGraph, AigerReader, And, Placed, excerpt, sorted};
-use crate::formats::wording::AigerError;
+use crate::formats::aiger::{AigerGraph, AigerLatch, AigerReader, And, Placed, sorted};
+use crate::formats::wording::aiger as wording;
+use crate::formats::wording::aiger::BadLiteral;
 use crate::properties::{PropertyVerdict, SystemRegister, TransitionSystem};
 use nbc_base::diag::Diagnostic;
 
-/// A model with the names of its properties.
 #[derive(Clone, Debug)]
 pub struct AigerModel {
-    /// The model.
     pub system: TransitionSystem,
     /// A name for each property: that of the file, or `b0`, `b1`, … (`o0`, `o1`, … for outputs).
     pub properties: Vec<String>,
-    /// Whether the properties are the outputs of the file.
     pub are_outputs: bool,
 }
 
 impl AigerModel {
-    /// Reads a model.
     pub fn read(bytes: &[u8]) -> Result<Self, Diagnostic> {
         let mut reader = AigerReader::new(bytes);
         let header = reader.header()?;
@@ -27,7 +24,7 @@ impl AigerModel {
         let are_outputs = graph.bad.is_empty() && graph.constraints.is_empty();
         let wanted = if are_outputs { &graph.outputs } else { &graph.bad };
         if wanted.is_empty() {
-            return reader.fault(AigerError::NoProperties);
+            return Err(wording::no_properties(reader.place));
         }
         let letter = if are_outputs { 'o' } else { 'b' };
         let properties = (0..wanted.len()).map(|at| format!("{letter}{at}")).collect();
@@ -37,21 +34,19 @@ impl AigerModel {
         Ok(model)
     }
 
-    /// Reads the names after the gates.
     fn symbols(&mut self, reader: &mut AigerReader<'_>, outputs: usize, constraints: usize) -> Result<(), Diagnostic> {
         while let Some((kind, number, name)) = reader.symbol()? {
-            let unused = |count: usize| number < count;
             let known = match kind {
                 "i" => self.system.inputs.get_mut(number),
                 "l" => self.system.registers.get_mut(number).map(|register| &mut register.name),
                 "o" if self.are_outputs => self.properties.get_mut(number),
                 "b" if !self.are_outputs => self.properties.get_mut(number),
-                "o" if unused(outputs) => continue,
-                "c" if unused(constraints) => continue,
+                "o" if number < outputs => continue,
+                "c" if number < constraints => continue,
                 _ => None,
             };
             let Some(known) = known else {
-                return reader.fault(AigerError::UnknownSymbol { found: excerpt(&format!("{kind}{number} {name}")) });
+                return Err(wording::unknown_symbol(&format!("{kind}{number} {name}"), reader.place));
             };
             name.clone_into(known);
         }
@@ -84,7 +79,7 @@ fn system(variables: usize, graph: &AigerGraph, wanted: &[Placed]) -> Result<Tra
     for (at, (literal, place)) in sources.enumerate() {
         match known.get_mut(literal / 2).filter(|known| literal > 1 && literal & 1 == 0 && known.is_none()) {
             Some(known) => *known = Some(2 * (at + 1)),
-            None => return Err(AigerError::NotAnInput { literal }.at(place)),
+            None => return Err(wording::literal(BadLiteral::NotAnInput, literal, place)),
         }
     }
     let mut is_source: Vec<bool> = known.iter().map(Option::is_some).collect();
@@ -93,8 +88,8 @@ fn system(variables: usize, graph: &AigerGraph, wanted: &[Placed]) -> Result<Tra
     let mut ands = Vec::with_capacity(graph.ands.len());
     let value = |known: &[Option<AndLiteral>], (literal, place): Placed| match known.get(literal / 2) {
         Some(Some(own)) => Ok(own ^ (literal & 1)),
-        Some(None) => Err(AigerError::Undriven { literal }.at(place)),
-        None => Err(AigerError::OverHeader { literal }.at(place)),
+        Some(None) => Err(wording::literal(BadLiteral::Undriven, literal, place)),
+        None => Err(wording::literal(BadLiteral::OverHeader, literal, place)),
     };
     for And { out, pins, place } in sorted(&graph.ands, &is_source)? {
         let [a, b] = pins.map(|pin| value(&known, (pin, place)));
@@ -102,7 +97,7 @@ fn system(variables: usize, graph: &AigerGraph, wanted: &[Placed]) -> Result<Tra
         ands.push([a?, b?]);
     }
     let all = |list: &[Placed]| list.iter().map(|&placed| value(&known, placed)).collect::<Result<Vec<_>, _>>();
-    let register = |(at, latch): (usize, &crate::formats::aiger::AigerLatch)| {
+    let register = |(at, latch): (usize, &AigerLatch)| {
         let next = value(&known, (latch.next, latch.place))?;
         Ok(SystemRegister { name: format!("l{at}"), start: latch.start, next })
     };

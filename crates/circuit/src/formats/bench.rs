@@ -1,9 +1,9 @@
 //! The .bench format of the ISCAS benchmarks: `G5 = NAND(G1, G3)`. Its flip-flops have one clock for all, which has no
 //! name.
 
-use crate::formats::design::{Design, Forcing, Register, RegisterKind};
+use crate::formats::design::{Design, Register};
 use crate::formats::draft::{Definition, Draft, DraftRegister};
-use crate::formats::wording::{BenchError, TextError};
+use crate::formats::wording::{bench as wording, text};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
@@ -23,7 +23,7 @@ pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec
         start += line.len();
     }
     if draft.outputs.is_empty() && draft.errors.is_empty() {
-        draft.fault(BenchError::NoOutput, Span::new(file, 0, 0));
+        draft.fault(wording::no_output(Span::new(file, 0, 0)));
     }
     draft.finish()
 }
@@ -34,33 +34,29 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
         None => (None, line),
     };
     let Some((word, arguments)) = call.strip_suffix(')').and_then(|call| call.split_once('(')) else {
-        return draft.fault(BenchError::NotAStatement, span);
+        return draft.fault(wording::not_a_statement(span));
     };
-    if arguments.split(',').any(|pin| pin.trim().is_empty()) || target == Some("") {
-        return draft.fault(BenchError::UnnamedNet, span);
+    let names: Vec<&str> = arguments.split(',').map(str::trim).collect();
+    if names.contains(&"") || target == Some("") {
+        return draft.fault(wording::unnamed_net(span));
     }
-    if target.is_some_and(|target| target.contains(char::is_whitespace)) || pins_have_blanks(arguments) {
-        return draft.fault(BenchError::SpaceInName, span);
+    if target.iter().chain(&names).any(|name| name.contains(char::is_whitespace)) {
+        return draft.fault(wording::space_in_name(span));
     }
     let is_long = |name: &&str| Limit::FileNameBytes.permit(name.len() as u64).is_err();
     if let Some(long) = target.into_iter().chain(arguments.split(',')).find(is_long) {
-        let start = Span { end: span.start + 20, ..span };
-        return draft.fault(TextError::LongName { bytes: long.len(), most: Limit::FileNameBytes.most() }, start);
+        return draft.fault(text::long_name(long.len(), span));
     }
-    let pins: Vec<_> = arguments.split(',').map(|pin| draft.name(pin.trim())).collect();
+    let pins: Vec<_> = names.iter().map(|pin| draft.name(pin)).collect();
     let word = word.trim().to_ascii_uppercase();
     match (target, word.as_str(), &pins[..]) {
         (None, "INPUT", &[net]) => draft.inputs.push((net, span)),
         (None, "OUTPUT", &[net]) => draft.outputs.push((net, span)),
         (Some(target), "DFF", &[next]) => {
             let output = draft.name(target);
-            let clock = Some(clock.unwrap_or("clk").to_owned());
             let register = Register {
-                name: target.to_owned(),
-                kind: RegisterKind::Rising,
-                clock,
                 start: Some(false),
-                forcing: Forcing::Never,
+                ..Register::flip_flop(target.to_owned(), clock.unwrap_or(Register::CLOCK))
             };
             draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
         }
@@ -69,22 +65,13 @@ fn statement(draft: &mut Draft, line: &str, span: Span, clock: Option<&str>) {
                 let output = draft.name(target);
                 draft.define(output, Definition::Gate(function, inverted, pins.to_vec()), span);
             }
-            None => {
-                draft.fault(BenchError::UnknownGate { gate: word.to_owned(), nets: pins.len() }, span);
-            }
+            None => draft.fault(wording::unknown_gate(word, pins.len(), span)),
         },
-        (None, "INPUT" | "OUTPUT", pins) => {
-            draft.fault(BenchError::PortNets { word, nets: pins.len() }, span);
-        }
-        (None, ..) => draft.fault(BenchError::Unassigned { word }, span),
+        (None, "INPUT" | "OUTPUT", pins) => draft.fault(wording::port_nets(&word, pins.len(), span)),
+        (None, ..) => draft.fault(wording::unassigned(&word, span)),
     }
 }
 
-fn pins_have_blanks(arguments: &str) -> bool {
-    arguments.split(',').any(|pin| pin.trim().contains(char::is_whitespace))
-}
-
-/// The function of a gate's word, and whether it is inverted in the end.
 fn gate(word: &str, pins: usize) -> Option<(Function, bool)> {
     Some(match word {
         "NOT" | "INV" if pins == 1 => (Function::AND, true),

@@ -6,15 +6,14 @@ use crate::formats::blif_register::forced_cell;
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
 use crate::formats::draft::{Definition, Draft, DraftRegister, MOST_ERRORS, NetName};
 use crate::formats::model_gate::{ModelCover, gate};
-use crate::formats::wording::{BlifError, ModelError, TextError};
+use crate::formats::wording::{blif as wording, text};
 use nbc_base::budget::Limit;
-use nbc_base::diag::{Diagnostic, Severity};
+use nbc_base::diag::Diagnostic;
 use nbc_base::model::Function;
-use nbc_base::source::{FileId, Span};
+use nbc_base::source::{FileId, SourceFile, Span, VerilogModule};
 
 pub use crate::formats::blif_text::write;
 
-/// Reads the first model of a file and expands the models it instantiates.
 pub fn read(text: &str, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
     read_model(text, file, clock, None)
 }
@@ -32,40 +31,49 @@ pub fn read_model(
         return Err(models.errors);
     }
     if models.all.is_empty() {
-        return Err(vec![TextError::from(BlifError::NoModel).at(Span::new(file, 0, 0))]);
+        return Err(vec![wording::no_model(Span::new(file, 0, 0))]);
     }
     let top = match model {
         None => 0,
-        Some(name) => *models
-            .by_name
-            .get(name)
-            .ok_or_else(|| vec![ModelError::MissingModel { model: name.to_owned() }.at(Span::new(file, 0, 0))])?,
+        Some(name) => {
+            let missing = || vec![wording::missing_model(name, Span::new(file, 0, 0))];
+            *models.by_name.get(name).ok_or_else(missing)?
+        }
     };
     let mut extents = vec![None; models.all.len()];
-    if let Err((error, span)) = models.extent(top, 0, &mut extents) {
-        return Err(vec![error.at(span)]);
-    }
+    models.extent(top, 0, &mut extents).map_err(|error| vec![error])?;
     let mut draft = Draft::titled(models.all[top].name);
     let mut flat = Flat { models: &models, draft: &mut draft, clock, path: Vec::new() };
-    flat.instantiate(top, "", &BTreeMap::new());
+    flat.instantiate(top, &Instance::default());
     draft.finish()
 }
 
-/// Warnings about what is not read: external don't-cares, which permit more than the circuit does.
+pub fn verilog_module(
+    module: &VerilogModule,
+    files: &[&SourceFile],
+    clock: Option<&str>,
+) -> Result<Design, Vec<Diagnostic>> {
+    let design = verilog_design(module, files[0].id, clock);
+    design.map_err(|faults| faults.into_iter().map(|fault| fault.moved_to_verilog(files, module)).collect())
+}
+
+/// The same with the errors at places of the translation, which is the text of `file`.
+pub fn verilog_design(module: &VerilogModule, file: FileId, clock: Option<&str>) -> Result<Design, Vec<Diagnostic>> {
+    let design = read_model(&module.blif, file, clock, Some(&module.name))?;
+    Ok(Design { ascending: module.ascending.clone(), ..design })
+}
+
+/// Warnings about external don't-cares, which are not read: they permit more than the circuit does.
 pub fn ignored(text: &str, file: FileId) -> Vec<Diagnostic> {
     let found = lines(text, file).filter(|words| words[0].0 == DONT_CARES);
-    found
-        .map(|words| Diagnostic { severity: Severity::Warning, ..TextError::from(BlifError::DontCares).at(words[0].1) })
-        .collect()
+    found.map(|words| wording::ignored_dont_cares(words[0].1)).collect()
 }
 
 /// The directive after which a network says where the outputs may be anything, up to the end of the model.
 const DONT_CARES: &str = ".exdc";
 
-/// A logical line: its words with their places.
 type Words<'t> = Vec<(&'t str, Span)>;
 
-/// A statement of a model.
 enum Statement<'t> {
     Names { signals: Words<'t>, cubes: Vec<Vec<u8>>, value: bool, start: Option<bool> },
     Latch(Words<'t>),
@@ -73,7 +81,6 @@ enum Statement<'t> {
 }
 
 impl Statement<'_> {
-    /// The bytes that an instance of it takes, roughly.
     fn size(&self) -> usize {
         const NET: usize = 100;
         match self {
@@ -83,7 +90,6 @@ impl Statement<'_> {
     }
 }
 
-/// A model as written.
 struct Model<'t> {
     name: &'t str,
     inputs: Words<'t>,
@@ -93,7 +99,6 @@ struct Model<'t> {
 }
 
 impl Model<'_> {
-    /// Its function, if it is a gate: it has one output, one or two inputs and no state.
     fn gate(&self) -> Option<Function> {
         let [(output, _)] = self.outputs[..] else { return None };
         let covers = self.statements.iter().map(|(statement, _)| match statement {
@@ -112,7 +117,6 @@ impl Model<'_> {
     }
 }
 
-/// The most statements of a model that is looked at as a gate.
 const MOST_GATE_STATEMENTS: usize = 16;
 
 struct Models<'t> {
@@ -121,37 +125,17 @@ struct Models<'t> {
     errors: Vec<Diagnostic>,
 }
 
-/// Directives without logic.
-const IGNORED: &[&str] = &[
-    ".area",
-    ".cname",
-    ".default_input_arrival",
-    ".default_input_drive",
-    ".default_max_input_load",
-    ".default_output_load",
-    ".default_output_required",
-    ".delay",
-    ".input_arrival",
-    ".input_drive",
-    ".input_required",
-    ".max_input_load",
-    ".output_load",
-    ".output_required",
-    ".param",
-    ".wire_load_slope",
-    ".wire",
-    ".wire_arrival",
-];
+const IGNORED: &str = "\
+    .area .cname .default_input_arrival .default_input_drive .default_max_input_load .default_output_load \
+    .default_output_required .delay .input_arrival .input_drive .input_required .max_input_load .output_load \
+    .output_required .param .wire_load_slope .wire .wire_arrival";
 
-/// Whether a name is longer than any name may be.
 fn is_long(name: &str) -> bool {
     Limit::FileNameBytes.permit(name.len() as u64).is_err()
 }
 
-/// The size of a model with everything it instantiates.
 #[derive(Clone, Copy, Debug, Default)]
 struct Extent {
-    /// The depth of nesting.
     depth: usize,
     statements: usize,
     /// The bytes that an instance takes, roughly.
@@ -159,8 +143,8 @@ struct Extent {
 }
 
 impl<'t> Models<'t> {
-    /// Measures a model at `depth`, each model once, or returns the place at which the limit is exceeded.
-    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, (ModelError, Span)> {
+    /// Measures a model at `depth`, each model once, or returns the error at the place where a limit is exceeded.
+    fn extent(&self, model: usize, depth: usize, known: &mut [Option<Extent>]) -> Result<Extent, Diagnostic> {
         // A model that contains itself is reported at the place of the instance.
         known[model] = Some(Extent::default());
         let mut extent = Extent::default();
@@ -180,19 +164,19 @@ impl<'t> Models<'t> {
             extent.statements = extent.statements.saturating_add(nested.statements);
             extent.bytes = extent.bytes.saturating_add(nested.bytes).saturating_add(names);
             if Limit::Hierarchy.permit(extent.depth as u64).is_err() {
-                return Err((ModelError::ModelDepth { most: Limit::Hierarchy.most() }, *span));
+                return Err(wording::model_depth(*span));
             }
             if Limit::ModelBytes.permit(extent.bytes as u64).is_err() {
-                return Err((ModelError::ModelSize, *span));
+                return Err(wording::model_size(*span));
             }
         }
         known[model] = Some(extent);
         Ok(extent)
     }
 
-    fn fault(&mut self, error: impl Into<TextError>, span: Span) {
+    fn fault(&mut self, error: Diagnostic) {
         if self.errors.len() < MOST_ERRORS {
-            self.errors.push(error.into().at(span));
+            self.errors.push(error);
         }
     }
 
@@ -206,10 +190,7 @@ impl<'t> Models<'t> {
             }
             let row = !first.starts_with('.');
             if let Some(&(_, span)) = words.iter().find(|(word, _)| !row && is_long(word)) {
-                let start = Span { end: span.start + 20, ..span };
-                let bytes = (span.end - span.start) as usize;
-                self.fault(TextError::LongName { bytes, most: Limit::FileNameBytes.most() }, start);
-                return;
+                return self.fault(text::long_name((span.end - span.start) as usize, span));
             }
             if first.starts_with('.') {
                 self.directive(words);
@@ -225,43 +206,42 @@ impl<'t> Models<'t> {
         if first == ".model" {
             let name = rest.first().map_or("", |&(name, _)| name);
             if self.by_name.insert(name, self.all.len()).is_some() {
-                self.fault(BlifError::ModelTwice { model: name.to_owned() }, span);
+                self.fault(wording::model_twice(name, span));
             }
             let model = Model { name, inputs: vec![], outputs: vec![], clocks: vec![], statements: vec![] };
             self.all.push(model);
             return;
         }
-        if first == ".end" || IGNORED.contains(&first) {
+        if first == ".end" || IGNORED.split(' ').any(|word| word == first) {
             return;
         }
         let Some(model) = self.all.last_mut() else {
-            self.fault(BlifError::BeforeModel { directive: first.to_owned() }, span);
-            return;
+            return self.fault(wording::before_model(first, span));
         };
         match first {
             ".inputs" => model.inputs.extend(rest),
             ".outputs" => model.outputs.extend(rest),
             ".clock" => model.clocks.extend(rest),
-            ".names" if rest.is_empty() => self.incomplete(".names", "expected the name of a net", span),
+            ".names" if rest.is_empty() => self.fault(wording::incomplete(first, "expected the name of a net", span)),
             ".names" => {
                 let names = Statement::Names { signals: rest, cubes: Vec::new(), value: true, start: None };
                 model.statements.push((names, span));
             }
             ".attr" => self.attribute(&rest),
-            ".latch" if rest.len() < 2 => self.incomplete(".latch", "expected an input and an output", span),
+            ".latch" if rest.len() < 2 => {
+                self.fault(wording::incomplete(first, "expected an input and an output", span))
+            }
             ".latch" => model.statements.push((Statement::Latch(rest), span)),
-            ".subckt" if rest.is_empty() => self.incomplete(".subckt", "expected the name of a model", span),
+            ".subckt" if rest.is_empty() => {
+                self.fault(wording::incomplete(first, "expected the name of a model", span))
+            }
             ".subckt" => {
                 let instance = Statement::Subcircuit { words: rest, start: None };
                 model.statements.push((instance, span));
             }
-            ".gate" | ".mlatch" => self.fault(BlifError::LibraryCell { directive: first.to_owned() }, span),
-            _ => self.fault(BlifError::UnknownDirective { directive: first.to_owned() }, span),
+            ".gate" | ".mlatch" => self.fault(wording::library_cell(first, span)),
+            _ => self.fault(wording::unknown_directive(first, span)),
         }
-    }
-
-    fn incomplete(&mut self, directive: &'static str, expected: &'static str, span: Span) {
-        self.fault(BlifError::Incomplete { directive, expected }, span);
     }
 
     /// An attribute of the last statement; the only relevant one is the start value of a net on a feedback loop.
@@ -271,7 +251,7 @@ impl<'t> Models<'t> {
         let Some((Statement::Names { start, .. } | Statement::Subcircuit { start, .. }, _)) = statement else { return };
         match value {
             "0" | "1" => *start = Some(value == "1"),
-            _ => self.fault(BlifError::NetStart { found: value.to_owned() }, span),
+            _ => self.fault(wording::net_start(value, span)),
         }
     }
 
@@ -280,24 +260,24 @@ impl<'t> Models<'t> {
         let Some((Statement::Names { signals, cubes, value, .. }, _)) =
             self.all.last_mut().and_then(|model| model.statements.last_mut())
         else {
-            return self.fault(BlifError::NotADirective { found: words[0].0.to_owned() }, span);
+            return self.fault(wording::not_a_directive(words[0].0, span));
         };
         let wanted = signals.len() - 1;
         let (inputs, output) = match words[..] {
             [(output, _)] if wanted == 0 => ("", output),
             [(inputs, _), (output, _)] => (inputs, output),
-            _ => return self.fault(BlifError::MalformedRow, span),
+            _ => return self.fault(wording::malformed_row(span)),
         };
         if inputs.len() != wanted || !inputs.bytes().all(|digit| b"01-".contains(&digit)) {
-            return self.fault(BlifError::RowWidth { expected: wanted, found: inputs.to_owned() }, span);
+            return self.fault(wording::row_width(wanted, inputs, span));
         }
         let is = match output {
             "1" => true,
             "0" => false,
-            _ => return self.fault(BlifError::RowOutput { found: output.to_owned() }, span),
+            _ => return self.fault(wording::row_output(output, span)),
         };
         if !cubes.is_empty() && *value != is {
-            return self.fault(BlifError::MixedRows, span);
+            return self.fault(wording::mixed_rows(span));
         }
         *value = is;
         cubes.push(inputs.bytes().collect());
@@ -327,7 +307,13 @@ fn lines(text: &str, file: FileId) -> impl Iterator<Item = Words<'_>> {
     })
 }
 
-/// The flattening of models into one draft.
+/// An instance of a model: the beginning of its names, and the nets of its ports.
+#[derive(Default)]
+struct Instance<'t> {
+    prefix: String,
+    ports: BTreeMap<&'t str, String>,
+}
+
 struct Flat<'m, 't> {
     models: &'m Models<'t>,
     draft: &'m mut Draft,
@@ -336,72 +322,51 @@ struct Flat<'m, 't> {
 }
 
 impl<'m, 't> Flat<'m, 't> {
-    /// Expands a model; `ports` gives the nets of its ports.
-    fn instantiate(&mut self, model: usize, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+    fn instantiate(&mut self, model: usize, inside: &Instance<'t>) {
         self.path.push(model);
         let models = self.models;
         let model = &models.all[model];
         if self.path.len() == 1 {
-            for &(name, span) in model.inputs.iter() {
-                let number = self.draft.name(name);
-                self.draft.inputs.push((number, span));
-            }
-            for &(name, span) in &model.outputs {
-                let number = self.draft.name(name);
-                self.draft.outputs.push((number, span));
-            }
+            self.draft.inputs = model.inputs.iter().map(|&(name, span)| (self.draft.name(name), span)).collect();
+            self.draft.outputs = model.outputs.iter().map(|&(name, span)| (self.draft.name(name), span)).collect();
         }
         for (statement, span) in &model.statements {
             match statement {
                 Statement::Names { signals, cubes, value, start } => {
-                    let output = self.names(signals, cubes, *value, prefix, ports);
+                    let output = self.names(signals, cubes, *value, inside);
                     start.iter().for_each(|&start| self.draft.start(output, start));
                 }
-                Statement::Latch(words) => self.latch(model, words, *span, prefix, ports),
-                Statement::Subcircuit { words, start } => self.subcircuit(words, *start, prefix, ports),
+                Statement::Latch(words) => self.latch(model, words, *span, inside),
+                Statement::Subcircuit { words, start } => self.subcircuit(words, *start, inside),
             }
         }
         self.path.pop();
     }
 
-    fn net(&mut self, name: &str, prefix: &str, ports: &BTreeMap<&'t str, String>) -> u32 {
-        match ports.get(name) {
+    fn net(&mut self, name: &str, inside: &Instance<'t>) -> u32 {
+        match inside.ports.get(name) {
             Some(outside) => self.draft.name(outside),
-            None if prefix.is_empty() => self.draft.name(name),
-            None => self.draft.name(&format!("{prefix}{name}")),
+            None if inside.prefix.is_empty() => self.draft.name(name),
+            None => self.draft.name(&format!("{}{name}", inside.prefix)),
         }
     }
 
-    fn names(
-        &mut self,
-        signals: &Words<'t>,
-        cubes: &[Vec<u8>],
-        value: bool,
-        prefix: &str,
-        ports: &BTreeMap<&'t str, String>,
-    ) -> u32 {
-        let mut nets: Vec<_> = signals.iter().map(|(name, _)| self.net(name, prefix, ports)).collect();
+    fn names(&mut self, signals: &Words<'t>, cubes: &[Vec<u8>], value: bool, inside: &Instance<'t>) -> u32 {
+        let mut nets: Vec<_> = signals.iter().map(|(name, _)| self.net(name, inside)).collect();
         let output = nets.pop().expect("`.names` has an output");
         let span = signals[0].1.to(signals[signals.len() - 1].1);
         self.draft.define(output, Definition::Cover { pins: nets, cubes: cubes.to_vec(), value }, span);
         output
     }
 
-    fn latch(
-        &mut self,
-        model: &Model<'t>,
-        words: &Words<'t>,
-        span: Span,
-        prefix: &str,
-        ports: &BTreeMap<&'t str, String>,
-    ) {
-        let (next, output) = (self.net(words[0].0, prefix, ports), self.net(words[1].0, prefix, ports));
+    fn latch(&mut self, model: &Model<'t>, words: &Words<'t>, span: Span, inside: &Instance<'t>) {
+        let (next, output) = (self.net(words[0].0, inside), self.net(words[1].0, inside));
         let start = match words.last().filter(|_| words.len() % 2 == 1) {
             None | Some(("2" | "3", _)) => None,
             Some(("0", _)) => Some(false),
             Some(("1", _)) => Some(true),
             Some(&(word, span)) => {
-                return self.draft.fault(ModelError::LatchStart { found: word.to_owned() }, span);
+                return self.draft.fault(wording::latch_start(word, span));
             }
         };
         let (kind, clock) = match (words.get(2), words.get(3)) {
@@ -411,9 +376,9 @@ impl<'m, 't> Flat<'m, 't> {
                     "fe" => RegisterKind::Falling,
                     "ah" => RegisterKind::High,
                     "al" => RegisterKind::Low,
-                    _ => return self.draft.fault(ModelError::LatchKind { found: (*kind).to_owned() }, span),
+                    _ => return self.draft.fault(wording::latch_kind(kind, span)),
                 };
-                let number = self.net(clock, prefix, ports);
+                let number = self.net(clock, inside);
                 (kind, (*clock != "NIL").then(|| self.draft.text(number).to_owned()))
             }
             _ => (RegisterKind::Rising, None),
@@ -425,8 +390,7 @@ impl<'m, 't> Flat<'m, 't> {
         let clock = clock.or(one_clock).or_else(|| self.clock.map(str::to_owned));
         let name = self.draft.text(output).to_owned();
         if clock.is_none() {
-            let (latch, input) = (name.clone(), words[0].0.to_owned());
-            self.draft.fault(ModelError::NoClock { latch, input }, span);
+            self.draft.fault(wording::no_clock(&name, words[0].0, span));
         }
         let register = Register { name, kind, clock, start, forcing: Forcing::Never };
         self.draft.registers.push(DraftRegister { register, output, next, forcing: Vec::new(), span });
@@ -446,47 +410,46 @@ impl<'m, 't> Flat<'m, 't> {
         true
     }
 
-    fn subcircuit(&mut self, words: &Words<'t>, start: Option<bool>, prefix: &str, ports: &BTreeMap<&'t str, String>) {
+    fn subcircuit(&mut self, words: &Words<'t>, start: Option<bool>, inside: &Instance<'t>) {
         let (name, span) = words[0];
         let Some(&model) = self.models.by_name.get(name) else {
             let parts = words[1..].iter().filter_map(|(word, _)| word.split_once('='));
             let pins = parts.map(|(port, net)| {
-                let number = self.net(net, prefix, ports);
+                let number = self.net(net, inside);
                 (port, self.draft.text(number).to_owned())
             });
             let pins = pins.collect();
             if !self.forced(name, &pins, start, span) {
-                self.draft.fault(ModelError::MissingModel { model: name.to_owned() }, span);
+                self.draft.fault(wording::missing_model(name, span));
             }
             return;
         };
         if self.path.contains(&model) {
-            return self.draft.fault(ModelError::RecursiveModel { model: name.to_owned() }, span);
+            return self.draft.fault(wording::recursive_model(name, span));
         }
-        let mut inner: BTreeMap<&str, String> = BTreeMap::new();
+        let prefix = format!("{}{name}@{}.", inside.prefix, span.start);
+        let mut inner = Instance { prefix, ports: BTreeMap::new() };
         for &(word, at) in &words[1..] {
             let Some((formal, actual)) = word.split_once('=') else {
-                return self.draft.fault(ModelError::NotAConnection { found: word.to_owned() }, at);
+                return self.draft.fault(wording::not_a_connection(word, at));
             };
             let known = &self.models.all[model];
             let ports_of_model = known.inputs.iter().chain(&known.outputs).chain(&known.clocks);
             if !ports_of_model.map(|&(name, _)| name).any(|name| name == formal) {
-                let (model, port) = (name.to_owned(), formal.to_owned());
-                return self.draft.fault(ModelError::UnknownPort { model, port }, at);
+                return self.draft.fault(wording::unknown_port(name, formal, at));
             }
-            let number = self.net(actual, prefix, ports);
-            if inner.insert(formal, self.draft.text(number).to_owned()).is_some() {
-                return self.draft.fault(ModelError::ConnectedTwice { port: formal.to_owned() }, at);
+            let number = self.net(actual, inside);
+            if inner.ports.insert(formal, self.draft.text(number).to_owned()).is_some() {
+                return self.draft.fault(wording::connected_twice(formal, at));
             }
         }
-        let open = self.models.all[model].inputs.iter().find(|(port, _)| !inner.contains_key(port));
+        let open = self.models.all[model].inputs.iter().find(|(port, _)| !inner.ports.contains_key(port));
         if let Some((port, _)) = open {
-            let (model, port) = (name.to_owned(), (*port).to_owned());
-            return self.draft.fault(ModelError::Unconnected { model, port }, span);
+            return self.draft.fault(wording::unconnected(name, port, span));
         }
-        match self.cell(model, &inner, span) {
+        match self.cell(model, &inner.ports, span) {
             Some(output) => start.iter().for_each(|&start| self.draft.start(output, start)),
-            None => self.instantiate(model, &format!("{prefix}{name}@{}.", span.start), &inner),
+            None => self.instantiate(model, &inner),
         }
     }
 
@@ -505,9 +468,4 @@ impl<'m, 't> Flat<'m, 't> {
         self.draft.define(output, Definition::Cover { pins, cubes, value: true }, span);
         Some(output)
     }
-}
-
-/// Whether a cell of Yosys is a register that can be read: one with an asynchronous set or reset.
-pub fn is_register_cell(cell: &str) -> bool {
-    forced_cell(cell).is_some()
 }

@@ -4,15 +4,12 @@ use std::fmt::Write;
 
 use crate::formats::design::{Forcing, Register, RegisterKind};
 
-/// A cell of Yosys that is a register with a set or a reset.
 pub(super) struct ForcedCell {
     pub(super) kind: RegisterKind,
     pub(super) forcing: Forcing,
     /// The value that a reset gives it, if it has no set.
     pub(super) start: Option<bool>,
-    /// The port of its clock.
     pub(super) clock: &'static str,
-    /// The ports that force it.
     pub(super) ports: &'static [&'static str],
 }
 

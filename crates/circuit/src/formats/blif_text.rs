@@ -4,11 +4,9 @@ use std::fmt::Write;
 
 use crate::formats::blif_register::cell_of;
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
-use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, visible};
-use crate::formats::starts::starts;
+use crate::formats::names::{ClockName, FileNames, cells_in_order, stand_ins, starts, visible};
 use crate::{NetId, Netlist, Node};
 
-/// A design as BLIF text, with a `.latch` for each register.
 pub fn write(design: &Design) -> String {
     let netlist = &design.logic;
     let legal = |name: &str| visible(name, &['#', '\\', '=']);
@@ -79,7 +77,6 @@ pub fn write(design: &Design) -> String {
     text
 }
 
-/// A cell as the rows at which it is 1.
 fn write_cell<'n>(text: &mut String, netlist: &Netlist, id: NetId, name: &impl Fn(NetId) -> &'n str) {
     let function = netlist.cell(id).expect("the order holds cells").function;
     let pins = netlist.pins(id);
@@ -92,7 +89,6 @@ fn write_cell<'n>(text: &mut String, netlist: &Netlist, id: NetId, name: &impl F
     }
 }
 
-/// The name of a constant net.
 fn constant(value: bool) -> &'static str {
     if value { "$true" } else { "$false" }
 }

@@ -8,7 +8,7 @@ use crate::formats::Design;
 /// A port or a net of one bit or several, made of the bits of a list.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Bus {
-    /// The name, without the number of a bit.
+    /// Without the number of a bit.
     pub name: String,
     /// The places of its bits in the list, the rightmost bit first.
     pub bits: Vec<usize>,

@@ -7,20 +7,14 @@ use crate::{NetId, Netlist};
 /// When a register takes its next value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RegisterKind {
-    /// When the clock rises.
     Rising,
-    /// When the clock falls.
     Falling,
-    /// While the clock is 1.
     High,
-    /// While the clock is 0.
     Low,
 }
 
-/// How a register changes without its clock.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Forcing {
-    /// It does not.
     #[default]
     Never,
     /// A reset gives it its start value as soon as it is 1, and keeps it while it is 1.
@@ -30,7 +24,6 @@ pub enum Forcing {
 }
 
 impl Forcing {
-    /// The words for its nets, in order.
     pub(crate) fn nets(self) -> &'static [&'static str] {
         match self {
             Self::Never => &[],
@@ -40,31 +33,29 @@ impl Forcing {
     }
 }
 
-/// A register for one bit of state.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// The net that shows its value.
     pub name: String,
-    /// When it takes its next value.
     pub kind: RegisterKind,
     /// The net that clocks it; `None` if the format has one clock without a name.
     pub clock: Option<String>,
-    /// Its value before the first cycle, if known.
     pub start: Option<bool>,
-    /// How it changes without its clock.
     pub forcing: Forcing,
 }
-
 impl Register {
     /// The clock of registers for which a file names none.
     pub const CLOCK: &str = "clk";
 
-    /// The number of outputs that the logic has for registers.
+    /// A register without a start value that takes its next value when the clock rises.
+    pub(crate) fn flip_flop(name: String, clock: &str) -> Self {
+        let (kind, clock, forcing) = (RegisterKind::Rising, Some(clock.to_owned()), Forcing::Never);
+        Self { name, kind, clock, start: None, forcing }
+    }
+
     pub(crate) fn outputs(registers: &[Self]) -> usize {
         registers.iter().map(|register| 1 + register.forcing.nets().len()).sum()
     }
 
-    /// The name of its clock.
     pub(crate) fn clock_name(&self) -> &str {
         self.clock.as_deref().unwrap_or(Self::CLOCK)
     }
@@ -81,7 +72,6 @@ pub struct Design {
     /// The logic: its inputs are the ports and then a register's value each, its outputs the ports, then a register's
     /// next value each, and then the nets that force registers.
     pub logic: Netlist,
-    /// The registers in order.
     pub registers: Vec<Register>,
     /// The buses whose leftmost bit has the lowest number, such as `a` of `input [0:3] a` in Verilog.
     pub ascending: BTreeSet<String>,
@@ -93,12 +83,10 @@ impl Design {
         Self { logic, registers, ascending: BTreeSet::new() }
     }
 
-    /// The number of input ports.
     pub fn inputs(&self) -> usize {
         self.logic.inputs().len() - self.registers.len()
     }
 
-    /// The number of output ports.
     pub fn outputs(&self) -> usize {
         self.logic.outputs().len() - Register::outputs(&self.registers)
     }
@@ -110,7 +98,7 @@ impl Design {
         self.registers.iter().map(&mut next).collect()
     }
 
-    /// The nets that force a register, for each register.
+    /// The nets that drive these.
     pub(crate) fn forcing_nets(&self) -> Vec<Vec<NetId>> {
         let driver = |&output: &NetId| self.logic.pins(output)[0];
         self.forcing().into_iter().map(|outputs| outputs.iter().map(driver).collect()).collect()

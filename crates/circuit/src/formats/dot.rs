@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use crate::formats::starts::starts;
+use crate::formats::names::starts;
 use crate::{Loops, Netlist, Node};
 
 /// Writes a netlist; cells on feedback loops are drawn with a double border, and memory elements with their start

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use crate::formats::design::{Design, Register, RegisterKind};
-use crate::formats::wording::TextError;
+use crate::formats::wording::text as wording;
 use crate::proof::prove;
 use crate::{NetId, Netlist};
 use nbc_base::budget::Limit;
@@ -11,16 +11,17 @@ use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::model::Function;
 use nbc_base::source::Span;
 
-/// A net's number in a draft.
 pub type NetName = u32;
 
-/// The definition of a net.
 #[derive(Clone, Debug)]
 pub enum Definition {
-    /// A gate of any number of pins, maybe inverted in the end.
     Gate(Function, bool, Vec<NetName>),
     /// A sum of cubes, each with a digit `0`, `1` or `-` per pin; the net is `value` if one of them matches.
-    Cover { pins: Vec<NetName>, cubes: Vec<Vec<u8>>, value: bool },
+    Cover {
+        pins: Vec<NetName>,
+        cubes: Vec<Vec<u8>>,
+        value: bool,
+    },
 }
 
 impl Definition {
@@ -30,7 +31,6 @@ impl Definition {
         }
     }
 
-    /// The number of pins of its gates.
     fn size(&self) -> usize {
         match self {
             Self::Gate(_, _, pins) => pins.len(),
@@ -39,29 +39,19 @@ impl Definition {
     }
 }
 
-/// A register of a draft.
 #[derive(Clone, Debug)]
 pub struct DraftRegister {
-    /// Its result in the design.
     pub register: Register,
-    /// The net that shows its value.
     pub output: NetName,
-    /// The net of its next value.
     pub next: NetName,
-    /// The nets that force it.
     pub forcing: Vec<NetName>,
-    /// The place of the register in the source.
     pub span: Span,
 }
 
-/// Nets by name, with their definitions.
 #[derive(Clone, Debug, Default)]
 pub struct Draft {
-    /// The name of the circuit.
     pub title: String,
-    /// The input ports in order, each with its place.
     pub inputs: Vec<(NetName, Span)>,
-    /// The output ports in order, each with its place.
     pub outputs: Vec<(NetName, Span)>,
     pub registers: Vec<DraftRegister>,
     names: Vec<String>,
@@ -70,20 +60,16 @@ pub struct Draft {
     /// The nets with a start value: feedback may pass through them.
     starts: BTreeMap<NetName, bool>,
     pub errors: Vec<Diagnostic>,
-    /// The nets and the pins of definitions so far.
     size: usize,
 }
 
-/// The most errors that are reported.
 pub const MOST_ERRORS: usize = 20;
 
 impl Draft {
-    /// A draft of that name with nothing in it.
     pub fn titled(title: &str) -> Self {
         Self { title: title.to_owned(), ..Self::default() }
     }
 
-    /// The number of a name.
     pub fn name(&mut self, name: &str) -> NetName {
         if let Some(&number) = self.numbers.get(name) {
             return number;
@@ -95,29 +81,26 @@ impl Draft {
         number
     }
 
-    /// The name with a number.
     pub fn text(&self, name: NetName) -> &str {
         &self.names[name as usize]
     }
 
-    /// Reports an error.
-    pub fn fault(&mut self, error: impl Into<TextError>, span: Span) {
+    pub fn fault(&mut self, error: Diagnostic) {
         if self.errors.len() < MOST_ERRORS {
-            self.errors.push(error.into().at(span));
+            self.errors.push(error);
         }
     }
 
-    /// Defines a net, or reports its second definition.
     pub fn define(&mut self, name: NetName, definition: Definition, span: Span) {
         self.size += 1 + definition.size();
         if Limit::FilePins.permit(self.size as u64).is_err() {
             if self.errors.last().is_none_or(|fault| fault.code != Code::TooLarge) {
-                self.errors.push(TextError::TooLarge { most: Limit::FilePins.most() }.at(span));
+                self.errors.push(wording::too_many_pins(span));
             }
             return;
         }
         if let Some((_, first)) = self.definitions[name as usize] {
-            self.fault(TextError::DefinedTwice { net: self.text(name).to_owned(), first }, span);
+            self.fault(wording::defined_twice(self.text(name), first, span));
         } else {
             self.definitions[name as usize] = Some((definition, span));
         }
@@ -164,11 +147,8 @@ impl Draft {
                     {
                         wires.push((at, output, next, span));
                     }
-                    Some(_) => self.fault(TextError::LogicEnable { latch: register.name }, span),
-                    None => {
-                        let clock = self.text(number).to_owned();
-                        self.fault(TextError::LogicClock { clock, register: register.name }, span);
-                    }
+                    Some(_) => self.fault(wording::logic_enable(&register.name, span)),
+                    None => self.fault(wording::logic_clock(self.text(number), &register.name, span)),
                 }
             } else {
                 self.registers[at].register.clock = Some(self.text(source).to_owned());
@@ -180,7 +160,6 @@ impl Draft {
         }
     }
 
-    /// Whether a net has this value for all inputs and states.
     fn is_always(&self, net: NetName, value: bool, span: Span) -> bool {
         let states = self.registers.iter().map(|register| (register.output, register.span));
         let inputs = self.inputs.iter().copied().chain(states).collect();
@@ -198,7 +177,6 @@ impl Draft {
         prove(&probe.logic, &constant).is_ok()
     }
 
-    /// The design, if the draft is sound.
     pub fn finish(mut self) -> Result<Design, Vec<Diagnostic>> {
         if Limit::FilePins.permit(self.size as u64).is_err() {
             return Err(self.errors);
@@ -206,26 +184,22 @@ impl Draft {
         self.resolve_clocks();
         let mut logic = Netlist::new(self.title.clone());
         let mut nets: Vec<Option<NetId>> = vec![None; self.names.len()];
-        let sources: Vec<_> = self
-            .inputs
-            .iter()
-            .copied()
-            .chain(self.registers.iter().map(|register| (register.output, register.span)))
-            .collect();
+        let states = self.registers.iter().map(|register| (register.output, register.span));
+        let sources: Vec<_> = self.inputs.iter().copied().chain(states).collect();
         for (name, span) in sources {
             if nets[name as usize].is_some() || self.definitions[name as usize].is_some() {
-                self.fault(TextError::DrivenTwice { net: self.text(name).to_owned() }, span);
+                self.fault(wording::driven_twice(self.text(name), span));
                 continue;
             }
             nets[name as usize] = Some(logic.add_input(self.text(name)));
         }
-        let sinks: Vec<_> = self
-            .outputs
-            .iter()
-            .copied()
-            .chain(self.registers.iter().map(|register| (register.next, register.span)))
-            .chain(self.registers.iter().flat_map(|register| register.forcing.iter().map(|&net| (net, register.span))))
-            .collect();
+        let nexts = self.registers.iter().map(|register| (register.next, register.span));
+        let forcing = |register: &DraftRegister| {
+            let span = register.span;
+            register.forcing.iter().map(move |&net| (net, span)).collect::<Vec<_>>()
+        };
+        let forcing = self.registers.iter().flat_map(forcing);
+        let sinks: Vec<_> = self.outputs.iter().copied().chain(nexts).chain(forcing).collect();
         let feedback = self.feedback(&mut logic, &mut nets);
         for &(name, span) in &sinks {
             self.build(name, span, &mut logic, &mut nets);
@@ -245,7 +219,6 @@ impl Draft {
         Ok(Design::new(logic, self.registers.into_iter().map(|register| register.register).collect()))
     }
 
-    /// The names of the outputs of the logic: ports, next values, and nets that force registers.
     fn labels(&self) -> Vec<String> {
         let registers = || self.registers.iter().map(|draft| &draft.register);
         let ports = self.outputs.iter().map(|&(name, _)| self.text(name).to_owned());
@@ -284,7 +257,7 @@ impl Draft {
                 continue;
             }
             let Some((definition, span)) = &self.definitions[name as usize] else {
-                self.fault(TextError::Undefined { net: self.text(name).to_owned() }, used);
+                self.fault(wording::undefined(self.text(name), used));
                 nets[name as usize] = Some(logic.add_constant(false));
                 continue;
             };
@@ -293,36 +266,27 @@ impl Draft {
                 Some(next) if nets[next as usize].is_some() => {}
                 Some(next) if on_path.insert(next) => open.push((next, span, 0)),
                 Some(next) => {
-                    self.fault(TextError::Loop { net: self.text(next).to_owned() }, span);
+                    self.fault(wording::net_loop(self.text(next), span));
                     nets[next as usize] = Some(logic.add_constant(false));
                 }
-                None => {
-                    let net = add(logic, definition, nets);
-                    nets[name as usize] = Some(net);
-                }
+                None => nets[name as usize] = Some(add(logic, definition, nets)),
             }
         }
     }
 }
 
-/// Adds the gates of a definition whose pins are all built.
 fn add(logic: &mut Netlist, definition: &Definition, nets: &[Option<NetId>]) -> NetId {
     let net = |name: &NetName| nets[*name as usize].expect("pins are built first");
     match definition {
-        Definition::Gate(function, inverted, pins) => {
-            let pins = pins.iter().map(net).collect();
-            gate(logic, *function, *inverted, pins)
-        }
+        Definition::Gate(function, inverted, pins) => gate(logic, *function, *inverted, pins.iter().map(net).collect()),
         Definition::Cover { pins, cubes, value } => {
-            let pins: Vec<_> = pins.iter().map(net).collect();
-            cover(logic, &pins, cubes, *value)
+            cover(logic, &pins.iter().map(net).collect::<Vec<_>>(), cubes, *value)
         }
     }
 }
 
 /// A balanced tree of gates of an associative function, with the last gate inverted if requested.
 fn gate(logic: &mut Netlist, function: Function, inverted: bool, mut nets: Vec<NetId>) -> NetId {
-    let last = |inverted: bool| if inverted { function.inverted() } else { function };
     while nets.len() > 2 {
         nets =
             nets.chunks(2).map(|pair| if pair.len() == 2 { logic.add_gate(function, pair) } else { pair[0] }).collect();
@@ -331,11 +295,10 @@ fn gate(logic: &mut Netlist, function: Function, inverted: bool, mut nets: Vec<N
         [] => logic.add_constant((function == Function::AND) != inverted),
         [one] if inverted => logic.add_gate(Function::NOT, &[one]),
         [one] => one,
-        _ => logic.add_gate(last(inverted), &nets),
+        _ => logic.add_gate(if inverted { function.inverted() } else { function }, &nets),
     }
 }
 
-/// A sum of cubes; of two pins, one gate.
 fn cover(logic: &mut Netlist, pins: &[NetId], cubes: &[Vec<u8>], value: bool) -> NetId {
     if pins.len() == 2 {
         let holds = |cube: &[u8], x: u8, y: u8| (cube[0] == b'-' || cube[0] == x) && (cube[1] == b'-' || cube[1] == y);

@@ -3,28 +3,22 @@
 use std::collections::BTreeSet;
 
 use crate::Loops;
-use crate::formats::wording::EncodeError;
+use crate::formats::wording::encode as wording;
 use crate::formats::{Design, Forcing, RegisterKind, aiger, blif, dot, nb, pla, verilog};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 
-/// A format that a design can be read from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CircuitSource {
-    /// AIGER, binary or as text.
     Aiger,
-    /// The .bench format of the ISCAS benchmarks.
     Bench,
-    /// Berkeley Logic Interchange Format.
     Blif,
-    /// The PLA files of espresso.
     Pla,
     /// Verilog, which Yosys translates to BLIF.
     Verilog,
 }
 
 impl CircuitSource {
-    /// The format for the extension of a path, in any case.
     pub fn of_path(path: &str) -> Option<Self> {
         let (_, ending) = path.rsplit_once('.')?;
         Some(match ending.to_ascii_lowercase().as_str() {
@@ -41,7 +35,6 @@ impl CircuitSource {
 /// A format that a design can be written in.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum CircuitFormat {
-    /// Berkeley Logic Interchange Format.
     Blif,
     /// The PLA files of espresso, for few inputs and no state.
     Pla,
@@ -58,7 +51,6 @@ pub enum CircuitFormat {
 }
 
 impl CircuitFormat {
-    /// The format for the extension of a path, in any case.
     pub fn of_path(path: &str) -> Result<Self, Diagnostic> {
         let (_, ending) = path.rsplit_once('.').unwrap_or_default();
         Ok(match ending.to_ascii_lowercase().as_str() {
@@ -69,13 +61,17 @@ impl CircuitFormat {
             "v" | "sv" => Self::Verilog,
             "dot" | "gv" => Self::Dot,
             "nb" => Self::Nb,
-            _ => return Err(EncodeError::UnknownFormat { path: path.to_owned() }.into()),
+            _ => return Err(wording::unknown_format(path)),
         })
     }
 
-    /// A design in this format.
     pub fn encode(self, design: &Design) -> Result<Vec<u8>, Diagnostic> {
-        self.check(design).map_err(Diagnostic::from)?;
+        match self {
+            Self::AigerBinary | Self::AigerText => fits_aiger(design)?,
+            Self::Nb if design.outputs() == 0 => return Err(wording::nb_without_outputs(&design.logic.name)),
+            Self::Pla => fits_pla(design)?,
+            Self::Nb | Self::Blif | Self::Verilog | Self::Dot => {}
+        }
         Ok(match self {
             Self::Blif => blif::write(design).into_bytes(),
             Self::Pla => pla::write(design).into_bytes(),
@@ -86,50 +82,32 @@ impl CircuitFormat {
             Self::Nb => nb::write(design).into_bytes(),
         })
     }
-
-    fn check(self, design: &Design) -> Result<(), EncodeError> {
-        match self {
-            Self::AigerBinary | Self::AigerText => fits_aiger(design),
-            Self::Nb => fits_nb(design),
-            Self::Pla => fits_pla(design),
-            Self::Blif | Self::Verilog | Self::Dot => Ok(()),
-        }
-    }
 }
 
 /// AIGER has flip-flops of one clock without a name, and no loops.
-fn fits_aiger(design: &Design) -> Result<(), EncodeError> {
+fn fits_aiger(design: &Design) -> Result<(), Diagnostic> {
     if !Loops::of(&design.logic).cores().is_empty() {
-        return Err(EncodeError::AigerLoop);
+        return Err(wording::aiger_loop());
     }
     if let Some(register) = design.registers.iter().find(|register| register.forcing != Forcing::Never) {
-        return Err(EncodeError::AigerForced { register: register.name.clone() });
+        return Err(wording::aiger_forced(&register.name));
     }
     if let Some(register) = design.registers.iter().find(|register| register.kind != RegisterKind::Rising) {
-        return Err(EncodeError::AigerRegister { register: register.name.clone(), kind: register.kind });
+        return Err(wording::aiger_register(&register.name, register.kind));
     }
-    let clocks: BTreeSet<_> = design.registers.iter().filter_map(|register| register.clock.clone()).collect();
+    let clocks: BTreeSet<&str> = design.registers.iter().filter_map(|register| register.clock.as_deref()).collect();
     if clocks.len() > 1 {
-        return Err(EncodeError::AigerClocks { clocks: clocks.into_iter().collect() });
+        return Err(wording::aiger_clocks(clocks));
     }
     Ok(())
 }
 
 /// A PLA is two-level logic, written from a truth table.
-fn fits_pla(design: &Design) -> Result<(), EncodeError> {
-    let (inputs, most) = (design.inputs(), Limit::TriedBits.most());
+fn fits_pla(design: &Design) -> Result<(), Diagnostic> {
     if !design.registers.is_empty() || !Loops::of(&design.logic).cores().is_empty() {
-        return Err(EncodeError::PlaState);
+        return Err(wording::pla_state());
     }
-    Limit::TriedBits.permit(inputs as u64).map_err(|_| EncodeError::PlaInputs { inputs, most })
-}
-
-/// A circuit of the language has an output.
-fn fits_nb(design: &Design) -> Result<(), EncodeError> {
-    if design.outputs() == 0 {
-        return Err(EncodeError::NbNoOutputs { circuit: design.logic.name.clone() });
-    }
-    Ok(())
+    Limit::TriedBits.permit(design.inputs() as u64).map_err(|_| wording::pla_inputs(design.inputs()))
 }
 
 #[cfg(test)]
@@ -138,26 +116,20 @@ mod tests {
     use crate::Netlist;
     use crate::formats::Register;
 
-    /// Registers of these kinds and clocks, each of which takes its own value again.
-    fn design(registers: &[(RegisterKind, &str)]) -> Design {
+    fn check(registers: &[(RegisterKind, &str)], expected: Option<&str>) {
         let mut logic = Netlist::new("m");
         let states: Vec<_> = (0..registers.len()).map(|i| logic.add_input(format!("q{i}"))).collect();
-        states.iter().enumerate().for_each(|(i, &state)| {
+        for (i, &state) in states.iter().enumerate() {
             logic.add_output(format!("q{i}_next"), state);
-        });
+        }
         let register = |(i, &(kind, clock)): (usize, &(RegisterKind, &str))| Register {
-            name: format!("q{i}"),
             kind,
-            clock: Some(clock.to_owned()),
-            start: None,
-            forcing: Forcing::Never,
+            ..Register::flip_flop(format!("q{i}"), clock)
         };
-        Design::new(logic, registers.iter().enumerate().map(register).collect())
-    }
+        let design = Design::new(logic, registers.iter().enumerate().map(register).collect());
 
-    fn check(registers: &[(RegisterKind, &str)], expected: Option<&str>) {
         for format in [CircuitFormat::AigerText, CircuitFormat::AigerBinary] {
-            let said = format.encode(&design(registers)).err().map(|fault| fault.message);
+            let said = format.encode(&design).err().map(|fault| fault.message);
             assert_eq!(said.as_deref(), expected);
         }
     }

@@ -17,15 +17,13 @@ pub mod nb;
 mod nb_names;
 pub mod pla;
 mod pla_text;
-mod starts;
 pub mod verilog;
-mod verilog_module;
 mod verilog_names;
 mod verilog_ports;
 mod wording;
 
 pub use aiger_model::AigerModel;
+pub use blif::{verilog_design, verilog_module};
 pub use design::{Design, Forcing, Register, RegisterKind};
 pub use format::{CircuitFormat, CircuitSource};
 pub use nb_names::is_word;
-pub use verilog_module::{verilog_design, verilog_module};

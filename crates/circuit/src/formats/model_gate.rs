@@ -4,13 +4,11 @@ use std::collections::BTreeMap;
 
 use nbc_base::model::Function;
 
-/// A sum of cubes in a model.
 pub(super) struct ModelCover<'t> {
     pub(super) pins: Vec<&'t str>,
     pub(super) output: &'t str,
     /// Cubes with a digit `0`, `1` or `-` for each pin.
     pub(super) cubes: &'t [Vec<u8>],
-    /// The value of the output if a cube matches.
     pub(super) value: bool,
 }
 
@@ -41,7 +39,6 @@ pub(super) fn gate<'t>(inputs: &[&'t str], output: &str, mut covers: Vec<ModelCo
     known.get(output).map(|&bits| Function::new(bits)).filter(|function| function.arity() > 0)
 }
 
-/// The values of a cover in the four rows.
 fn values(cover: &ModelCover<'_>, known: &BTreeMap<&str, u8>) -> u8 {
     let literal = |(pin, digit): (&&str, &u8)| match digit {
         b'1' => known[pin],

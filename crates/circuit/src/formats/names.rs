@@ -1,25 +1,19 @@
-//! Names of nets in files: unique, and valid in the format.
+//! Names of nets in files: unique, and valid in the format; and start values of cells.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::formats::{Design, Register};
-use crate::{NetId, Netlist, Node};
+use crate::{Logic, Loops, NetId, Netlist, Node};
 
-/// The names of a design's nets and clocks in one file.
-#[derive(Clone, Debug)]
 pub struct FileNames {
     nets: BTreeMap<NetId, String>,
     /// The nets that clock registers, by the names that the registers have for them.
     clocked: BTreeMap<String, NetId>,
-    /// The same for clocks that are not nets of the design.
     clocks: BTreeMap<String, String>,
 }
 
-/// The source of a register's clock.
 pub enum ClockName<'n> {
-    /// From an input or a register's value.
     Net(NetId),
-    /// From outside: the name that it has in the file.
     Own(&'n str),
 }
 
@@ -61,17 +55,14 @@ impl FileNames {
         Self { nets, clocked, clocks }
     }
 
-    /// The name of a net.
     pub fn net(&self, id: NetId) -> &str {
         &self.nets[&id]
     }
 
-    /// The clocks that are not nets of the design, in order.
     pub fn own_clocks(&self) -> impl Iterator<Item = &str> {
         self.clocks.values().map(String::as_str)
     }
 
-    /// The clock of a register, if it has one.
     pub fn clock(&self, register: &Register) -> Option<ClockName<'_>> {
         let clock = register.clock.as_ref()?;
         let net = self.clocked.get(clock).map(|&id| ClockName::Net(id));
@@ -88,7 +79,6 @@ pub(super) fn free(taken: &mut BTreeSet<String>, wish: String) -> String {
     name
 }
 
-/// A name in visible ASCII characters, with invalid ones replaced.
 pub fn visible(name: &str, unreadable: &[char]) -> String {
     let readable = |c: char| c.is_ascii_graphic() && !unreadable.contains(&c);
     let visible: String = name.chars().map(|c| if readable(c) { c } else { '_' }).collect();
@@ -109,10 +99,20 @@ pub fn stand_ins(design: &Design) -> BTreeMap<NetId, NetId> {
     stand_ins
 }
 
-/// The cells; drivers first, except on loops.
 pub fn cells_in_order(netlist: &Netlist) -> Vec<NetId> {
-    let loops = crate::Loops::of(netlist);
+    let loops = Loops::of(netlist);
     loops.order().iter().copied().filter(|&id| matches!(netlist.node(id), Node::Cell(_))).collect()
+}
+
+/// The value before the first cycle of every cell of a memory element.
+pub(super) fn starts(netlist: &Netlist) -> BTreeMap<NetId, bool> {
+    let memory = Loops::memory(netlist).cores().concat();
+    let own = |id: NetId| netlist.cell(id).and_then(|cell| cell.start);
+    if memory.iter().all(|&id| own(id).is_some()) {
+        return memory.into_iter().filter_map(|id| Some((id, own(id)?))).collect();
+    }
+    let before = Logic::new(netlist);
+    memory.into_iter().map(|id| (id, before.value(id))).collect()
 }
 
 #[cfg(test)]

@@ -35,7 +35,6 @@ struct Writer<'d> {
     design: &'d Design,
     names: NbNames,
     loops: Loops,
-    /// The nets that force each register.
     forcing: Vec<Vec<NetId>>,
 }
 
@@ -53,7 +52,6 @@ impl Writer<'_> {
         self.names.bit(&self.design.logic, id)
     }
 
-    /// The calls of registers, and the buses that several lines drive.
     fn registers(&self, statements: &mut Vec<String>) -> Vec<String> {
         let logic = &self.design.logic;
         let states = &logic.inputs()[self.design.inputs()..];
@@ -124,7 +122,6 @@ impl Writer<'_> {
         }
     }
 
-    /// A line for each cell, and for each wire of a loop.
     fn cells(&self, statements: &mut Vec<String>) {
         let logic = &self.design.logic;
         let init = |start: Option<bool>| start.map_or(String::new(), |start| format!(" init {}", u8::from(start)));
@@ -142,7 +139,6 @@ impl Writer<'_> {
         }
     }
 
-    /// The outputs that repeat another net.
     fn copies(&self, statements: &mut Vec<String>) {
         let logic = &self.design.logic;
         for &id in &logic.outputs()[..self.design.outputs()] {

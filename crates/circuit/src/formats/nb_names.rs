@@ -7,7 +7,6 @@ use crate::formats::buses::{Bus, buses};
 use crate::formats::names::{free, stand_ins};
 use crate::{NetId, Netlist, Node};
 
-/// A bit of a net in the text.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct NamedBit {
     net: String,
@@ -20,7 +19,6 @@ impl NamedBit {
         Self { net, bit: 0, width: 1 }
     }
 
-    /// The bit in an expression.
     pub(super) fn text(&self) -> String {
         if self.width == 1 { self.net.clone() } else { format!("{}[{}]", self.net, self.bit) }
     }
@@ -41,31 +39,26 @@ impl NamedBit {
     }
 }
 
-/// A net that the text declares: a port, or a register with its next values.
 #[derive(Clone, Debug)]
 pub(super) struct NamedNet {
     pub(super) name: String,
-    /// Its bits, the lowest first.
     pub(super) bits: Vec<NetId>,
 }
 
 impl NamedNet {
-    /// The net with its width.
     pub(super) fn declared(&self) -> String {
         if self.bits.len() == 1 { self.name.clone() } else { format!("{}[{}]", self.name, self.bits.len()) }
     }
 }
 
-/// The names of a design in a text of the language.
+#[derive(Default)]
 pub(super) struct NbNames {
     pub(super) inputs: Vec<NamedNet>,
     pub(super) outputs: Vec<NamedNet>,
     /// The values of registers that no output shows, then the next values that cells compute.
     pub(super) states: Vec<NamedNet>,
     pub(super) nexts: Vec<NamedNet>,
-    /// The clocks that are not nets of the design.
     pub(super) clocks: BTreeMap<String, String>,
-    /// The output that stands in for a net, if one does.
     pub(super) stand_ins: BTreeMap<NetId, NetId>,
     bits: BTreeMap<NetId, NamedBit>,
     taken: BTreeSet<String>,
@@ -82,15 +75,9 @@ impl NbNames {
         // A register is not named by the next value of another.
         stand_ins.retain(|driver, output| outputs.contains(output) || !states.contains(driver));
         let mut names = Self {
-            inputs: Vec::new(),
-            outputs: Vec::new(),
-            states: Vec::new(),
-            nexts: Vec::new(),
-            clocks: BTreeMap::new(),
             stand_ins,
-            bits: BTreeMap::new(),
-            taken: BTreeSet::new(),
             ascending: design.ascending.iter().flat_map(|bus| [bus.clone(), format!("{bus}_next")]).collect(),
+            ..Self::default()
         };
         names.inputs = names.nets(inputs, |id| logic.net_name(id));
         names.outputs = names.nets(outputs, |id| logic.net_name(id));
@@ -104,7 +91,6 @@ impl NbNames {
         names
     }
 
-    /// Names nets by their buses.
     fn nets(&mut self, ids: &[NetId], name: impl Fn(NetId) -> String) -> Vec<NamedNet> {
         let names: Vec<String> = ids.iter().map(|&id| name(id)).collect();
         let mut net = |Bus { name, bits }: Bus| {
@@ -135,7 +121,6 @@ impl NbNames {
         }
     }
 
-    /// The name of a net, or of the output that stands in for it.
     pub(super) fn bit(&self, logic: &Netlist, id: NetId) -> NamedBit {
         match logic.node(id) {
             Node::Constant(value) => NamedBit::alone(u8::from(*value).to_string()),
@@ -155,7 +140,6 @@ pub fn is_word(name: &str) -> bool {
     word(name) == name
 }
 
-/// A name made legal in the language.
 pub(super) fn word(name: &str) -> String {
     let mut word: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if !is_legal(&word) {
@@ -164,7 +148,6 @@ pub(super) fn word(name: &str) -> String {
     word
 }
 
-/// Whether letters, digits and underscores are a name in the language, and not a reserved word.
 fn is_legal(word: &str) -> bool {
     match word {
         "async_latch" | "async_register" | "set_reset_latch" | "set_reset_register" => false,

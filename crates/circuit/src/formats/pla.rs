@@ -2,9 +2,9 @@
 
 use crate::formats::design::Design;
 use crate::formats::draft::{Definition, Draft, MOST_ERRORS};
-use crate::formats::wording::{PlaError, TextError};
+use crate::formats::wording::{pla as wording, text};
 use nbc_base::budget::Limit;
-use nbc_base::diag::{Diagnostic, Severity};
+use nbc_base::diag::Diagnostic;
 use nbc_base::source::{FileId, Span};
 
 pub use crate::formats::pla_text::write;
@@ -40,29 +40,19 @@ impl PlaType {
     }
 }
 
-/// A line of a PLA: digits of the inputs, and those of the outputs.
-#[derive(Clone, Debug)]
 pub struct PlaCube {
-    /// `0`, `1` or `-` for each input.
     pub inputs: Vec<u8>,
     /// For each output, what the cube says of it: a value, open, or nothing.
     pub outputs: Vec<Option<Option<bool>>>,
-    /// The place of the line.
     pub span: Span,
 }
 
-/// A PLA as written.
-#[derive(Clone, Debug)]
 pub struct Pla {
-    /// The names of the inputs, from left to right.
     pub inputs: Vec<(String, Span)>,
-    /// The names of the outputs, from left to right.
     pub outputs: Vec<(String, Span)>,
-    /// What outputs mean.
     pub kind: PlaType,
     /// The place of the type, or of the file's first line.
     pub kind_span: Span,
-    /// The cubes in order.
     pub cubes: Vec<PlaCube>,
 }
 
@@ -78,7 +68,7 @@ pub fn read(text: &str, file: FileId) -> Result<Design, Vec<Diagnostic>> {
     // All covers are counted before one is copied.
     let pins: u64 = (0..outputs.len()).map(|output| (inputs.len() * ones(output).count().max(1)) as u64).sum();
     if Limit::FilePins.permit(pins).is_err() {
-        return Err(vec![TextError::TooLarge { most: Limit::FilePins.most() }.at(pla.kind_span)]);
+        return Err(vec![text::too_many_pins(pla.kind_span)]);
     }
     for (at, &(name, span)) in outputs.iter().enumerate() {
         let cubes = ones(at).map(|cube| cube.inputs.clone()).collect();
@@ -89,16 +79,13 @@ pub fn read(text: &str, file: FileId) -> Result<Design, Vec<Diagnostic>> {
     draft.finish()
 }
 
-/// A warning if outputs are open somewhere: the circuit has 0 there.
 pub fn opened(text: &str, file: FileId) -> Vec<Diagnostic> {
     let Ok(pla) = parse(text, file) else { return Vec::new() };
     let open = pla.cubes.iter().find(|cube| cube.outputs.contains(&Some(None))).map(|cube| cube.span);
     let place = if pla.kind.is_listed() { Some(pla.kind_span) } else { open };
-    let warning = |span| Diagnostic { severity: Severity::Warning, ..TextError::from(PlaError::Open).at(span) };
-    place.map(warning).into_iter().collect()
+    place.map(wording::open_outputs).into_iter().collect()
 }
 
-/// Reads a PLA as it is written.
 pub fn parse(text: &str, file: FileId) -> Result<Pla, Vec<Diagnostic>> {
     let mut reader = Reader::new(file);
     let mut start = 0;
@@ -126,7 +113,6 @@ struct Reader {
     kind: PlaType,
     kind_span: Span,
     cubes: Vec<PlaCube>,
-    /// Digits so far.
     digits: u64,
     errors: Vec<Diagnostic>,
 }
@@ -145,13 +131,12 @@ impl Reader {
         }
     }
 
-    fn fault(&mut self, error: impl Into<TextError>, span: Span) {
+    fn fault(&mut self, error: Diagnostic) {
         if self.errors.len() < MOST_ERRORS {
-            self.errors.push(error.into().at(span));
+            self.errors.push(error);
         }
     }
 
-    /// Reads a line; false after the last one.
     fn line(&mut self, words: &[(&str, Span)]) -> bool {
         let (first, span) = words[0];
         match first {
@@ -161,7 +146,7 @@ impl Reader {
             // The number of cubes is counted, and not believed.
             ".p" => {}
             ".e" | ".end" => return false,
-            _ if first.starts_with('.') => self.fault(PlaError::UnknownDirective { directive: first.to_owned() }, span),
+            _ if first.starts_with('.') => self.fault(wording::unknown_directive(first, span)),
             _ => return self.cube(words),
         }
         self.errors.len() < MOST_ERRORS
@@ -172,17 +157,15 @@ impl Reader {
         let read = words.get(1).and_then(|(number, _)| number.parse::<u64>().ok()).filter(|number| *number > 0);
         match read {
             Some(width) if Limit::Width.permit(width).is_ok() => self.widths[side] = Some(width as usize),
-            Some(_) => self.fault(TextError::TooMany { what: "ports on a side", most: Limit::Width.most() }, span),
-            None => self.fault(PlaError::Count { directive: words[0].0.to_owned() }, span),
+            Some(_) => self.fault(text::too_many("ports on a side", Limit::Width.most(), span)),
+            None => self.fault(wording::no_count(words[0].0, span)),
         }
     }
 
     fn names(&mut self, side: usize, words: &[(&str, Span)]) {
-        if let Some(&(name, span)) =
-            words.iter().find(|(name, _)| Limit::FileNameBytes.permit(name.len() as u64).is_err())
-        {
-            let most = Limit::FileNameBytes.most();
-            return self.fault(TextError::LongName { bytes: name.len(), most }, Span { end: span.start + 20, ..span });
+        let is_long = |name: &str| Limit::FileNameBytes.permit(name.len() as u64).is_err();
+        if let Some(&(name, span)) = words.iter().find(|(name, _)| is_long(name)) {
+            return self.fault(text::long_name(name.len(), span));
         }
         self.labels[side] = Some(words[1..].iter().map(|&(name, span)| (name.to_owned(), span)).collect());
     }
@@ -194,39 +177,38 @@ impl Reader {
             "fd" => PlaType::OnesOrOpen,
             "fr" => PlaType::OnesOrZeros,
             "fdr" => PlaType::All,
-            _ => return self.fault(PlaError::UnknownType { found: word.to_owned() }, span),
+            _ => return self.fault(wording::unknown_type(word, span)),
         };
         self.kind_span = span;
     }
 
-    /// Reads a cube; false if no more are read.
     fn cube(&mut self, words: &[(&str, Span)]) -> bool {
         let span = words[0].1.to(words[words.len() - 1].1);
         let digits: Vec<u8> = words.iter().flat_map(|(word, _)| word.bytes()).filter(|&digit| digit != b'|').collect();
         self.digits += digits.len() as u64;
         if Limit::RowBits.permit(self.digits).is_err() {
-            self.fault(TextError::TooMany { what: "digits", most: Limit::RowBits.most() }, span);
+            self.fault(text::too_many("digits", Limit::RowBits.most(), span));
             return false;
         }
         match self.read_cube(&digits, span) {
             Ok(cube) => self.cubes.push(cube),
-            Err(error) => self.fault(error, span),
+            Err(error) => self.fault(error),
         }
         self.errors.len() < MOST_ERRORS
     }
 
-    fn read_cube(&self, digits: &[u8], span: Span) -> Result<PlaCube, PlaError> {
-        let [Some(inputs), Some(outputs)] = self.widths else { return Err(PlaError::NoWidths) };
+    fn read_cube(&self, digits: &[u8], span: Span) -> Result<PlaCube, Diagnostic> {
+        let [Some(inputs), Some(outputs)] = self.widths else { return Err(wording::no_widths(span)) };
         if digits.len() != inputs + outputs {
-            return Err(PlaError::CubeWidth { inputs, outputs, found: digits.len() });
+            return Err(wording::cube_width(inputs, outputs, digits.len(), span));
         }
         let (left, right) = digits.split_at(inputs);
         let other = |digits: &[u8], known: &[u8]| digits.iter().copied().find(|digit| !known.contains(digit));
         if let Some(found) = other(left, b"01-2") {
-            return Err(PlaError::InputDigit { found: char::from(found) });
+            return Err(wording::input_digit(found, span));
         }
         if let Some(found) = other(right, b"01-2~34") {
-            return Err(PlaError::OutputDigit { found: char::from(found) });
+            return Err(wording::output_digit(found, span));
         }
         let inputs = left.iter().map(|&digit| if digit == b'2' { b'-' } else { digit }).collect();
         let outputs = right.iter().map(|&digit| self.kind.meaning(digit)).collect();
@@ -237,7 +219,7 @@ impl Reader {
         let start = Span::new(self.file, 0, 0);
         let [Some(inputs), Some(outputs)] = self.widths else {
             if self.errors.is_empty() {
-                self.fault(PlaError::NoWidths, start);
+                self.fault(wording::no_widths(start));
             }
             return Err(self.errors);
         };
@@ -245,7 +227,7 @@ impl Reader {
             let Some(names) = self.labels[side].take() else { return numbered(letter, width, start) };
             if names.len() != width {
                 let span = names.last().map_or(start, |(_, span)| *span);
-                self.errors.push(TextError::from(PlaError::Names { expected: width, found: names.len() }).at(span));
+                self.errors.push(wording::port_names(width, names.len(), span));
             }
             names
         };
@@ -271,7 +253,6 @@ mod tests {
     use super::*;
     use crate::Logic;
 
-    /// The outputs of a PLA for all inputs in counting order, as digits.
     fn check(text: &str, expected: &[&str]) {
         let design = read(text, FileId(0)).unwrap_or_else(|faults| panic!("{faults:?}"));
         let inputs = design.inputs();

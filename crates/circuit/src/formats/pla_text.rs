@@ -36,7 +36,6 @@ pub fn write(design: &Design) -> String {
     text
 }
 
-/// The values of each output in all rows, in counting order.
 fn tables(design: &Design) -> Vec<Vec<bool>> {
     let bits = design.inputs();
     let mut tables = vec![Vec::with_capacity(1 << bits); design.outputs()];

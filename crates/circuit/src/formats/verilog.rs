@@ -7,15 +7,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write;
 
 use crate::formats::design::{Design, Forcing, Register, RegisterKind};
-use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, visible};
-use crate::formats::starts::starts;
+use crate::formats::names::{ClockName, FileNames, cells_in_order, free, stand_ins, starts, visible};
 use crate::formats::verilog_names::{escaped, plain};
 use crate::formats::verilog_ports::VerilogPorts;
 use crate::guarded::Guarded;
 use crate::{NetId, Netlist, Node};
 use nbc_base::model::Function;
 
-/// A design as structural Verilog.
 pub fn write(design: &Design) -> String {
     let mut writer = Writer::new(design);
     let mut text = writer.head();
@@ -37,15 +35,12 @@ struct Writer<'d> {
     /// The names of nets before they are escaped: a number appended to an escaped name would be outside of it.
     names: FileNames,
     ports: VerilogPorts,
-    /// The names that no instance may have.
     taken: BTreeSet<String>,
     title: String,
-    /// The values before the first cycle of the cells on loops.
     starts: BTreeMap<NetId, bool>,
     guarded: Guarded,
     /// For each cell on a loop that drives outputs, the output whose name it has.
     stand_ins: BTreeMap<NetId, NetId>,
-    /// The modules of cells that stay as written, and the numbers of their inputs.
     modules: BTreeMap<Function, (String, usize)>,
 }
 
@@ -69,7 +64,6 @@ impl<'d> Writer<'d> {
         writer
     }
 
-    /// Names a module for each function of the cells that stay as written.
     fn name_modules(&mut self) {
         let netlist = &self.design.logic;
         let mut taken = BTreeSet::from([self.title.clone()]);
@@ -224,7 +218,6 @@ fn cell_module(function: Function, module: &str, pins: usize) -> String {
     format!("\n(* keep_hierarchy *)\nmodule {module}({ports}, output y);\n    assign y = {logic};\nendmodule\n")
 }
 
-/// A function of nets, one for each of its inputs.
 fn expression(function: Function, nets: &[&str]) -> String {
     let &[a, b] = nets else {
         let [low, high] = function.halves().map(|half| expression(half, &nets[1..]));

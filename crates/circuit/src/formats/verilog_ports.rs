@@ -7,11 +7,8 @@ use crate::formats::buses::{Bus, bit_number, buses};
 use crate::formats::design::Design;
 use crate::formats::verilog_names::escaped;
 
-/// The ports of several bits.
 pub(super) struct VerilogPorts {
-    /// The port and the number of each bit.
     bits: BTreeMap<NetId, (String, i64)>,
-    /// The ports whose leftmost bit has the lowest number.
     ascending: BTreeSet<String>,
 }
 
@@ -45,12 +42,10 @@ impl VerilogPorts {
         Self { bits, ascending: design.ascending.clone() }
     }
 
-    /// The names of the ports of several bits.
     pub(super) fn names(&self) -> BTreeSet<&str> {
         self.bits.values().map(|(name, _)| name.as_str()).collect()
     }
 
-    /// A bit of a port, such as `count[0]`.
     pub(super) fn bit(&self, id: NetId) -> Option<String> {
         self.bits.get(&id).map(|(port, bit)| format!("{}[{bit}]", escaped(port)))
     }
@@ -75,7 +70,6 @@ impl VerilogPorts {
     }
 }
 
-/// Whether a name can be written as it is.
 fn is_visible(name: &str) -> bool {
     !name.is_empty() && name.chars().all(|c| c.is_ascii_graphic())
 }

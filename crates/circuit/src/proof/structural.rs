@@ -2,15 +2,14 @@
 //! that the cells that replaced a gate become that gate again. This suffices for a network of any size that was only
 //! covered.
 
-use std::collections::BTreeMap;
-
 use crate::cells::compose;
+use crate::interned::Interned;
 use crate::network::{Gate, Network};
+
 /// Whether the outputs of two networks are the same functions of the same signals. If not, they may still be equal.
 pub fn equal(one: &Network, two: &Network) -> bool {
-    let mut forms = Forms::new(one.inputs);
-    let [first, second] = [one, two].map(|network| forms.outputs(network));
-    first == second
+    let mut forms = Forms { inputs: one.inputs, forms: Interned::default() };
+    forms.outputs(one) == forms.outputs(two)
 }
 
 type Literal = (u32, bool);
@@ -23,15 +22,10 @@ const PAIR: [u8; 2] = [0b1100, 0b1010];
 struct Forms {
     inputs: usize,
     /// The functions of two signals: the pair, the lower first, and a function that is 0 if both are 0.
-    forms: Vec<([u32; 2], u8)>,
-    known: BTreeMap<([u32; 2], u8), u32>,
+    forms: Interned<([u32; 2], u8)>,
 }
 
 impl Forms {
-    fn new(inputs: usize) -> Self {
-        Self { inputs, forms: Vec::new(), known: BTreeMap::new() }
-    }
-
     fn outputs(&mut self, network: &Network) -> Vec<Literal> {
         let mut made: Vec<Literal> = vec![(0, false), (0, true)];
         made.extend((1..=self.inputs as u32).map(|input| (input, false)));
@@ -55,12 +49,12 @@ impl Forms {
         match PAIR.iter().position(|&signal| signal == bits) {
             Some(signal) => (pair[signal], inverted),
             None if bits == 0 => (0, inverted),
-            None => (self.signal(pair, bits), inverted),
+            None => ((1 + self.inputs + self.forms.number((pair, bits))) as u32, inverted),
         }
     }
 
     fn form(&self, signal: u32) -> Option<([u32; 2], u8)> {
-        (signal as usize).checked_sub(1 + self.inputs).map(|at| self.forms[at])
+        (signal as usize).checked_sub(1 + self.inputs).map(|at| self.forms.items[at])
     }
 
     fn function(&self, (signal, inverted): Literal, pair: [u32; 2]) -> Option<u8> {
@@ -70,15 +64,6 @@ impl Forms {
             None => self.form(signal).filter(|(own, _)| *own == pair)?.1,
         };
         Some(if inverted { bits ^ 0b1111 } else { bits })
-    }
-
-    fn signal(&mut self, pair: [u32; 2], bits: u8) -> u32 {
-        let next = (1 + self.inputs + self.forms.len()) as u32;
-        let signal = *self.known.entry((pair, bits)).or_insert(next);
-        if signal == next {
-            self.forms.push((pair, bits));
-        }
-        signal
     }
 }
 

@@ -1,5 +1,5 @@
-//! An environment beside a circuit, for all that its memories may hold: what a step reads is free, but for the words
-//! that the first step reads which violates a property.
+//! An environment beside a circuit, for any contents of its memories: the words that a step reads are free, except
+//! those that the first step with a violation reads.
 //!
 //! Each read of a memory has an address that stays the same in a run, and the word at that address: it begins as the
 //! memory does, and takes what is written there. A property is violated only where the reads of the step have these
@@ -12,7 +12,6 @@ use crate::properties::wording::NoSteps;
 use crate::waves::ClockStep;
 use crate::{Environment, EnvironmentFault, Netlist};
 
-/// An environment, with its memories.
 #[derive(Clone, Debug)]
 pub struct EnvironmentStep {
     pub(super) step: ClockStep,
@@ -21,7 +20,6 @@ pub struct EnvironmentStep {
     is_empty: Vec<bool>,
 }
 
-/// A read of a memory.
 struct Read<'e> {
     memory: &'e MemoryPorts,
     is_empty: bool,
@@ -29,13 +27,10 @@ struct Read<'e> {
     ports: &'e [std::ops::Range<usize>; 2],
 }
 
-/// What a circuit gets in a step, before the edge of its clock, and what its environment has after it.
 pub(super) struct EnvironmentAnswer {
-    /// The inputs of the circuit.
     pub(super) inputs: Vec<AndLiteral>,
     /// The values of the environment's registers after the edge, in order of [`EnvironmentStep::registers`].
     pub(super) after: Vec<AndLiteral>,
-    /// Whether the reads have the addresses that stay the same.
     pub(super) reads_known: AndLiteral,
 }
 
@@ -50,7 +45,6 @@ impl EnvironmentStep {
         memories.flat_map(|(memory, &is_empty)| memory.reads.iter().map(move |ports| Read { memory, is_empty, ports }))
     }
 
-    /// Its registers with their starts: those of its circuit, and for each read an address and a word.
     pub(super) fn registers(&self) -> Vec<(String, Option<bool>)> {
         let own = self.step.state.iter().map(|bit| (bit.name.clone(), Some(bit.start)));
         let read = |read: Read<'_>| {
@@ -61,12 +55,10 @@ impl EnvironmentStep {
         own.chain(self.reads().flat_map(read)).collect()
     }
 
-    /// The names of the bits that it reads, in order of the reads.
     pub(super) fn words(&self) -> Vec<String> {
         self.reads().flat_map(|read| read.ports[1].clone()).map(|at| self.step.inputs[at].clone()).collect()
     }
 
-    /// The inputs of a circuit that it gives, with its own outputs.
     pub(super) fn gives(&self, circuit: &Netlist) -> Vec<(usize, usize)> {
         let place = |name: &String| circuit.inputs().iter().position(|&id| circuit.net_name(id) == *name);
         self.step.outputs.iter().enumerate().filter_map(|(own, name)| Some((place(name)?, own))).collect()
@@ -129,7 +121,6 @@ impl EnvironmentStep {
         }
     }
 
-    /// The address and the word of each read, among their registers.
     fn tracked<'r>(&self, mut registers: &'r [AndLiteral]) -> Vec<[&'r [AndLiteral]; 2]> {
         let mut take = |count: usize| {
             let taken;
@@ -165,12 +156,10 @@ impl EnvironmentStep {
     }
 }
 
-/// The first word if `choice` is 1, else the second.
 fn chosen(graph: &mut AndGraph, choice: AndLiteral, then: &[AndLiteral], otherwise: &[AndLiteral]) -> Vec<AndLiteral> {
     then.iter().zip(otherwise).map(|(&then, &otherwise)| graph.choice(choice, then, otherwise)).collect()
 }
 
-/// Whether a number, the most significant bit first, is less than a constant.
 fn is_below(graph: &mut AndGraph, number: &[AndLiteral], most: usize) -> AndLiteral {
     if number.len() < usize::BITS as usize && most >= 1 << number.len() {
         return 1;

@@ -11,12 +11,9 @@ use crate::properties::system::{SystemRun, TransitionSystem};
 use crate::properties::unrolled::Unrolled;
 use nbc_base::source::CancelFlag;
 
-/// The search for a violation, one number of steps after the other.
 pub(super) struct Bounded {
     unrolled: Unrolled,
-    /// The step that is looked at, counted from 0. No property is violated before.
     pub(super) step: usize,
-    /// The properties that are known to hold in this step.
     done: BTreeSet<usize>,
 }
 
@@ -31,8 +28,8 @@ impl Bounded {
         system.constraints.iter().for_each(|&literal| self.unrolled.require(system, self.step, literal));
     }
 
-    /// Looks at one property in the present step, or goes on to the next one; a run that violates the property, if it
-    /// is found.
+    /// Looks at one property in the present step, or begins with the next step. Returns a run that violates the
+    /// property, if there is one.
     pub(super) fn advance(
         &mut self,
         system: &TransitionSystem,
@@ -62,14 +59,12 @@ impl Bounded {
     }
 }
 
-/// The proof by induction over one number of steps after the other.
 pub(super) struct Induction {
     unrolled: Unrolled,
     /// The number of steps in which the properties hold before the one that is looked at.
     pub(super) steps: usize,
     /// For each property, what requires it in the steps before.
     required: Vec<batsat::Lit>,
-    /// The registers that matter.
     relevant: Vec<usize>,
 }
 
@@ -86,7 +81,6 @@ impl Induction {
         system.constraints.iter().for_each(|&literal| self.unrolled.require(system, self.steps, literal));
     }
 
-    /// Takes one step more into account.
     pub(super) fn extend(&mut self, system: &TransitionSystem) {
         for (property, &bad) in system.bad.iter().enumerate() {
             let bad = self.unrolled.literal(system, self.steps, bad);
@@ -139,7 +133,7 @@ impl Induction {
         }
     }
 
-    /// Requires that steps with the same state in what was found have different ones; whether there are any.
+    /// Requires different states of steps that had the same one in the last solution. Returns whether there were any.
     fn require_different(&mut self, system: &TransitionSystem) -> bool {
         let states: Vec<Vec<bool>> = (0..=self.steps).map(|step| self.unrolled.state(system, step)).collect();
         let same =

@@ -9,20 +9,13 @@ use crate::and_graph::AndLiteral;
 use crate::clause::{Clause, ValuedBit};
 use crate::properties::system::TransitionSystem;
 
-/// Why a property holds in every step.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum InductiveProof {
     /// Together with other properties it holds in a step if all of them hold in so many steps before, whose states are
     /// different, and they hold in the first steps.
-    Steps {
-        /// The number of steps.
-        steps: usize,
-        /// The properties that were proved together.
-        together: BTreeSet<usize>,
-    },
+    Steps { steps: usize, together: BTreeSet<usize> },
     /// An invariant: in every step, a register of each clause has the given value.
     Invariant {
-        /// The clauses.
         clauses: Vec<Clause>,
         /// Other properties that hold in every step, and without which the clauses might not.
         given: BTreeSet<usize>,
@@ -50,7 +43,6 @@ impl InductiveProof {
     }
 }
 
-/// Whether all of these are 1 in the first steps.
 fn holds_first(system: &TransitionSystem, required: &[AndLiteral], steps: usize) -> bool {
     let mut written = Written::default();
     written.steps(system, steps);
@@ -100,7 +92,6 @@ fn is_kept(system: &TransitionSystem, property: usize, clauses: &[Clause], given
     !written.can(&[bad]) && !clauses.iter().any(|clause| is_violated(&mut written, clause))
 }
 
-/// Steps of a system in a solver, every signal of each.
 #[derive(Default)]
 struct Written {
     solver: BasicSolver,
@@ -148,7 +139,6 @@ impl Written {
         system.constraints.iter().for_each(|&literal| self.require(step, literal));
     }
 
-    /// Requires that the states of two steps differ in one of these registers.
     fn differ(&mut self, system: &TransitionSystem, registers: &[usize], steps: [usize; 2]) {
         let mut any = Vec::new();
         for &at in registers {
@@ -161,13 +151,11 @@ impl Written {
         self.solver.add_clause_reuse(&mut any);
     }
 
-    /// Whether none of these can be 0 in a step.
     fn cannot(&mut self, step: usize, required: &[AndLiteral]) -> bool {
         let required: Vec<Lit> = required.iter().map(|&literal| self.literal(step, literal)).collect();
         required.into_iter().all(|literal| !self.can(&[!literal]))
     }
 
-    /// Whether these can be 1 at once.
     fn can(&mut self, literals: &[Lit]) -> bool {
         self.solver.solve_limited(literals) == lbool::TRUE
     }

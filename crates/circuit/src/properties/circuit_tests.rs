@@ -31,8 +31,14 @@ fn monitor(ports: usize, said: impl Fn(&mut Netlist, &[NetId]) -> Vec<NetId>) ->
 fn monitored(circuit: &Netlist, monitor: &Netlist, properties: &[Property]) -> Monitored {
     Monitored::of(circuit, monitor, properties, None, &CancelFlag::default()).unwrap()
 }
+fn found(made: Monitored) -> Vec<PropertyVerdict> {
+    PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish()
+}
 
-/// A register of one bit that stores `d`.
+fn refused(circuit: &Netlist, monitor: &Netlist, property: Property) -> NoSteps {
+    Monitored::of(circuit, monitor, &[property], None, &CancelFlag::default()).unwrap_err()
+}
+
 fn stored() -> Netlist {
     let mut netlist = Netlist::new("stored");
     let [d, clock] = ["d", "clk"].map(|name| netlist.add_input(name));
@@ -54,7 +60,7 @@ fn steps_of_a_clocked_circuit_are_rows_of_a_test() {
     let properties = kinds.map(|(kind, before)| property(kind, false, None, before));
     let made = monitored(&stored(), &same, &properties);
     assert_eq!((&made.ports[..], made.clock), (&[0][..], Some(StepClock { input: 1, rises: true })));
-    let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
+    let found = found(made);
     assert!(matches!(found[0], PropertyVerdict::Proved(_)), "{found:?}");
     let PropertyVerdict::Refuted(run) = &found[1] else { panic!("the output follows at once") };
     assert_eq!(run.inputs.len(), 2);
@@ -65,8 +71,7 @@ fn steps_of_a_clocked_circuit_are_rows_of_a_test() {
 #[test]
 fn a_property_cannot_read_the_clock() {
     let reads = monitor(3, |_, p| vec![p[1]]);
-    let always = [property(PropertyKind::Always, false, None, 0)];
-    let error = Monitored::of(&stored(), &reads, &always, None, &CancelFlag::default()).unwrap_err();
+    let error = refused(&stored(), &reads, property(PropertyKind::Always, false, None, 0));
     assert_eq!(error, NoSteps::ClockHasNoValue { clock: "p1".to_owned() });
 }
 
@@ -79,8 +84,7 @@ fn what_must_follow_within_some_steps_may_follow_in_the_last_one() {
     netlist.add_output("q", q);
     let follows = monitor(3, |_, p| vec![p[0], p[2], p[0], p[2]]);
     let properties = [2, 1].map(|steps| property(PropertyKind::Always, true, Some(steps), 1));
-    let made = monitored(&netlist, &follows, &properties);
-    let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
+    let found = found(monitored(&netlist, &follows, &properties));
     assert!(matches!(found[0], PropertyVerdict::Proved(_)), "{found:?}");
     let PropertyVerdict::Refuted(run) = &found[1] else { panic!("it takes two steps more") };
     assert_eq!(run.inputs, [[false], [true], [false]]);
@@ -103,7 +107,7 @@ fn steps_without_a_clock_are_settled_rows() {
     let properties = [0, 1, 0].map(|before| property(PropertyKind::Never, false, None, before));
     let made = monitored(&netlist, &says, &properties);
     assert_eq!(made.clock, None);
-    let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
+    let found = found(made);
     assert!(matches!(found[..], [PropertyVerdict::Proved(_), _, PropertyVerdict::Proved(_)]), "{found:?}");
     // When `d` and `e` change in one row, the cells decide, as in a test at the level of logic.
     let mut logic = Logic::new(&netlist);
@@ -121,8 +125,7 @@ fn a_ring_has_no_steps() {
     netlist.drive(wire, 0, gate);
     netlist.add_output("q", gate);
     let shows = monitor(1, |_, p| vec![p[0]]);
-    let never = [property(PropertyKind::Never, false, None, 0)];
-    let error = Monitored::of(&netlist, &shows, &never, None, &CancelFlag::default()).unwrap_err();
+    let error = refused(&netlist, &shows, property(PropertyKind::Never, false, None, 0));
     assert!(matches!(error, NoSteps::Unsettled { .. }), "{error:?}");
 }
 
@@ -147,8 +150,7 @@ fn a_latch_that_must_not_be_set_and_reset_has_steps_where_that_is_assumed() {
         let one = netlist.add_gate(Function::OR, &[p[0], p[1]]);
         vec![one, netlist.add_gate(Function::XNOR, &[p[2], p[3]])]
     });
-    let made = monitored(&netlist, &says, &[assume, never]);
-    let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
+    let found = found(monitored(&netlist, &says, &[assume, never]));
     assert!(matches!(found[..], [PropertyVerdict::Proved(_)]), "{found:?}");
 }
 
@@ -197,18 +199,15 @@ fn circuits_without_memory_have_no_state() {
     let both = monitor(5, |netlist, p| vec![netlist.add_gate(Function::AND, &[p[3], p[4]])]);
     let made = monitored(&netlist, &both, &[property(PropertyKind::Never, false, None, 0)]);
     assert!(made.system.registers.is_empty() && made.clock.is_none());
-    let found = PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish();
+    let found = found(made);
     let PropertyVerdict::Refuted(run) = &found[0] else { panic!("three is both") };
     assert_eq!(run.inputs, [[true, true, true]]);
 }
 
-/// What is known of the equality of two circuits.
 fn compared(one: &Netlist, two: &Netlist) -> PropertyVerdict {
-    let made = Monitored::of_two([one, two], &CancelFlag::default()).unwrap();
-    PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish().remove(0)
+    found(Monitored::of_two([one, two], &CancelFlag::default()).unwrap()).remove(0)
 }
 
-/// Whether two circuits show the same in random steps.
 fn agree(one: &Netlist, two: &Netlist, random: &mut ChaCha8Rng) -> bool {
     let inputs = one.inputs().len();
     let [mut one, mut two] = [one, two].map(Logic::new);
@@ -357,7 +356,7 @@ fn what_is_proved_beside_a_memory_holds_for_what_it_stores() {
                 continue;
             }
         };
-        let found = PropertySearch::new(made.system, SearchBudget::default(), cancel).finish();
+        let found = found(made);
         for (verdict, said) in found.iter().zip(&said) {
             let is_violated = (0..20).any(|_| is_violated(&circuit, &beside, said, &mut random));
             match verdict {
@@ -394,7 +393,7 @@ fn a_memory_that_begins_with_zeros_shows_them_until_others_are_stored() {
     let verdict = |is_empty: bool| {
         let environment = EnvironmentStep::new(&beside, memories.clone(), vec![is_empty]).unwrap();
         let made = Monitored::of(&netlist, &says, &never, Some(&environment), &CancelFlag::default()).unwrap();
-        PropertySearch::new(made.system, SearchBudget::default(), CancelFlag::default()).finish().remove(0)
+        found(made).remove(0)
     };
     assert!(matches!(verdict(true), PropertyVerdict::Proved(_)));
     assert!(matches!(verdict(false), PropertyVerdict::Refuted(_)));

@@ -10,21 +10,17 @@ use std::collections::BTreeMap;
 use batsat::Lit;
 
 use crate::clause::ValuedBit;
-use crate::properties::cubes::{Cube, contains, excludes_start};
 use crate::properties::solver::Solved;
-use crate::properties::system::{SystemRun, TransitionSystem};
+use crate::properties::system::{Cube, SystemRun, TransitionSystem, contains, excludes_start};
 use crate::properties::unrolled::Unrolled;
 use nbc_base::source::CancelFlag;
 
 /// Clauses that were needed for one call, after which the solver is made again.
 const MOST_SPENT: usize = 3_000;
 
-/// The rounds in which literals are left out of a cube.
 const ROUNDS: usize = 2;
 
-/// What a portion of the search found.
 pub(super) enum Found {
-    /// Nothing yet.
     Nothing,
     /// No state in these cubes is ever reached, and all states that violate the property are in them.
     Invariant(Vec<Cube>),
@@ -33,12 +29,10 @@ pub(super) enum Found {
 }
 
 /// States from which a violation follows.
-#[derive(Clone, Debug)]
 struct Obligation {
     /// They have to be taken out of the set of this number of steps.
     frame: usize,
     cube: Cube,
-    /// A state of the cube.
     state: Vec<bool>,
     /// The inputs with which they lead to the next obligation, or violate the property.
     inputs: Vec<bool>,
@@ -55,7 +49,6 @@ pub(super) struct Frames {
     step: Unrolled,
     /// The literal that requires the start, and those that require the cubes to be left out, for each number of steps.
     active: Vec<Lit>,
-    /// The literal that requires the constraints.
     constrained: Lit,
     /// The cubes that are left out of the set of each number of steps, but not of the next one.
     cubes: Vec<Vec<Cube>>,
@@ -64,7 +57,6 @@ pub(super) struct Frames {
     open: BTreeMap<usize, Vec<usize>>,
     /// The frame whose cubes are tried in the next one, and the place of the cube.
     pushing: Option<(usize, usize)>,
-    /// How often each register is in a cube.
     counts: Vec<usize>,
     spent: usize,
     work_before: u64,
@@ -100,7 +92,6 @@ impl Frames {
         frames
     }
 
-    /// Makes the solver, with the cubes that are left out.
     fn begin(&mut self, system: &TransitionSystem) {
         self.work_before += self.step.solver.work();
         self.step = Unrolled::any_step(self.cancel.clone());
@@ -135,12 +126,10 @@ impl Frames {
         }
     }
 
-    /// The number of steps within which no violation was found.
     pub(super) fn steps(&self) -> usize {
         self.cubes.len() - 1
     }
 
-    /// The properties that were taken as given.
     pub(super) fn given(&self) -> &[usize] {
         &self.given
     }
@@ -149,7 +138,6 @@ impl Frames {
         self.work_before + self.step.solver.work()
     }
 
-    /// A portion of the search.
     pub(super) fn advance(&mut self, system: &TransitionSystem) -> Found {
         if self.spent >= MOST_SPENT {
             self.begin(system);
@@ -187,7 +175,6 @@ impl Frames {
         Found::Nothing
     }
 
-    /// The open obligation of the fewest steps.
     fn take(&mut self) -> Option<usize> {
         let mut entry = self.open.first_entry()?;
         let obligation = entry.get_mut().pop();
@@ -245,7 +232,7 @@ impl Frames {
         Found::Nothing
     }
 
-    /// The states that lead to the cube, or violate the property, as certainly as this one does with these inputs.
+    /// States that lead to the cube, or violate the property, with these inputs, as this state does.
     fn widened(&mut self, system: &TransitionSystem, state: &[bool], inputs: &[bool], to: Option<&Cube>) -> Cube {
         self.spent += 1;
         let other = self.step.solver.follower();
@@ -310,8 +297,8 @@ impl Frames {
         reached
     }
 
-    /// Leaves a cube out of the set of so many steps, and more states with it, and of later sets as far as that holds;
-    /// the last of them.
+    /// Leaves a cube, and more states with it, out of the set of so many steps and of later sets as far as that holds.
+    /// Returns the last of these sets.
     fn learn(&mut self, system: &TransitionSystem, frame: usize, cube: Cube) -> usize {
         let cube = self.wider(system, frame, cube);
         let mut last = frame;
@@ -326,7 +313,6 @@ impl Frames {
         last
     }
 
-    /// The cube without literals that it does not need.
     fn wider(&mut self, system: &TransitionSystem, frame: usize, mut cube: Cube) -> Cube {
         for _ in 0..ROUNDS {
             let before = cube.len();
@@ -362,12 +348,10 @@ impl Frames {
         self.step.solver.clause(&clause);
     }
 
-    /// The clause of all states that are not in a cube.
     fn outside(&mut self, system: &TransitionSystem, cube: &[ValuedBit]) -> Vec<Lit> {
         cube.iter().map(|&(at, value)| !self.step.literal(system, 0, register_of(system, at, value))).collect()
     }
 
-    /// The run from the start through an obligation and all that follow it.
     fn run(&self, system: &TransitionSystem, obligation: usize) -> SystemRun {
         let mut next = Some(obligation);
         let mut inputs = Vec::new();
@@ -380,14 +364,14 @@ impl Frames {
     }
 }
 
-/// Whether a cube is reached.
 enum Reached {
-    /// The solver was interrupted.
     Open,
-    /// It is not, and neither is the wider cube.
+    /// Not from any state, and neither is the wider cube.
     Never(Cube),
-    /// It is, from this state with these inputs.
-    From { state: Vec<bool>, inputs: Vec<bool> },
+    From {
+        state: Vec<bool>,
+        inputs: Vec<bool>,
+    },
 }
 
 fn register_of(system: &TransitionSystem, at: usize, value: bool) -> usize {

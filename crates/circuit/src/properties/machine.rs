@@ -15,34 +15,25 @@ use crate::waves::{ClockStep, StateBit, WaveError};
 use crate::{Logic, Loops, NetId, Netlist};
 use nbc_base::source::CancelFlag;
 
-/// The most cells of a circuit with feedback but without registers of one clock.
 const MOST_CELLS: usize = 400;
 
 /// The most time steps after which such a circuit must have settled.
 const MOST_TIME: usize = 64;
 
-/// The clock whose edges are the steps of a circuit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct StepClock {
-    /// The clock, as an index of the input ports.
     pub input: usize,
-    /// Whether the registers store when it rises. If not, they do when it falls.
+    /// Whether the registers store when it rises, not when it falls.
     pub rises: bool,
 }
 
-/// A circuit as a machine that makes steps.
-#[derive(Clone, Debug)]
 pub(super) struct Machine {
-    /// The number of input ports, the clock included.
     pub(super) inputs: usize,
-    /// The clock, if it has registers.
     pub(super) clock: Option<StepClock>,
-    /// The bits of its state.
     pub(super) state: Vec<StateBit>,
     kind: MachineKind,
 }
 
-#[derive(Clone, Debug)]
 enum MachineKind {
     /// The logic between the rises of a clock: its inputs are the ports and the state, its outputs the ports and the
     /// next state.
@@ -89,7 +80,6 @@ impl Machine {
         Ok(Self { inputs, clock: None, state, kind: MachineKind::Settling(step, time) })
     }
 
-    /// Whether its steps are the edges of a clock.
     pub(super) fn is_clocked(&self) -> bool {
         self.clock.is_some()
     }
@@ -145,7 +135,6 @@ impl Machine {
     }
 }
 
-/// Whether an output of a network depends on an input.
 pub(super) fn reads(network: &Network, input: usize) -> bool {
     let mut used: Vec<bool> = (0..network.signals()).map(|signal| signal == 2 + input).collect();
     for (at, gate) in network.gates.iter().enumerate() {
@@ -155,12 +144,10 @@ pub(super) fn reads(network: &Network, input: usize) -> bool {
     network.outputs.iter().any(|&output| used[output as usize])
 }
 
-/// The outputs of a network of ports and a state.
 fn applied(graph: &mut AndGraph, network: &Network, inputs: &[AndLiteral], state: &[AndLiteral]) -> Vec<AndLiteral> {
     graph.outputs(network, &[inputs, state].concat())
 }
 
-/// The values of all cells after so many time steps.
 fn settled(
     graph: &mut AndGraph,
     step: &Network,
@@ -211,7 +198,6 @@ fn settling_time(step: &Network, allowed: &Network, start: &[StateBit], cancel: 
     Err(NoSteps::Unsettled { most: MOST_TIME })
 }
 
-/// Whether all of two lists are equal.
 pub(super) fn same(graph: &mut AndGraph, one: &[AndLiteral], other: &[AndLiteral]) -> AndLiteral {
     one.iter().zip(other).fold(1, |all, (&a, &b)| {
         let equal = graph.choice(a, b, b ^ 1);
@@ -219,7 +205,6 @@ pub(super) fn same(graph: &mut AndGraph, one: &[AndLiteral], other: &[AndLiteral
     })
 }
 
-/// Whether a literal can be 1.
 fn can_be(graph: &AndGraph, sources: usize, literal: AndLiteral, cancel: &CancelFlag) -> Solved {
     let mut solver = ClauseSolver::new(cancel.clone());
     let mut made = vec![!solver.one()];
@@ -227,7 +212,7 @@ fn can_be(graph: &AndGraph, sources: usize, literal: AndLiteral, cancel: &Cancel
     let value = |made: &[batsat::Lit], literal: AndLiteral| {
         if literal & 1 == 1 { !made[literal / 2] } else { made[literal / 2] }
     };
-    for &[a, b] in &graph.ands {
+    for &[a, b] in &graph.ands.items {
         let both = solver.and(value(&made, a), value(&made, b));
         made.push(both);
     }

@@ -2,17 +2,15 @@
 //! (docs/always.md).
 //!
 //! A circuit and what is said of it become a transition system of and-gates (`machine.rs`, `monitor.rs`), maybe with
-//! its environment (`beside.rs`), and so do two
-//! circuits that are to be equal (`pair.rs`); a file of AIGER is one already. The search looks at one number of steps
-//! after the other (`bounded.rs`), tries induction, and looks for an invariant (`pairs.rs`, `frames.rs`). Proofs are
-//! checked by other code (`certificate.rs`), and runs are simulated.
+//! its environment (`beside.rs`), and so do two circuits to be compared (`pair.rs`); an AIGER file is one already.
+//! The search looks at one number of steps after the other (`bounded.rs`), tries induction, and looks for an invariant
+//! (`pairs.rs`, `frames.rs`). Proofs are checked by other code (`certificate.rs`), and runs are simulated.
 
 mod beside;
 mod bounded;
 mod certificate;
 #[cfg(test)]
 mod circuit_tests;
-mod cubes;
 mod frames;
 mod machine;
 mod monitor;

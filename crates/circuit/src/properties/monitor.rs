@@ -13,7 +13,6 @@ use crate::waves::{ClockStep, StateBit};
 use nbc_base::model::{Function, Property, PropertyKind};
 use nbc_base::source::CancelFlag;
 
-/// A machine and its properties, ready for a search.
 #[derive(Clone, Debug)]
 pub struct Monitored {
     /// The system. Its properties are those that are no assumptions, in order.
@@ -22,9 +21,8 @@ pub struct Monitored {
     pub checks: TransitionSystem,
     /// The input ports of the circuit but for the clock.
     pub ports: Vec<usize>,
-    /// For each of them, the literal of the system that it has.
+    /// The input ports of the circuit but for the clock, and the literal of the system that each has.
     pub given: Vec<AndLiteral>,
-    /// The clock whose edges are the steps, if there is one.
     pub clock: Option<StepClock>,
 }
 
@@ -83,11 +81,9 @@ fn allowed(monitor: &ClockStep, properties: &[Property], ports: usize) -> Networ
     made
 }
 
-/// Registers that are added to a machine.
 struct Assembly {
     graph: AndGraph,
     registers: Vec<SystemRegister>,
-    /// The first source that is a register.
     first: usize,
 }
 
@@ -116,16 +112,11 @@ impl Assembly {
         let graph = AndGraph::new(names.len() + count);
         let mut assembly = Self { graph, registers: Vec::new(), first: names.len() };
         let state = assembly.state(&machine.state);
-        let first = match machine.is_clocked() {
-            true => assembly.register("the first step", Some(true)),
-            false => 0,
-        };
+        let first = if machine.is_clocked() { assembly.register("the first step", Some(true)) } else { 0 };
         let remembered = assembly.state(&monitor.state);
         let started: Vec<AndLiteral> =
             (1..=depth).map(|step| assembly.register(&format!("step {step}"), Some(false))).collect();
-
         let beside: Vec<AndLiteral> = beside.into_iter().map(|(name, start)| assembly.register(&name, start)).collect();
-
         let sources: Vec<AndLiteral> = (0..names.len()).map(|at| assembly.graph.source(at)).collect();
         let (sources, words) = sources.split_at(free.len());
         let mut inputs = vec![Some(0); machine.inputs];
@@ -186,7 +177,8 @@ impl Assembly {
         let Self { graph, mut registers, .. } = assembly;
         registers.iter_mut().zip(nexts).for_each(|(register, next)| register.next = next);
         let given = ports.iter().map(|&port| inputs[port]).collect();
-        let system = TransitionSystem { inputs: names, registers, ands: graph.ands, bad, constraints };
+        let ands = graph.ands.items;
+        let system = TransitionSystem { inputs: names, registers, ands, bad, constraints };
         Ok(Monitored { system, checks: TransitionSystem::default(), ports, given, clock: machine.clock })
     }
 

@@ -3,9 +3,8 @@
 use std::collections::BTreeSet;
 
 use crate::clause::ValuedBit;
-use crate::properties::cubes::Cube;
 use crate::properties::solver::Solved;
-use crate::properties::system::TransitionSystem;
+use crate::properties::system::{Cube, TransitionSystem};
 use crate::properties::unrolled::Unrolled;
 use nbc_base::source::CancelFlag;
 

@@ -35,8 +35,9 @@ impl Monitored {
         let mut register = |name: &str, start: bool, next: AndLiteral| {
             registers.push(SystemRegister { name: name.to_owned(), start: Some(start), next });
         };
-        let first = if own == 1 { sources.next().expect("a source for each register") } else { 0 };
-        if own == 1 {
+        let mut first = 0;
+        if clock.is_some() {
+            first = sources.next().expect("a source for each register");
             register("the first step", true, 0);
         }
         let shown = machines.each_ref().map(|machine| {
@@ -49,20 +50,19 @@ impl Monitored {
             let differs = graph.function(Function::XOR, [a, b]);
             graph.or(any, differs)
         });
-        let names = ports.iter().map(|&port| one.net_name(one.inputs()[port])).collect();
         let system = TransitionSystem {
-            inputs: names,
+            inputs: ports.iter().map(|&port| one.net_name(one.inputs()[port])).collect(),
             registers,
-            ands: graph.ands,
+            ands: graph.ands.items,
             bad: vec![differs],
-            constraints: Vec::new(),
+            ..TransitionSystem::default()
         };
         let given = (0..ports.len()).map(|at| 2 * (at + 1)).collect();
         Ok(Self { system, checks: TransitionSystem::default(), ports, given, clock })
     }
 }
 
-/// The clock whose edges are the steps of both machines, if there is one; `None` if their steps are different events.
+/// The clock whose edges are the steps of both machines; `None` if their steps are different events.
 fn common_clock([one, two]: &[Machine; 2]) -> Option<Option<StepClock>> {
     match (one.clock, two.clock) {
         (one, two) if one == two => Some(one),

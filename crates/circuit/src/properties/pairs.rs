@@ -8,23 +8,20 @@ use rand_chacha::ChaCha8Rng;
 
 use crate::and_graph::AndLiteral;
 use crate::clause::ValuedBit;
-use crate::properties::cubes::{Cube, excludes_start};
 use crate::properties::solver::Solved;
-use crate::properties::system::TransitionSystem;
+use crate::properties::system::{Cube, TransitionSystem, excludes_start};
 use crate::properties::unrolled::Unrolled;
 use nbc_base::source::CancelFlag;
 
 /// Simulations from the start, of 64 runs each.
 const SIMULATIONS: usize = 4;
 
-/// The steps of a simulation.
 const STEPS: usize = 256;
 
 /// The most registers whose pairs are tried, and the most cubes.
 const MOST_REGISTERS: usize = 2_000;
 const MOST: usize = 50_000;
 
-/// The most work of the proof.
 const MOST_WORK: u64 = 50_000;
 
 /// Cubes of one or two registers that no run reaches, and the work of the proof. Each leaves out the start, and no step
@@ -87,7 +84,6 @@ fn retain_kept(system: &TransitionSystem, cubes: &mut Vec<Cube>, work: &mut u64,
 
 /// What registers were in simulations.
 struct History {
-    /// The registers that matter.
     relevant: Vec<usize>,
     /// For each of them, its value in each run at each step.
     values: Vec<Vec<u64>>,
@@ -158,7 +154,6 @@ impl History {
     }
 }
 
-/// A value in all runs.
 fn everywhere(value: bool) -> u64 {
     if value { u64::MAX } else { 0 }
 }

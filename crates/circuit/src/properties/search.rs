@@ -5,11 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::properties::bounded::{Bounded, Induction};
 use crate::properties::certificate::InductiveProof;
-use crate::properties::cubes::Cube;
 use crate::properties::frames::{Found, Frames};
 use crate::properties::needed::needed;
 use crate::properties::pairs::never_together;
-use crate::properties::system::{SystemRun, TransitionSystem};
+use crate::properties::system::{Cube, SystemRun, TransitionSystem};
 use nbc_base::source::CancelFlag;
 
 /// The steps in which only bounded search and induction are tried.
@@ -27,17 +26,14 @@ const FIRST_WORK: u64 = 20_000;
 /// How much more work the search for invariants does than bounded search, whose clauses are about many steps.
 const INVARIANT_SHARE: u64 = 3;
 
-/// What is known of a property.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum PropertyVerdict {
-    /// It holds in every step of every run.
     Proved(InductiveProof),
     /// The last step of this run violates it. No shorter run does, unless the budget or the work for shorter ones ended
     /// before this was known.
     Refuted(SystemRun),
     /// The budget ended. It holds in so many first steps.
     Undecided {
-        /// The number of steps.
         steps: usize,
     },
 }
@@ -57,7 +53,6 @@ pub enum EmptyProof {
 pub struct SearchBudget {
     /// The most steps of a run that are looked at one after the other.
     pub steps: usize,
-    /// The most work.
     pub work: u64,
 }
 
@@ -131,12 +126,10 @@ impl PropertySearch {
         self
     }
 
-    /// The system.
     pub fn system(&self) -> &TransitionSystem {
         &self.system
     }
 
-    /// The number of properties that are decided.
     pub fn decided(&self) -> usize {
         self.verdicts.len()
     }
@@ -146,7 +139,6 @@ impl PropertySearch {
         self.bounded.step
     }
 
-    /// The work so far.
     pub fn work(&self) -> u64 {
         self.bounded.work() + self.induction.work() + self.invariant_work()
     }
@@ -165,7 +157,6 @@ impl PropertySearch {
         self.open.is_empty() || self.work() >= self.budget.work
     }
 
-    /// Does a portion of the search.
     pub fn advance(&mut self) {
         if self.is_done() {
             return;
@@ -300,7 +291,6 @@ impl PropertySearch {
         self.verdicts.insert(property, verdict);
     }
 
-    /// What is known of each property.
     pub fn verdicts(&self) -> Vec<PropertyVerdict> {
         let open = |property: usize| {
             if let Some((_, run, _)) = self.longer.as_ref().filter(|(other, ..)| *other == property) {
@@ -312,7 +302,6 @@ impl PropertySearch {
         (0..self.system.bad.len()).map(|at| self.verdicts.get(&at).cloned().unwrap_or_else(|| open(at))).collect()
     }
 
-    /// Searches to the end.
     pub fn finish(mut self) -> Vec<PropertyVerdict> {
         while !self.is_done() {
             self.advance();

@@ -8,15 +8,13 @@ use rand_chacha::ChaCha8Rng;
 use super::*;
 use crate::and_graph::AndGraph;
 use crate::properties::bounded::{Bounded, Induction};
-use crate::properties::cubes::Cube;
 use crate::properties::frames::{Found, Frames};
 use crate::properties::needed::needed;
 use crate::properties::pairs::never_together;
-use crate::properties::system::is_on;
+use crate::properties::system::{Cube, is_on};
 use nbc_base::model::Function;
 use nbc_base::source::CancelFlag;
 
-/// A random machine of one to eight registers.
 fn random_system(random: &mut ChaCha8Rng) -> TransitionSystem {
     let mut draw = |bound: usize| (random.next_u32() as usize) % bound;
     let (inputs, registers) = (draw(4), 1 + draw(8));
@@ -53,7 +51,7 @@ fn random_system(random: &mut ChaCha8Rng) -> TransitionSystem {
     TransitionSystem {
         inputs: (0..inputs).map(|at| format!("i{at}")).collect(),
         registers,
-        ands: graph.ands.clone(),
+        ands: graph.ands.items,
         bad,
         constraints,
     }
@@ -233,17 +231,17 @@ fn a_wrong_proof_is_found() {
     assert!(wrong > 50, "{wrong} properties are violated");
 }
 
+/// Whether a state, the lowest bit first, is a number.
+fn is_number(graph: &mut AndGraph, state: &[usize], number: usize) -> usize {
+    let bit = |(bit, &literal): (usize, &usize)| literal ^ usize::from(number >> bit & 1 == 0);
+    state.iter().enumerate().map(bit).fold(1, |all, literal| graph.and(all, literal))
+}
+
 /// A counter of so many bits that begins again after `last`.
 fn counter(bits: usize, last: usize, wrong: usize) -> TransitionSystem {
     let mut graph = AndGraph::new(bits);
     let state: Vec<usize> = (0..bits).map(|at| graph.source(at)).collect();
-    let is = |graph: &mut AndGraph, number: usize| {
-        state
-            .iter()
-            .enumerate()
-            .fold(1, |all, (bit, &literal)| graph.and(all, literal ^ usize::from(number >> bit & 1 == 0)))
-    };
-    let (end, bad) = (is(&mut graph, last), is(&mut graph, wrong));
+    let [end, bad] = [last, wrong].map(|number| is_number(&mut graph, &state, number));
     let mut carry = 1;
     let mut registers = Vec::new();
     for (bit, &literal) in state.iter().enumerate() {
@@ -251,7 +249,7 @@ fn counter(bits: usize, last: usize, wrong: usize) -> TransitionSystem {
         carry = graph.and(literal, carry);
         registers.push(SystemRegister { name: format!("c{bit}"), start: Some(false), next: graph.and(sum, end ^ 1) });
     }
-    TransitionSystem { inputs: Vec::new(), registers, ands: graph.ands, bad: vec![bad], constraints: Vec::new() }
+    TransitionSystem { registers, ands: graph.ands.items, bad: vec![bad], ..TransitionSystem::default() }
 }
 
 #[test]
@@ -283,7 +281,7 @@ fn two_paces() -> TransitionSystem {
     let mut graph = AndGraph::new(9);
     let sources: Vec<usize> = (0..9).map(|at| graph.source(at)).collect();
     let (fast, state) = (sources[0], &sources[1..]);
-    let bad = state.iter().enumerate().fold(1, |all, (bit, &c)| graph.and(all, c ^ usize::from(200 >> bit & 1 == 0)));
+    let bad = is_number(&mut graph, state, 200);
     let mut carry = 0;
     let mut registers = Vec::new();
     for (bit, &c) in state.iter().enumerate() {
@@ -294,8 +292,13 @@ fn two_paces() -> TransitionSystem {
         carry = graph.or(both, carried);
         registers.push(SystemRegister { name: format!("c{bit}"), start: Some(false), next });
     }
-    let inputs = vec!["fast".to_owned()];
-    TransitionSystem { inputs, registers, ands: graph.ands, bad: vec![bad], constraints: Vec::new() }
+    TransitionSystem {
+        inputs: vec!["fast".to_owned()],
+        registers,
+        ands: graph.ands.items,
+        bad: vec![bad],
+        ..TransitionSystem::default()
+    }
 }
 
 #[test]

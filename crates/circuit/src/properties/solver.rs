@@ -4,9 +4,7 @@ use batsat::{Callbacks, ClauseKind, Lit, Solver, SolverInterface, SolverOpts, lb
 
 use nbc_base::source::CancelFlag;
 
-/// What ends a call of the solver.
 pub(crate) struct SolverLimits {
-    /// The clauses learned so far.
     learned: u64,
     most: u64,
     cancel: CancelFlag,
@@ -36,15 +34,12 @@ impl Callbacks for SolverLimits {
 /// Whether some values fulfill all clauses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Solved {
-    /// They do.
     Yes,
-    /// No values do.
     No,
     /// The portion ended before this was known.
     Open,
 }
 
-/// A solver with its literal for 1.
 pub(super) struct ClauseSolver {
     solver: Solver<SolverLimits>,
     one: Lit,
@@ -63,12 +58,10 @@ impl ClauseSolver {
         Self { solver, one, chooses_gates: true, calls: 0 }
     }
 
-    /// A solver in which gates follow from their pins.
     pub(super) fn without_choice_of_gates(cancel: CancelFlag) -> Self {
         Self { chooses_gates: false, ..Self::new(cancel) }
     }
 
-    /// The literal that is always 1.
     pub(super) fn one(&self) -> Lit {
         self.one
     }
@@ -110,14 +103,15 @@ impl ClauseSolver {
         self.calls += 1;
         self.solver.cb_mut().permit(portion);
         let solved = self.solver.solve_limited(assumed);
-        match solved == lbool::TRUE {
-            true => Solved::Yes,
-            false if solved == lbool::FALSE => Solved::No,
-            false => Solved::Open,
+        if solved == lbool::TRUE {
+            Solved::Yes
+        } else if solved == lbool::FALSE {
+            Solved::No
+        } else {
+            Solved::Open
         }
     }
 
-    /// Whether a literal is 1 in what was found last.
     pub(super) fn is_on(&self, literal: Lit) -> bool {
         self.solver.value_lit(literal) == lbool::TRUE
     }

@@ -1,15 +1,13 @@
 //! A machine as a plain transition system: and-gates between inputs, registers and what is said of every step.
 
 use crate::and_graph::AndLiteral;
+use crate::clause::ValuedBit;
 
-/// A register of a transition system.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SystemRegister {
-    /// What it is called in messages.
     pub name: String,
-    /// Its value in the first step; `None` if that may be either.
+    /// `None` if it may be either in the first step.
     pub start: Option<bool>,
-    /// Its value in the step after.
     pub next: AndLiteral,
 }
 
@@ -18,9 +16,7 @@ pub struct SystemRegister {
 /// Literals are counted as in AIGER: signal 0 is the constant 0, then the inputs, the registers, and the gates.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct TransitionSystem {
-    /// The names of the inputs.
     pub inputs: Vec<String>,
-    /// The registers.
     pub registers: Vec<SystemRegister>,
     /// The pins of each gate; a gate reads earlier signals only.
     pub ands: Vec<[AndLiteral; 2]>,
@@ -30,22 +26,17 @@ pub struct TransitionSystem {
     pub constraints: Vec<AndLiteral>,
 }
 
-/// A run of a transition system from its start.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SystemRun {
-    /// The values of the registers in the first step.
     pub start: Vec<bool>,
-    /// The values of the inputs in each step.
     pub inputs: Vec<Vec<bool>>,
 }
 
 impl TransitionSystem {
-    /// The literal of a register.
     pub fn register(&self, at: usize) -> AndLiteral {
         2 * (1 + self.inputs.len() + at)
     }
 
-    /// The number of signals, the constant included.
     pub(super) fn signals(&self) -> usize {
         1 + self.inputs.len() + self.registers.len() + self.ands.len()
     }
@@ -75,7 +66,6 @@ impl TransitionSystem {
         (0..self.registers.len()).filter(|&at| seen[self.register(at) / 2]).collect()
     }
 
-    /// The values of all signals in a step.
     pub fn values(&self, inputs: &[bool], state: &[bool]) -> Vec<bool> {
         assert_eq!(inputs.len(), self.inputs.len(), "a value for each input");
         assert_eq!(state.len(), self.registers.len(), "a value for each register");
@@ -89,12 +79,10 @@ impl TransitionSystem {
         values
     }
 
-    /// The values of the registers after a step.
     pub fn next(&self, values: &[bool]) -> Vec<bool> {
         self.registers.iter().map(|register| is_on(values, register.next)).collect()
     }
 
-    /// The values of literals in each step of a run.
     pub fn along(&self, run: &SystemRun, literals: &[AndLiteral]) -> Vec<Vec<bool>> {
         let mut state = run.start.clone();
         let mut step = |inputs: &Vec<bool>| {
@@ -145,7 +133,19 @@ impl TransitionSystem {
     }
 }
 
-/// The value of a literal among those of the signals.
 pub fn is_on(values: &[bool], literal: AndLiteral) -> bool {
     values[literal / 2] != (literal & 1 == 1)
+}
+
+/// The states in which some registers have given values, in order of the registers.
+pub(super) type Cube = Vec<ValuedBit>;
+
+/// Whether no state of a cube may be the first of a run.
+pub(super) fn excludes_start(system: &TransitionSystem, cube: &[ValuedBit]) -> bool {
+    cube.iter().any(|&(at, value)| system.registers[at].start == Some(!value))
+}
+
+/// Whether each state of `small` is in `large`.
+pub(super) fn contains(large: &[ValuedBit], small: &[ValuedBit]) -> bool {
+    large.iter().all(|literal| small.binary_search(literal).is_ok())
 }

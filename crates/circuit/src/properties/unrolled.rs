@@ -7,7 +7,6 @@ use crate::properties::solver::ClauseSolver;
 use crate::properties::system::{SystemRun, TransitionSystem};
 use nbc_base::source::CancelFlag;
 
-/// Steps of a system in a solver.
 pub(super) struct Unrolled {
     pub(super) solver: ClauseSolver,
     /// Whether the first step is the first of a run. If not, its state may be any.
@@ -77,34 +76,28 @@ impl Unrolled {
         self.steps[step][signal]
     }
 
-    /// Requires a literal of a step.
     pub(super) fn require(&mut self, system: &TransitionSystem, step: usize, literal: AndLiteral) {
         let literal = self.literal(system, step, literal);
         self.solver.clause(&[literal]);
     }
 
-    /// The value that a literal of a step has in what was found last. One without clauses may have any.
     fn is_on(&self, step: usize, signal: usize) -> bool {
         let made = self.steps.get(step).and_then(|signals| signals[signal]);
         made.is_some_and(|literal| self.solver.is_on(literal))
     }
 
-    /// The value of a literal of a step in what was found last.
     pub(super) fn shows(&self, step: usize, literal: AndLiteral) -> bool {
         self.is_on(step, literal / 2) != (literal & 1 == 1)
     }
 
-    /// The state of a step in what was found last.
     pub(super) fn state(&self, system: &TransitionSystem, step: usize) -> Vec<bool> {
         (0..system.registers.len()).map(|at| self.is_on(step, system.register(at) / 2)).collect()
     }
 
-    /// The inputs of a step in what was found last.
     pub(super) fn inputs(&self, system: &TransitionSystem, step: usize) -> Vec<bool> {
         (0..system.inputs.len()).map(|at| self.is_on(step, at + 1)).collect()
     }
 
-    /// The run of so many steps that was found last.
     pub(super) fn run(&self, system: &TransitionSystem, steps: usize) -> SystemRun {
         let start = system.registers.iter().zip(self.state(system, 0));
         SystemRun {

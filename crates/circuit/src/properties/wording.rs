@@ -1,27 +1,20 @@
-//! Why a circuit has no steps, in words.
+//! Why a circuit has no steps in which a property could hold, in words.
 
 use std::fmt;
 
 use crate::waves::WaveError;
 
-/// Why a circuit has no steps in which a property could hold.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum NoSteps {
     /// It has memory that is no register of one clock, and is too large for other steps.
     Memory(WaveError),
     /// It has feedback that does not settle for some inputs.
-    Unsettled {
-        /// The time that was tried.
-        most: usize,
-    },
+    Unsettled { most: usize },
     /// Its registers have another clock than those of the circuit that it is compared with, or it has none and reads
     /// that clock.
     OtherSteps,
     /// A property reads the clock.
-    ClockHasNoValue {
-        /// The clock.
-        clock: String,
-    },
+    ClockHasNoValue { clock: String },
     /// Its environment takes steps when a clock rises, and the circuit does not.
     EnvironmentClock,
     /// What the circuit and its environment answer each other depends on itself.

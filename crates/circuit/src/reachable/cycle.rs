@@ -6,19 +6,15 @@ use crate::formats::Design;
 use crate::network::{Gate, Network, Signal, counting_word};
 use nbc_base::model::Function;
 
-/// A cycle. If there are several clocks or edges, any of them may come.
 pub(super) struct Cycle {
     /// Its inputs are the input ports, the registers, and an input for each of several clock edges; its outputs are the
     /// next values of the registers.
     pub(super) network: Network,
-    /// The number of input ports.
     pub(super) ports: usize,
-    /// The values of the registers before the first cycle.
     pub(super) start: Vec<bool>,
 }
 
 impl Cycle {
-    /// The cycle of a design with this logic.
     pub(super) fn of(design: &Design, logic: &Network) -> Self {
         let mut edges: BTreeMap<(u8, &str), usize> = BTreeMap::new();
         for register in &design.registers {
@@ -46,22 +42,18 @@ impl Cycle {
         Self { network, ports: design.inputs(), start }
     }
 
-    /// The number of inputs that are not registers.
     fn free(&self) -> usize {
         self.network.inputs - self.start.len()
     }
 
-    /// The input that is a register.
     pub(super) fn register(&self, at: usize) -> usize {
         self.ports + at
     }
 
-    /// Whether an input is a register.
     pub(super) fn is_register(&self, input: usize) -> bool {
         (self.ports..self.ports + self.start.len()).contains(&input)
     }
 
-    /// The next values of the registers, for 64 patterns of the inputs.
     pub(super) fn next(&self, inputs: &[u64]) -> Vec<u64> {
         let values = self.network.simulate(inputs);
         self.network.outputs.iter().map(|&next| values[next as usize]).collect()
@@ -82,7 +74,6 @@ impl Cycle {
         Some(reached)
     }
 
-    /// The states after this one, for all inputs.
     fn successors(&self, state: u64) -> BTreeSet<u64> {
         let lanes = 64.min(1 << self.free());
         let mut found = BTreeSet::new();
@@ -106,7 +97,6 @@ impl Cycle {
 const MOST_REGISTERS: usize = 12;
 const MOST_FREE: usize = 10;
 
-/// The network with more inputs after its own.
 fn with_inputs(network: &Network, more: usize) -> Network {
     let first = 2 + network.inputs as Signal;
     let moved = |signal: Signal| if signal < first { signal } else { signal + more as Signal };
@@ -117,12 +107,10 @@ fn with_inputs(network: &Network, more: usize) -> Network {
     }
 }
 
-/// The bits as a number, the first one lowest.
 fn number(bits: &[bool]) -> u64 {
     bits.iter().rev().fold(0, |number, &bit| number << 1 | u64::from(bit))
 }
 
-/// Sixty-four times the same value.
 pub(super) fn filled(value: bool) -> u64 {
     if value { !0 } else { 0 }
 }

@@ -14,21 +14,17 @@ use crate::clause::{Clause, ValuedBit};
 use crate::proof::SatSweep;
 use crate::reachable::cycle::{Cycle, filled};
 
-/// Cycles of the simulation, of 64 runs at a time.
 const CYCLES: usize = 256;
 /// The most registers for which pairs are compared, and the most candidates.
 const MOST_REGISTERS: usize = 200;
 const MOST_CANDIDATES: usize = 4_000;
 
-/// Clauses that hold in every reachable state.
 pub(super) struct Invariant {
     pub(super) clauses: Vec<Clause>,
-    /// The number of reachable states, if they were enumerated.
     pub(super) states: Option<u64>,
 }
 
 impl Invariant {
-    /// Finds and proves the clauses.
     pub(super) fn of(cycle: &Cycle, histories: &[Vec<u64>]) -> Self {
         let (clauses, states) = match cycle.reachable() {
             Some(reached) => (forbidding(&reached, cycle.start.len()), Some(reached.len() as u64)),

@@ -5,7 +5,8 @@
 
 mod cycle;
 mod invariant;
-mod why;
+
+use std::fmt;
 
 use crate::cells::CellLibrary;
 use crate::clause::Clause;
@@ -17,9 +18,7 @@ use crate::reachable::cycle::Cycle;
 use crate::reachable::invariant::Invariant;
 use crate::synth::{CareSet, reduce_within};
 use crate::{NetId, Netlist};
-pub use why::WhyEveryState;
 
-/// What was assumed of a design's registers, and proved.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Reachable {
     /// The numbers of reachable states and of all states, if the reachable ones were enumerated.
@@ -72,7 +71,6 @@ fn care_set(cycle: &Cycle, clauses: &[Clause], mut words: Vec<Vec<u64>>, inputs:
     CareSet { clauses: clauses.iter().map(moved).collect(), words }
 }
 
-/// The design with other logic for the same ports and registers.
 fn with_logic(design: &Design, network: &Network) -> Design {
     let source = &design.logic;
     let mut logic = Netlist::new(&source.name);
@@ -95,4 +93,23 @@ fn with_logic(design: &Design, network: &Network) -> Design {
     let mut registers = design.registers.clone();
     registers.iter_mut().for_each(|register| register.start = Some(register.starts_at()));
     Design { logic, registers, ascending: design.ascending.clone() }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum WhyEveryState {
+    NoRegisters,
+    Latch(String),
+    Forced(String),
+    Loop,
+}
+
+impl fmt::Display for WhyEveryState {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::NoRegisters => f.write_str("the design has no registers"),
+            Self::Latch(name) => write!(f, "`{name}` is a level-sensitive latch"),
+            Self::Forced(name) => write!(f, "`{name}` has an asynchronous set or reset"),
+            Self::Loop => f.write_str("the logic has feedback"),
+        }
+    }
 }

@@ -2,20 +2,18 @@
 
 use std::collections::BTreeMap;
 
-use super::file::{FileRow, RowFile};
-use super::wording::{MOST_ERRORS, RowFileError};
+use super::wording::{self, MOST_ERRORS};
+use super::{FileRow, RowFile};
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::Column;
 use nbc_base::source::Span;
 
-/// A row of a file as the bits of ports.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct PortRow {
     /// The input bits in order of the ports, the most significant bit of a port first.
     pub inputs: Vec<bool>,
     /// The output bits likewise; `None` is any value.
     pub outputs: Vec<Option<bool>>,
-    /// The place of the row.
     pub span: Span,
 }
 
@@ -38,7 +36,6 @@ impl RowFile {
         if errors.is_empty() { Ok(rows) } else { Err(errors) }
     }
 
-    /// The columns of each port.
     fn places<'p>(
         &self,
         circuit: &str,
@@ -56,7 +53,7 @@ impl RowFile {
             if let Some(at) = whole {
                 if let Some(bit) = bits.iter().find(|bit| known.contains_key(bit.as_str())) {
                     let span = self.columns[known[bit.as_str()]].span;
-                    errors.push(RowFileError::BitAndPort { port: port.name.clone() }.at(span));
+                    errors.push(wording::bit_and_port(&port.name, span));
                 }
                 return Some(Place { port, parts: vec![part(at, port.width)] });
             }
@@ -86,15 +83,14 @@ impl RowFile {
         let needed =
             missing.iter().enumerate().filter(|(at, port)| is_input(port) || *at < needed).map(|(_, port)| port);
         for port in needed.take(MOST_ERRORS) {
-            errors.push(RowFileError::NoColumn { port: port.clone(), circuit: circuit.to_owned() }.at(header));
+            errors.push(wording::no_column(port, circuit, header));
         }
         let ports = || inputs.iter().chain(outputs).map(|port| port.name.as_str());
         let mut strange: Vec<usize> = known.into_values().collect();
         strange.sort_unstable();
         for column in strange.into_iter().map(|at| &self.columns[at]).take(MOST_ERRORS) {
             let meant = Suggestion::of(&column.name, ports());
-            let error = RowFileError::NoPort { column: column.name.clone(), circuit: circuit.to_owned(), meant };
-            errors.push(error.at(column.span));
+            errors.push(wording::no_port(&column.name, circuit, &meant, column.span));
         }
         if errors.is_empty() { Ok(found) } else { Err(errors) }
     }
@@ -106,12 +102,9 @@ struct Place<'p> {
     parts: Vec<Part>,
 }
 
-/// A column that has some bits of a port.
 struct Part {
-    /// The place of its first bit in a row.
     start: usize,
     width: usize,
-    /// The number of bits of the port.
     wanted: usize,
 }
 
@@ -141,13 +134,13 @@ impl Place<'_> {
 
 fn port_row(row: &FileRow, inputs: &[Place<'_>], outputs: &[Place<'_>]) -> Result<PortRow, Diagnostic> {
     let value = |place: &Place<'_>| {
-        let (port, width) = (place.port.name.clone(), place.port.width);
-        place.bits(row).ok_or_else(|| RowFileError::Unfitting { port, width }.at(row.span))
+        let (port, width) = (&place.port.name, place.port.width);
+        place.bits(row).ok_or_else(|| wording::unfitting(port, width, row.span))
     };
     let mut given = Vec::new();
     for place in inputs {
         let bits: Option<Vec<bool>> = value(place)?.into_iter().collect();
-        given.extend(bits.ok_or_else(|| RowFileError::OpenInput { port: place.port.name.clone() }.at(row.span))?);
+        given.extend(bits.ok_or_else(|| wording::open_input(&place.port.name, row.span))?);
     }
     let mut expected = Vec::new();
     for place in outputs {

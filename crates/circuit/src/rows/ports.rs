@@ -2,12 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::file::RowFile;
-use super::wording::RowFileError;
+use super::RowFile;
+use super::wording;
 use nbc_base::diag::{Diagnostic, Suggestion};
 use nbc_base::model::{Column, bit_parts};
 
-/// The inputs and the outputs of the circuit that the rows of a file describe.
 pub type RowPorts = (Vec<Column>, Vec<Column>);
 
 impl RowFile {
@@ -26,7 +25,7 @@ impl RowFile {
         let names: Vec<&str> = ports.iter().map(|(port, _)| port.name.as_str()).collect();
         if let Some(output) = outputs.iter().find(|output| !names.contains(&output.as_str())) {
             let meant = Suggestion::of(output, names.iter().copied());
-            return Err(RowFileError::NoOutput { output: output.clone(), meant }.without_place());
+            return Err(wording::no_output(output, &meant));
         }
         let last = ports.len() - 1;
         let is_output = |at: usize, (port, said): &(Column, Option<bool>)| match said {
@@ -39,7 +38,7 @@ impl RowFile {
         let columns =
             |ports: Vec<(usize, (Column, Option<bool>))>| ports.into_iter().map(|(_, (port, _))| port).collect();
         if inputs.is_empty() {
-            return Err(RowFileError::NoInputs.at(self.columns[0].span));
+            return Err(wording::no_inputs(self.columns[0].span));
         }
         Ok((columns(inputs), columns(found)))
     }
@@ -52,11 +51,8 @@ impl RowFile {
             let (bits, highest) = buses.entry(name).or_default();
             (*bits, *highest) = (*bits + 1, bit.max(*highest));
         }
-        buses
-            .into_iter()
-            .filter(|(_, (bits, highest))| bits == &(highest + 1))
-            .map(|(name, (bits, _))| (name, bits))
-            .collect()
+        let whole = buses.into_iter().filter(|(_, (bits, highest))| *bits == highest + 1);
+        whole.map(|(name, (bits, _))| (name, bits)).collect()
     }
 }
 

@@ -2,8 +2,8 @@
 
 use std::collections::BTreeMap;
 
-use super::file::{FileRow, RowColumn, RowFile};
-use super::wording::RowFileError;
+use super::wording;
+use super::{FileRow, RowColumn, RowFile};
 use crate::formats::pla::{Pla, PlaCube};
 use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
@@ -26,29 +26,28 @@ pub(super) fn rows(pla: Pla) -> Result<RowFile, Vec<Diagnostic>> {
     let mut known = BTreeMap::new();
     for RowColumn { name, span, .. } in &columns {
         if let Some(first) = known.insert(name, *span) {
-            return Err(vec![RowFileError::Twice { name: name.clone(), first }.at(*span)]);
+            return Err(vec![wording::twice(name, first, *span)]);
         }
     }
     let rows = if pla.kind.is_listed() { listed(&pla) } else { all(&pla) };
     let rows = rows.map_err(|error| vec![error])?;
     if rows.is_empty() {
-        return Err(vec![RowFileError::NoRows.at(start)]);
+        return Err(vec![wording::no_rows(start)]);
     }
     Ok(RowFile { columns, rows })
 }
 
-/// Whether there is room for so many rows of a PLA.
 fn permit(pla: &Pla, rows: u64, span: Span) -> Result<(), Diagnostic> {
     let width = (pla.inputs.len() + pla.outputs.len()) as u64;
-    Limit::Rows.permit(rows).map_err(|_| RowFileError::TooManyRows.at(span))?;
-    Limit::RowBits.permit(rows.saturating_mul(width)).map_err(|_| RowFileError::TooManyBits.at(span))
+    Limit::Rows.permit(rows).map_err(|_| wording::too_many_rows(span))?;
+    Limit::RowBits.permit(rows.saturating_mul(width)).map_err(|_| wording::too_many_bits(span))
 }
 
 fn listed(pla: &Pla) -> Result<Vec<FileRow>, Diagnostic> {
     let mut count = 0u64;
     for cube in &pla.cubes {
         let open = cube.inputs.iter().filter(|&&digit| digit == b'-').count();
-        Limit::TriedBits.permit(open as u64).map_err(|_| RowFileError::OpenInputs { open }.at(cube.span))?;
+        Limit::TriedBits.permit(open as u64).map_err(|_| wording::open_inputs(open, cube.span))?;
         count += 1 << open;
         permit(pla, count, cube.span)?;
     }
@@ -63,8 +62,7 @@ fn listed(pla: &Pla) -> Result<Vec<FileRow>, Diagnostic> {
 
 fn all(pla: &Pla) -> Result<Vec<FileRow>, Diagnostic> {
     let inputs = pla.inputs.len();
-    let too_many = |_| RowFileError::OnesOnly { inputs }.at(pla.kind_span);
-    Limit::TriedBits.permit(inputs as u64).map_err(too_many)?;
+    Limit::TriedBits.permit(inputs as u64).map_err(|_| wording::ones_only(inputs, pla.kind_span))?;
     permit(pla, 1 << inputs, pla.kind_span)?;
     let mut outputs = vec![Some(false); pla.outputs.len() << inputs];
     let mut spans = vec![pla.kind_span; 1 << inputs];
@@ -90,7 +88,6 @@ fn all(pla: &Pla) -> Result<Vec<FileRow>, Diagnostic> {
     Ok((0..1 << inputs).map(row).collect())
 }
 
-/// The inputs that digits stand for, in counting order.
 fn patterns(digits: &[u8]) -> impl Iterator<Item = Vec<bool>> {
     let open: Vec<usize> = (0..digits.len()).filter(|&at| digits[at] == b'-').collect();
     (0..1usize << open.len()).map(move |number| {
@@ -98,38 +95,4 @@ fn patterns(digits: &[u8]) -> impl Iterator<Item = Vec<bool>> {
         open.iter().rev().enumerate().for_each(|(bit, &at)| bits[at] = number >> bit & 1 == 1);
         bits
     })
-}
-
-#[cfg(test)]
-mod tests {
-    use crate::rows::RowFormat;
-    use nbc_base::source::FileId;
-
-    fn check(text: &str, expected: Result<&[&str], &str>) {
-        let shown = RowFormat::Pla.parse(text, FileId(0)).map(|file| {
-            let digit = |bit: &Option<bool>| bit.map_or('-', |bit| if bit { '1' } else { '0' });
-            file.rows.iter().map(|row| row.bits.iter().map(digit).collect()).collect::<Vec<String>>()
-        });
-        let shown = shown.map_err(|faults| faults[0].message.clone());
-        assert_eq!(shown, expected.map(|rows| rows.iter().map(|&row| row.to_owned()).collect()).map_err(str::to_owned));
-    }
-
-    #[test]
-    fn rows_are_listed_or_those_of_the_whole_table() {
-        check(".i 2\n.o 1\n.type fr\n1- 1\n00 0\n", Ok(&["101", "111", "000"]));
-        check(".i 2\n.o 2\n.type fdr\n11 -0\n01 ~1\n", Ok(&["11-0", "01-1"]));
-        check(".i 2\n.o 1\n-1 -\n11 1\n", Ok(&["000", "01-", "100", "111"]));
-        check(".i 1\n.o 2\n.type f\n1 10\n", Ok(&["000", "110"]));
-    }
-
-    #[test]
-    fn other_tables_are_refused() {
-        check(".i 17\n.o 1\n", Err("a PLA of this type describes all rows of 17 inputs"));
-        let open = format!(".i 17\n.o 1\n.type fr\n{} 1\n", "-".repeat(17));
-        check(&open, Err("row leaves 17 inputs open"));
-        let many = format!(".i 16\n.o 1\n.type fr\n{}", format!("{} 1\n", "-".repeat(16)).repeat(20));
-        check(&many, Err("file has more than 200000 rows"));
-        check(".i 1\n.o 1\n.type fr\n", Err("file has no rows"));
-        check(".i 2\n.o 1\n.ilb a a\n.ob q\n11 1\n", Err("column `a` is there twice"));
-    }
 }

@@ -1,155 +1,121 @@
-//! What can be wrong with rows of a file.
+//! Messages about rows of a file.
 
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Suggestion, counted};
 use nbc_base::source::Span;
 
-/// The most errors that are reported of a file.
 pub(super) const MOST_ERRORS: usize = 20;
 
-/// A file that has no rows for a circuit.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum RowFileError {
-    /// A file without a line.
-    Empty,
-    /// A file that begins with numbers.
-    NoHeader,
-    /// A file that ends after the names of its columns.
-    NoRows,
-    /// A column without a name.
-    Unnamed,
-    /// A name that is too long.
-    LongName { bytes: usize },
-    /// Two columns of a name.
-    Twice { name: String, first: Span },
-    /// More or fewer values than columns.
-    Width { values: usize, columns: usize },
-    /// A cell that is no number.
-    NotANumber { word: String, column: String },
-    /// A number of too many bits.
-    Wide { column: String, bits: usize },
-    /// Too many rows.
-    TooManyRows,
-    /// Too many bits in all rows.
-    TooManyBits,
-    /// Rows of a PLA that stand for too many.
-    OpenInputs { open: usize },
-    /// A PLA that says where outputs are 1, of too many inputs to list the others.
-    OnesOnly { inputs: usize },
-    /// A column that is not a port.
-    NoPort { column: String, circuit: String, meant: Suggestion },
-    /// A port with no column, or without some of its bits.
-    NoColumn { port: String, circuit: String },
-    /// A port and a bit of it.
-    BitAndPort { port: String },
-    /// A value that does not fit into its port.
-    Unfitting { port: String, width: usize },
-    /// An input without a value.
-    OpenInput { port: String },
-    /// An output that no column has.
-    NoOutput { output: String, meant: Suggestion },
-    /// A file whose columns are all outputs.
-    NoInputs,
+const LIMIT: &str = "the limit is reached here";
+
+fn value(message: &str, at: Span, label: &str) -> Diagnostic {
+    Diagnostic::new(Code::Value, message, at, label)
 }
 
-impl RowFileError {
-    /// The error of a name that is not in the file.
-    pub(super) fn without_place(self) -> Diagnostic {
-        match self {
-            Self::NoOutput { output, meant } => {
-                let message = format!("the file has no columns for the output `{output}`");
-                Diagnostic::without_place(Code::Unknown, message).with_suggestion(None, &meant)
-            }
-            other => unreachable!("{other:?} has a place"),
-        }
-    }
+fn too_large(message: String, at: Span, label: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Code::TooLarge, message, at, label)
+}
 
-    /// The error at its place.
-    pub(super) fn at(self, span: Span) -> Diagnostic {
-        let error = |code, message: &str, label: &str| Diagnostic::new(code, message, span, label);
-        match self {
-            Self::Empty => error(Code::Empty, "file has no columns", "expected names of columns between commas"),
-            Self::NoHeader => {
-                error(Code::Value, "file has no names of columns", "expected the names of ports before the first row")
-                    .with_help("write a first line such as `a,b,q`")
-            }
-            Self::NoRows => error(Code::Empty, "file has no rows", "expected a line of values after the names"),
-            Self::Unnamed => {
-                error(Code::Value, "column has no name", "expected the name of a port, such as `a` or `a[0]`")
-            }
-            Self::LongName { bytes } => error(
-                Code::TooLarge,
-                &format!("name of {bytes} bytes is too long"),
-                &format!("expected at most {}", Limit::FileNameBytes.most()),
-            ),
-            Self::Twice { name, first } => {
-                error(Code::Duplicate, &format!("column `{name}` is there twice"), "again here")
-                    .with_related(first, "first here")
-            }
-            Self::Width { values, columns } => error(
-                Code::RowWidth,
-                &format!("row has {} for {}", counted(values, "value"), counted(columns, "column")),
-                "expected a value for each column",
-            ),
-            Self::NotANumber { word, column } => error(
-                Code::Value,
-                &format!("`{word}` is not a value of `{column}`"),
-                "expected a whole number such as 5 or 0x1f, or `-` for any",
-            ),
-            Self::Wide { column, bits } => error(
-                Code::TooLarge,
-                &format!("value of `{column}` has {bits} bits"),
-                &format!("expected at most {}, four for each hexadecimal digit", Limit::Width.most()),
-            ),
-            Self::TooManyRows => error(
-                Code::TooLarge,
-                &format!("file has more than {} rows", Limit::Rows.most()),
-                "the limit is reached here",
-            ),
-            Self::TooManyBits => error(
-                Code::TooLarge,
-                &format!("the rows of the file have more than {} bits", Limit::RowBits.most()),
-                "the limit is reached here",
-            ),
-            Self::OpenInputs { open } => error(
-                Code::TooLarge,
-                &format!("row leaves {} open", counted(open, "input")),
-                &format!("expected at most {}, because all of their values are rows", Limit::TriedBits.most()),
-            ),
-            Self::OnesOnly { inputs } => error(
-                Code::TooLarge,
-                &format!("a PLA of this type describes all rows of {}", counted(inputs, "input")),
-                &format!("expected at most {} inputs, or the type `fr` or `fdr`", Limit::TriedBits.most()),
-            ),
-            Self::NoPort { column, circuit, meant } => error(
-                Code::Unknown,
-                &format!("`{circuit}` has no port for the column `{column}`"),
-                "expected the name of a port or of a bit of one",
-            )
-            .with_suggestion(None, &meant),
-            Self::NoColumn { port, circuit } => error(
-                Code::RowWidth,
-                &format!("file has no column for `{port}` of `{circuit}`"),
-                "expected it among these columns",
-            )
-            .with_help(format!("name a column `{port}`, or columns for each of its bits, such as `{port}[0]`")),
-            Self::BitAndPort { port } => error(
-                Code::Duplicate,
-                &format!("columns have `{port}` and its bits"),
-                "expected either the port or all of its bits",
-            ),
-            Self::Unfitting { port, width } => error(
-                Code::OutOfRange,
-                &format!("row has a value that does not fit into `{port}`"),
-                &format!("expected a value of {}", counted(width, "bit")),
-            ),
-            Self::OpenInput { port } => error(
-                Code::Value,
-                &format!("row has no value for the input `{port}`"),
-                "expected a value in each column of an input",
-            ),
-            Self::NoInputs => error(Code::Value, "no column is an input", "expected a column of an input, too"),
-            Self::NoOutput { .. } => unreachable!("it is a name of an option"),
-        }
-    }
+fn beginning(span: Span) -> Span {
+    Span { end: span.end.min(span.start + 20), ..span }
+}
+
+pub(super) fn empty(at: Span) -> Diagnostic {
+    Diagnostic::new(Code::Empty, "file has no columns", at, "expected names of columns between commas")
+}
+
+pub(super) fn no_header(at: Span) -> Diagnostic {
+    value("file has no names of columns", at, "expected the names of ports before the first row")
+        .with_help("write a first line such as `a,b,q`")
+}
+
+pub(super) fn no_rows(at: Span) -> Diagnostic {
+    Diagnostic::new(Code::Empty, "file has no rows", at, "expected a line of values after the names")
+}
+
+pub(super) fn unnamed(at: Span) -> Diagnostic {
+    value("column has no name", at, "expected the name of a port, such as `a` or `a[0]`")
+}
+
+pub(super) fn long_name(bytes: usize, at: Span) -> Diagnostic {
+    let label = format!("expected at most {}", Limit::FileNameBytes.most());
+    too_large(format!("name of {bytes} bytes is too long"), beginning(at), label)
+}
+
+pub(super) fn twice(name: &str, first: Span, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::Duplicate, format!("column `{name}` is there twice"), at, "again here")
+        .with_related(first, "first here")
+}
+
+pub(super) fn row_width(values: usize, columns: usize, at: Span) -> Diagnostic {
+    let message = format!("row has {} for {}", counted(values, "value"), counted(columns, "column"));
+    Diagnostic::new(Code::RowWidth, message, at, "expected a value for each column")
+}
+
+pub(super) fn not_a_number(word: &str, column: &str, at: Span) -> Diagnostic {
+    let label = "expected a whole number such as 5 or 0x1f, or `-` for any";
+    value(&format!("`{word}` is not a value of `{column}`"), beginning(at), label)
+}
+
+pub(super) fn wide_value(column: &str, bits: usize, at: Span) -> Diagnostic {
+    let label = format!("expected at most {}, four for each hexadecimal digit", Limit::Width.most());
+    too_large(format!("value of `{column}` has {bits} bits"), beginning(at), label)
+}
+
+pub(super) fn too_many_rows(at: Span) -> Diagnostic {
+    too_large(format!("file has more than {} rows", Limit::Rows.most()), at, LIMIT)
+}
+
+pub(super) fn too_many_bits(at: Span) -> Diagnostic {
+    too_large(format!("the rows of the file have more than {} bits", Limit::RowBits.most()), at, LIMIT)
+}
+
+/// A row of a PLA that stands for too many, because so many inputs are open.
+pub(super) fn open_inputs(open: usize, at: Span) -> Diagnostic {
+    let label = format!("expected at most {}, because all of their values are rows", Limit::TriedBits.most());
+    too_large(format!("row leaves {} open", counted(open, "input")), at, label)
+}
+
+/// A PLA that says where outputs are 1, of too many inputs to list the others.
+pub(super) fn ones_only(inputs: usize, at: Span) -> Diagnostic {
+    let message = format!("a PLA of this type describes all rows of {}", counted(inputs, "input"));
+    let label = format!("expected at most {} inputs, or the type `fr` or `fdr`", Limit::TriedBits.most());
+    too_large(message, at, label)
+}
+
+pub(super) fn no_port(column: &str, circuit: &str, meant: &Suggestion, at: Span) -> Diagnostic {
+    let message = format!("`{circuit}` has no port for the column `{column}`");
+    Diagnostic::new(Code::Unknown, message, at, "expected the name of a port or of a bit of one")
+        .with_suggestion(None, meant)
+}
+
+/// A port with no column, or without some of its bits.
+pub(super) fn no_column(port: &str, circuit: &str, at: Span) -> Diagnostic {
+    let message = format!("file has no column for `{port}` of `{circuit}`");
+    Diagnostic::new(Code::RowWidth, message, at, "expected it among these columns")
+        .with_help(format!("name a column `{port}`, or columns for each of its bits, such as `{port}[0]`"))
+}
+
+pub(super) fn bit_and_port(port: &str, at: Span) -> Diagnostic {
+    let label = "expected either the port or all of its bits";
+    Diagnostic::new(Code::Duplicate, format!("columns have `{port}` and its bits"), at, label)
+}
+
+pub(super) fn unfitting(port: &str, width: usize, at: Span) -> Diagnostic {
+    let label = format!("expected a value of {}", counted(width, "bit"));
+    Diagnostic::new(Code::OutOfRange, format!("row has a value that does not fit into `{port}`"), at, label)
+}
+
+pub(super) fn open_input(port: &str, at: Span) -> Diagnostic {
+    value(&format!("row has no value for the input `{port}`"), at, "expected a value in each column of an input")
+}
+
+pub(super) fn no_inputs(at: Span) -> Diagnostic {
+    value("no column is an input", at, "expected a column of an input, too")
+}
+
+/// An output, named by an option, that no column has.
+pub(super) fn no_output(output: &str, meant: &Suggestion) -> Diagnostic {
+    let message = format!("the file has no columns for the output `{output}`");
+    Diagnostic::without_place(Code::Unknown, message).with_suggestion(None, meant)
 }

@@ -6,7 +6,7 @@ use crate::syntax::tree;
 use nbc_base::diag::Suggestion;
 use nbc_base::model::{ExpressionId, OutputValue, Table, TableOutput, TablePattern, TableRow};
 use nbc_base::source::Span;
-use nbc_circuit::elaborate::{TableError, table_fault};
+use nbc_circuit::elaborate::{not_a_pattern, table_fault, two_else};
 
 impl CircuitChecker<'_> {
     /// `values` are the outputs that are expressions.
@@ -48,9 +48,7 @@ impl CircuitChecker<'_> {
 
     fn otherwise(&mut self, table: &mut Table, output: TableOutput, span: Span) {
         match &table.otherwise {
-            Some(first) => {
-                self.diagnostics.push(TableError::TwoElse { first: first.span }.at(span));
-            }
+            Some(first) => self.diagnostics.push(two_else(first.span, span)),
             None => table.otherwise = Some(output),
         }
     }
@@ -69,7 +67,7 @@ impl CircuitChecker<'_> {
             return Some(TablePattern::Number(value));
         }
         let meant = Suggestion::of(&word.text, declared.names.members.all());
-        self.diagnostics.push(TableError::NotAPattern { word: word.text.clone(), meant }.at(word.span));
+        self.diagnostics.push(not_a_pattern(&word.text, &meant, word.span));
         None
     }
 
@@ -79,8 +77,7 @@ impl CircuitChecker<'_> {
             (Some(bits), _) if bits.len() != 1 || bits[0].is_none() => Some(OutputValue::Bits(bits)),
             (_, Some(value)) => Some(OutputValue::Number(value)),
             _ => {
-                let error = TableError::NotAPattern { word: word.text.clone(), meant: Suggestion::None };
-                self.diagnostics.push(error.at(word.span));
+                self.diagnostics.push(not_a_pattern(&word.text, &Suggestion::None, word.span));
                 None
             }
         }

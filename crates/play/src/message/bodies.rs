@@ -1,4 +1,4 @@
-//! Robots of the library, bodies that a page has made, and how voxels look.
+//! Robots of the library, bodies that a page has made, how voxels look, and a search for gates while it runs.
 
 use serde::Serialize;
 #[cfg(test)]
@@ -112,4 +112,38 @@ pub(crate) fn looks(looks: &Looks) -> Vec<VoxelLook> {
             .map(|mark| mark.polygons.iter().map(|one| one.iter().map(|&(x, y)| [x, y]).collect()).collect()),
     };
     looks.all().map(look).collect()
+}
+
+/// The niches of an archive that have changed in a generation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct ArchiveChange {
+    pub(crate) id: u64,
+    pub(crate) generation: u32,
+    pub(crate) axes: Vec<AxisEntry>,
+    pub(crate) niches: Vec<NicheEntry>,
+    pub(crate) evaluations: u64,
+}
+
+/// The name of an axis and its number of bins.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct AxisEntry(pub(crate) &'static str, pub(crate) usize);
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct NicheEntry {
+    /// The bin on each axis.
+    pub(crate) place: Vec<u16>,
+    pub(crate) fitness: [f64; 2],
+    pub(crate) body: Vec<String>,
+    pub(crate) letters: String,
+    pub(crate) function: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(test, derive(TS))]
+pub(crate) struct EvolutionEnd {
+    pub(crate) generations: u32,
+    pub(crate) evaluations: u64,
 }

@@ -2,41 +2,25 @@
 //! and from those of the requests (`typescript.rs`); docs/play-protocol.md describes them.
 
 mod bodies;
-mod claim;
-mod class;
-mod evolution;
-mod export;
 mod files;
-pub(super) mod finding;
 mod lesson;
 mod program;
 mod swarm;
-mod test_result;
 mod written;
 
 use serde::Serialize;
 #[cfg(test)]
 use ts_rs::TS;
 
-pub(super) use bodies::{
-    CharacterSketch, EncodedGait, KeptRobot, PaletteEntry, ProbeReport, RobotCard, RobotCards, looks,
-};
-pub(super) use claim::{ClaimAnswer, ClaimEntry};
-pub(super) use class::ClassName;
-pub use class::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
-pub(super) use evolution::{ArchiveChange, AxisEntry, EvolutionEnd, NicheEntry};
-pub(super) use export::{ExportedRobot, ExportedRow, ExportedStride, ExportedSwarm, ExportedTest, ExportedWalk};
-pub(super) use files::{ExampleEntry, FileChange, FileEntry, FileStamp, FileText, Greeting, PlayLimits, TakenFile};
+pub(super) use bodies::*;
+pub(super) use files::*;
+pub use lesson::{ClassCourse, ClassLesson, ClassMember, ClassPlace, ClassRoll};
 pub(super) use lesson::{
-    LessonCheck, LessonComparison, LessonCount, LessonEntry, LessonGoal, LessonList, LessonMeasure, LessonStep,
-    LessonTab, PortValues,
+    ClassName, LessonCheck, LessonComparison, LessonCount, LessonEntry, LessonGoal, LessonList, LessonMeasure,
+    LessonStep, LessonTab, PortValues,
 };
-pub(super) use program::{CircuitEntry, PortEntry, ProgramReport, TestEntry, TestRowEntry};
-pub(super) use swarm::{
-    BitSource, ListingRow, ShownClock, ShownEnvironment, ShownListing, ShownMemory, ShownRegister, ShownScript,
-    ShownSwarm, ShownWaves, SwarmAnswer, SwarmRobot, WaveBit, WaveRegister,
-};
-pub(super) use test_result::{TestAnswer, TestResult, listed};
+pub(super) use program::*;
+pub(super) use swarm::*;
 pub(super) use written::{CALLS, WrittenProgram};
 
 use crate::refusal::Refusal;

@@ -27,22 +27,7 @@ pub struct Run {
     spells: Vec<Spell>,
 }
 
-/// The data shared by runs of equal bodies.
-#[derive(Clone)]
-struct Build {
-    body: usize,
-    lattice: Arc<Lattice>,
-    signals: Arc<Signals>,
-}
-
 impl Run {
-    fn new(build: &Build, origin: [f64; 2], constants: &Constants) -> Self {
-        let Build { body, lattice, signals } = build.clone();
-        let state = State::start(&lattice, origin, constants);
-        let center = state.center(constants);
-        Self { lattice, body, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
-    }
-
     pub fn assign(&mut self, schedule: &Schedule) {
         let spells = schedule.spells.iter().rev().filter(|spell| spell.steps > 0);
         self.spells.clear();
@@ -114,19 +99,22 @@ impl Run {
 /// of bodies that sense no image.
 pub fn runs<'a>(constants: &Constants, setting: &Setting, bodies: impl IntoIterator<Item = &'a Body>) -> Vec<Run> {
     let mut palettes: BTreeMap<&Palette, Arc<Signals>> = BTreeMap::new();
-    let mut builds: BTreeMap<&Body, Build> = BTreeMap::new();
+    let mut starts: BTreeMap<&Body, Run> = BTreeMap::new();
     let run = |body: &'a Body| {
-        let number = builds.len();
-        let build = builds.entry(body).or_insert_with(|| {
+        let number = starts.len();
+        let start = starts.entry(body).or_insert_with(|| {
             let signals =
                 palettes.entry(body.palette()).or_insert_with(|| Arc::new(Signals::new(body.palette(), constants)));
             let signals = match Grid::seeing(body).next() {
                 Some(_) => Arc::new(Signals::clone(signals).of(body, constants)),
                 None => Arc::clone(signals),
             };
-            Build { body: number, lattice: Arc::new(Lattice::new(body, constants)), signals }
+            let lattice = Arc::new(Lattice::new(body, constants));
+            let state = State::start(&lattice, setting.start(body.width()), constants);
+            let center = state.center(constants);
+            Run { lattice, body: number, signals, state, center, clock: 0, fault: None, spells: Vec::new() }
         });
-        Run::new(build, setting.start(body.width()), constants)
+        start.clone()
     };
     bodies.into_iter().map(run).collect()
 }

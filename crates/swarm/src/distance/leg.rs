@@ -28,7 +28,6 @@ pub(super) struct LegEnd {
 }
 
 impl LegEnd {
-    /// The displacement in voxels.
     pub fn moved(&self) -> Result<f64, Fault> {
         self.fault.map_or_else(|| Ok(self.end - self.start), Err)
     }

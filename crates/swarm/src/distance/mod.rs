@@ -83,10 +83,9 @@ pub fn fixed_displacements(
     walkers.iter().enumerate().map(walked).collect()
 }
 
-/// The simulations that are made next, of those that are needed now: one of each body that is not decided. First come
-/// those of the bodies that will probably need most, and only as many as fill the robots that are simulated at once,
-/// for the others can wait for those that follow. If all leave room, it is for those that will probably be needed
-/// soonest.
+/// The simulations to make next: one of each undecided body, first of those that will probably need most, and only as
+/// many as fill the robots that are simulated at once, because the others can wait. Room that is left goes to those
+/// that will probably be needed soonest.
 fn wanted(
     plan: &SimulationPlan,
     tasks: &[(&EvaluationTask, usize)],

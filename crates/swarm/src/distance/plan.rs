@@ -14,25 +14,17 @@ use nbc_sim::Simulator;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Walk {
-    /// Under one pattern, from a fresh start.
     Fixed(Pattern),
-    /// The next stretch of the long simulation.
     Long,
 }
 
+/// What an evaluation needs next: simulations under the missing patterns, in this order, until the body is decided, or
+/// the rest of the long one. If the body walks as its parent does, it needs `likely` of the former, and `legs`
+/// simulations in all, each stretch of the long one counted.
 #[derive(Debug)]
 pub(super) enum Next {
-    /// Simulations under these constant patterns, in this order, until the body is decided. If it walks as its parent
-    /// does, it needs `likely` of them, and `legs` simulations in all, each stretch of the long one counted.
-    Fixed {
-        missing: Vec<Pattern>,
-        likely: usize,
-        legs: usize,
-    },
-    /// The long simulation, of which so many stretches are left.
-    Long {
-        legs: usize,
-    },
+    Fixed { missing: Vec<Pattern>, likely: usize, legs: usize },
+    Long { legs: usize },
     Done(Evaluated),
 }
 
@@ -158,7 +150,6 @@ impl<'a> SimulationPlan<'a> {
         }
     }
 
-    /// The long simulation, if it is known, or needs no further stretch.
     pub fn long(&self, walker: &Walker) -> Option<LongWalk> {
         walker.walks.long.or_else(|| self.ended(walker))
     }

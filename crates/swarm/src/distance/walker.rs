@@ -5,7 +5,6 @@ use crate::evaluation::EvaluationTask;
 use nbc_base::model::{Body, Fault, MaterialKind, Pattern};
 use nbc_sim::Snapshot;
 
-/// How far a body has come in the long simulation.
 pub(super) struct Trail {
     /// Where it was at the start and after each stretch, in voxels.
     pub places: Vec<f64>,
@@ -15,10 +14,8 @@ pub(super) struct Trail {
 
 pub(super) struct Walker {
     pub body: Body,
-    /// What it senses of each pattern.
     pub sensed: Vec<Pattern>,
     pub walks: Walks,
-    /// The long simulation so far, if it was begun here.
     pub trail: Option<Trail>,
 }
 
@@ -35,7 +32,6 @@ impl Walker {
         self.trail.as_ref().map_or(0, |trail| trail.places.len() - 1)
     }
 
-    /// The patterns that it tells apart, in their order.
     pub fn different(&self) -> Vec<Pattern> {
         let mut different = self.sensed.clone();
         different.sort_unstable();

@@ -16,7 +16,6 @@ const HALF: usize = 50_000;
 pub(crate) struct Walks {
     /// The displacement under each constant pattern that was simulated, in voxels, or the fault.
     pub fixed: BTreeMap<Pattern, Result<f64, Fault>>,
-    /// The long simulation, if it was simulated.
     pub long: Option<LongWalk>,
 }
 
@@ -38,8 +37,8 @@ impl Walks {
     }
 }
 
-/// The simulations of the bodies that were evaluated last, so that a body that a search draws again is not simulated
-/// again. Results do not depend on it.
+/// The simulations of recently evaluated bodies, so that a body that is drawn again is not simulated again. Results do
+/// not depend on it.
 #[derive(Debug, Default)]
 pub struct WalkMemory(Mutex<Remembered>);
 

@@ -88,17 +88,10 @@ mod tests {
         check(Rules::PAPER, &["33333", "55555", "00000", "00000", "00000"], [1, 0, 0, 7]);
         check(Rules::PAPER, &["33333", "35555", "51000", "00000", "00000"], [2, 1, 0, 7]);
         check(Rules::PAPER, &["33333"; 5], [3, 3, 0, 7]);
-    }
-
-    #[test]
-    fn the_code_counts_two_of_the_four_sensors() {
+        // The code counts two of the four sensors.
         let rows = ["77777", "88888", "33300", "00000", "00000"];
         check(Rules::PAPER, &rows, [2, 0, 1, 7]);
         check(Rules::CODE, &rows, [2, 0, 0, 7]);
-    }
-
-    #[test]
-    fn the_papers_archive_has_1024_niches() {
         assert_eq!(Descriptor::new(&evolution()).niches(), 1024);
     }
 }

@@ -6,7 +6,6 @@ pub mod cppn;
 mod descriptor;
 mod develop;
 mod mutate;
-mod neighbor_search;
 mod neighbors;
 mod outcome;
 mod rivals;
@@ -18,7 +17,6 @@ pub use archive::{AddStatus, Archive, ArchiveStats, Champion, Elite};
 pub use descriptor::{Descriptor, NicheKey};
 pub use develop::{develop, phenotype, validate};
 pub use mutate::mutate;
-pub use neighbor_search::NeighborSearch;
 pub use outcome::{CandidateOutcome, Counts, Scores};
 pub use rivals::Rivals;
 #[cfg(test)]

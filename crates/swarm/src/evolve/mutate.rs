@@ -4,7 +4,6 @@ use rand::{Rng, RngExt};
 
 use nbc_base::model::{Activation, Genotype, Link, Matter, MutationWeights, NodeId, NodeKind, Rules};
 
-/// Draws for an admissible link before giving up.
 const LINK_DRAWS: usize = 999;
 /// Standard deviation of a change of weight.
 const WEIGHT_STEP: f64 = 0.5;
@@ -183,7 +182,6 @@ fn remove(genotype: &mut Genotype, node: NodeId) {
     genotype.links.retain(|link| link.source != node && link.target != node);
 }
 
-/// Removes hidden nodes without links into them or out of them until none is left.
 fn prune(genotype: &mut Genotype) {
     while let Some(node) = loose_node(genotype) {
         remove(genotype, node);

@@ -13,7 +13,6 @@ pub struct Rivals {
 
 impl Rivals {
     /// The rivals in each niche of each behavior.
-    /// Panics when there is not one entry for each behavior of two or three stimuli.
     pub fn new(niche: Niche, behaviors: Vec<Vec<Vec<[f64; 2]>>>) -> Self {
         assert!(matches!(behaviors.len(), 16 | 256), "each behavior has an entry");
         let is_open = |niches: &Vec<Vec<[f64; 2]>>| niches.iter().any(Vec::is_empty);

@@ -118,14 +118,12 @@ fn recoded_palette(palette: &Palette, order: &[usize], invert: &[bool]) -> Optio
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use rand::SeedableRng;
     use rand_chacha::ChaCha8Rng;
 
     use super::*;
     use crate::evolve::{cppn, mutate, phenotype};
-    use nbc_base::model::{Material, MutationWeights, Rules};
+    use nbc_base::model::{MutationWeights, Rules};
 
     fn network(rules: Rules, seed: u64) -> Genotype {
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -155,20 +153,9 @@ mod tests {
         assert_eq!(distinct, ["LRRR", "RLRR", "RRLR", "RRRL"], "four by recoding, the other four by mirroring");
     }
 
-    /// The paper's materials and two that sense a third stimulus.
-    fn three() -> Palette {
-        let mut materials = Palette::paper().materials().to_vec();
-        let sensor = |name: &str, absent, present| {
-            let kind = MaterialKind::Sensor(Response::of(2, absent, present));
-            Material { name: name.to_owned(), kind }
-        };
-        materials.extend([sensor("s3_shrink", 1.6, 0.6), sensor("s3_grow", 0.6, 1.6)]);
-        Palette::new(materials)
-    }
-
     #[test]
     fn recodings_of_three_stimuli_give_half_of_a_class_and_mirroring_the_rest() {
-        let palette = three();
+        let palette = Palette::three();
         let recodings = recodings(&palette);
         assert_eq!(recodings.len(), 48);
         assert!(recodings[0].is_identity() && recodings.iter().filter(|recoding| recoding.is_identity()).count() == 1);
@@ -183,7 +170,7 @@ mod tests {
 
     #[test]
     fn recoded_voxels_react_as_before() {
-        for palette in [Arc::unwrap_or_clone(Palette::paper()), three()] {
+        for palette in [Palette::paper(), Palette::three()] {
             check_voxels(&palette);
         }
     }

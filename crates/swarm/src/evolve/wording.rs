@@ -6,11 +6,7 @@ use std::fmt;
 /// The reason why a network has no valid body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Undeveloped {
-    FewActuators {
-        found: usize,
-        least: usize,
-    },
-    /// Voxels that are not all connected by their sides.
+    FewActuators { found: usize, least: usize },
     Apart,
 }
 

@@ -1,4 +1,5 @@
-//! The patterns of the simulations of gates, cycle by cycle.
+//! The patterns of the simulations of gates, cycle by cycle, and the worth of margins: numbers between 0 and 1 in which
+//! one half means that the worst cycle stands still.
 
 use std::ops::RangeInclusive;
 
@@ -8,7 +9,6 @@ use crate::holds::HoldPlan;
 use crate::noise::RobotNoise;
 use nbc_base::model::{Pattern, PhysicsWorld};
 
-/// Cycles of each hold of the walks.
 pub(super) const HOLD: usize = 4;
 
 /// The patterns of one simulation, cycle by cycle.
@@ -36,9 +36,22 @@ pub(super) fn sensed(world: &PhysicsWorld, lane: usize, cycles: &Lane) -> Lane {
     sensed
 }
 
+/// The margin, in voxels per cycle, that scores halfway between zero and infinite margin.
+const HALF_MARGIN: f64 = 0.05;
+
+pub(super) fn least(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(f64::INFINITY, f64::min)
+}
+
+pub(super) fn worth(margin: f64) -> f64 {
+    if margin.is_infinite() { 1.0 } else { 0.5 + 0.5 * margin / (margin.abs() + HALF_MARGIN) }
+}
+
 #[cfg(test)]
 pub(super) mod tests {
     use super::*;
+    use crate::holds::PatternHold;
+    use nbc_base::model::Behavior;
 
     /// How often each pattern follows each.
     pub(crate) fn steps<'a>(stimuli: usize, lanes: impl IntoIterator<Item = &'a [Pattern]>) -> Vec<Vec<u32>> {
@@ -48,5 +61,14 @@ pub(super) mod tests {
             steps[two[0].number(stimuli)][two[1].number(stimuli)] += 1;
         }
         steps
+    }
+
+    pub(crate) fn nand() -> Behavior {
+        "RRRL".parse().unwrap()
+    }
+
+    pub(crate) fn hold(before: Option<usize>, pattern: usize, cycles: &[f64]) -> PatternHold {
+        let pairs = Pattern::PAIRS;
+        PatternHold { before: before.map(|i| pairs[i]), pattern: pairs[pattern], cycles: cycles.to_vec(), height: 0.0 }
     }
 }

@@ -2,21 +2,19 @@
 //! should not change; or, for waves, the correct output in every cycle (docs/evolution.md, The gate objective).
 
 mod lanes;
-mod objective;
 mod settled;
 mod wave;
-mod worth;
 
-pub(crate) use objective::GateObjective;
+use rand::SeedableRng;
+use rand_chacha::ChaCha8Rng;
 
 use crate::Work;
 use crate::evaluation::{Evaluated, EvaluationProtocol, EvaluationTask, setting};
 use crate::evolve::{CandidateOutcome, Scores};
 use crate::gate::lanes::{HOLD, Lane, sensed, starts};
-use crate::gate::objective::{fitness, stages};
 use crate::holds::PatternHold;
 use crate::noise::RobotNoise;
-use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld};
+use nbc_base::model::{Behavior, Body, CYCLE_STEPS, Displacements, Pattern, PhysicsWorld, SearchObjective};
 use nbc_sim::Simulator;
 
 /// A candidate with a first fitness below this is dropped at once, even if its niche is empty.
@@ -24,8 +22,27 @@ const HOPELESS: f64 = 0.25;
 /// Cycles after a fresh start until bodies that walk both ways can be recognized.
 const FIRST_LOOK: usize = 3;
 
-pub(super) fn steps(objective: GateObjective, protocol: &EvaluationProtocol) -> u64 {
-    let cycles: usize = stages(objective, protocol.stimuli).iter().flatten().map(Vec::len).sum();
+/// The seed of the random sequences: the same for every candidate, and different from that of `characterize`.
+const RANDOM_SEED: u64 = 0x6761_7465;
+
+/// The simulations of a candidate with that many stimuli in each world: those from each pattern, one hold each, and
+/// then random ones.
+fn stages(objective: SearchObjective, stimuli: usize) -> [Vec<Lane>; 2] {
+    let rng = &mut ChaCha8Rng::seed_from_u64(RANDOM_SEED);
+    if objective == SearchObjective::Wave { wave::stages(stimuli, rng) } else { settled::stages(stimuli, rng) }
+}
+
+/// The fitnesses for these holds. More holds and longer ones never raise them.
+fn fitness<'a>(
+    objective: SearchObjective,
+    behavior: Behavior,
+    holds: impl Iterator<Item = &'a PatternHold> + Clone,
+) -> [f64; 2] {
+    if objective == SearchObjective::Wave { wave::fitness(behavior, holds) } else { settled::fitness(behavior, holds) }
+}
+
+pub(super) fn steps(protocol: &EvaluationProtocol) -> u64 {
+    let cycles: usize = stages(protocol.objective, protocol.stimuli).iter().flatten().map(Vec::len).sum();
     cycles as u64 * u64::from(CYCLE_STEPS) * (1 + protocol.others.len() as u64)
 }
 
@@ -34,12 +51,11 @@ pub(super) fn steps(objective: GateObjective, protocol: &EvaluationProtocol) -> 
 /// niche are dropped; their scores can only decrease.
 pub(crate) fn evaluate(
     simulator: &Simulator,
-    objective: GateObjective,
     protocol: &EvaluationProtocol,
     tasks: &[EvaluationTask],
 ) -> Vec<Evaluated> {
-    let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(objective, protocol, task)).collect();
-    let stages = stages(objective, protocol.stimuli);
+    let mut attempts: Vec<Attempt> = tasks.iter().map(|task| Attempt::new(protocol, task)).collect();
+    let stages = stages(protocol.objective, protocol.stimuli);
     for world in std::iter::once(&protocol.world).chain(&protocol.others) {
         for (stage, lanes) in stages.iter().enumerate() {
             for attempt in &mut attempts {
@@ -49,7 +65,7 @@ pub(crate) fn evaluate(
         }
         attempts.iter_mut().for_each(Attempt::leave_world);
     }
-    let all = steps(objective, protocol);
+    let all = steps(protocol);
     attempts.into_iter().map(|attempt| attempt.end(all)).collect()
 }
 
@@ -82,12 +98,11 @@ fn try_lanes(simulator: &Simulator, world: &PhysicsWorld, attempts: &mut [Attemp
 }
 
 struct Attempt<'a> {
-    objective: GateObjective,
+    objective: SearchObjective,
     /// The behaviors that it may be scored as; if there are none, its own.
     asked: &'a [Behavior],
     /// The behavior at the fresh starts, as soon as they are done.
     own: Behavior,
-    /// The number of worlds besides its own.
     others: usize,
     passed: usize,
     /// Whether it was wrong in a world, so that no others follow.
@@ -100,12 +115,12 @@ struct Attempt<'a> {
 }
 
 impl<'a> Attempt<'a> {
-    fn new(objective: GateObjective, protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
+    fn new(protocol: &'a EvaluationProtocol, task: &'a EvaluationTask) -> Self {
         let displacement = Displacements::zero(protocol.stimuli);
         let scores = Scores { fitness: [1.0; 2], behavior: displacement.behavior(), displacement };
         let asked = protocol.behaviors.as_slice();
         Self {
-            objective,
+            objective: protocol.objective,
             asked,
             own: scores.behavior,
             others: protocol.others.len(),
@@ -152,7 +167,7 @@ impl<'a> Attempt<'a> {
         }
     }
 
-    /// The bounds for the behavior that it comes nearest to of those with which it can enter a niche, or else of all.
+    /// The bounds for the nearest of the behaviors with which it can enter a niche, or of all if there are none.
     fn bound(&self) -> Bound {
         let asked = match (self.passed, self.asked) {
             (0, []) => &[self.own],
@@ -172,8 +187,8 @@ impl<'a> Attempt<'a> {
         bounds.reduce(nearer).expect("there is at least one")
     }
 
-    /// The fitnesses with those that it has over all cycles so far: if it is wrong in a world, that counts for this one
-    /// and the worlds before count as one each; as long as it is right, all others count as one.
+    /// The fitnesses over all worlds. A wrong world counts with its own fitness, and the worlds before it as one each;
+    /// as long as the body is right, all other worlds count as one.
     fn over_worlds(&self, raw: [f64; 2]) -> [f64; 2] {
         let counted = if is_right(raw) { self.others } else { self.passed };
         raw.map(|own| (counted as f64 + own) / (self.others + 1) as f64)
@@ -221,7 +236,8 @@ fn settled_displacement(walks: &[Vec<PatternHold>]) -> Displacements {
 mod tests {
     use super::*;
     use crate::evolve::{Candidate, Rivals, Search};
-    use nbc_base::model::{Evolution, Palette, SearchObjective, WorldFactors};
+    use crate::gate::lanes::tests::{hold, nand};
+    use nbc_base::model::{Evolution, Palette, WorldFactors};
 
     #[test]
     fn a_body_is_tried_in_worlds_until_it_is_wrong_in_one() {
@@ -234,8 +250,8 @@ mod tests {
             let body = Body::parse(&rows, &Palette::paper()).unwrap();
             let protocol = EvaluationProtocol { others: others.to_vec(), ..EvaluationProtocol::of(&evolution) };
             let task = EvaluationTask { body, rivals: Rivals::none(2), expected: None };
-            let done = evaluate(&Simulator::default(), GateObjective::Settled, &protocol, &[task]);
-            assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(GateObjective::Settled, &protocol));
+            let done = evaluate(&Simulator::default(), &protocol, &[task]);
+            assert_eq!(done[0].work.env_steps + done[0].work.left_out, steps(&protocol));
             let CandidateOutcome::Measured(scores) = done[0].outcome else { panic!("{:?}", done[0]) };
             (scores.fitness, done[0].work.env_steps)
         };
@@ -266,7 +282,7 @@ mod tests {
         let asked = ["LRRL", "RLLR"].map(|behavior| behavior.parse::<Behavior>().unwrap());
         let scores = |behaviors: &[Behavior]| {
             let protocol = EvaluationProtocol { behaviors: behaviors.to_vec(), ..EvaluationProtocol::of(&evolution) };
-            let done = evaluate(&Simulator::default(), GateObjective::Wave, &protocol, &tasks);
+            let done = evaluate(&Simulator::default(), &protocol, &tasks);
             done.into_iter().map(|one| match one.outcome {
                 CandidateOutcome::Measured(scores) => Some((scores.behavior, scores.fitness)),
                 _ => None,
@@ -277,5 +293,15 @@ mod tests {
         let nearest: Vec<_> = xor.zip(xnor).map(|(xor, xnor)| xor.into_iter().chain(xnor).reduce(best)).collect();
         assert!(nearest.iter().flatten().count() > 1);
         assert_eq!(scores(&asked).collect::<Vec<_>>(), nearest);
+    }
+
+    #[test]
+    fn more_holds_never_raise_the_fitness() {
+        let holds: Vec<PatternHold> =
+            (0..40).map(|i| hold((i > 0).then_some((i + 1) % 4), i % 4, &[0.3, 0.1 - 0.01 * i as f64, 0.2])).collect();
+        for objective in [SearchObjective::Gate, SearchObjective::Wave] {
+            let fitnesses: Vec<[f64; 2]> = (1..40).map(|n| fitness(objective, nand(), holds[..n].iter())).collect();
+            assert!(fitnesses.windows(2).all(|two| two[1][0] <= two[0][0] && two[1][1] <= two[0][1]), "{objective:?}");
+        }
     }
 }

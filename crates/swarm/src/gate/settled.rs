@@ -3,8 +3,7 @@
 
 use rand_chacha::ChaCha8Rng;
 
-use crate::gate::lanes::{HOLD, Lane, random_holds, starts};
-use crate::gate::worth::{least, worth};
+use crate::gate::lanes::{HOLD, Lane, least, random_holds, starts, worth};
 use crate::holds::PatternHold;
 use nbc_base::model::{Behavior, Pattern};
 
@@ -47,8 +46,7 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
-    use crate::gate::lanes::tests::steps;
-    use crate::gate::worth::tests::{hold, nand};
+    use crate::gate::lanes::tests::{hold, nand, steps};
 
     #[test]
     fn the_walks_make_every_switch_once() {

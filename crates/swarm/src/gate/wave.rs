@@ -3,8 +3,7 @@
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::gate::lanes::{Lane, random_holds, starts};
-use crate::gate::worth::{least, worth};
+use crate::gate::lanes::{Lane, least, random_holds, starts, worth};
 use crate::holds::PatternHold;
 use nbc_base::model::{Behavior, Pattern};
 
@@ -81,8 +80,7 @@ mod tests {
     use rand::SeedableRng;
 
     use super::*;
-    use crate::gate::lanes::tests::steps;
-    use crate::gate::worth::tests::{hold, nand};
+    use crate::gate::lanes::tests::{hold, nand, steps};
 
     #[test]
     fn each_wave_makes_every_step_once_after_its_first_hold() {

@@ -1,10 +1,9 @@
-//! What can be wrong with widths, bits and drivers, as data, and how it is worded.
+//! Messages about widths, bits and drivers.
 
 mod tables;
 
-pub use tables::TableError;
-
-use std::fmt;
+pub(super) use tables::{missing_row, no_rows, overlap, too_many_bits, too_many_rows, uneven, wide_number};
+pub use tables::{not_a_pattern, two_else};
 
 use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, Fix, Label, Suggestion, counted, suggest};
@@ -16,12 +15,10 @@ fn bits(width: impl Into<u64>) -> String {
 }
 
 /// A value in advice, with its name if it is a net.
-#[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct OperandText {
     pub(super) width: u32,
     pub(super) span: Span,
     pub(super) net: Option<String>,
-    /// The value of a constant.
     pub(super) constant: Option<u128>,
 }
 
@@ -32,7 +29,6 @@ impl OperandText {
         Some(if to == 1 { value.to_string() } else { format!("{to}'d{value}") })
     }
 
-    /// How to widen it to `to` bits.
     fn widened(&self, to: u32) -> String {
         let net = self.net.as_deref().unwrap_or("…");
         let zeros = format!("`{{{}'d0, {net}}}`", to - self.width);
@@ -42,7 +38,6 @@ impl OperandText {
         }
     }
 
-    /// How to narrow it to `to` bits.
     fn narrowed(&self, to: u32) -> String {
         let bits = if to == 1 { "0".to_owned() } else { format!("{}..0", to.saturating_sub(1)) };
         match &self.net {
@@ -52,302 +47,198 @@ impl OperandText {
     }
 }
 
-/// A value that can have a wrong width.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum Wide {
-    /// The value that drives a net at this place.
-    Value { net: String, target: Span },
-    /// The condition of a choice.
-    Condition,
-    /// An operand of a circuit, by the name of its port.
-    Operand { port: String, circuit: String },
-    /// The value whose parts drive the nets at this place.
-    Parts { targets: Span },
-    /// The value that selects one of the words or bits of a net.
-    Index { net: String, words: u32 },
-}
-
-impl fmt::Display for Wide {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Value { net, .. } => write!(f, "the value of `{net}`"),
-            Self::Condition => f.write_str("the condition"),
-            Self::Operand { port, circuit } => write!(f, "the operand `{port}` of `{circuit}`"),
-            Self::Parts { .. } => f.write_str("the value whose parts are named"),
-            Self::Index { net, words } => write!(f, "the value that selects one of {words} of `{net}`"),
-        }
-    }
-}
-
-/// Values of a wrong width, with their own places.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum WidthError {
-    /// A value of another width than expected.
-    Wrong { what: Wide, expected: u32, found: OperandText },
-    /// Operands of an operator.
-    Operands { operator: &'static str, first: OperandText, second: OperandText },
-    /// The two values of a choice.
-    Branches { first: OperandText, second: OperandText },
-    /// Two outputs of a table.
-    Outputs { first: OperandText, second: OperandText },
-}
-
-impl From<WidthError> for Diagnostic {
-    fn from(error: WidthError) -> Self {
-        match error {
-            WidthError::Wrong { what, expected, found } => wrong(&what, expected, &found),
-            WidthError::Operands { operator, first, second } => {
-                unequal(&format!("the operands of `{operator}`"), &first, &second)
-            }
-            WidthError::Branches { first, second } => unequal("the branches", &first, &second),
-            WidthError::Outputs { first, second } => unequal("the outputs of the table", &first, &second),
-        }
-    }
-}
-
-fn wrong(what: &Wide, expected: u32, found: &OperandText) -> Diagnostic {
+/// A value, `what`, of another width than the net at `target` or another place for it.
+pub(super) fn wrong_width(what: &str, expected: u32, found: &OperandText, target: Option<Span>) -> Diagnostic {
     let message = format!("{what} is {} wide, expected {}", bits(found.width), bits(expected));
-    let resized = found.resized(expected).filter(|_| *what != Wide::Condition);
-    let help = match (what, found.net.as_deref().unwrap_or("…"), found.width) {
-        (Wide::Condition, net, width) => {
-            format!("test all bits, any bit or a value: `all({net})`, `any({net})`, `{net} == {width}'d3`")
-        }
-        (_, _, width) if width > expected => found.narrowed(expected),
-        _ => found.widened(expected),
-    };
+    let help = if found.width > expected { found.narrowed(expected) } else { found.widened(expected) };
     let error = Diagnostic::new(Code::Width, message, found.span, bits(found.width));
-    let error = with_resized(error, found, resized).unwrap_or_else(|error| error.with_help(help));
-    match what {
-        Wide::Value { target, .. } | Wide::Parts { targets: target } => error.with_label(*target, bits(expected)),
-        _ => error,
-    }
+    let error = with_resized(error, found, found.resized(expected), help);
+    target.into_iter().fold(error, |error, target| error.with_label(target, bits(expected)))
 }
 
-fn unequal(what: &str, first: &OperandText, second: &OperandText) -> Diagnostic {
+pub(super) fn wide_condition(found: &OperandText) -> Diagnostic {
+    let (net, width) = (found.net.as_deref().unwrap_or("…"), found.width);
+    Diagnostic::new(
+        Code::Width,
+        format!("the condition is {} wide, expected 1 bit", bits(width)),
+        found.span,
+        bits(width),
+    )
+    .with_help(format!("test all bits, any bit or a value: `all({net})`, `any({net})`, `{net} == {width}'d3`"))
+}
+
+/// Two values, `what`, which should be equally wide.
+pub(super) fn unequal(what: &str, first: &OperandText, second: &OperandText) -> Diagnostic {
     let message = format!("{what} are {} and {} wide", bits(first.width), bits(second.width));
     let (narrow, wide) = if first.width < second.width { (first, second) } else { (second, first) };
+    let (widened, narrowed) = (narrow.widened(wide.width), wide.narrowed(narrow.width));
     let help = match narrow.width {
-        1 => narrow.widened(wide.width),
-        _ => format!(
-            "for the narrow one, {}; for the wide one, {}",
-            narrow.widened(wide.width),
-            wide.narrowed(narrow.width)
-        ),
+        1 => widened,
+        _ => format!("for the narrow one, {widened}; for the wide one, {narrowed}"),
     };
     let error = Diagnostic::new(Code::Width, message, second.span, bits(second.width))
         .with_label(first.span, bits(first.width));
-    let resized = [(second, first), (first, second)].map(|(constant, other)| (constant, constant.resized(other.width)));
-    match resized.into_iter().find(|(_, resized)| resized.is_some()) {
-        Some((constant, resized)) => {
-            with_resized(error, constant, resized).unwrap_or_else(|error| error.with_help(help))
-        }
+    match second.resized(first.width) {
+        None => with_resized(error, first, first.resized(second.width), help),
+        resized => with_resized(error, second, resized, help),
+    }
+}
+
+/// The error with the constant of the width that is needed, or with other help.
+fn with_resized(error: Diagnostic, operand: &OperandText, resized: Option<String>, help: String) -> Diagnostic {
+    match resized {
+        Some(text) => error.with_help(format!("write `{text}`")).with_fix(Fix::replace(operand.span, text)),
         None => error.with_help(help),
     }
 }
 
-/// The error with the constant of the width that is needed; without one, the error as it was.
-fn with_resized(error: Diagnostic, operand: &OperandText, resized: Option<String>) -> Result<Diagnostic, Diagnostic> {
-    match resized {
-        Some(text) => Ok(error.with_help(format!("write `{text}`")).with_fix(Fix::replace(operand.span, text))),
-        None => Err(error),
-    }
+pub(super) fn unknown_width(net: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::UnknownWidth, format!("the width of `{net}` is unknown"), at, "this net")
+        .with_help(format!("declare it: `net {net}` for one bit, `net {net}[8]` for eight"))
 }
 
-/// A circuit that cannot be built as it is written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum ElaborateError {
-    /// A pattern of a table that is not as wide as the table's inputs.
-    PatternWidth { found: usize, expected: usize },
-    /// A net of unknown width.
-    UnknownWidth { net: String },
-    /// A number without a width, where nothing else tells it.
-    NumberWithoutWidth { value: u128 },
-    /// A parameter of unknown value.
-    UnknownParameter { circuit: String, parameter: String },
-    /// A second driver; `first` is the first one's place, if it is another.
-    DrivenAgain { net: String, first: Option<Span> },
-    /// Bits without a driver.
-    Undriven { bits: String },
-    /// A loop of names without a gate.
-    DrivenByItself { net: String },
-    /// A net with another start value than the memory that drives it.
-    OtherStart { net: String },
-    /// A feedback loop without a start value.
-    NoStart { nets: Vec<String> },
-    /// A value up to `most` that selects one of `count` bits, or words.
-    IndexOutside { net: String, count: u32, most: u64, is_word: bool },
-    /// Circuits that are nested too deeply.
-    TooDeep { most: u64 },
-    /// A circuit that would have too much of something when it is flattened.
-    TooLarge { circuit: String, count: u64, limit: Limit },
-    /// A `for` that makes too many statements and turns.
-    TooManyTurns { statements: u64, most: u64 },
+pub(super) fn number_without_width(value: u128, at: Span) -> Diagnostic {
+    let constant = format!("{}'d{value}", (u128::BITS - value.leading_zeros()).max(1));
+    let message = format!("the width of `{value}` is unknown");
+    Diagnostic::new(Code::UnknownWidth, message, at, "nothing beside it has a width")
+        .with_help(format!("write it with its width: `{constant}`"))
+        .with_fix(Fix::replace(at, constant))
 }
 
-impl ElaborateError {
-    /// The error at its place.
-    pub(super) fn at(self, span: Span) -> Diagnostic {
-        match self {
-            Self::UnknownWidth { net } => {
-                let message = format!("the width of `{net}` is unknown");
-                Diagnostic::new(Code::UnknownWidth, message, span, "this net")
-                    .with_help(format!("declare it: `net {net}` for one bit, `net {net}[8]` for eight"))
-            }
-            Self::NumberWithoutWidth { value } => {
-                let constant = format!("{}'d{value}", (u128::BITS - value.leading_zeros()).max(1));
-                let message = format!("the width of `{value}` is unknown");
-                Diagnostic::new(Code::UnknownWidth, message, span, "nothing beside it has a width")
-                    .with_help(format!("write it with its width: `{constant}`"))
-                    .with_fix(Fix::replace(span, constant))
-            }
-            Self::UnknownParameter { circuit, parameter } => {
-                let message = format!("the parameter `{parameter}` of `{circuit}` is unknown");
-                Diagnostic::new(Code::UnknownWidth, message, span, "used here")
-                    .with_help(format!("give its value: `{circuit}[{parameter} = 8]`"))
-            }
-            Self::PatternWidth { found, expected } => {
-                let label = format!("expected {}, found {}", bits(expected as u64), bits(found as u64));
-                Diagnostic::new(Code::RowWidth, "the pattern is not as wide as the table's inputs", span, label)
-            }
-            Self::DrivenAgain { net, first } => {
-                let message = format!("`{net}` is driven more than once");
-                let error = Diagnostic::new(Code::MultipleDrivers, message, span, "driven again here")
-                    .with_help("a net has one driver; choose between values with `if c then a else b`");
-                first.into_iter().fold(error, |error, first| error.with_label(first, "driven here"))
-            }
-            Self::Undriven { bits } => {
-                Diagnostic::new(Code::Undriven, format!("nothing drives `{bits}`"), span, "declared here")
-                    .with_help(format!("drive it: `{bits} = …`"))
-            }
-            Self::DrivenByItself { net } => {
-                Diagnostic::new(Code::Undriven, format!("`{net}` is driven only by itself"), span, "declared here")
-                    .with_help("a loop needs a gate")
-            }
-            Self::OtherStart { net } => {
-                let message = format!("`{net}` cannot have this start value");
-                Diagnostic::new(Code::StartValue, message, span, "the memory that drives it starts with another value")
-                    .with_help(
-                        "remove the `init`, or let the circuit with the memory take its start value as a parameter",
-                    )
-            }
-            Self::NoStart { nets } => {
-                let message = format!("the loop through {} has no start value", suggest::alternatives(&nets, "and"));
-                Diagnostic::new(Code::LoopWithoutStart, message, span, "this net feeds back on itself")
-                    .with_help(format!("give one of its nets a start value: `{} init 0 = …`", nets[0]))
-            }
-            Self::IndexOutside { net, count, most, is_word } => {
-                let part = if is_word { "word" } else { "bit" };
-                let message = format!("this value can select a {part} that `{net}` does not have");
-                let label = format!("it can be {most}, but the last {part} is {}", count - 1);
-                let help = match is_word {
-                    true => format!("declare {} words: outside, words are 0, and nothing is written", most + 1),
-                    false => format!(
-                        "if 0 is meant for the others, say so: select from `{{{}'d0, {net}}}`",
-                        most + 1 - u64::from(count)
-                    ),
-                };
-                Diagnostic::new(Code::IndexOutside, message, span, label).with_help(help)
-            }
-            Self::TooDeep { most } => {
-                let message = format!("circuits are nested more than {most} levels deep");
-                Diagnostic::new(Code::Nesting, message, span, "the limit is reached here")
-            }
-            Self::TooLarge { circuit, count, limit } => {
-                let message = format!("`{circuit}` needs {count} {}", limit.things());
-                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {}", limit.most()))
-            }
-            Self::TooManyTurns { statements, most } => {
-                let message = format!("the loop makes {statements} statements and turns");
-                Diagnostic::new(Code::TooLarge, message, span, format!("expected at most {most}"))
-            }
-        }
-    }
+pub(super) fn unknown_parameter(circuit: &str, parameter: &str, at: Span) -> Diagnostic {
+    let message = format!("the parameter `{parameter}` of `{circuit}` is unknown");
+    Diagnostic::new(Code::UnknownWidth, message, at, "used here")
+        .with_help(format!("give its value: `{circuit}[{parameter} = 8]`"))
 }
 
-/// A number that is too small or too large.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) enum RangeError {
-    /// A number that is too large, or divided by zero.
-    Overflow,
-    /// A width of a net that is below 1 or above the limit.
-    NetWidth { width: i128, most: u64 },
-    /// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
-    AscendingSlice { net: String, ends: [i128; 2], is_literal: bool },
-    /// A loop that would have to count down; `is_literal` where both ends are written as digits.
-    DescendingLoop { ends: [i128; 2], is_literal: bool },
-    /// A bit that the net does not have.
-    NoSuchBit { net: String, bit: i128, width: u32 },
-    /// A word that the array does not have.
-    NoSuchWord { net: String, word: i128, words: u32 },
-    /// A start value that does not fit into its net.
-    StartValue { value: i128, width: u32 },
-    /// A computed constant below zero.
-    NegativeConstant { value: i128 },
-    /// A constant that does not fit into its width.
-    ConstantWidth { value: u128, width: u32 },
-    /// A value repeated a negative number of times, or to more bits than a net has.
-    Repetitions { times: i128, most: u64 },
+pub(super) fn pattern_width(found: usize, expected: usize, at: Span) -> Diagnostic {
+    let label = format!("expected {}, found {}", bits(expected as u64), bits(found as u64));
+    Diagnostic::new(Code::RowWidth, "the pattern is not as wide as the table's inputs", at, label)
 }
 
-impl RangeError {
-    /// The error at its place.
-    pub(super) fn at(self, span: Span) -> Diagnostic {
-        let outside = |message: String, label: String| Diagnostic::new(Code::OutOfRange, message, span, label);
-        match self {
-            Self::Overflow => {
-                outside("number cannot be computed".to_owned(), "too large, or a division by zero".to_owned())
-            }
-            Self::NetWidth { width, most } => {
-                outside(format!("a width of {width} bits is out of range"), format!("expected 1 to {most}"))
-            }
-            Self::AscendingSlice { net, ends: [first, last], is_literal } => {
-                let message = format!("the slice `{first}..{last}` is in ascending order");
-                outside(message, "expected the highest bit first".to_owned())
-                    .with_help(format!("write `{net}[{last}..{first}]`"))
-                    .with_fix(is_literal.then(|| Fix::replace(span, format!("{last}..{first}"))))
-            }
-            Self::DescendingLoop { ends: [first, last], is_literal } => {
-                let message = format!("the loop from {first} to {last} makes no turn");
-                outside(message, "expected the lower end first".to_owned())
-                    .with_help(format!("a loop counts up, and leaves out its end: `{last}..{first}`"))
-                    .with_fix(is_literal.then(|| Fix::replace(span, format!("{last}..{first}"))))
-            }
-            Self::NoSuchBit { net, bit, width } => {
-                let help = match width {
-                    1 => format!("it has a single bit, `{net}`"),
-                    _ => format!("its bits are 0 to {}", width - 1),
-                };
-                outside(format!("`{net}` has no bit {bit}"), format!("`{net}` is {} wide", bits(width))).with_help(help)
-            }
-            Self::NoSuchWord { net, word, words } => outside(
-                format!("`{net}` has no word {word}"),
-                format!("`{net}` has {}", counted(words as usize, "word")),
-            )
-            .with_help(format!("its words are 0 to {}", words - 1)),
-            Self::StartValue { value, width } => {
-                let label = match width {
-                    0..63 => format!("expected 0 to {}", (1i64 << width) - 1),
-                    _ => "expected 0 or more".to_owned(),
-                };
-                outside(format!("the start value {value} does not fit into {}", bits(width)), label)
-            }
-            Self::NegativeConstant { value } => {
-                outside(format!("the constant {value} is negative"), "expected 0 or more".to_owned())
-            }
-            Self::ConstantWidth { value, width } => {
-                let (message, needed) = (
-                    format!("the constant {value} does not fit into {}", bits(width)),
-                    u128::BITS - value.leading_zeros(),
-                );
-                outside(message, format!("expected at most {}", (1u128 << width) - 1))
-                    .with_help(format!("it needs {}: `{needed}'d{value}`", bits(needed)))
-            }
-            Self::Repetitions { times, most } => {
-                let label = format!("expected 0 or more, and at most {} in all", bits(most));
-                outside(format!("a value cannot be repeated {times} times"), label)
-            }
-        }
-    }
+/// A second driver of a net; `first` is the place of the first one, if it is another.
+pub(super) fn driven_again(net: &str, first: Option<Span>, at: Span) -> Diagnostic {
+    let message = format!("`{net}` is driven more than once");
+    let error = Diagnostic::new(Code::MultipleDrivers, message, at, "driven again here")
+        .with_help("a net has one driver; choose between values with `if c then a else b`");
+    first.into_iter().fold(error, |error, first| error.with_label(first, "driven here"))
+}
+
+pub(super) fn undriven(bits: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::Undriven, format!("nothing drives `{bits}`"), at, "declared here")
+        .with_help(format!("drive it: `{bits} = …`"))
+}
+
+pub(super) fn driven_by_itself(net: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::Undriven, format!("`{net}` is driven only by itself"), at, "declared here")
+        .with_help("a loop needs a gate")
+}
+
+pub(super) fn other_start(net: &str, at: Span) -> Diagnostic {
+    let message = format!("`{net}` cannot have this start value");
+    Diagnostic::new(Code::StartValue, message, at, "the memory that drives it starts with another value")
+        .with_help("remove the `init`, or let the circuit with the memory take its start value as a parameter")
+}
+
+pub(super) fn no_start(nets: &[String], at: Span) -> Diagnostic {
+    let message = format!("the loop through {} has no start value", suggest::alternatives(nets, "and"));
+    Diagnostic::new(Code::LoopWithoutStart, message, at, "this net feeds back on itself")
+        .with_help(format!("give one of its nets a start value: `{} init 0 = …`", nets[0]))
+}
+
+/// A value up to `most` that selects one of `count` bits, or words.
+pub(super) fn index_outside(net: &str, count: u32, most: u64, is_word: bool, at: Span) -> Diagnostic {
+    let part = if is_word { "word" } else { "bit" };
+    let message = format!("this value can select a {part} that `{net}` does not have");
+    let label = format!("it can be {most}, but the last {part} is {}", count - 1);
+    let help = if is_word {
+        format!("declare {} words: outside, words are 0, and nothing is written", most + 1)
+    } else {
+        let missing = most + 1 - u64::from(count);
+        format!("if 0 is meant for the others, say so: select from `{{{missing}'d0, {net}}}`")
+    };
+    Diagnostic::new(Code::IndexOutside, message, at, label).with_help(help)
+}
+
+pub(super) fn too_deep(at: Span) -> Diagnostic {
+    let message = format!("circuits are nested more than {} levels deep", Limit::Hierarchy.most());
+    Diagnostic::new(Code::Nesting, message, at, "the limit is reached here")
+}
+
+pub(super) fn too_large(circuit: &str, count: u64, limit: Limit, at: Span) -> Diagnostic {
+    let message = format!("`{circuit}` needs {count} {}", limit.things());
+    Diagnostic::new(Code::TooLarge, message, at, format!("expected at most {}", limit.most()))
+}
+
+pub(super) fn too_many_turns(statements: u64, at: Span) -> Diagnostic {
+    let message = format!("the loop makes {statements} statements and turns");
+    Diagnostic::new(Code::TooLarge, message, at, format!("expected at most {}", Limit::Statements.most()))
+}
+
+fn out_of_range(message: impl Into<String>, at: Span, label: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Code::OutOfRange, message, at, label)
+}
+
+pub(super) fn overflow(at: Span) -> Diagnostic {
+    out_of_range("number cannot be computed", at, "too large, or a division by zero")
+}
+
+pub(super) fn net_width(width: i128, at: Span) -> Diagnostic {
+    let label = format!("expected 1 to {}", Limit::Width.most());
+    out_of_range(format!("a width of {width} bits is out of range"), at, label)
+}
+
+/// A slice that begins with its lowest bit; `is_literal` where both ends are written as digits.
+pub(super) fn ascending_slice(net: &str, [first, last]: [i128; 2], is_literal: bool, at: Span) -> Diagnostic {
+    let message = format!("the slice `{first}..{last}` is in ascending order");
+    out_of_range(message, at, "expected the highest bit first")
+        .with_help(format!("write `{net}[{last}..{first}]`"))
+        .with_fix(is_literal.then(|| Fix::replace(at, format!("{last}..{first}"))))
+}
+
+/// A loop that would have to count down; `is_literal` where both ends are written as digits.
+pub(super) fn descending_loop([first, last]: [i128; 2], is_literal: bool, at: Span) -> Diagnostic {
+    out_of_range(format!("the loop from {first} to {last} makes no turn"), at, "expected the lower end first")
+        .with_help(format!("a loop counts up, and leaves out its end: `{last}..{first}`"))
+        .with_fix(is_literal.then(|| Fix::replace(at, format!("{last}..{first}"))))
+}
+
+pub(super) fn no_such_bit(net: &str, bit: i128, width: u32, at: Span) -> Diagnostic {
+    let help = match width {
+        1 => format!("it has a single bit, `{net}`"),
+        _ => format!("its bits are 0 to {}", width - 1),
+    };
+    out_of_range(format!("`{net}` has no bit {bit}"), at, format!("`{net}` is {} wide", bits(width))).with_help(help)
+}
+
+pub(super) fn no_such_word(net: &str, word: i128, words: u32, at: Span) -> Diagnostic {
+    let label = format!("`{net}` has {}", counted(words as usize, "word"));
+    out_of_range(format!("`{net}` has no word {word}"), at, label)
+        .with_help(format!("its words are 0 to {}", words - 1))
+}
+
+pub(super) fn start_value(value: i128, width: u32, at: Span) -> Diagnostic {
+    let label = match width {
+        0..63 => format!("expected 0 to {}", (1i64 << width) - 1),
+        _ => "expected 0 or more".to_owned(),
+    };
+    out_of_range(format!("the start value {value} does not fit into {}", bits(width)), at, label)
+}
+
+pub(super) fn negative_constant(value: i128, at: Span) -> Diagnostic {
+    out_of_range(format!("the constant {value} is negative"), at, "expected 0 or more")
+}
+
+pub(super) fn constant_width(value: u128, width: u32, at: Span) -> Diagnostic {
+    let message = format!("the constant {value} does not fit into {}", bits(width));
+    let needed = u128::BITS - value.leading_zeros();
+    out_of_range(message, at, format!("expected at most {}", (1u128 << width) - 1))
+        .with_help(format!("it needs {}: `{needed}'d{value}`", bits(needed)))
+}
+
+pub(super) fn repetitions(times: i128, at: Span) -> Diagnostic {
+    let label = format!("expected 0 or more, and at most {} in all", bits(Limit::Width.most()));
+    out_of_range(format!("a value cannot be repeated {times} times"), at, label)
 }
 
 /// An unknown circuit that is named outside of the program.

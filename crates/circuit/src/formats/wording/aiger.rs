@@ -1,15 +1,14 @@
-//! AIGER files.
+//! Messages about AIGER files; `found` is a line.
 
 use std::fmt;
 
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic, counted};
 
 /// A place in a file. Gates of a binary file have no lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub enum AigerPlace {
-    /// A line, from 1.
     Line(usize),
-    /// A byte, from 0.
     Byte(usize),
 }
 
@@ -22,111 +21,125 @@ impl fmt::Display for AigerPlace {
     }
 }
 
-/// An AIGER file that cannot be read; `found` is the text of a line.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum AigerError {
-    /// An unexpected end of the file.
-    EndOfFile,
-    /// Bytes that are not text.
-    NotText,
-    /// A first word other than `aag` and `aig`.
-    NotAiger { found: String },
-    /// A header with a word that is not a number.
-    Header { found: String },
-    /// A header with a wrong number of numbers.
-    HeaderNumbers { found: usize },
-    /// Properties, of which circuits have none.
-    Property { what: &'static str, number: usize },
-    /// Properties of infinite runs.
-    Liveness { what: &'static str, number: usize },
-    /// A model without outputs and bad states.
-    NoProperties,
-    /// A number of the header above the limit.
-    TooLarge { number: usize, most: u64 },
-    /// Too many ports or latches.
-    TooManyPorts { most: u64 },
-    /// Numbers of the header that do not add up.
-    Sum { inputs: usize, latches: usize, ands: usize, variables: usize, binary: bool },
-    /// A header that announces more than the file contains.
-    TooShort { outputs: usize, ands: usize },
-    /// A line with a word that is not a number.
-    NotNumbers { found: String },
-    /// A port with a wrong number of literals.
-    PortLiterals { what: &'static str, found: usize },
-    /// A latch with a wrong number of literals.
-    Latch,
-    /// A latch with an invalid start value.
-    LatchStart { latch: usize, start: usize },
-    /// A gate with a wrong number of literals.
-    GateLiterals { found: usize },
-    /// A gate that does not come after its inputs.
-    GateOrder { gate: usize },
-    /// A number of too many bytes.
-    LongNumber,
-    /// A line after the gates that is not a symbol.
-    Symbol { found: String },
-    /// A name for a port or latch that does not exist.
-    UnknownSymbol { found: String },
-    /// An input or latch whose literal is inverted, constant or taken.
-    NotAnInput { literal: usize },
-    /// A gate whose literal is inverted, constant or taken.
-    NotAGate { literal: usize },
-    /// A literal with two gates.
-    DefinedTwice { literal: usize },
-    /// A literal without a definition.
-    Undriven { literal: usize },
-    /// A literal above the number of variables in the header.
-    OverHeader { literal: usize },
-    /// A literal on a loop.
-    Loop { literal: usize },
+fn damaged(message: impl fmt::Display, at: AigerPlace) -> Diagnostic {
+    Diagnostic::without_place(Code::CircuitFile, format!("{message}, {at} of the AIGER file"))
 }
 
-impl AigerError {
-    /// The error at its place in the file.
-    pub fn at(self, place: AigerPlace) -> Diagnostic {
-        let message = match self {
-            Self::EndOfFile => "unexpected end of file".to_owned(),
-            Self::NotText => "expected text".to_owned(),
-            Self::NotAiger { found } => format!("expected `aag` or `aig`, found `{found}`"),
-            Self::Header { found } => format!("expected a header such as `aag 3 2 0 1 1`, found `{found}`"),
-            Self::HeaderNumbers { found } => format!("expected five to nine numbers in the header, found {found}"),
-            Self::Property { what, number } => {
-                format!("{what} are not part of a circuit, and the header has {number}; `nbc prove` reads them")
-            }
-            Self::Liveness { what, number } => {
-                format!("{what} are not supported, and the header has {number}: they are about runs without an end")
-            }
-            Self::NoProperties => "no properties: expected bad states, or outputs in their place".to_owned(),
-            Self::TooLarge { number, most } => format!("expected at most {most} variables, found {number}"),
-            Self::TooManyPorts { most } => format!("expected at most {most} inputs and {most} latches"),
-            Self::Sum { inputs, latches, ands, variables, binary } => {
-                let relation = if binary { "must equal" } else { "exceed" };
-                let [inputs, latches, gates, variables] =
-                    [(inputs, "input"), (latches, "latch"), (ands, "gate"), (variables, "variable")]
-                        .map(|(count, noun)| counted(count, noun));
-                format!("{inputs}, {latches} and {gates} {relation} the {variables} of the header")
-            }
-            Self::TooShort { outputs, ands } => {
-                format!("the file is too short for {} and {}", counted(outputs, "output"), counted(ands, "gate"))
-            }
-            Self::NotNumbers { found } => format!("expected numbers, found `{found}`"),
-            Self::PortLiterals { what, found } => format!("expected one literal for {what}, found {found}"),
-            Self::Latch => "expected a latch: its literal, its next literal and an optional start value".to_owned(),
-            Self::LatchStart { latch, start } => {
-                format!("expected the start value 0, 1 or {latch} (any) of a latch, found {start}")
-            }
-            Self::GateLiterals { found } => format!("expected three literals of a gate, found {found}"),
-            Self::GateOrder { gate } => format!("the inputs of gate {gate} are not smaller literals"),
-            Self::LongNumber => "expected a number of at most 35 bits".to_owned(),
-            Self::Symbol { found } => format!("expected a symbol such as `i0 name`, found `{found}`"),
-            Self::UnknownSymbol { found } => format!("`{found}` names no input, output or latch"),
-            Self::NotAnInput { literal } => format!("literal {literal} cannot be an input or a latch"),
-            Self::NotAGate { literal } => format!("literal {literal} cannot be a gate"),
-            Self::DefinedTwice { literal } => format!("literal {literal} is defined twice"),
-            Self::Undriven { literal } => format!("nothing drives literal {literal}"),
-            Self::OverHeader { literal } => format!("literal {literal} is larger than the header allows"),
-            Self::Loop { literal } => format!("literal {literal} depends on itself"),
-        };
-        Diagnostic::without_place(Code::CircuitFile, format!("{message}, {place} of the AIGER file"))
-    }
+fn excerpt(line: &str) -> String {
+    line.chars().take(40).collect()
+}
+
+pub fn end_of_file(at: AigerPlace) -> Diagnostic {
+    damaged("unexpected end of file", at)
+}
+
+pub fn not_text(at: AigerPlace) -> Diagnostic {
+    damaged("expected text", at)
+}
+
+pub fn not_aiger(found: &str, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected `aag` or `aig`, found `{}`", excerpt(found)), at)
+}
+
+pub fn header(found: &str, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected a header such as `aag 3 2 0 1 1`, found `{}`", excerpt(found)), at)
+}
+
+pub fn header_numbers(found: usize, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected five to nine numbers in the header, found {found}"), at)
+}
+
+pub fn property(what: &str, number: usize, at: AigerPlace) -> Diagnostic {
+    let message = format!("{what} are not part of a circuit, and the header has {number}; `nbc prove` reads them");
+    damaged(message, at)
+}
+
+pub fn liveness(what: &str, number: usize, at: AigerPlace) -> Diagnostic {
+    let why = "they are about runs without an end";
+    damaged(format!("{what} are not supported, and the header has {number}: {why}"), at)
+}
+
+pub fn no_properties(at: AigerPlace) -> Diagnostic {
+    damaged("no properties: expected bad states, or outputs in their place", at)
+}
+
+pub fn too_large(number: usize, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected at most {} variables, found {number}", Limit::AigerVariables.most()), at)
+}
+
+pub fn too_many_ports(at: AigerPlace) -> Diagnostic {
+    let most = Limit::AigerPorts.most();
+    damaged(format!("expected at most {most} inputs and {most} latches"), at)
+}
+
+/// Numbers of the inputs, latches and gates that do not agree with that of the variables.
+pub fn sum(numbers: [usize; 3], variables: usize, binary: bool, at: AigerPlace) -> Diagnostic {
+    let relation = if binary { "must equal" } else { "exceed" };
+    let [inputs, latches, gates] = numbers;
+    let (inputs, latches, gates) = (counted(inputs, "input"), counted(latches, "latch"), counted(gates, "gate"));
+    let variables = counted(variables, "variable");
+    damaged(format!("{inputs}, {latches} and {gates} {relation} the {variables} of the header"), at)
+}
+
+pub fn too_short(outputs: usize, ands: usize, at: AigerPlace) -> Diagnostic {
+    let (outputs, gates) = (counted(outputs, "output"), counted(ands, "gate"));
+    damaged(format!("the file is too short for {outputs} and {gates}"), at)
+}
+
+pub fn not_numbers(found: &str, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected numbers, found `{}`", excerpt(found)), at)
+}
+
+pub fn port_literals(what: &str, found: usize, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected one literal for {what}, found {found}"), at)
+}
+
+pub fn latch(at: AigerPlace) -> Diagnostic {
+    damaged("expected a latch: its literal, its next literal and an optional start value", at)
+}
+
+pub fn latch_start(latch: usize, start: usize, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected the start value 0, 1 or {latch} (any) of a latch, found {start}"), at)
+}
+
+pub fn gate_literals(found: usize, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected three literals of a gate, found {found}"), at)
+}
+
+pub fn gate_order(gate: usize, at: AigerPlace) -> Diagnostic {
+    damaged(format!("the inputs of gate {gate} are not smaller literals"), at)
+}
+
+pub fn long_number(at: AigerPlace) -> Diagnostic {
+    damaged("expected a number of at most 35 bits", at)
+}
+
+pub fn not_a_symbol(found: &str, at: AigerPlace) -> Diagnostic {
+    damaged(format!("expected a symbol such as `i0 name`, found `{}`", excerpt(found)), at)
+}
+
+pub fn unknown_symbol(found: &str, at: AigerPlace) -> Diagnostic {
+    damaged(format!("`{}` names no input, output or latch", excerpt(found)), at)
+}
+
+#[derive(Clone, Copy)]
+pub enum BadLiteral {
+    NotAnInput,
+    NotAGate,
+    DefinedTwice,
+    Undriven,
+    OverHeader,
+    Loop,
+}
+
+pub fn literal(fault: BadLiteral, literal: usize, at: AigerPlace) -> Diagnostic {
+    let message = match fault {
+        BadLiteral::NotAnInput => format!("literal {literal} cannot be an input or a latch"),
+        BadLiteral::NotAGate => format!("literal {literal} cannot be a gate"),
+        BadLiteral::DefinedTwice => format!("literal {literal} is defined twice"),
+        BadLiteral::Undriven => format!("nothing drives literal {literal}"),
+        BadLiteral::OverHeader => format!("literal {literal} is larger than the header allows"),
+        BadLiteral::Loop => format!("literal {literal} depends on itself"),
+    };
+    damaged(message, at)
 }

@@ -1,70 +1,58 @@
-//! Designs that a format cannot represent.
+//! Messages about designs that a format cannot represent.
 
 use crate::formats::RegisterKind;
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic};
 
-/// A design that cannot be written in the requested format.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum EncodeError {
-    /// A feedback loop, in AIGER.
-    AigerLoop,
-    /// A register other than a flip-flop of the rising edge, in AIGER.
-    AigerRegister { register: String, kind: RegisterKind },
-    /// A register with an asynchronous set or reset, in AIGER.
-    AigerForced { register: String },
-    /// Registers of several clocks, in AIGER.
-    AigerClocks { clocks: Vec<String> },
-    /// A circuit without outputs, in the project's own language.
-    NbNoOutputs { circuit: String },
-    /// A circuit with registers or loops, as PLA.
-    PlaState,
-    /// A circuit with too many inputs for a truth table, as PLA.
-    PlaInputs { inputs: usize, most: u64 },
-    /// A file name without the extension of a format.
-    UnknownFormat { path: String },
+const KEEPS_REGISTERS: &str = "write BLIF or Verilog, which keep every register";
+
+fn bad_value(message: impl Into<String>, help: &str) -> Diagnostic {
+    Diagnostic::without_place(Code::BadValue, message).with_help(help)
 }
 
-impl From<EncodeError> for Diagnostic {
-    fn from(error: EncodeError) -> Self {
-        let other_format = "write BLIF or Verilog, which keep every register";
-        let (message, help) = match error {
-            EncodeError::AigerLoop => {
-                let help = "keep the registers with `--registers keep`, or write BLIF or Verilog";
-                ("AIGER has no feedback loops".to_owned(), help)
-            }
-            EncodeError::AigerRegister { register, kind } => {
-                let kind = match kind {
-                    RegisterKind::Rising => "a flip-flop of the rising edge",
-                    RegisterKind::Falling => "a flip-flop of the falling edge",
-                    RegisterKind::High | RegisterKind::Low => "a level-sensitive latch",
-                };
-                (format!("AIGER only has flip-flops of the rising edge, but `{register}` is {kind}"), other_format)
-            }
-            EncodeError::AigerForced { register } => {
-                (format!("AIGER has no asynchronous set or reset, but `{register}` has one"), other_format)
-            }
-            EncodeError::AigerClocks { clocks } => {
-                let clocks: Vec<_> = clocks.iter().map(|clock| format!("`{clock}`")).collect();
-                (format!("AIGER has one clock, but the registers have {}", clocks.join(", ")), other_format)
-            }
-            EncodeError::NbNoOutputs { circuit } => (
-                format!("`{circuit}` has no outputs, but a circuit of a .nb file needs one"),
-                "give the model an output",
-            ),
-            EncodeError::PlaState => {
-                let message = "PLA is logic without state, but the circuit has registers or loops";
-                (message.to_owned(), "write BLIF, which keeps registers")
-            }
-            EncodeError::PlaInputs { inputs, most } => {
-                let message = format!("PLA is written of at most {most} input bits, but the circuit has {inputs}");
-                (message, "write BLIF, which keeps the gates")
-            }
-            EncodeError::UnknownFormat { path } => {
-                let expected = "expected .blif, .pla, .aig, .aag, .v, .dot or .nb";
-                let message = format!("unrecognized circuit format of `{path}`; {expected}");
-                return Self::without_place(Code::BadValue, message);
-            }
-        };
-        Self::without_place(Code::BadValue, message).with_help(help)
-    }
+pub fn aiger_loop() -> Diagnostic {
+    let help = "keep the registers with `--registers keep`, or write BLIF or Verilog";
+    bad_value("AIGER has no feedback loops", help)
+}
+
+pub fn aiger_register(register: &str, kind: RegisterKind) -> Diagnostic {
+    let kind = match kind {
+        RegisterKind::Rising => "a flip-flop of the rising edge",
+        RegisterKind::Falling => "a flip-flop of the falling edge",
+        RegisterKind::High | RegisterKind::Low => "a level-sensitive latch",
+    };
+    let message = format!("AIGER only has flip-flops of the rising edge, but `{register}` is {kind}");
+    bad_value(message, KEEPS_REGISTERS)
+}
+
+pub fn aiger_forced(register: &str) -> Diagnostic {
+    let message = format!("AIGER has no asynchronous set or reset, but `{register}` has one");
+    bad_value(message, KEEPS_REGISTERS)
+}
+
+pub fn aiger_clocks<'c>(clocks: impl IntoIterator<Item = &'c str>) -> Diagnostic {
+    let clocks: Vec<_> = clocks.into_iter().map(|clock| format!("`{clock}`")).collect();
+    bad_value(format!("AIGER has one clock, but the registers have {}", clocks.join(", ")), KEEPS_REGISTERS)
+}
+
+pub fn nb_without_outputs(circuit: &str) -> Diagnostic {
+    let message = format!("`{circuit}` has no outputs, but a circuit of a .nb file needs one");
+    bad_value(message, "give the model an output")
+}
+
+pub fn pla_state() -> Diagnostic {
+    let message = "PLA is logic without state, but the circuit has registers or loops";
+    bad_value(message, "write BLIF, which keeps registers")
+}
+
+pub fn pla_inputs(inputs: usize) -> Diagnostic {
+    let most = Limit::TriedBits.most();
+    let message = format!("PLA is written of at most {most} input bits, but the circuit has {inputs}");
+    bad_value(message, "write BLIF, which keeps the gates")
+}
+
+pub fn unknown_format(path: &str) -> Diagnostic {
+    let expected = "expected .blif, .pla, .aig, .aag, .v, .dot or .nb";
+    let message = format!("unrecognized circuit format of `{path}`; {expected}");
+    Diagnostic::without_place(Code::BadValue, message)
 }

@@ -1,71 +1,48 @@
-//! PLA files.
+//! Messages about PLA files.
 
-use nbc_base::diag::counted;
+use crate::formats::wording::text::damaged;
+use nbc_base::diag::{Diagnostic, Severity, counted};
+use nbc_base::source::Span;
 
-/// A line of a PLA that cannot be read.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum PlaError {
-    /// Cubes without `.i` and `.o` before them.
-    NoWidths,
-    /// A directive without its number.
-    Count { directive: String },
-    /// A directive that is not supported.
-    UnknownDirective { directive: String },
-    /// A type that is not supported.
-    UnknownType { found: String },
-    /// More or fewer names than ports.
-    Names { expected: usize, found: usize },
-    /// A cube with too many or too few digits.
-    CubeWidth { inputs: usize, outputs: usize, found: usize },
-    /// A character that is no digit of an input.
-    InputDigit { found: char },
-    /// A character that is no digit of an output.
-    OutputDigit { found: char },
-    /// Outputs that are open somewhere.
-    Open,
+pub fn no_widths(at: Span) -> Diagnostic {
+    let message = "the numbers of inputs and outputs are missing in this PLA file";
+    damaged(message, at, "expected lines such as `.i 4` and `.o 1` before this")
 }
 
-impl PlaError {
-    /// The message and the label.
-    pub(super) fn words(self) -> (String, String) {
-        let fixed = |message: &str, label: &str| (message.to_owned(), label.to_owned());
-        match self {
-            Self::NoWidths => fixed(
-                "the numbers of inputs and outputs are missing in this PLA file",
-                "expected lines such as `.i 4` and `.o 1` before this",
-            ),
-            Self::Count { directive } => {
-                fixed(&format!("`{directive}` has no number of ports"), "expected a number of at least 1")
-            }
-            Self::UnknownDirective { directive } => fixed(
-                &format!("unknown PLA directive `{directive}`"),
-                "expected .i, .o, .ilb, .ob, .p, .type, .e or a row",
-            ),
-            Self::UnknownType { found } => {
-                fixed(&format!("unknown type `{found}` of a PLA"), "expected f, fd, fr or fdr")
-            }
-            Self::Names { expected, found } => (
-                format!("{} for {}", counted(found, "name"), counted(expected, "port")),
-                "expected a name for each port".to_owned(),
-            ),
-            Self::CubeWidth { inputs, outputs, found } => (
-                "row has the wrong width".to_owned(),
-                format!(
-                    "expected {} of inputs and {outputs} of outputs, found {}",
-                    counted(inputs, "digit"),
-                    counted(found, "digit")
-                ),
-            ),
-            Self::InputDigit { found } => {
-                fixed(&format!("`{found}` is not a digit of an input"), "expected `0`, `1` or `-`")
-            }
-            Self::OutputDigit { found } => {
-                fixed(&format!("`{found}` is not a digit of an output"), "expected `0`, `1`, `-` or `~`")
-            }
-            Self::Open => fixed(
-                "outputs that this PLA leaves open are 0 in the circuit",
-                "`nbc learn` chooses them so that the circuit is small",
-            ),
-        }
-    }
+pub fn no_count(directive: &str, at: Span) -> Diagnostic {
+    damaged(format!("`{directive}` has no number of ports"), at, "expected a number of at least 1")
+}
+
+pub fn unknown_directive(directive: &str, at: Span) -> Diagnostic {
+    let label = "expected .i, .o, .ilb, .ob, .p, .type, .e or a row";
+    damaged(format!("unknown PLA directive `{directive}`"), at, label)
+}
+
+pub fn unknown_type(found: &str, at: Span) -> Diagnostic {
+    damaged(format!("unknown type `{found}` of a PLA"), at, "expected f, fd, fr or fdr")
+}
+
+pub fn port_names(expected: usize, found: usize, at: Span) -> Diagnostic {
+    let message = format!("{} for {}", counted(found, "name"), counted(expected, "port"));
+    damaged(message, at, "expected a name for each port")
+}
+
+pub fn cube_width(inputs: usize, outputs: usize, found: usize, at: Span) -> Diagnostic {
+    let (wanted, found) = (counted(inputs, "digit"), counted(found, "digit"));
+    let label = format!("expected {wanted} of inputs and {outputs} of outputs, found {found}");
+    damaged("row has the wrong width", at, label)
+}
+
+pub fn input_digit(found: u8, at: Span) -> Diagnostic {
+    damaged(format!("`{}` is not a digit of an input", char::from(found)), at, "expected `0`, `1` or `-`")
+}
+
+pub fn output_digit(found: u8, at: Span) -> Diagnostic {
+    damaged(format!("`{}` is not a digit of an output", char::from(found)), at, "expected `0`, `1`, `-` or `~`")
+}
+
+pub fn open_outputs(at: Span) -> Diagnostic {
+    let message = "outputs that this PLA leaves open are 0 in the circuit";
+    let error = damaged(message, at, "`nbc learn` chooses them so that the circuit is small");
+    Diagnostic { severity: Severity::Warning, ..error }
 }

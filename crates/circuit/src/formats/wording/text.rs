@@ -1,116 +1,56 @@
-//! BLIF, .bench and PLA files, read as named nets in any order.
+//! Messages about BLIF, .bench and PLA files, read as named nets in any order.
 
-use crate::formats::wording::{BenchError, BlifError, ModelError, PlaError};
+use nbc_base::budget::Limit;
 use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::source::Span;
 
-/// A text that does not describe a circuit.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum TextError {
-    /// A line of BLIF that cannot be read.
-    Blif(BlifError),
-    /// A model of BLIF that cannot be expanded.
-    Model(ModelError),
-    /// A line of .bench that cannot be read.
-    Bench(BenchError),
-    /// A line of a PLA that cannot be read.
-    Pla(PlaError),
-    /// A name that is too long.
-    LongName { bytes: usize, most: u64 },
-    /// A circuit with too many gates.
-    TooLarge { most: u64 },
-    /// Too many other things.
-    TooMany { what: &'static str, most: u64 },
-    /// A net with two gates.
-    DefinedTwice { net: String, first: Span },
-    /// A clock that is neither an input nor a register.
-    LogicClock { clock: String, register: String },
-    /// A latch whose enable is neither an input nor a register.
-    LogicEnable { latch: String },
-    /// An input or register with a gate.
-    DrivenTwice { net: String },
-    /// A net without a definition.
-    Undefined { net: String },
-    /// A net on a loop without a start value.
-    Loop { net: String },
+pub(super) fn damaged(message: impl Into<String>, at: Span, label: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Code::CircuitFile, message, at, label)
 }
 
-impl From<BlifError> for TextError {
-    fn from(error: BlifError) -> Self {
-        Self::Blif(error)
-    }
+/// A name of the file that is too long; its beginning is shown.
+pub fn long_name(bytes: usize, at: Span) -> Diagnostic {
+    let (beginning, most) = (Span { end: at.start + 20, ..at }, Limit::FileNameBytes.most());
+    damaged(format!("name of {bytes} bytes is too long"), beginning, format!("expected at most {most}"))
 }
 
-impl From<ModelError> for TextError {
-    fn from(error: ModelError) -> Self {
-        Self::Model(error)
-    }
+pub fn too_many_pins(at: Span) -> Diagnostic {
+    let message = format!("the circuit has more than {} pins of gates", Limit::FilePins.most());
+    Diagnostic::new(Code::TooLarge, message, at, "the limit is reached here")
 }
 
-impl From<BenchError> for TextError {
-    fn from(error: BenchError) -> Self {
-        Self::Bench(error)
-    }
+pub fn too_many(what: &str, most: u64, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::TooLarge, format!("the file has more than {most} {what}"), at, "the limit is reached here")
 }
 
-impl From<PlaError> for TextError {
-    fn from(error: PlaError) -> Self {
-        Self::Pla(error)
-    }
+pub fn defined_twice(net: &str, first: Span, at: Span) -> Diagnostic {
+    damaged(format!("`{net}` is defined twice"), at, "defined again here").with_related(first, "first defined here")
 }
 
-impl TextError {
-    /// The error at its place.
-    pub fn at(self, span: Span) -> Diagnostic {
-        match self {
-            Self::Blif(error) => worded(error.words(), span),
-            Self::Model(error) => error.at(span),
-            Self::Bench(error) => worded(error.words(), span),
-            Self::Pla(error) => worded(error.words(), span),
-            Self::TooLarge { most } => {
-                let message = format!("the circuit has more than {most} pins of gates");
-                Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
-            }
-            Self::TooMany { what, most } => {
-                let message = format!("the file has more than {most} {what}");
-                Diagnostic::new(Code::TooLarge, message, span, "the limit is reached here")
-            }
-            Self::DefinedTwice { net, first } => {
-                damaged(format!("`{net}` is defined twice"), span, "defined again here")
-                    .with_related(first, "first defined here")
-            }
-            Self::Loop { net } => damaged(format!("`{net}` depends on itself"), span, "this closes the loop")
-                .with_help(
-                    "feedback needs a start value: `.attr init 0` after its `.names` in BLIF, `(* init = 1'b0 *)` \
-                     before its instance in Verilog (docs/compiler.md, \"Exchange formats\")",
-                ),
-            Self::LongName { bytes, most } => {
-                damaged(format!("name of {bytes} bytes is too long"), span, format!("expected at most {most}"))
-            }
-            Self::LogicClock { clock, register } => {
-                let message = format!("the clock `{clock}` of `{register}` is driven by logic");
-                damaged(message, span, "expected an input or a register as clock")
-            }
-            Self::LogicEnable { latch } => {
-                let message = format!("`{latch}` is a latch, and logic computes when it is open");
-                damaged(message, span, "it keeps its value wherever nothing sets it").with_help(
-                    "set it in every case, such as by a value before the first `if`; a latch must be opened by an \
-                     input or a register",
-                )
-            }
-            Self::DrivenTwice { net } => {
-                let label = "an input or a register cannot have another driver";
-                damaged(format!("`{net}` is driven twice"), span, label)
-            }
-            Self::Undefined { net } => damaged(format!("`{net}` is used but not defined"), span, "used here"),
-        }
-    }
+pub fn net_loop(net: &str, at: Span) -> Diagnostic {
+    damaged(format!("`{net}` depends on itself"), at, "this closes the loop").with_help(
+        "feedback needs a start value: `.attr init 0` after its `.names` in BLIF, `(* init = 1'b0 *)` before its \
+         instance in Verilog (docs/compiler.md, \"Exchange formats\")",
+    )
 }
 
-fn worded((message, label): (String, String), span: Span) -> Diagnostic {
-    damaged(message, span, label)
+pub fn logic_clock(clock: &str, register: &str, at: Span) -> Diagnostic {
+    let message = format!("the clock `{clock}` of `{register}` is driven by logic");
+    damaged(message, at, "expected an input or a register as clock")
 }
 
-fn damaged(message: impl Into<String>, span: Span, label: impl Into<String>) -> Diagnostic {
-    Diagnostic::new(Code::CircuitFile, message, span, label)
+pub fn logic_enable(latch: &str, at: Span) -> Diagnostic {
+    let message = format!("`{latch}` is a latch, and logic computes when it is open");
+    damaged(message, at, "it keeps its value wherever nothing sets it").with_help(
+        "set it in every case, such as by a value before the first `if`; a latch must be opened by an input or a \
+         register",
+    )
+}
+
+pub fn driven_twice(net: &str, at: Span) -> Diagnostic {
+    damaged(format!("`{net}` is driven twice"), at, "an input or a register cannot have another driver")
+}
+
+pub fn undefined(net: &str, at: Span) -> Diagnostic {
+    damaged(format!("`{net}` is used but not defined"), at, "used here")
 }

@@ -29,7 +29,6 @@ pub struct Round<R: Real> {
     pub lanes: R::Mask,
     /// The voxels' masses, top left, top right, bottom right, bottom left, and their lanes.
     pub voxels: Vec<([usize; CORNERS], R::Mask)>,
-    /// Their sides, if any of these is not between the corners of its voxel.
     pub strays: Option<Vec<(VoxelSides, R::Mask)>>,
 }
 
@@ -51,10 +50,8 @@ pub struct Occupant {
 
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceVoxel {
-    /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
     pub sides: [bool; CORNERS],
-    /// The masses at the ends of its top and its left side, if these are not between its corners.
     pub strays: Option<[[usize; 2]; 2]>,
     pub part: usize,
 }
@@ -111,7 +108,6 @@ pub struct Touching {
 
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// The masses in it, as places in [`Masses::now`].
     pub masses: Range<usize>,
     /// The frames whose upper masses are in it.
     pub frames: Range<usize>,
@@ -218,7 +214,7 @@ fn tiles(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<Tile> {
 fn fixed<M: Mask>(bodies: &[&Lattice], occupants: &[Occupant]) -> Vec<(usize, M)> {
     let mut fixed: BTreeMap<usize, u32> = BTreeMap::new();
     for (lane, (body, occupant)) in bodies.iter().zip(occupants).enumerate() {
-        for &point in body.fixed() {
+        for &point in &body.fixed {
             *fixed.entry(occupant.masses[point]).or_default() |= 1 << lane;
         }
     }
@@ -277,7 +273,7 @@ impl Occupant {
             surface.push(SurfaceVoxel { corners, sides: voxel.surface, strays, part: voxel.part });
         }
         let count = |part: usize| surface.iter().filter(|voxel| voxel.part == part).count() as u32;
-        let parts = body.parts().iter().enumerate();
+        let parts = body.parts.iter().enumerate();
         let countable = parts.map(|(n, part)| if part.active { count(n) } else { 0 }).collect();
         Self { masses, surface, at_mass, countable, driven }
     }

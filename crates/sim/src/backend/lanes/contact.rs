@@ -19,12 +19,9 @@ const NEAR_DIAGONAL: f64 = 1e-7;
 /// The bounding box is not used for voxels larger than this, in meters.
 const SOUND: f64 = 1.0;
 
-/// A voxel at its current position.
 #[derive(Clone, Copy, Debug)]
 pub struct Quad {
-    /// Top left, top right, bottom right, bottom left.
     pub corners: [Vector2<f64>; CORNERS],
-    /// Whether each side is surface: top, right, bottom, left.
     pub surface: [bool; CORNERS],
     pub bounds: [Vector2<f64>; 2],
     /// Bounds outside of which a point is clearly outside.
@@ -36,7 +33,6 @@ pub struct Quad {
 /// A corner of one voxel inside another.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// The surface side that it came through.
     pub side: usize,
     /// Its distance from the line of that side, in meters.
     pub distance: f64,

@@ -49,12 +49,12 @@ impl LaneFlock {
 
     fn run(&self, i: usize) -> &Run {
         let (group, place) = self.places[i];
-        &self.groups[group].runs()[place]
+        &self.groups[group].runs[place]
     }
 
     fn run_mut(&mut self, i: usize) -> &mut Run {
         let (group, place) = self.places[i];
-        &mut self.groups[group].runs_mut()[place]
+        &mut self.groups[group].runs[place]
     }
 
     fn dissolve(&mut self) -> Vec<Run> {
@@ -125,6 +125,6 @@ impl Flock for LaneFlock {
     fn restore(&mut self, i: usize, snapshot: &Snapshot) {
         let (group, place) = self.places[i];
         self.groups[group].unload();
-        self.groups[group].runs_mut()[place].restore(snapshot);
+        self.groups[group].runs[place].restore(snapshot);
     }
 }

@@ -12,7 +12,8 @@ use nbc_base::model::{Fault, FaultKind};
 /// Runs that share a batch, at most as many as the kernel has lanes.
 #[derive(Debug, Default)]
 pub struct LaneGroup {
-    runs: Vec<Run>,
+    /// The points of those in a lane are read with [`LaneGroup::state`].
+    pub runs: Vec<Run>,
     /// The run in each lane of the batch.
     lanes: Vec<usize>,
     batch: Option<Box<dyn LaneBatch>>,
@@ -22,15 +23,6 @@ pub struct LaneGroup {
 impl LaneGroup {
     pub fn new(runs: Vec<Run>) -> Self {
         Self { runs, ..Self::default() }
-    }
-
-    /// The runs. The points of those in a lane are read with [`LaneGroup::state`].
-    pub fn runs(&self) -> &[Run] {
-        &self.runs
-    }
-
-    pub fn runs_mut(&mut self) -> &mut [Run] {
-        &mut self.runs
     }
 
     pub fn take(&mut self) -> Vec<Run> {

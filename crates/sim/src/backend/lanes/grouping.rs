@@ -21,7 +21,6 @@ pub struct LaneRequest<'a> {
 
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct LaneGrouping {
-    /// The robots of each group, the most costly group first.
     pub groups: Vec<Vec<usize>>,
     /// The cost of a substep of all groups, in the unit of [`Kernel::cost`].
     pub cost: u64,
@@ -161,17 +160,9 @@ mod tests {
         let (five, seven) = (Body::patchwork(5, 0), Body::patchwork(7, 0));
         let others = vec![(&seven, 1), (&seven, 2), (&seven, 3), (&five, 4), (&five, 5)];
         check(&[vec![(&five, 0); 8], others].concat(), 8, &[&[8, 9, 10, 11, 12], &[0, 1, 2, 3, 4, 5, 6, 7]]);
-    }
-
-    #[test]
-    fn a_giant_is_alone() {
-        let (five, twenty) = (Body::patchwork(5, 0), Body::patchwork(20, 0));
+        // A giant is alone, and no group has more robots than lanes.
+        let twenty = Body::patchwork(20, 0);
         check(&[vec![(&five, 0); 4], vec![(&twenty, 1)]].concat(), 8, &[&[4], &[0, 1, 2, 3]]);
-    }
-
-    #[test]
-    fn no_group_has_more_robots_than_lanes() {
-        let five = Body::patchwork(5, 0);
         check(&[(&five, 0); 5], 2, &[&[3, 4], &[1, 2], &[0]]);
         check(&[], 8, &[]);
     }

@@ -37,7 +37,8 @@ pub struct Kernel {
 
 impl Default for Kernel {
     fn default() -> Self {
-        Self::widest(InstructionSet::best())
+        let set = InstructionSet::best();
+        Self { set, lanes: set.most_lanes() }
     }
 }
 
@@ -94,10 +95,6 @@ impl Kernel {
     pub fn new(set: InstructionSet, lanes: usize) -> Option<Self> {
         assert!(Self::WIDTHS.contains(&lanes), "kernels have 1, 4 or 8 lanes");
         (set.is_available() && lanes <= set.most_lanes()).then_some(Self { set, lanes })
-    }
-
-    fn widest(set: InstructionSet) -> Self {
-        Self { set, lanes: set.most_lanes() }
     }
 
     /// A kernel whether the processor has its instructions or not, to reason about.

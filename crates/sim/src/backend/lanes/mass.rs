@@ -8,7 +8,6 @@ pub type Vector<R> = [R; 2];
 /// A point mass. Time is counted in substeps: velocities are meters per substep, forces meters per substep squared.
 #[derive(Clone, Copy, Debug)]
 pub struct Mass<R> {
-    /// Position at the start of the substep.
     pub at: Vector<R>,
     pub velocity: Vector<R>,
     /// Position in the current Runge-Kutta stage; after the last, the sum of the corrections by the length limits.
@@ -33,9 +32,7 @@ pub fn square<R: Real>(r: Vector<R>) -> R {
 /// The masses of a batch at three times: now, one substep ago, and when they were saved.
 #[derive(Debug)]
 pub struct Masses<R> {
-    /// The masses, in order of their places row by row.
     pub now: Vec<Mass<R>>,
-    /// The position of each mass one substep ago.
     pub before: Vec<Vector<R>>,
     /// Position, position one substep ago and velocity of each mass at the end of the last env step that went well.
     saved: Vec<[Vector<R>; 3]>,

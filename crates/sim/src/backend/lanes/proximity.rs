@@ -16,12 +16,10 @@ pub const MARGIN: f64 = 0.03;
 /// Slack for rounding, in meters.
 pub const SLACK: f64 = 1e-9;
 
-/// A voxel of any lane.
 #[derive(Clone, Debug)]
 pub struct Tile {
     /// Row and column in the box.
     pub cell: [usize; 2],
-    /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [usize; CORNERS],
     pub part: usize,
     /// Lanes that have it on their surface, as bits.
@@ -32,7 +30,6 @@ pub struct Tile {
 
 #[derive(Clone, Debug)]
 pub struct Proximity<R: Real> {
-    /// Surface voxels of all lanes, in reading order.
     pub tiles: Vec<Tile>,
     points: Vec<usize>,
     /// The positions when the lists were built; infinitely far before the first time.
@@ -75,7 +72,6 @@ pub struct NearTerrain {
     pub lanes: u32,
 }
 
-/// A point found inside a tile.
 #[derive(Clone, Copy, Debug)]
 pub struct Inside {
     pub tile: usize,

@@ -44,8 +44,8 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
         self.touching.inside = inside;
     }
 
-    /// Those of some lanes whose robots are not unstable. The env step of an unstable one counts for nothing, and its
-    /// huge voxels would touch all of the ground.
+    /// The given lanes without those of unstable robots: their env step is discarded, and their huge voxels would touch
+    /// all of the ground.
     pub fn sound_lanes(&self, lanes: u32) -> impl Iterator<Item = usize> + use<R, K> {
         let sound = lanes & !self.unstable;
         (0..self.occupants.len()).filter(move |lane| sound >> lane & 1 == 1)

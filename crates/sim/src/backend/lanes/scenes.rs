@@ -15,7 +15,6 @@ pub struct Scenes {
     constants: Constants,
     scenes: Vec<Scene>,
     groups: Vec<SceneGroup>,
-    /// The group of each scene, and its lane there.
     places: Vec<(usize, usize)>,
 }
 
@@ -138,11 +137,14 @@ impl Scenes {
     }
 
     pub fn state(&mut self, n: usize) -> SceneState {
+        let state = self.look(n).1.clone();
+        let &Lane { clock, ended, .. } = self.lane(n);
+        SceneState { state, clock, fault: ended }
+    }
+
+    fn lane(&self, n: usize) -> &Lane {
         let (group, lane) = self.places[n];
-        let group = &mut self.groups[group];
-        let state = group.now(lane).clone();
-        let Lane { clock, ended, .. } = &group.lanes[lane];
-        SceneState { state, clock: *clock, fault: *ended }
+        &self.groups[group].lanes[lane]
     }
 
     /// Sets a scene to an earlier state.
@@ -153,13 +155,11 @@ impl Scenes {
     }
 
     pub fn fault(&self, n: usize) -> Option<Fault> {
-        let (group, lane) = self.places[n];
-        self.groups[group].lanes[lane].ended
+        self.lane(n).ended
     }
 
     pub fn clock(&self, n: usize) -> u32 {
-        let (group, lane) = self.places[n];
-        self.groups[group].lanes[lane].clock
+        self.lane(n).clock
     }
 
     /// The positions of the points of a scene's object, in voxels; see [`Scene::positions`].

@@ -13,7 +13,6 @@ pub type Four = Pairs<2>;
 #[derive(Clone, Copy, Debug)]
 pub struct Pairs<const N: usize>([v128; N]);
 
-/// Yes or no for each lane: all bits of it set, or none.
 #[derive(Clone, Copy, Debug)]
 pub struct PairMask<const N: usize>([v128; N]);
 

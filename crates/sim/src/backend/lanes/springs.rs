@@ -15,9 +15,7 @@ pub const DIAGONAL: usize = 1;
 /// The four springs of a voxel in its frame: top, left, falling diagonal, rising diagonal.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
-    /// Its masses: top left, top right, bottom right, bottom left.
     pub corners: [u32; CORNERS],
-    /// The top spring's place in [`Springs::aims`].
     pub aim: u32,
 }
 
@@ -90,7 +88,7 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
         let mut frames: BTreeMap<TileKey, [K; 4]> = BTreeMap::new();
         let mut rims: BTreeMap<RimKey, K> = BTreeMap::new();
         for (lane, (body, springs)) in robots.iter().zip(&lanes).enumerate() {
-            for (edge, spring) in body.edges().iter().zip(springs) {
+            for (edge, spring) in body.edges.iter().zip(springs) {
                 let stiffness = match *spring {
                     Spring::Frame(key, place) => &mut frames.entry(key).or_insert([K::none(); 4])[place],
                     Spring::Rim(key) => rims.entry(key).or_insert(K::none()),
@@ -122,10 +120,10 @@ impl<R: Real, K: Stiffness<R>> Springs<R, K> {
                     *aim = all.aims.len() as u32;
                     all.aims.push(all.aims[MAIN]);
                 }
-                let rest = body.edges()[edge.edge].rest;
+                let rest = body.edges[edge.edge].rest;
                 Driven { aim: *aim as usize, rest, first: edge.first, second: edge.second }
             };
-            driven.push(body.driven().iter().map(drive).collect());
+            driven.push(body.driven.iter().map(drive).collect());
         }
         all.frames.push(all.frames[0]);
         (all, driven)
@@ -162,12 +160,12 @@ fn places(body: &Lattice, masses: &[usize]) -> Vec<Spring> {
     }
     // Of the sides of a frame only the top has a goal of its own.
     let upright = |edge: &&DrivenEdge| edge.axis == DriveAxis::Vertical;
-    let upright: BTreeSet<usize> = body.driven().iter().filter(upright).map(|edge| edge.edge).collect();
+    let upright: BTreeSet<usize> = body.driven.iter().filter(upright).map(|edge| edge.edge).collect();
     let spring = |(n, edge): (usize, &Edge)| {
         let (a, b) = (masses[edge.a], masses[edge.b]);
         let ends = (a.min(b), a.max(b));
         let in_frame = found.get(&ends).filter(|_| !upright.contains(&n) && !edge.doubled);
         in_frame.copied().unwrap_or(Spring::Rim((ends.0, ends.1, edge.doubled)))
     };
-    body.edges().iter().enumerate().map(spring).collect()
+    body.edges.iter().enumerate().map(spring).collect()
 }

@@ -47,7 +47,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
                 reach = bounds(&self.masses.now, &self.proximity.tiles[pair.tile]);
                 last = Some(pair.tile);
             }
-            let corners = &terrain.voxels()[pair.voxel].corners;
+            let corners = &terrain.voxels[pair.voxel].corners;
             let x = R::splat(corners[3].x).at_most(reach[1][0]).and(reach[0][0].at_most(R::splat(corners[1].x)));
             let y = R::splat(corners[3].y).at_most(reach[1][1]).and(reach[0][1].at_most(R::splat(corners[1].y)));
             let lanes = x.and(y).bits() & pair.lanes;
@@ -60,7 +60,7 @@ impl<R: Real, K: Stiffness<R>> Batch<R, K> {
 
     #[inline(never)]
     fn collide_voxel_with_terrain(&mut self, pair: &NearTerrain, lanes: u32, terrain: &Terrain) {
-        let fixed = &terrain.voxels()[pair.voxel];
+        let fixed = &terrain.voxels[pair.voxel];
         let bounds: [Vector2<f64>; 2] = [fixed.corners[3], fixed.corners[1]];
         let fixed = Quad::within(bounds, fixed.corners, fixed.surface);
         for lane in self.sound_lanes(lanes) {

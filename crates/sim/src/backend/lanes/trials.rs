@@ -8,7 +8,6 @@ use crate::backend::lanes::world::World;
 use crate::backend::run::{Run, runs};
 use nbc_base::model::{Setting, Trajectory, Trial};
 
-/// A trial that waits for a lane, or has one.
 struct Waiting<'a> {
     run: Run,
     trajectory: &'a mut Trajectory,

@@ -105,7 +105,6 @@ struct Storage {
 
 /// The arguments of a launch, as the kernel names them.
 pub struct Arguments<'a> {
-    /// Four words for each robot.
     pub robots: &'a CardMemory<u32>,
     /// The header of each body: where its lists are.
     pub bodies: &'a CardMemory<u32>,
@@ -273,7 +272,6 @@ impl CardQueue<'_> {
     }
 
     /// Copies numbers from the start of a memory of the device.
-    /// Panics when the memory is smaller.
     pub fn read<T: Plain>(&self, memory: &CardMemory<T>, count: usize) -> Result<Vec<T>, DeviceError> {
         assert!(count <= memory.count, "a memory is read within its bounds");
         let mut data = vec![T::default(); count];

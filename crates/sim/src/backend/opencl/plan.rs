@@ -17,7 +17,6 @@ const DRIVEN: u16 = 2;
 /// The corner by which the voxels above left, above right, below left and below right of a mass touch it.
 const TOUCHING: [usize; CORNERS] = [2, 3, 1, 0];
 
-/// A body laid out for the kernel, as lists of numbers.
 #[derive(Clone, Debug)]
 pub struct BodyPlan {
     /// The mass of each of its points.
@@ -51,7 +50,7 @@ impl BodyPlan {
         let skin: BTreeSet<usize> = surface.iter().flat_map(|voxel| voxel.corners).map(|point| masses[point]).collect();
         let levels = rigid_levels(body, &masses);
         let mut stiffness = vec![0.0; springs.ends.len()];
-        for (edge, &spring) in body.edges().iter().zip(&springs.of_edge) {
+        for (edge, &spring) in body.edges.iter().zip(&springs.of_edge) {
             stiffness[spring] = edge.stiffness * constants.per_substep_squared();
         }
         let lists = [
@@ -60,7 +59,7 @@ impl BodyPlan {
             gather(body, &masses, &springs, frames),
             around(&surface, &masses),
             masses.iter().map(|&mass| mass as u16).collect(),
-            body.driven().iter().flat_map(|edge| [edge.first, edge.second.unwrap_or(NONE)]).collect(),
+            body.driven.iter().flat_map(|edge| [edge.first, edge.second.unwrap_or(NONE)]).collect(),
             surface.iter().flat_map(|voxel| tile(voxel, &masses)).collect(),
             skin.iter().map(|&mass| mass as u16).collect(),
             ends_of(&levels),
@@ -70,11 +69,11 @@ impl BodyPlan {
             words: lists.concat(),
             stiffness,
             frames,
-            driven: body.driven().len(),
+            driven: body.driven.len(),
             tiles: surface.len(),
             points: skin.len(),
             levels: levels.len(),
-            countable: if body.parts().iter().any(|part| part.active) { surface.len() } else { 0 },
+            countable: if body.parts.iter().any(|part| part.active) { surface.len() } else { 0 },
             masses,
         }
     }
@@ -122,7 +121,7 @@ impl SpringTable {
                 ends.push([corners[a], corners[b]]);
             }
         }
-        let of_edge = body.edges().iter().map(|edge| {
+        let of_edge = body.edges.iter().map(|edge| {
             let (a, b) = (masses[edge.a], masses[edge.b]);
             [a.min(b), a.max(b)]
         });
@@ -139,7 +138,7 @@ impl SpringTable {
 fn aims(body: &Lattice, springs: &SpringTable, frames: usize) -> Vec<u16> {
     let kind = |spring: usize| if spring < 4 * frames && spring % 4 >= 2 { DIAGONAL } else { MAIN };
     let mut aims: Vec<u16> = (0..springs.ends.len()).map(kind).collect();
-    for (driven, edge) in (DRIVEN..).zip(body.driven()) {
+    for (driven, edge) in (DRIVEN..).zip(&body.driven) {
         aims[springs.of_edge[edge.edge]] = driven;
     }
     aims

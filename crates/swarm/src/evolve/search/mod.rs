@@ -25,15 +25,22 @@ pub struct Search {
     generation: u32,
     counts: Counts,
     mirrors: Vec<MirrorSource>,
+    proposal: Proposal,
 }
 
-/// The state needed to continue a search later.
+/// The bodies that a search tries.
+#[derive(Clone, Debug, PartialEq)]
+enum Proposal {
+    Declared,
+    /// Neighbors of elites; while there are none, those of a body, or random ones.
+    Neighbors(Option<Body>),
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub struct SearchState {
     pub seed: u64,
     pub generation: u32,
     pub counts: Counts,
-    /// The mirror images to be tried next.
     pub mirrors: Vec<MirrorSource>,
     pub niches: Vec<(NicheKey, Vec<Elite>)>,
 }
@@ -83,7 +90,13 @@ impl Search {
             generation: 0,
             counts: Counts::default(),
             mirrors: Vec::new(),
+            proposal: Proposal::Declared,
         }
+    }
+
+    /// A search that draws neighbors of its elites, and at first of `start`, instead of the bodies of its declaration.
+    pub fn around(evolution: &Evolution, start: Option<Body>, seed: u64) -> Self {
+        Self { proposal: Proposal::Neighbors(start), ..Self::new(evolution, seed) }
     }
 
     pub fn resume(evolution: &Evolution, state: SearchState) -> Self {
@@ -132,25 +145,22 @@ impl Search {
 
     /// The candidates of the next generation. Calling it twice returns the same candidates.
     pub fn ask(&self) -> Vec<Candidate> {
+        if let Proposal::Neighbors(start) = &self.proposal {
+            return self.neighbors(start.as_ref());
+        }
         let parents = self.parents();
         let fresh = if parents.is_empty() { self.evolution.batch } else { 0 } + self.evolution.newcomers;
-        let first = if self.generation == 0 { self.first_bodies() } else { Vec::new() };
         let offspring = parents.iter().map(|(key, elite)| (CandidateOrigin::Offspring((*key).clone()), Some(*elite)));
         let newcomers = std::iter::repeat_n((CandidateOrigin::Random, None), fresh);
         let mut candidates: Vec<Candidate> = Vec::new();
         for (index, (origin, parent)) in (0..).zip(offspring.chain(newcomers)) {
             candidates.extend(self.draw(index, origin, parent));
         }
-        let next = candidates.len() as u32;
-        candidates.extend((next..).zip(first).map(|(index, body)| Candidate {
-            index,
-            origin: CandidateOrigin::Start,
-            genotype: None,
-            body,
-            undeveloped: 0,
-        }));
-        let next = candidates.len() as u32;
-        candidates.extend((next..).zip(&self.mirrors).map(|(index, source)| self.mirror(index, source)));
+        if self.generation == 0 {
+            let first = self.first_bodies().into_iter();
+            candidates.extend(first.map(|body| Candidate::of_voxels(CandidateOrigin::Start, body)));
+        }
+        candidates.extend(self.mirrors.iter().map(|source| self.mirror(source)));
         candidates
     }
 
@@ -186,8 +196,7 @@ impl Search {
         Rivals::new(self.archive.niche(), Behavior::all(self.evolution.palette.inputs()).map(niches).collect())
     }
 
-    /// The displacements that a candidate of the current archive probably has: those of the elite of its parent's niche
-    /// that was there first.
+    /// The displacements that a candidate probably has: those of the oldest elite of its parent's niche.
     pub fn expected(&self, candidate: &Candidate) -> Option<Displacements> {
         let CandidateOrigin::Offspring(key) = &candidate.origin else { return None };
         Some(self.archive.elites_of(key).first()?.displacement)

@@ -10,12 +10,13 @@ use nbc_base::model::{Body, Evolution, Genome, Genotype, Matter, Rules};
 
 /// Mutations tried for one candidate before it is given up: a palette that cannot walk must not hang the search.
 const MOST_ATTEMPTS: u32 = 20_000;
+/// Generations without an elite in which neighbors of a start are tried. After them, random bodies are tried.
+const NEARBY: u32 = 3;
 
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum CandidateOrigin {
     Random,
     Offspring(NicheKey),
-    /// A robot with which the search begins.
     Start,
     /// The mirror image of a body that entered the archive in the previous generation.
     Mirror,
@@ -23,8 +24,6 @@ pub enum CandidateOrigin {
 
 #[derive(Clone, Debug, PartialEq)]
 pub struct Candidate {
-    /// Its place in the generation.
-    pub index: u32,
     pub origin: CandidateOrigin,
     pub genotype: Option<Genotype>,
     pub body: Body,
@@ -32,7 +31,13 @@ pub struct Candidate {
     pub undeveloped: u32,
 }
 
-/// A body whose mirror image is to be tried next.
+impl Candidate {
+    /// A body that no network developed into.
+    pub fn of_voxels(origin: CandidateOrigin, body: Body) -> Self {
+        Self { origin, genotype: None, body, undeveloped: 0 }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq)]
 pub enum MirrorSource {
     Network(Genotype),
@@ -71,7 +76,7 @@ impl Search {
                 Some(elite) => neighbor(&elite.body, &mut rng),
             };
             if validate(&body).is_ok() && parent.is_none_or(|elite| elite.body != body) {
-                return Some(Candidate { index, origin, genotype: None, body, undeveloped });
+                return Some(Candidate { undeveloped, ..Candidate::of_voxels(origin, body) });
             }
         }
         None
@@ -90,7 +95,7 @@ impl Search {
             let body = phenotype(&genotype, palette, *rules, *width, *height);
             match judge(*rules, parent.map(|elite| &elite.body), &body) {
                 Attempt::Done => {
-                    return Some(Candidate { index, origin, genotype: Some(genotype), body, undeveloped });
+                    return Some(Candidate { origin, genotype: Some(genotype), body, undeveloped });
                 }
                 Attempt::GoOn => {}
                 Attempt::Undo => genotype.clone_from(&start),
@@ -99,7 +104,25 @@ impl Search {
         None
     }
 
-    pub(super) fn mirror(&self, index: u32, source: &MirrorSource) -> Candidate {
+    /// Neighbors of elites; while there are none, those of the start, or random bodies.
+    pub(super) fn neighbors(&self, start: Option<&Body>) -> Vec<Candidate> {
+        let elites: Vec<&Body> = self.archive.elites().map(|elite| &elite.body).collect();
+        if elites.is_empty() && (start.is_none() || self.generation >= NEARBY) {
+            return Self::new(&self.evolution, self.seed.wrapping_add(u64::from(self.generation))).ask();
+        }
+        let first = start.filter(|_| self.generation == 0).into_iter().cloned();
+        let drawn = (0..self.evolution.batch).map(|index| {
+            let mut rng = self.stream(index as u32);
+            let parent = match start {
+                Some(start) if elites.is_empty() => start,
+                _ => elites[rng.random_range(0..elites.len())],
+            };
+            neighbor(parent, &mut rng)
+        });
+        first.chain(drawn).map(|body| Candidate::of_voxels(CandidateOrigin::Random, body)).collect()
+    }
+
+    pub(super) fn mirror(&self, source: &MirrorSource) -> Candidate {
         let Evolution { palette, rules, width, height, .. } = &self.evolution;
         let (genotype, body) = match source {
             MirrorSource::Network(genotype) => {
@@ -107,7 +130,7 @@ impl Search {
             }
             MirrorSource::Voxels(body) => (None, body.clone()),
         };
-        Candidate { index, origin: CandidateOrigin::Mirror, genotype, body, undeveloped: 0 }
+        Candidate { origin: CandidateOrigin::Mirror, genotype, body, undeveloped: 0 }
     }
 }
 
@@ -134,6 +157,8 @@ fn judge(rules: Rules, parent: Option<&Body>, body: &Body) -> Attempt {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::evolve::CandidateOutcome;
+    use crate::evolve::tests::evolution;
     use nbc_base::model::Palette;
 
     #[test]
@@ -148,5 +173,21 @@ mod tests {
         check(Rules::CODE, Some(&same), [Done, Done, GoOn]);
         check(Rules::PAPER, None, [Done, Done, GoOn]);
         check(Rules::CODE, None, [Done, Done, GoOn]);
+    }
+
+    #[test]
+    fn a_start_without_elites_around_it_is_given_up() {
+        let start = Body::parse(&["333", "343", "333"], &Palette::paper()).unwrap();
+        let evolution = Evolution { width: 3, height: 3, ..evolution() };
+        let [mut search, mut other] = [Some(start.clone()), None].map(|start| Search::around(&evolution, start, 1));
+        let differing = |body: &Body| body.codes().iter().zip(start.codes()).filter(|(a, b)| a != b).count();
+        for generation in 0..NEARBY {
+            let around = search.ask();
+            let is_start = usize::from(generation == 0);
+            assert!(around[is_start..].iter().all(|one| (1..=3).contains(&differing(&one.body))), "{around:?}");
+            search.tell(&around, &vec![CandidateOutcome::Surpassed; around.len()]);
+            other.tell(&[], &[]);
+        }
+        assert_eq!(search.ask(), other.ask());
     }
 }

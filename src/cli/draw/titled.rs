@@ -1,7 +1,18 @@
-//! Several robots to be drawn: those of a library or a swarm, or the champions of a run.
+//! Robots to be drawn, with their titles.
 
-use nbc_base::model::{Behavior, Body, Library};
+use nbc_base::model::{Behavior, Body, Library, Robot};
 use nbc_swarm::Assembly;
+
+pub(super) struct TitledBody {
+    pub(super) title: String,
+    pub(super) body: Body,
+}
+
+impl TitledBody {
+    pub(super) fn of(robot: &Robot) -> Self {
+        Self { title: format!("{}: {}, {}", robot.name, robot.function(), robot.behavior), body: robot.body.clone() }
+    }
+}
 
 pub(super) struct TitledRobots {
     pub(super) title: String,

@@ -5,10 +5,9 @@ use std::collections::BTreeMap;
 use crate::cli::Failure;
 use crate::cli::draw::evolution_run::each_champion;
 use crate::cli::draw::faults;
-use crate::cli::draw::picture::{Drawing, Drawn, KindDescription, PictureKind, SubjectKind};
+use crate::cli::draw::picture::{Drawing, Drawn};
 use crate::cli::draw::request::DrawRequest;
-use crate::cli::draw::titled_body::TitledBody;
-use crate::cli::draw::titled_robots::TitledRobots;
+use crate::cli::draw::titled::{TitledBody, TitledRobots};
 use crate::cli::draw::wording;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{CYCLE_STEPS, Function, Schedule, Trial};
@@ -16,40 +15,31 @@ use nbc_session::SwarmRun;
 use nbc_session::report::{self, Champions, EvolutionResults, Svg};
 use nbc_swarm::SwarmTrace;
 
-pub(super) struct SpacetimePicture;
+pub(super) fn of_robot(robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
+    let trial = Trial { body: robot.body.clone(), schedule: request.schedule([&robot.body])? };
+    let path = faults::walk([&trial.body], &trial.schedule).remove(0);
+    let faults = path.fault.map(|fault| faults::of_body(&robot.title, fault)).into_iter().collect();
+    Ok(Drawn { drawing: Drawing::Picture(report::draw_robot(&robot.title, &trial, &path)), faults })
+}
 
-impl PictureKind for SpacetimePicture {
-    fn description(&self) -> KindDescription {
-        let options = &["--robots", "--schedule"];
-        KindDescription { options, ..KindDescription::new("spacetime", "Paths over time", SubjectKind::Library) }
-    }
+pub(super) fn of_library(robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
+    let (svg, faults) = champions(robots, &request.schedule(robots.robots.iter().map(|one| &one.body))?);
+    Ok(Drawn { drawing: Drawing::Picture(svg), faults })
+}
 
-    fn of_robot(&self, robot: &TitledBody, request: &DrawRequest) -> Result<Drawn, Failure> {
-        let trial = Trial { body: robot.body.clone(), schedule: request.schedule([&robot.body])? };
-        let path = faults::walk([&trial.body], &trial.schedule).remove(0);
-        let faults = path.fault.map(|fault| faults::of_body(&robot.title, fault)).into_iter().collect();
-        Ok(Drawn { drawing: Drawing::Picture(report::draw_robot(&robot.title, &trial, &path)), faults })
-    }
+pub(super) fn of_run(results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
+    of_library(&each_champion(results), request)
+}
 
-    fn of_library(&self, robots: &TitledRobots, request: &DrawRequest) -> Result<Drawn, Failure> {
-        let (svg, faults) = champions(robots, &request.schedule(robots.robots.iter().map(|one| &one.body))?);
-        Ok(Drawn { drawing: Drawing::Picture(svg), faults })
-    }
-
-    fn of_run(&self, results: &EvolutionResults, request: &DrawRequest) -> Result<Drawn, Failure> {
-        self.of_library(&each_champion(results), request)
-    }
-
-    fn of_program(&self, request: &DrawRequest) -> Result<Drawn, Failure> {
-        let ran = request.ran(None)?;
-        let SwarmRun { trace, .. } = ran.swarm();
-        let chosen = request.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
-        let svg = match &chosen[..] {
-            [] => report::draw_swarm(trace),
-            chosen => report::draw_chosen(trace, &chosen.concat()),
-        };
-        Ok(Drawn { drawing: Drawing::Picture(svg), faults: faults::of_swarm(trace) })
-    }
+pub(super) fn of_program(request: &DrawRequest) -> Result<Drawn, Failure> {
+    let ran = request.ran(None)?;
+    let SwarmRun { trace, .. } = ran.swarm();
+    let chosen = request.robots.iter().map(|net| robots_of(trace, net)).collect::<Result<Vec<_>, _>>()?;
+    let svg = match &chosen[..] {
+        [] => report::draw_swarm(trace),
+        chosen => report::draw_chosen(trace, &chosen.concat()),
+    };
+    Ok(Drawn { drawing: Drawing::Picture(svg), faults: faults::of_swarm(trace) })
 }
 
 /// The robots that drive a net, or all nets that begin with the text before a final `*`.

@@ -1,4 +1,4 @@
-//! Arguments that choose a circuit of a source file, and the place of evolution runs.
+//! `--file`: files that replace those that a program declares.
 
 use std::ffi::OsString;
 use std::fs;
@@ -8,37 +8,7 @@ use clap::Args;
 
 use crate::cli::wording;
 use nbc_base::diag::Diagnostic;
-use nbc_session::{Checked, Choice, CompileOptions, RUNS};
-
-#[derive(Args)]
-pub(in crate::cli) struct CircuitArguments {
-    /// The circuit, with parameters such as `adder[8]` or `adder[n = 8]` [default: the last one in the file, or all
-    /// that are tested]
-    #[arg(long, value_name = "NAME")]
-    circuit: Option<String>,
-    /// The swarm, if several are declared for the circuit; tests run once for each unless one is named
-    #[arg(long, value_name = "NAME")]
-    swarm: Option<String>,
-}
-
-impl CircuitArguments {
-    pub(in crate::cli) fn choice(&self) -> Choice {
-        Choice { circuit: self.circuit.clone(), swarm: self.swarm.clone() }
-    }
-}
-
-#[derive(Args)]
-pub(in crate::cli) struct RunsArguments {
-    /// The folder of evolution runs; `library { from: NAME }` reads robots from `NAME/robots` in it
-    #[arg(long, value_name = "DIR", default_value = RUNS)]
-    runs: String,
-}
-
-impl RunsArguments {
-    pub(in crate::cli) fn options(&self) -> CompileOptions {
-        CompileOptions { runs: self.runs.clone(), ..CompileOptions::default() }
-    }
-}
+use nbc_session::{Checked, CompileOptions};
 
 #[derive(Args)]
 pub(in crate::cli) struct FilesArguments {

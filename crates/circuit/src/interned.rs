@@ -1,0 +1,26 @@
+//! Lists without duplicates, such as gates of which equal ones are shared.
+
+use std::collections::BTreeMap;
+
+/// Items by number, in the order in which they came.
+#[derive(Clone, Debug)]
+pub struct Interned<T> {
+    pub items: Vec<T>,
+    known: BTreeMap<T, usize>,
+}
+
+impl<T> Default for Interned<T> {
+    fn default() -> Self {
+        Self { items: Vec::new(), known: BTreeMap::new() }
+    }
+}
+
+impl<T: Copy + Ord> Interned<T> {
+    /// The number of an item, which is added unless an equal one is there.
+    pub fn number(&mut self, item: T) -> usize {
+        *self.known.entry(item).or_insert_with(|| {
+            self.items.push(item);
+            self.items.len() - 1
+        })
+    }
+}
