@@ -59,9 +59,9 @@ use std::ffi::OsString;
 use clap::{CommandFactory, FromArgMatches, Parser, Subcommand};
 
 #[cfg(feature = "gpu")]
-use gpu::OpenDevice;
+pub use gpu::OpenDevice;
 #[cfg(not(feature = "gpu"))]
-use only_processor::OnlyProcessor as OpenDevice;
+pub use only_processor::OnlyProcessor as OpenDevice;
 
 pub use context::{Context, OutputFormat};
 pub use failure::Failure;

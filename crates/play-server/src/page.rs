@@ -21,12 +21,12 @@ pub(super) struct Page {
 }
 
 pub(super) struct Parts {
-    pub(super) html: Part,
-    script: Part,
-    style: Part,
+    pub(super) html: PagePart,
+    script: PagePart,
+    style: PagePart,
 }
 
-pub(super) struct Part {
+pub(super) struct PagePart {
     /// The last part of its address.
     name: String,
     kind: &'static str,
@@ -63,11 +63,11 @@ impl Page {
 impl Parts {
     /// The document names `STEM.js` and `STEM.css`.
     fn new((stem, html): (&str, &str), script: Cow<'static, str>, style: Cow<'static, str>) -> Self {
-        let script = Part::new(hashed(stem, "js", &script), "text/javascript; charset=utf-8", script);
-        let style = Part::new(hashed(stem, "css", &style), "text/css; charset=utf-8", style);
+        let script = PagePart::new(hashed(stem, "js", &script), "text/javascript; charset=utf-8", script);
+        let style = PagePart::new(hashed(stem, "css", &style), "text/css; charset=utf-8", style);
         let html = html.replace(&format!("\"{stem}.js\""), &format!("\"{}\"", script.name));
         let html = html.replace(&format!("\"{stem}.css\""), &format!("\"{}\"", style.name));
-        Self { html: Part::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
+        Self { html: PagePart::new(String::new(), "text/html; charset=utf-8", html.into()), script, style }
     }
 
     /// The script or the style of that name.
@@ -80,7 +80,7 @@ impl Parts {
     }
 }
 
-impl Part {
+impl PagePart {
     fn new(name: String, kind: &'static str, text: Cow<'static, str>) -> Self {
         let mut packing = GzEncoder::new(Vec::new(), Compression::default());
         packing.write_all(text.as_bytes()).expect("memory takes any bytes");

@@ -1,5 +1,5 @@
-//! Robots of a library as a table, as one page, and as data, and the result of `library add` for a behavior: a robot, or
-//! the reason why there is none.
+//! Robots of a library as a table, as one page, and as data, and the result of `library add` for a behavior: a robot,
+//! or the reason why there is none.
 
 use std::fmt;
 use std::sync::Arc;

@@ -1,5 +1,5 @@
-//! Schematics: a circuit in sheets, each of them a part of it in layers, and each cell with the robot that plays it; and
-//! the page that shows a sheet at a time.
+//! Schematics: a circuit in sheets, each of them a part of it in layers, and each cell with the robot that plays it;
+//! and the page that shows a sheet at a time.
 
 use std::collections::{BTreeMap, BTreeSet};
 

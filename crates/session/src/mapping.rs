@@ -20,8 +20,8 @@ pub struct Mapping {
 }
 
 impl Mapping {
-    /// `None` if the library has no robot for latches of one robot. Panics if they store something else, which is a fault
-    /// of the compiler.
+    /// `None` if the library has no robot for latches of one robot. Panics if they store something else, which is a
+    /// fault of the compiler.
     pub(super) fn held(self) -> Option<Self> {
         let Held { netlist, kept, .. } = Held::of(&self.netlist, &self.cells)?;
         let proof = prove_forms(&self.netlist, &netlist);

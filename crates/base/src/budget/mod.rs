@@ -6,8 +6,8 @@ mod wording;
 
 pub use limit::{CYCLE_BITS, Limit};
 
-use crate::diag::grouped;
 use crate::source::CancelFlag;
+use crate::source::grouped;
 
 /// What one piece of work has made so far, such as a check of a program or the building of a circuit.
 #[derive(Clone, Debug)]

@@ -13,13 +13,6 @@ pub fn counted(count: usize, noun: &str) -> String {
     }
 }
 
-/// A number with commas, such as 4,096.
-pub fn grouped(number: u64) -> String {
-    let digits = number.to_string();
-    let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));
-    groups.collect::<Vec<_>>().join(",")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -17,7 +17,7 @@ mod verilog;
 mod visible;
 
 pub use code::Code;
-pub use counted::{counted, grouped};
+pub use counted::counted;
 pub use diagnostic::{Diagnostic, Label, Related};
 pub use diagnostics::Diagnostics;
 pub use file::{folder_error, io_words, similar_file};

@@ -12,7 +12,7 @@ mod world;
 pub use cancel::CancelFlag;
 pub use file::{LineColumn, LineStarts, SourceFile, Sources, without_mark};
 pub use file_error::FileError;
-pub use proof_origin::{ForeignCircuit, ProofOrigin};
+pub use proof_origin::{ForeignCircuit, ProofOrigin, grouped};
 pub use span::{FileId, Span};
 pub use verilog::{
     SecondReading, VerilogError, VerilogFile, VerilogFiles, VerilogModule, VerilogModules, VerilogNote, VerilogPlace,

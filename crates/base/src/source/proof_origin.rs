@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use crate::diag::grouped;
-
 use super::verilog::{SecondReading, VerilogModules};
 
 /// A circuit of another tool's file that a program uses, and what its proof begins with.
@@ -49,6 +47,13 @@ impl fmt::Display for ProofOrigin {
             SecondReading::None => formatter.write_str("slang's reading of the file, which yosys cannot read"),
         }
     }
+}
+
+/// A number with commas, such as 4,096.
+pub fn grouped(number: u64) -> String {
+    let digits = number.to_string();
+    let groups = digits.as_bytes().rchunks(3).rev().map(|group| String::from_utf8_lossy(group));
+    groups.collect::<Vec<_>>().join(",")
 }
 
 #[cfg(test)]

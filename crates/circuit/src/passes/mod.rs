@@ -32,7 +32,7 @@ impl Pass {
 }
 
 /// The passes before technology mapping, in order.
-pub static ORDER: [Pass; 5] = [
+pub const ORDER: &[Pass] = &[
     // First, so that no other pass has to handle wires.
     Pass::new("dissolve-wires", "replaces wires by their drivers", dissolve_wires),
     // Before sharing: constants make different cells equal.

@@ -33,7 +33,7 @@ pub struct Proof {
 }
 
 pub fn prove(source: &Netlist, mapped: &Netlist) -> Result<Proof, ProofError> {
-    prove_through(source, mapped, &passes::ORDER)
+    prove_through(source, mapped, passes::ORDER)
 }
 
 /// As [`prove`]. These passes of the mapping only say which cell of a loop has become which.
@@ -52,7 +52,7 @@ pub(crate) fn prove_design(read: &Design, made: &Design, counterparts: Vec<Count
     };
     let ((inputs, outputs), (others, other_outputs)) = (ports(read), ports(made));
     same_names(inputs.iter().chain(&outputs), others.iter().chain(&other_outputs))?;
-    prove_states([&read.logic, &made.logic], [&read.registers, &made.registers], counterparts, &passes::ORDER)
+    prove_states([&read.logic, &made.logic], [&read.registers, &made.registers], counterparts, passes::ORDER)
 }
 
 fn prove_states(
@@ -155,14 +155,14 @@ mod tests {
     #[test]
     fn a_wrong_pass_is_found_though_the_proof_knows_it() {
         let wrong = Pass { name: "wrong", about: "inverts a cell", run: invert_a_cell, merged: |_| Vec::new() };
-        let passes: Vec<Pass> = passes::ORDER.into_iter().chain([wrong]).collect();
+        let passes: Vec<Pass> = passes::ORDER.iter().copied().chain([wrong]).collect();
         for source in [full_adder(), latch()] {
             let made = |passes: &[Pass]| {
                 let mut made = source.clone();
                 passes.iter().for_each(|pass| (pass.run)(&mut made).unwrap());
                 made
             };
-            assert!(prove_through(&source, &made(&passes::ORDER), &passes).is_ok());
+            assert!(prove_through(&source, &made(passes::ORDER), &passes).is_ok());
             let found = prove_through(&source, &made(&passes), &passes);
             assert!(matches!(found, Err(ProofError::Different { .. })), "{found:?}");
         }

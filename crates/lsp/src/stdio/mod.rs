@@ -162,7 +162,10 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(48))]
         #[test]
         fn any_messages_are_served_without_a_fault(
-            sent in prop::collection::vec((any::<bool>(), select(METHODS.split(' ').collect::<Vec<_>>()), parameters()), 0..16),
+            sent in prop::collection::vec(
+                (any::<bool>(), select(METHODS.split(' ').collect::<Vec<_>>()), parameters()),
+                0..16,
+            ),
         ) {
             let (server, client) = Connection::memory();
             let Connection { sender, receiver } = client;

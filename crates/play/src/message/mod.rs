@@ -20,6 +20,7 @@ pub(super) use lesson::{
     LessonStep, LessonTab, PortValues,
 };
 pub(super) use program::*;
+pub(super) use program::{Finding, findings};
 pub(super) use swarm::*;
 pub(super) use written::{CALLS, WrittenProgram};
 
