@@ -111,7 +111,7 @@ async function exported(folder) {
   execFileSync(resolve(process.env.NBC), ["play", "full_adder.nb", "--export", file], { cwd: CIRCUITS });
   const page = await visit(pathToFileURL(file).href, { viewport: { width: 1280, height: 860 }, offline: true });
   await page.locator(".sheet svg").first().waitFor();
-  await page.screenshot({ path: place("recorded.png") });
+  await page.screenshot({ path: place("recorded.png"), fullPage: true });
   await page.leave();
 }
 
