@@ -10,7 +10,7 @@ type Rgb = [number, number, number];
 
 const TOKENS = readFileSync("src/style/tokens.css", "utf8");
 /** The colors of materials, which the program sends. */
-const SCHEME = readFileSync("../crates/report/src/scheme.rs", "utf8");
+const SCHEME = readFileSync("../crates/report/src/color.rs", "utf8");
 
 /** WCAG AA: of text, and of what is not text. */
 const TEXT = 4.5;
