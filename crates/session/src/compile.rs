@@ -10,7 +10,7 @@ use nbc_base::budget::Limit;
 use nbc_base::diag::Diagnostic;
 use nbc_base::model::{Instance, NamedWorld, Program, RegisterStyle};
 use nbc_base::source::Span;
-use nbc_circuit::passes::{Pass, Sweep};
+use nbc_circuit::passes::sweep;
 use nbc_circuit::{CellLibrary, MapOptions, Netlist, Timing, elaborate_net, map_with, prove};
 use nbc_swarm::{Assembly, WeakRobot};
 
@@ -102,7 +102,7 @@ pub(super) fn map_net(
     let mapping = synthesize(source, &nbc_swarm::cells(&plan.library), &options);
     let mut mapping = mapping.map_err(|fault| vec![for_circuit(fault, net)])?;
     // The proof was of all that was elaborated. What is shown is the part of the net.
-    Sweep.run(&mut mapping.source).expect("sweeping only removes");
+    sweep(&mut mapping.source);
     Ok(mapping)
 }
 
