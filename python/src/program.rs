@@ -76,7 +76,7 @@ impl Program {
 
     /// Its warnings, as JSON.
     fn diagnostics(&self, py: Python<'_>) -> PyResult<String> {
-        at_once(py, || Ok(Value::from(self.checked.json()).to_string()))
+        at_once(py, || Ok(json!(self.checked.json()).to_string()))
     }
 
     /// The circuits of the file itself with their ports, as JSON.

@@ -16,14 +16,19 @@ use nbc_sim::{InstructionSet, Kernel};
 pub struct BugReportArguments {}
 
 #[derive(Serialize)]
-struct Report {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Report {
     version: &'static str,
+    /// The parts that the program was built with.
     features: Vec<&'static str>,
     /// Such as `linux x86_64`.
     system: String,
     processor: String,
+    /// The instruction sets of the kernels that this machine can run.
     kernels: Vec<&'static str>,
+    /// The one that simulates.
     kernel: &'static str,
+    /// Robots simulated at once in a thread.
     lanes: usize,
     threads: usize,
     /// Its version, if it is installed.

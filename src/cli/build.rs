@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
-use serde_json::json;
+use serde::Serialize;
 
 use crate::cli::harden::HardenArguments;
 use crate::cli::options::making::MakingArguments;
@@ -113,7 +113,7 @@ fn emit(emit: Emit, mapping: Mapping, hardened: Hardened) -> String {
         Emit::Dot => dot::write(&mapping.netlist),
         Emit::Timing => describe_timing(&mapping),
         Emit::Json => {
-            let document = Document::new(Schema::Build, describe(&mapping, hardened));
+            let document = Document::new(Schema::Build, BuiltCircuit::of(&mapping, hardened));
             serde_json::to_string(&document).expect("a netlist has nothing that JSON cannot say") + "\n"
         }
     }
@@ -164,45 +164,113 @@ fn clocks<'a>(mapped: &'a Netlist, library: &'a CellLibrary) -> impl Fn(NetId) -
     |id| mapped.cell(id).and_then(|cell| library.get(cell.function)).map_or(0, |kind| kind.clock)
 }
 
-fn describe(mapping: &Mapping, hardened: Hardened) -> serde_json::Value {
-    let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
-    let timing = mapping.timing();
-    // The rings and loops of a wave machine are its waves.
-    let (rings, races) = match waves {
-        None => (ring_names(mapped), races(mapped)),
-        Some(_) => (Vec::new(), Some(Vec::new())),
-    };
-    let name = |id: &NetId| mapped.net_name(*id);
-    let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
-    let cells: Vec<_> = mapped
-        .cells()
-        .map(|(id, cell)| {
-            let pins: Vec<_> = mapped.pins(id).iter().map(name).collect();
-            json!({ "name": name(&id), "function": cell.function.name(), "pins": pins, "start": cell.start,
-                "arrival": timing.arrival(id), "required": timing.required(id), "slack": timing.slack(id),
-                "fan_out": fan_out[&id] })
-        })
-        .collect();
-    let outputs: BTreeMap<_, _> = mapped.outputs().iter().map(|id| (name(id), name(&mapped.pins(*id)[0]))).collect();
-    let race = |race: Race| json!({ "net": name(&race.net), "input": name(&race.input), "rises": race.rises });
-    let ports = |ids: &[NetId]| Column::group(&ids.iter().map(name).collect::<Vec<_>>());
-    json!({
-        "circuit": mapped.name,
-        "ports": { "inputs": ports(mapped.inputs()), "outputs": ports(mapped.outputs()) },
-        "inputs": mapped.inputs().iter().map(name).collect::<Vec<_>>(),
-        "outputs": outputs,
-        "cells": cells,
-        "by_function": mapped.by_function(),
-        "depth": levels::depth(mapped),
-        "hold": timing.hold,
-        "critical_path": timing.critical_path.iter().map(name).collect::<Vec<_>>(),
-        "rings": rings,
-        "memory": MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
-        "phases": PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept),
-        "waves": waves.as_ref().map(WaveTiming::of),
-        "proved": true,
-        "unproved_registers": mapping.unproved_registers,
-        "hardened": (!hardened.tried.is_empty()).then_some(hardened),
-        "races": races.map(|races| races.into_iter().map(race).collect::<Vec<_>>()),
-    })
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct BuiltCircuit<'a> {
+    circuit: &'a str,
+    ports: BuiltPorts,
+    /// The bits of the input ports: those of a port `a` of width 2 are `a[1]` and `a[0]`.
+    inputs: Vec<String>,
+    /// The net of each bit of the output ports.
+    outputs: BTreeMap<String, String>,
+    cells: Vec<BuiltCell>,
+    by_function: BTreeMap<&'static str, usize>,
+    /// Cells on the longest path.
+    depth: u32,
+    /// Cycles after which every net is correct.
+    hold: u32,
+    critical_path: Vec<String>,
+    /// The nets of rings of inverters, which keep changing.
+    rings: Vec<String>,
+    memory: Vec<MemoryTimes>,
+    phases: PhaseTiming,
+    /// The steps and phases of a wave machine.
+    waves: Option<WaveTiming>,
+    /// Always true: a circuit whose logic is not proved is an error.
+    proved: bool,
+    /// Whether registers became latches of another form without a proof that these store the same.
+    unproved_registers: bool,
+    /// The robots that `--harden` left out.
+    hardened: Option<Hardened>,
+    /// Null if the circuit is too large to look for them.
+    races: Option<Vec<BuiltRace>>,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct BuiltPorts {
+    inputs: Vec<Column>,
+    outputs: Vec<Column>,
+}
+
+/// Its times are in cycles.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct BuiltCell {
+    name: String,
+    /// The gate, such as `nand`.
+    function: &'static str,
+    pins: Vec<String>,
+    /// The bit at the start, if it is declared.
+    start: Option<bool>,
+    arrival: u32,
+    /// Cycles after which it must be correct so that the hold suffices.
+    required: u32,
+    slack: u32,
+    fan_out: usize,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct BuiltRace {
+    net: String,
+    input: String,
+    /// Whether it is the edge at which the input rises.
+    rises: bool,
+}
+
+impl<'a> BuiltCircuit<'a> {
+    fn of(mapping: &'a Mapping, hardened: Hardened) -> Self {
+        let Mapping { netlist: mapped, cells: library, kept, waves, .. } = mapping;
+        let timing = mapping.timing();
+        // The rings and loops of a wave machine are its waves.
+        let (rings, races) = match waves {
+            None => (ring_names(mapped), races(mapped)),
+            Some(_) => (Vec::new(), Some(Vec::new())),
+        };
+        let name = |id: &NetId| mapped.net_name(*id);
+        let names = |ids: &[NetId]| ids.iter().map(name).collect::<Vec<_>>();
+        let fan_out: BTreeMap<NetId, usize> = fan_out(mapped).into_iter().collect();
+        let cells = mapped.cells().map(|(id, cell)| BuiltCell {
+            name: name(&id),
+            function: cell.function.name(),
+            pins: names(&mapped.pins(id)),
+            start: cell.start,
+            arrival: timing.arrival(id),
+            required: timing.required(id),
+            slack: timing.slack(id),
+            fan_out: fan_out[&id],
+        });
+        let race = |race: Race| BuiltRace { net: name(&race.net), input: name(&race.input), rises: race.rises };
+        let ports = |ids: &[NetId]| Column::group(&names(ids));
+        Self {
+            circuit: &mapped.name,
+            ports: BuiltPorts { inputs: ports(mapped.inputs()), outputs: ports(mapped.outputs()) },
+            inputs: names(mapped.inputs()),
+            outputs: mapped.outputs().iter().map(|id| (name(id), name(&mapped.pins(*id)[0]))).collect(),
+            cells: cells.collect(),
+            by_function: mapped.by_function(),
+            depth: levels::depth(mapped),
+            hold: timing.hold,
+            critical_path: names(&timing.critical_path),
+            rings,
+            memory: MemoryTimes::all(mapped, &timing, clocks(mapped, library)),
+            phases: PhaseTiming::of(mapped, &timing, library.kinds_of(mapped), kept),
+            waves: waves.as_ref().map(WaveTiming::of),
+            proved: true,
+            unproved_registers: mapping.unproved_registers,
+            hardened: (!hardened.tried.is_empty()).then_some(hardened),
+            races: races.map(|races| races.into_iter().map(race).collect()),
+        }
+    }
 }

@@ -1,8 +1,8 @@
 //! `nbc check`: prints the errors and warnings of programs.
 
 use clap::Args;
-use serde_json::Value;
 
+use crate::cli::documents::DiagnosticList;
 use crate::cli::{Context, Failure, OutputFormat, Status, standard_input};
 use nbc_base::diag::{Severity, counted};
 use nbc_session::report::Schema;
@@ -36,8 +36,8 @@ impl CheckArguments {
         let found: Vec<_> = self.files.iter().map(&mut check).collect();
         match context.format {
             OutputFormat::Json => {
-                let all: Vec<Value> = found.iter().flat_map(|checked| checked.json()).collect();
-                context.print_json(Schema::Diagnostics, &serde_json::json!({ "diagnostics": all }))?
+                let diagnostics = found.iter().flat_map(|checked| checked.json()).collect();
+                context.print_json(Schema::Diagnostics, &DiagnosticList { diagnostics })?
             }
             OutputFormat::Text => {
                 for checked in &found {

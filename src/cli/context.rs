@@ -9,6 +9,7 @@ use serde::Serialize;
 use serde_json::ser::Formatter;
 
 use crate::cli::Status;
+use crate::cli::documents::DiagnosticList;
 use crate::cli::failure::Failure;
 use crate::cli::output::Output;
 use crate::cli::wording;
@@ -179,7 +180,7 @@ impl Context {
     /// Prints to standard output, if it is JSON.
     pub(super) fn print_diagnostics(&mut self, found: &Diagnostics) {
         if self.format == OutputFormat::Json {
-            let value = serde_json::json!({ "diagnostics": found.json() });
+            let value = DiagnosticList { diagnostics: found.json() };
             // The failure itself is what matters if this cannot be written either.
             let _ = self.print_json(Schema::Diagnostics, &value).and_then(|()| self.flush());
         }

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use clap::Args;
-use serde_json::json;
+use serde::Serialize;
 
 use crate::cli::standard_input::{self, DASH};
 use crate::cli::wording;
@@ -29,9 +29,25 @@ pub struct FmtArguments {
     check: bool,
 }
 
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct FormattedFiles {
+    files: Vec<FormattedFile>,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct FormattedFile {
+    file: String,
+    /// Whether it was in its canonical form.
+    canonical: bool,
+    /// Whether it was written in it.
+    written: bool,
+}
+
 impl FmtArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
-        let mut told = Vec::new();
+        let mut files = Vec::new();
         for path in &self.files {
             if path == DASH && !self.check {
                 if context.format == OutputFormat::Json {
@@ -44,12 +60,12 @@ impl FmtArguments {
             if self.check && !canonical && context.format == OutputFormat::Text {
                 context.print(format!("{path}\n"))?;
             }
-            told.push(json!({ "file": path, "canonical": canonical, "written": !canonical && !self.check }));
+            files.push(FormattedFile { file: path.clone(), canonical, written: !canonical && !self.check });
         }
+        let differs = files.iter().any(|file| !file.canonical);
         if context.format == OutputFormat::Json {
-            context.print_json(Schema::Formatted, &json!({ "files": told }))?;
+            context.print_json(Schema::Formatted, &FormattedFiles { files })?;
         }
-        let differs = told.iter().any(|file| file["canonical"] == false);
         Ok(if self.check && differs { Status::TestFailed } else { Status::Done })
     }
 

@@ -12,6 +12,7 @@ mod check;
 mod cluster;
 mod completions;
 mod context;
+mod documents;
 mod draw;
 mod evolution_folder;
 mod evolve;

@@ -11,7 +11,7 @@ use nbc_session::report::Schema;
 use nbc_session::store::{self, DiskWorld};
 use nbc_session::{Choice, CompileOptions, Session};
 use nbc_swarm::Room;
-use serde_json::json;
+use serde::Serialize;
 
 use crate::cli::options::making::MakingArguments;
 use crate::cli::options::new_path::new_path;
@@ -31,9 +31,9 @@ const MOST_PAGES: u64 = PlayOptions::MOST_PAGES as u64;
 /// address and opens it. The page can read and write only below the current folder, or the file's folder if that is
 /// elsewhere. Everyone who knows the address can use the page. Ctrl-C stops the server.
 ///
-/// With `--export`, it starts no server. It writes one HTML file that a browser opens without nbc and without a network:
-/// the recorded tests and simulations, as `nbc run` does, or with `--live` the whole page with its physics, tests and
-/// editor.
+/// With `--export`, it starts no server. It writes one HTML file that a browser opens without nbc and without a
+/// network: the recorded tests and simulations, as `nbc run` does, or with `--live` the whole page with its physics,
+/// tests and editor.
 #[derive(Args)]
 #[command(after_help = "Examples:
   nbc play
@@ -84,6 +84,28 @@ pub struct PlayArguments {
     /// The pages that may be open at once, at most 64
     #[arg(long, default_value_t = 16, value_parser = RangedU64ValueParser::<usize>::new().range(1..=MOST_PAGES))]
     pages: usize,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct WrittenPage {
+    file: String,
+    /// That of the last swarm, with the numbers of its parameters.
+    circuit: String,
+    /// Those of the last swarm.
+    robots: usize,
+    /// The size of the file.
+    bytes: usize,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct ServedPage {
+    address: String,
+    /// The address for other computers, if the server listens for them.
+    elsewhere: Option<String>,
+    /// The address of the teacher's page, if there is a class.
+    teacher: Option<String>,
 }
 
 impl PlayArguments {
@@ -144,12 +166,12 @@ fn write_page(
         recorded_page(&file.to_string_lossy(), &report)
     };
     store::write(output, page.html.as_bytes()).map_err(|error| Failure::unwritable(output, &error))?;
-    let (bytes, name) = (page.html.len(), output.display());
-    let written =
-        json!({ "file": output.display().to_string(), "circuit": page.circuit, "robots": page.robots, "bytes": bytes });
+    let (bytes, file) = (page.html.len(), output.display().to_string());
+    let written = WrittenPage { file, circuit: page.circuit, robots: page.robots, bytes };
     context.print_result(Schema::Player, &written, || {
-        let robots = counted(page.robots, "robot");
-        format!("wrote {name}: {} with {robots}, {} kB; a browser opens it\n", page.circuit, bytes.div_ceil(1000))
+        let WrittenPage { file, circuit, robots, .. } = &written;
+        let robots = counted(*robots, "robot");
+        format!("wrote {file}: {circuit} with {robots}, {} kB; a browser opens it\n", bytes.div_ceil(1000))
     })?;
     Ok(Status::Done)
 }
@@ -168,8 +190,7 @@ fn tell(server: &PlayServer, context: &mut Context) -> Result<(), Failure> {
             }
         }
         OutputFormat::Json => {
-            context
-                .print_json(Schema::Play, &json!({ "address": address, "elsewhere": elsewhere, "teacher": teacher }))?;
+            context.print_json(Schema::Play, &ServedPage { address, elsewhere, teacher })?;
         }
     }
     context.flush()

@@ -7,6 +7,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use clap::Args;
+use serde::Serialize;
 
 use crate::cli::options::new_path::new_path;
 use crate::cli::options::number::number;
@@ -64,6 +65,16 @@ pub struct ProveArguments {
     witness: Option<PathBuf>,
 }
 
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct ProofResults<'a> {
+    /// Whether every property is proved.
+    proved: bool,
+    claims: &'a [ClaimReport],
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    interrupted: bool,
+}
+
 impl ProveArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let interrupt = Interrupt::watch()?;
@@ -110,11 +121,8 @@ impl ProveArguments {
         let all = refuted + undecided == 0 && !interrupt.is_raised();
         match context.format {
             OutputFormat::Json => {
-                let mut value = serde_json::json!({ "proved": all, "claims": reports });
-                if interrupt.is_raised() {
-                    value["interrupted"] = true.into();
-                }
-                context.print_json(Schema::Prove, &value)?;
+                let results = ProofResults { proved: all, claims: reports, interrupted: interrupt.is_raised() };
+                context.print_json(Schema::Prove, &results)?;
             }
             OutputFormat::Text => {
                 let left = if interrupt.is_raised() { ", interrupted" } else { "" };

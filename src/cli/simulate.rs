@@ -57,10 +57,11 @@ pub struct SimulateArguments {
 }
 
 #[derive(Serialize)]
-struct Outcome<'a> {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Outcome<'a> {
     /// Voxels walked in each entry of the schedule; null if the simulation ended before the entry did.
     displacement: Vec<Option<f64>>,
-    /// In voxels, at the start and after each env step.
+    /// Place of the center of mass in voxels, at the start and after each env step.
     com_x: &'a [f64],
     /// The env step that was abandoned, from 1.
     unstable_at: Option<u32>,

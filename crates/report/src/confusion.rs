@@ -17,8 +17,10 @@ const TOP: f64 = 96.0;
 
 /// For each value of an output, how often each value came in its place.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Confusion {
     pub output: String,
+    /// Whether the rows are those held out, and not those of the training.
     pub held_out: bool,
     pub values: Vec<u64>,
     /// A row for each wanted value, with a number for each value found.

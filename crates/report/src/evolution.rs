@@ -12,14 +12,19 @@ use nbc_swarm::evolve::{ArchiveStats, Counts, Search};
 
 /// A run after a generation, as a line of `progress.jsonl`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct EvolutionLine {
+    /// Generations done.
     pub generation: u32,
     #[serde(flatten)]
     pub counts: Counts,
+    /// Filled niches.
     pub filled: usize,
+    /// Filled niches as a share of all.
     pub coverage: f64,
     /// Sum over filled niches of the best first fitness.
     pub qd_score: f64,
+    /// Behaviors found.
     pub behaviors: usize,
     /// The fitnesses of the best of each behavior.
     pub best: BTreeMap<String, [f64; 2]>,

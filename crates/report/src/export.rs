@@ -11,7 +11,9 @@ use nbc_base::model::{
 use nbc_swarm::evolve::{Elite, NicheKey};
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Elites<'a> {
+    /// The declaration's name.
     run: &'a str,
     #[serde(skip)]
     stimuli: usize,
@@ -21,34 +23,45 @@ pub struct Elites<'a> {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct AxisData {
     name: &'static str,
     bins: usize,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct EliteData<'a> {
     seed: u64,
     /// The bin on each axis, from 0.
     niche: &'a [u16],
     behavior: Behavior,
+    /// The gate, such as `nand`.
     function: &'static str,
+    /// The two fitnesses of the run's objective.
     fitness: [f64; 2],
     displacement: Displacements,
     #[serde(flatten)]
     body: BodyData<'a>,
+    /// The generation in which it was born.
     generation: u32,
+    /// Bodies tried up to and with it.
     evaluations: u64,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct BodyData<'a> {
     width: usize,
     height: usize,
     voxels: usize,
+    /// Voxels that swell with time.
     actuators: usize,
+    /// Voxels that respond to a stimulus.
     sensors: usize,
+    /// Rows of material codes, top row first; 0 is empty.
     body: Vec<String>,
+    /// The materials of the codes from 1 on, if they are not the paper's.
     #[serde(skip_serializing_if = "Option::is_none")]
     materials: Option<&'a [Material]>,
 }

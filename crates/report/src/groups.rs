@@ -15,20 +15,26 @@ use nbc_swarm::evolve::Champion;
 const THRESHOLDS: [(f64, &str); 3] = [(0.05, "*"), (0.01, "**"), (0.001, "***")];
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct BehaviorGroup {
     /// Such as `XXYY` for LLRR and RRLL.
     pub name: &'static str,
+    /// Stimuli that its robots answer.
     pub stimuli: usize,
+    /// Its place in the paper's order of difficulty, from 0 to 3.
     pub difficulty: usize,
     /// The mean distance in voxels of the champions of each run that found any, one for each behavior found.
     pub values: Vec<f64>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct GroupComparison {
+    /// Their places among the groups.
     pub groups: [usize; 2],
     /// The probability, by the exact two-sided test, that values this far apart come from the same distribution.
     pub p: f64,
+    /// After Holm's correction.
     pub p_adjusted: f64,
     /// The smallest adjusted value that is possible with so few runs.
     pub p_least: f64,

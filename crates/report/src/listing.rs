@@ -13,18 +13,22 @@ use nbc_base::model::{Behavior, Displacements, Library, Palette, Pattern, Robot,
 use nbc_swarm::Selected;
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Listing {
     pub name: String,
     pub behavior: String,
     pub function: &'static str,
+    /// Columns and rows, such as `5x5`.
     #[serde(rename = "box")]
     pub bounds: String,
+    /// Cycles for which a pattern must be held.
     pub clock: u32,
     /// The longest settle time in cycles; none if it was not measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub settle: Option<u32>,
     /// The smallest displacement in voxels per cycle.
     pub margin: f64,
+    /// How far worlds may differ before it makes errors, if that was measured.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<SafeRadius>,
     /// The share of random switches with a wrong output.
@@ -167,11 +171,13 @@ fn settles(robot: &Robot) -> String {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Answer {
     /// Its four letters.
     pub behavior: String,
     pub function: &'static str,
     pub outcome: Outcome,
+    /// Why no robot was added.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub reason: Option<String>,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -179,6 +185,7 @@ pub struct Answer {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Outcome {
     Added,

@@ -8,21 +8,26 @@ use nbc_circuit::timing::{ClockPath, ClockTimes, InputTimes, PathEnds, WhyKept};
 use nbc_circuit::{CellKind, FlipFlop, Latch, NetId, Netlist, Timing, Unphased};
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PhaseTiming {
     pub latches: Vec<LatchReport>,
     pub flip_flops: Vec<FlipFlopReport>,
+    /// The inputs that open and close latches.
     pub clocks: Vec<ClockReport>,
     pub unphased: Vec<UnphasedReport>,
+    /// Memory that did not become latches of one robot, although these were requested.
     pub kept: Vec<KeptReport>,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct KeptReport {
     pub net: String,
     pub why: &'static str,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LatchReport {
     pub nets: Vec<String>,
     pub enable: String,
@@ -31,18 +36,24 @@ pub struct LatchReport {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FlipFlopReport {
     /// The nets that keep the bit of its second latch.
     pub nets: Vec<String>,
     pub clock: String,
+    /// Whether it takes its data when the clock rises.
     pub rising: bool,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClockReport {
     pub clock: String,
+    /// The fewest cycles for which it must be high.
     pub high: u32,
+    /// The fewest cycles for which it must be low.
     pub low: u32,
+    /// The fewest cycles from one rise to the next.
     pub period: u32,
     /// The least time high and low, if both are the same.
     #[serde(skip)]
@@ -50,20 +61,26 @@ pub struct ClockReport {
     /// The longest time after opening at which data still arrive at a latch.
     pub borrowed: u32,
     pub inputs: Vec<InputReport>,
+    /// The slowest path of each kind.
     pub paths: Vec<PathReport>,
     /// The latches whose data may change before they are closed.
     pub races: Vec<Vec<String>>,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct InputReport {
     pub input: String,
+    /// Whether the edge is the one at which the clock rises.
     pub rises: bool,
+    /// Cycles for which the input must be stable before the edge.
     pub setup: u32,
+    /// Cycles for which it must be stable after the edge.
     pub hold: u32,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathReport {
     pub ends: &'static str,
     pub cycles: u32,
@@ -72,6 +89,7 @@ pub struct PathReport {
 
 /// A loop that a change is assumed to pass twice.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct UnphasedReport {
     pub nets: Vec<String>,
     pub why: String,

@@ -6,9 +6,11 @@ use crate::SwarmTiming;
 use nbc_swarm::{SimulationResult, SwarmTrace, TestVerdict};
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RunResult<'a> {
     pub program: &'static str,
     pub version: &'static str,
+    /// The source file as the user wrote it.
     pub source: &'a str,
     /// Whether every test passed, and no robot of a simulation failed.
     pub passed: bool,
@@ -17,19 +19,24 @@ pub struct RunResult<'a> {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SwarmResult<'a, T> {
     #[serde(flatten)]
     pub outcome: &'a T,
     pub robots: Vec<RobotResult<'a>>,
     pub timing: SwarmTiming,
+    /// Pictures, waveforms and tables.
     pub files: Vec<String>,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotResult<'a> {
     pub net: &'a str,
+    /// The gate, such as `nand`.
     pub function: &'static str,
     pub robot: &'a str,
+    /// The nets sensed as its stimuli.
     pub senses: &'a [String],
     /// Voxels between its start and the end of the last cycle; null if its simulation was given up.
     pub displacement: Option<f64>,

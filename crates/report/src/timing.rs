@@ -14,6 +14,7 @@ use nbc_swarm::{Assembly, Member};
 
 /// The static timing of a swarm, in cycles after its inputs switched.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SwarmTiming {
     /// Cycles after which every net is correct.
     pub hold: u32,
@@ -30,6 +31,7 @@ pub struct SwarmTiming {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PathStep {
     pub net: String,
     /// The robot that drives it; none for an input.
@@ -38,6 +40,7 @@ pub struct PathStep {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotTiming {
     pub net: String,
     pub robot: String,
@@ -51,6 +54,7 @@ pub struct RobotTiming {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct MemoryTimes {
     pub nets: Vec<String>,
     /// The length of the pulse that sets it, in cycles.

@@ -8,13 +8,16 @@ use nbc_circuit::NetId;
 use nbc_circuit::waves::WaveMachine;
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WaveTiming {
+    /// Cycles of a step.
     pub step: usize,
     /// Cycles of a beat, for which robots sense the same.
     pub beat: u32,
     /// The number of threads: machines that run at once on the same robots.
     pub threads: u32,
     pub robots: usize,
+    /// Robots that only delay a net.
     pub buffers: usize,
     pub has_fewest_buffers: bool,
     /// The steps that each thread makes in a second of the robots' time.
@@ -30,12 +33,14 @@ pub struct WaveTiming {
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct NetPhase {
     pub net: String,
     pub phase: i64,
 }
 
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Chain {
     pub net: String,
     pub robots: usize,

@@ -1,9 +1,7 @@
 //! A parsed and checked source.
 
-use serde_json::Value;
-
 use crate::contents;
-use nbc_base::diag::{Diagnostic, Diagnostics, json};
+use nbc_base::diag::{Diagnostic, DiagnosticReport, Diagnostics, json};
 use nbc_base::model::{Instance, Program};
 use nbc_base::source::{FileId, ForeignCircuit, MemoryWorld, SourceWorld, Sources, Span};
 use nbc_circuit::NetWidths;
@@ -78,7 +76,7 @@ impl Checked {
         Diagnostics { list, sources: self.sources.clone() }
     }
 
-    pub fn json(&self) -> Vec<Value> {
+    pub fn json(&self) -> Vec<DiagnosticReport> {
         json(&self.diagnostics, &self.sources)
     }
 

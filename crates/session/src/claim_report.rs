@@ -16,6 +16,7 @@ use nbc_lang::syntax;
 
 /// A claim, or the properties of a model.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct ClaimReport {
     file: String,
     #[serde(skip_serializing_if = "Option::is_none")]

@@ -25,15 +25,21 @@ pub struct Hardening {
 
 /// The robots to leave out, and what was tried.
 #[derive(Clone, Debug, Default, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Hardened {
+    /// The robots that are left out.
     pub without: Vec<String>,
+    /// Whether the tests pass in enough worlds.
     pub reached: bool,
+    /// The choices that were tried, in order.
     pub tried: Vec<HardeningStep>,
 }
 
 /// A choice of robots and its yield.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct HardeningStep {
+    /// The robots that are left out.
     pub without: Vec<String>,
     /// Of the largest swarm.
     pub robots: usize,

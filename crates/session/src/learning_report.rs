@@ -14,6 +14,7 @@ use nbc_learn::{Accuracy, Bits, Examples};
 
 /// What was learned.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct LearningReport {
     circuit: String,
     inputs: Vec<Column>,
@@ -22,31 +23,39 @@ pub struct LearningReport {
     ands: usize,
     cells: usize,
     depth: u32,
+    /// The rows that the circuit was learned from.
     training: AccuracyReport,
     /// `None` if no row was held out.
     #[serde(skip_serializing_if = "Option::is_none")]
     held_out: Option<AccuracyReport>,
     bits: Vec<BitReport>,
+    /// Of a circuit with one output of few values.
     #[serde(skip_serializing_if = "Option::is_none")]
     confusion: Option<Confusion>,
     seconds: f64,
 }
 
 #[derive(Clone, Copy, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct AccuracyReport {
     right: usize,
     rows: usize,
+    /// The share of the rows in which every output is correct.
     accuracy: f64,
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct BitReport {
     name: String,
+    /// What the bit is, in words.
     learned: String,
+    /// The methods that were tried, with their accuracy in rows that they had not seen.
     tried: Vec<TriedReport>,
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct TriedReport {
     method: String,
     accuracy: f64,

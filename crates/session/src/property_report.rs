@@ -10,6 +10,7 @@ use nbc_circuit::{Clause, ValuedBit};
 
 /// A property and what is known of it.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct PropertyReport {
     /// As written, or the name of a bad state of a model.
     pub property: String,
@@ -17,6 +18,7 @@ pub struct PropertyReport {
     #[serde(skip_serializing_if = "Option::is_none")]
     pub line: Option<usize>,
     /// `proved`, `refuted` or `undecided`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["proved", "refuted", "undecided"])))]
     pub verdict: &'static str,
     /// `induction` or `invariant`.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -24,6 +26,7 @@ pub struct PropertyReport {
     /// Steps of the induction or of the run, or the first steps in which it is known to hold.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<usize>,
+    /// Clauses that hold in every step.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub invariant: Option<Vec<String>>,
     /// Numbers of the other properties that this proof needs, from 0.

@@ -25,15 +25,18 @@ pub struct Recognition {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RecognitionReport {
     pub schedule: String,
     pub bodies: Vec<RecognizingBody>,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RecognizingBody {
     pub evolution: String,
     pub seed: u64,
+    /// Rows of material codes, top row first.
     pub body: Vec<String>,
     /// Least distance before the images of its search, in voxels.
     pub least: f64,
@@ -45,9 +48,11 @@ pub struct RecognizingBody {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RecognizedSet {
     pub set: String,
     /// The right way, `left` or `right`.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["left", "right"])))]
     pub way: &'static str,
     pub correct: usize,
     pub images: usize,

@@ -16,34 +16,44 @@ const SHOWN: usize = 8;
 
 /// The result of a synthesis.
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SynthesisReport {
     cells: usize,
     by_function: BTreeMap<&'static str, usize>,
+    /// Cells on the longest path.
     depth: u32,
     inputs: usize,
     outputs: usize,
+    /// Registers.
     latches: usize,
+    /// Registers that the circuit does not need.
     removed: RemovedReport,
     proved: bool,
     proof: ProofReport,
     seconds: f64,
+    /// Cells that each of these functions would save.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     what_if: BTreeMap<String, i64>,
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct ProofReport {
     /// `file`, or `slang` for what it reads of Verilog.
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["file", "slang"])))]
     from: &'static str,
     /// Version of Yosys, in which slang reads.
     #[serde(skip_serializing_if = "Option::is_none")]
     version: Option<String>,
-    /// The result of a second reader.
+    /// What Yosys' own reader makes of the file: the same, which is proved (`alike`); the same in `steps` random steps
+    /// (`equal`); something else (`different`); a circuit with feedback (`not compared`); or nothing (`unread`).
     #[serde(skip_serializing_if = "Option::is_none")]
+    #[cfg_attr(feature = "schema", schemars(extend("enum" = ["alike", "equal", "different", "not compared", "unread"])))]
     second: Option<&'static str>,
     /// Random steps in which both readings are equal, if more is not known.
     #[serde(skip_serializing_if = "Option::is_none")]
     steps: Option<usize>,
+    /// Whether the cells of registers are not proved to store what the registers store.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     unproved_registers: bool,
     #[serde(skip)]
@@ -51,9 +61,13 @@ struct ProofReport {
 }
 
 #[derive(Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 struct RemovedReport {
+    /// Those that keep their start value, with this value.
     constant: BTreeMap<String, u8>,
+    /// Those that always equal another, with the other.
     equal: BTreeMap<String, String>,
+    /// Those that no output depends on.
     unused: Vec<String>,
 }
 

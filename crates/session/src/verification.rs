@@ -8,14 +8,17 @@ use nbc_swarm::{Executor, Measurement, Task, WorldSample, safe_radius};
 
 /// A robot compared with its file.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Verified<'a> {
     pub name: &'a str,
     pub verified: bool,
+    /// The fields that differ from its file.
     pub differs: Vec<String>,
 }
 
 /// How far worlds may differ before a robot makes errors.
 #[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Reach<'a> {
     pub name: &'a str,
     #[serde(flatten)]

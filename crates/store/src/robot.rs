@@ -16,11 +16,14 @@ pub const FORMAT: u32 = 2;
 
 /// A robot as data: the fields of its file, in the order in which they are written.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct RobotRecord {
+    /// The version of robot files.
     format: u32,
     name: String,
     behavior: Behavior,
+    /// Rows of material codes, top row first; 0 is empty.
     body: Vec<String>,
     /// In order of their codes; left out when they are the paper's.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -34,6 +37,8 @@ pub struct RobotRecord {
         serialize_with = "singleton_map_recursive::serialize",
         deserialize_with = "genotype"
     )]
+    /// The network that the body was developed from.
+    #[cfg_attr(feature = "schema", schemars(with = "serde_json::Map<String, serde_json::Value>"))]
     genotype: Option<Genotype>,
 }
 

@@ -6,6 +6,7 @@ use crate::{RobotFault, SwarmTrace, WeakRobot};
 use nbc_base::model::{Column, Simulation, Value};
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct SimulationResult {
     pub file: String,
     pub line: usize,
@@ -24,6 +25,7 @@ pub struct SimulationResult {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RowActivity {
     /// Its number among the rows of the schedule, from 1.
     pub row: usize,

@@ -1,8 +1,10 @@
 //! A share of successes with its confidence interval.
 
-use serde::{Serialize, Serializer, ser::SerializeStruct};
+use serde::Serialize;
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+#[serde(into = "Yield")]
 pub struct Proportion {
     pub successes: usize,
     pub attempts: usize,
@@ -29,16 +31,21 @@ impl Proportion {
     }
 }
 
-impl Serialize for Proportion {
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let [low, high] = self.interval();
-        let mut record = serializer.serialize_struct("Proportion", 5)?;
-        record.serialize_field("passed", &self.successes)?;
-        record.serialize_field("worlds", &self.attempts)?;
-        record.serialize_field("share", &self.share())?;
-        record.serialize_field("low", &low)?;
-        record.serialize_field("high", &high)?;
-        record.end()
+/// The worlds in which a test passes, and the 95 % interval of their share.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct Yield {
+    passed: usize,
+    worlds: usize,
+    share: f64,
+    low: f64,
+    high: f64,
+}
+
+impl From<Proportion> for Yield {
+    fn from(proportion: Proportion) -> Self {
+        let [low, high] = proportion.interval();
+        Self { passed: proportion.successes, worlds: proportion.attempts, share: proportion.share(), low, high }
     }
 }
 

@@ -12,6 +12,7 @@ use nbc_base::model::{PhysicsWorld, Variation};
 /// A robot's displacement in the correct direction over a cycle in which its output should be correct; negative if
 /// the output was wrong.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotMargin {
     pub net: String,
     pub robot: String,
@@ -58,6 +59,7 @@ impl WorldTrial {
 
 /// A test in a sample of worlds.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Robustness {
     pub file: String,
     pub line: usize,
@@ -83,6 +85,7 @@ pub struct Robustness {
 
 /// A robot that fails first in some worlds.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct FailingRobot {
     pub net: String,
     pub robot: String,
@@ -90,14 +93,18 @@ pub struct FailingRobot {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorldMargin {
+    /// The number of the world in the sample, from 0.
     pub world: usize,
     #[serde(flatten)]
     pub margin: RobotMargin,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WorldFailure {
+    /// The number of the world in the sample, from 0.
     pub world: usize,
     pub physics: PhysicsWorld,
     /// The row that failed first.

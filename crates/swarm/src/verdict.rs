@@ -6,6 +6,7 @@ use crate::{RobotFault, WeakRobot};
 use nbc_base::model::{Column, RowSource, Value};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum Level {
     /// Gates without physics, each of which takes one time step.
@@ -23,11 +24,13 @@ impl Level {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct TestVerdict {
     pub file: String,
     pub line: usize,
     pub circuit: String,
     pub title: String,
+    /// The declared swarm, if it is one.
     pub swarm: Option<String>,
     /// The world of the swarm; none at the level of logic, which has no worlds.
     pub world: Option<String>,
@@ -37,12 +40,15 @@ pub struct TestVerdict {
     pub level: Level,
     /// Whether all rows passed, or as many as the test asks for.
     pub passed: bool,
+    /// The file of its rows, if the source does not have them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub rows_from: Option<RowSource>,
     pub inputs: Vec<Column>,
     pub outputs: Vec<Column>,
+    /// Robots that make errors or have a thin margin.
     pub weak_robots: Vec<WeakRobot>,
     pub rows: Vec<RowVerdict>,
+    /// What the environment of the test wrote as text.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub printed: Option<String>,
     /// How a test for ever was decided, in words: `proved by induction over 1 step`.
@@ -67,6 +73,7 @@ impl TestVerdict {
 }
 
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RowVerdict {
     /// Its number among the rows of the source, from 1; both halves of a pulse have the same.
     pub row: usize,
@@ -105,6 +112,7 @@ pub struct RowVerdict {
 
 /// A robot whose output was not its function of its stimuli.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WrongOutput {
     pub net: String,
     pub robot: String,

@@ -10,9 +10,11 @@ pub const THIN_MARGIN: f64 = 0.02;
 
 /// A robot of a swarm with errors or a thin margin.
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct WeakRobot {
     pub robot: String,
     pub nets: Vec<String>,
+    /// Wrong outputs as a share of the switches.
     pub error_rate: f64,
     /// Its margin in voxels a cycle.
     pub margin: f64,

@@ -9,6 +9,7 @@ use nbc_base::model::FaultKind;
 
 /// The robot of a swarm whose simulation failed first. The swarm has no outputs from its cycle on.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RobotFault {
     pub net: String,
     pub robot: String,

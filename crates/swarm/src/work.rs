@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// The env steps of an evaluation, and those saved compared with a full evaluation of everything.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Work {
     pub env_steps: u64,
     /// Env steps left out because their result could not have mattered.

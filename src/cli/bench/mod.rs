@@ -39,6 +39,7 @@ pub struct BenchArguments {
 }
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Case {
     #[serde(rename = "box")]
     bounds: String,
@@ -56,8 +57,11 @@ struct Case {
 }
 
 #[derive(Serialize)]
-struct Figures {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Figures {
+    /// Processor and instructions.
     machine: String,
+    /// Lanes.
     width: usize,
     cases: Vec<Case>,
     #[serde(skip_serializing_if = "Option::is_none")]

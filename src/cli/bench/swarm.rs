@@ -23,6 +23,7 @@ const HOLD: usize = 8;
 const CYCLES: usize = 1000;
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct SwarmFigures {
     robots: usize,
     /// Lane-substeps per second on one core.

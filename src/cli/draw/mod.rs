@@ -19,6 +19,8 @@ pub(super) mod wording;
 
 use std::path::Path;
 
+use serde::Serialize;
+
 use crate::cli::options::robots::RobotsArguments;
 use crate::cli::{Context, Failure, OutputFormat, Status, robots};
 use nbc_base::source::Sources;
@@ -35,6 +37,14 @@ pub(super) use arguments::DrawArguments;
 pub(super) use evolution_run::{is_run, read as read_run};
 pub(super) use run_pictures::run_page;
 
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct DrawnFile {
+    file: String,
+    /// As in `--as`.
+    kind: &'static str,
+}
+
 impl DrawArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let Self { kind: Kind(kind), output, request } = self;
@@ -46,7 +56,7 @@ impl DrawArguments {
         context.tell(&faults, &Sources::default());
         context.wrote(&output);
         if context.format == OutputFormat::Json {
-            let drawn = serde_json::json!({ "file": output.display().to_string(), "kind": kind.word });
+            let drawn = DrawnFile { file: output.display().to_string(), kind: kind.word };
             context.print_json(Schema::Drawn, &drawn)?;
         }
         Ok(Status::Done)

@@ -39,7 +39,8 @@ const LONG: u64 = 20_000;
 const SAMPLE: usize = 8;
 
 #[derive(Default, Serialize)]
-struct Results {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct Results {
     runs: Vec<Ended>,
     comparisons: Vec<Comparison>,
     #[serde(skip)]
@@ -47,6 +48,7 @@ struct Results {
 }
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct Comparison {
     run: String,
     seeds: usize,

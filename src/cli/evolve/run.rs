@@ -22,6 +22,7 @@ use nbc_swarm::evolve::Candidate;
 use nbc_swarm::{Task, TaskResult, Work};
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub(super) struct Ended {
     run: String,
     seed: u64,

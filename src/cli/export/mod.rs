@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use serde::Serialize;
 
+use crate::cli::documents::RobotList;
 use crate::cli::draw::{is_run, read_run};
 use crate::cli::options::new_path::new_path;
 use crate::cli::wording;
@@ -40,11 +41,6 @@ enum Target {
     Json,
 }
 
-#[derive(Serialize)]
-struct Robots {
-    robots: Vec<RobotRecord>,
-}
-
 impl ExportArguments {
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
         let (target, what) = (self.target(context.format)?, Path::new(&self.what));
@@ -54,7 +50,7 @@ impl ExportArguments {
             self.write(target, Schema::Elites, &elites, || elites.csv(), context)?;
         } else {
             let library = self.library()?;
-            let robots = Robots { robots: library.robots.iter().map(RobotRecord::of).collect() };
+            let robots = RobotList { robots: library.robots.iter().map(RobotRecord::of).collect() };
             self.write(target, Schema::Robots, &robots, || robots_csv(&library), context)?;
         }
         Ok(Status::Done)

@@ -24,7 +24,15 @@ pub struct DevicesArguments {
 }
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(in crate::cli) struct DeviceList {
+    devices: Vec<DeviceReport>,
+}
+
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct DeviceReport {
+    /// As in `--device gpu:NUMBER`.
     number: usize,
     name: String,
     kind: &'static str,
@@ -33,15 +41,20 @@ struct DeviceReport {
     /// In bytes.
     memory: u64,
     usable: bool,
+    /// Why it cannot be used.
     problem: Option<String>,
+    /// The comparisons with this processor.
     boxes: Vec<BoxReport>,
 }
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct BoxReport {
     #[serde(rename = "box")]
     bounds: String,
+    /// Simulations compared to the last bit.
     trials: usize,
+    /// Those that differ.
     different: usize,
 }
 
@@ -55,10 +68,10 @@ impl DevicesArguments {
             bar.add(1);
             report
         };
-        let reports: Vec<DeviceReport> = devices.iter().map(report).collect();
+        let list = DeviceList { devices: devices.iter().map(report).collect() };
         drop(bar);
-        context.print_result(Schema::Devices, &serde_json::json!({ "devices": reports }), || describe(&reports))?;
-        Ok(if reports.iter().all(|report| report.usable) { Status::Done } else { Status::TestFailed })
+        context.print_result(Schema::Devices, &list, || describe(&list.devices))?;
+        Ok(if list.devices.iter().all(|report| report.usable) { Status::Done } else { Status::TestFailed })
     }
 }
 

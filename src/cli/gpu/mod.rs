@@ -1,6 +1,6 @@
 //! OpenCL devices: `nbc devices`, the device that a command uses, and its speed.
 
-mod devices;
+pub(in crate::cli) mod devices;
 mod open_device;
 mod speed;
 pub(in crate::cli) mod wording;

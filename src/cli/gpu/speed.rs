@@ -15,6 +15,7 @@ const ROBOTS: [usize; 5] = [64, 512, 2048, 8192, 32_768];
 const PATIENCE: Duration = Duration::from_secs(4);
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct DeviceFigures {
     name: String,
     driver: String,
@@ -22,6 +23,7 @@ pub struct DeviceFigures {
 }
 
 #[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
 struct DeviceCase {
     #[serde(rename = "box")]
     bounds: String,

@@ -66,7 +66,8 @@ pub struct AddArguments {
 }
 
 #[derive(Serialize)]
-struct Answers {
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(in crate::cli) struct Answers {
     folder: String,
     answers: Vec<Answer>,
 }

@@ -1,6 +1,6 @@
 //! `nbc library`: the robots that circuits are made of.
 
-mod add;
+pub(super) mod add;
 mod measured;
 mod radius;
 mod verify;
@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand};
 
+use crate::cli::documents::RobotList;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::queue::QueueArguments;
 use crate::cli::robots::{named, robots_of};
@@ -77,8 +78,8 @@ impl LibraryArguments {
 }
 
 fn list(library: &Library, context: &mut Context) -> Result<Status, Failure> {
-    let list = Listing::all(library);
-    context.print_result(Schema::Library, &serde_json::json!({ "robots": list }), || Listing::table(&list))?;
+    let list = RobotList { robots: Listing::all(library) };
+    context.print_result(Schema::Library, &list, || Listing::table(&list.robots))?;
     Ok(Status::Done)
 }
 

@@ -5,6 +5,7 @@ use std::path::Path;
 use clap::Args;
 use rayon::prelude::*;
 
+use crate::cli::documents::RobotList;
 use crate::cli::options::number::number;
 use crate::cli::robots::{robot_paths, robots};
 use crate::cli::{Context, Failure, OutputFormat, Progress, Status};
@@ -60,7 +61,7 @@ impl RadiusArguments {
         }
         let failed = found.iter().filter(|reach| !reach.verified && !self.write).count();
         match context.format {
-            OutputFormat::Json => context.print_json(Schema::Radii, &serde_json::json!({ "robots": found }))?,
+            OutputFormat::Json => context.print_json(Schema::Radii, &RobotList { robots: found })?,
             OutputFormat::Text => {
                 for Reach { name, found: SafeRadius { radius, error_rate, .. }, verified } in &found {
                     let differs = if *verified { "" } else { ", unlike its file" };

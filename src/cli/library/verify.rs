@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::cli::documents::RobotList;
 use crate::cli::in_order::in_order;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::queue::QueueArguments;
@@ -42,7 +43,7 @@ pub fn verify(
     }
     let failed = findings.iter().filter(|finding| !finding.verified).count();
     match context.format {
-        OutputFormat::Json => context.print_json(Schema::Verify, &serde_json::json!({ "robots": findings }))?,
+        OutputFormat::Json => context.print_json(Schema::Verify, &RobotList { robots: findings })?,
         OutputFormat::Text => {
             for finding in &findings {
                 let verdict =

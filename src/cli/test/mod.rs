@@ -1,14 +1,16 @@
 //! `nbc test`: files' tests, at the level of logic or in full physics.
 
 mod keeping;
-mod worlds;
+pub(super) mod worlds;
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use clap::Args;
+use serde::Serialize;
 
+use crate::cli::documents::Interrupted;
 use crate::cli::in_order::in_order;
 use crate::cli::options::device::DeviceArguments;
 use crate::cli::options::files::FilesArguments;
@@ -82,6 +84,17 @@ pub struct TestArguments {
 /// A case with the index of its file on the command line.
 type Numbered = (usize, TestCase);
 
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(super) struct TestResults {
+    /// Whether every test passed.
+    passed: bool,
+    /// Those that are complete.
+    tests: Vec<TestVerdict>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interrupted: Option<Interrupted>,
+}
+
 impl TestArguments {
     /// Runs the tests in parallel, and prints each result as soon as those before it are done.
     pub fn run(self, context: &mut Context) -> Result<Status, Failure> {
@@ -135,11 +148,8 @@ impl TestArguments {
         match context.format {
             OutputFormat::Json => {
                 let passed = failed == 0 && left.is_none();
-                let mut value = serde_json::json!({ "passed": passed, "tests": verdicts });
-                if let Some(left) = left {
-                    value["interrupted"] = serde_json::json!({ "left": left });
-                }
-                context.print_json(Schema::Test, &value)?
+                let interrupted = left.map(|left| Interrupted { left });
+                context.print_json(Schema::Test, &TestResults { passed, tests: verdicts, interrupted })?
             }
             OutputFormat::Text => {
                 let left = left.map_or(String::new(), |left| format!(", {left} interrupted or not begun"));

@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use serde::Serialize;
 
+use crate::cli::documents::Interrupted;
 use crate::cli::options::new_path::picture_path;
 use crate::cli::options::number::number;
 use crate::cli::wording;
@@ -41,6 +43,18 @@ pub(super) struct WorldsArguments {
     picture: Option<PathBuf>,
 }
 
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub(in crate::cli) struct WorldResults<'a> {
+    /// The number of worlds of each sample.
+    worlds: usize,
+    seed: u64,
+    /// Those that are complete.
+    tests: &'a [Robustness],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    interrupted: Option<Interrupted>,
+}
+
 impl WorldsArguments {
     pub(super) fn is_used(&self) -> bool {
         !self.vary.is_empty()
@@ -68,11 +82,9 @@ impl WorldsArguments {
         })?;
         let left = yields.experiments.len() - found.len();
         if context.format == OutputFormat::Json {
-            let mut value = serde_json::json!({ "worlds": self.count(), "seed": self.seed, "tests": found });
-            if left > 0 {
-                value["interrupted"] = serde_json::json!({ "left": left });
-            }
-            context.print_json(Schema::Robustness, &value)?;
+            let interrupted = (left > 0).then_some(Interrupted { left });
+            let results = WorldResults { worlds: self.count(), seed: self.seed, tests: &found, interrupted };
+            context.print_json(Schema::Robustness, &results)?;
         }
         if let Some(path) = self.picture.as_ref().filter(|_| left == 0) {
             context.write_picture(path, &self.draw(&found))?;

@@ -10,6 +10,7 @@ use super::Severity;
 macro_rules! codes {
     ($($name:ident = $word:literal, $severity:ident: $meaning:literal;)*) => {
         #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "String", inline))]
         pub enum Code {
             $($name,)*
         }

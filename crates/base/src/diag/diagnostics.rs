@@ -3,9 +3,7 @@
 
 use std::fmt;
 
-use serde_json::Value;
-
-use super::{Diagnostic, json, visible};
+use super::{Diagnostic, DiagnosticReport, json, visible};
 use crate::source::{Sources, Span};
 
 /// What is wrong with the user's input, with the texts that the places are in.
@@ -17,7 +15,7 @@ pub struct Diagnostics {
 }
 
 impl Diagnostics {
-    pub fn json(&self) -> Vec<Value> {
+    pub fn json(&self) -> Vec<DiagnosticReport> {
         json(&self.list, &self.sources)
     }
 

@@ -1,61 +1,114 @@
-//! Diagnostics as JSON: the data of [`Diagnostic`] with file names, lines and columns.
+//! Diagnostics as data for programs: those of [`Diagnostic`] with file names, lines and columns.
 
-use serde_json::{Value, json};
+use serde::Serialize;
 
-use super::{Diagnostic, Label};
+use super::{Code, Diagnostic, Label, Severity};
 use crate::source::{Sources, Span};
 
-/// All diagnostics in their order, as `docs/schema/diagnostics.json` describes them: a place is `file`, `start` and
-/// `end`, each with its byte from 0, and its line and column from 1.
-pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<Value> {
-    diagnostics.iter().map(|diagnostic| one(diagnostic, sources)).collect()
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+pub struct DiagnosticReport {
+    /// `nbc explain CODE` tells more.
+    code: Code,
+    severity: Severity,
+    message: String,
+    /// What to do about it.
+    help: Option<String>,
+    /// The places, the main one first.
+    labels: Vec<PlaceReport>,
+    /// Notes at other places.
+    related: Vec<PlaceReport>,
+    /// Edits that do what the help says, if they certainly remove the fault.
+    fix: Option<FixReport>,
 }
 
-fn one(diagnostic: &Diagnostic, sources: &Sources) -> Value {
-    let places =
-        |labels: &[Label]| -> Value { labels.iter().map(|label| place(label.span, &label.text, sources)).collect() };
-    json!({
-        "code": diagnostic.code,
-        "severity": diagnostic.severity,
-        "message": diagnostic.message,
-        "help": diagnostic.help,
-        "labels": places(&diagnostic.labels),
-        "related": places(&diagnostic.related),
-        "fix": diagnostic.fix.as_ref().map(|fix| {
-            let edits: Value = fix.edits.iter().map(|edit| place(edit.span, &edit.text, sources)).collect();
-            json!({ "title": fix.title, "edits": edits })
-        }),
-    })
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct FixReport {
+    /// What the edits do, for a menu.
+    title: String,
+    /// Replacements that do not overlap, in order of place.
+    edits: Vec<PlaceReport>,
 }
 
-/// A place with a text: its label, or its replacement.
-fn place(span: Span, text: &str, sources: &Sources) -> Value {
-    let file = sources.file(span.file);
-    let end = |byte: u32| {
-        let place = file.line_column(byte as usize);
-        json!({ "byte": byte, "line": place.line, "column": place.column })
-    };
-    json!({ "text": text, "file": file.name, "start": end(span.start), "end": end(span.end) })
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct PlaceReport {
+    /// What is said of the place; in an edit, the text to write there.
+    text: String,
+    file: String,
+    start: PositionReport,
+    /// One past the last character.
+    end: PositionReport,
+}
+
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct PositionReport {
+    /// From 0.
+    byte: u32,
+    /// From 1.
+    line: usize,
+    /// From 1, in characters.
+    column: usize,
+}
+
+/// All diagnostics in their order.
+pub fn json(diagnostics: &[Diagnostic], sources: &Sources) -> Vec<DiagnosticReport> {
+    diagnostics.iter().map(|diagnostic| DiagnosticReport::of(diagnostic, sources)).collect()
+}
+
+impl DiagnosticReport {
+    fn of(diagnostic: &Diagnostic, sources: &Sources) -> Self {
+        let place = |span: Span, text: &str| PlaceReport::of(span, text, sources);
+        let places = |labels: &[Label]| labels.iter().map(|label| place(label.span, &label.text)).collect();
+        Self {
+            code: diagnostic.code,
+            severity: diagnostic.severity,
+            message: diagnostic.message.clone(),
+            help: diagnostic.help.clone(),
+            labels: places(&diagnostic.labels),
+            related: places(&diagnostic.related),
+            fix: diagnostic.fix.as_ref().map(|fix| FixReport {
+                title: fix.title.clone(),
+                edits: fix.edits.iter().map(|edit| place(edit.span, &edit.text)).collect(),
+            }),
+        }
+    }
+}
+
+impl PlaceReport {
+    fn of(span: Span, text: &str, sources: &Sources) -> Self {
+        let file = sources.file(span.file);
+        let end = |byte: u32| {
+            let place = file.line_column(byte as usize);
+            PositionReport { byte, line: place.line, column: place.column }
+        };
+        Self { text: text.to_owned(), file: file.name.clone(), start: end(span.start), end: end(span.end) }
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use serde_json::{Value, json as value};
+
     use super::*;
-    use crate::diag::{Code, Fix};
+    use crate::diag::Fix;
 
     #[test]
     fn places_have_bytes_lines_and_columns() {
         let mut sources = Sources::default();
         let file = sources.add("a.nb", "circuit\n  é }\n");
         let diagnostic = Diagnostic::new(Code::Syntax, "unexpected `}`", Span::new(file, 13, 14), "here");
-        let written = json(std::slice::from_ref(&diagnostic), &sources).remove(0);
-        let label = &written["labels"][0];
-        assert_eq!(label["start"], json!({ "byte": 13, "line": 2, "column": 5 }));
-        assert_eq!(label["end"], json!({ "byte": 14, "line": 2, "column": 6 }));
-        assert_eq!(written["fix"], Value::Null);
+        let written = |one: &Diagnostic| serde_json::to_value(DiagnosticReport::of(one, &sources)).unwrap();
+        let first = written(&diagnostic);
+        let label = &first["labels"][0];
+        assert_eq!(label["start"], value!({ "byte": 13, "line": 2, "column": 5 }));
+        assert_eq!(label["end"], value!({ "byte": 14, "line": 2, "column": 6 }));
+        assert_eq!(first["fix"], Value::Null);
         let fixed = diagnostic.with_fix(Fix::replace(Span::new(file, 13, 14), "{"));
-        let fix = &json(&[fixed], &sources)[0]["fix"];
-        assert_eq!((&fix["title"], &fix["edits"][0]["text"]), (&json!("replace with `{`"), &json!("{")));
+        let fix = &written(&fixed)["fix"];
+        assert_eq!((&fix["title"], &fix["edits"][0]["text"]), (&value!("replace with `{`"), &value!("{")));
         assert_eq!(fix["edits"][0]["start"], label["start"]);
     }
 }

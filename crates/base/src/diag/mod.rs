@@ -22,7 +22,7 @@ pub use diagnostic::{Diagnostic, Label, Related};
 pub use diagnostics::Diagnostics;
 pub use file::{folder_error, io_words, similar_file};
 pub use fix::{Edit, Fix};
-pub use json::json;
+pub use json::{DiagnosticReport, json};
 pub use severity::Severity;
 pub use suggest::Suggestion;
 pub use visible::{is_hidden, visible, without_passwords};

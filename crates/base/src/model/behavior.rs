@@ -30,6 +30,7 @@ impl Direction {
 /// The directions under each pattern of two or three stimuli, counted as binary numbers with stimulus 1 first, written
 /// as letters: `RRRL` for the patterns 00, 01, 10, 11 (paper, section 3), eight for three stimuli.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(extend("pattern" = "^([LR]{4}){1,2}$")))]
 #[serde(try_from = "String", into = "String")]
 pub struct Behavior(Function);
 
@@ -113,6 +114,7 @@ impl From<Behavior> for String {
 /// Displacements in voxels, one for each pattern of two or three stimuli, counted as binary numbers with stimulus 1
 /// first.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub struct Displacements {
     stimuli: u8,

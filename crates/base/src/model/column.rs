@@ -8,6 +8,7 @@ use super::Enumeration;
 
 /// A port with its width: a column of a test, a waveform or a table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct Column {
     pub name: String,
     /// The width in bits, at least 1.

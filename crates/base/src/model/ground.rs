@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 /// There are two kinds: heights, whose columns repeat from the left end of the ground to the right, and cells of a
 /// file, which repeat around the place where robots start.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "GroundShape", into = "GroundShape")]
 pub struct GroundProfile {
     /// The rows of each column that are voxels; the bottom row is the lowest bit.
@@ -19,6 +20,7 @@ pub struct GroundProfile {
 
 /// A [`GroundProfile`] as it is written.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(untagged)]
 pub enum GroundShape {
     /// Heights above the lowest column; none if the ground is flat.

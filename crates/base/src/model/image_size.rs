@@ -6,6 +6,7 @@ use serde::{Deserialize, Serialize};
 
 /// The numbers of rows and of columns of an image. As data it is a list of both.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(from = "[usize; 2]", into = "[usize; 2]")]
 pub struct ImageSize {
     pub rows: usize,

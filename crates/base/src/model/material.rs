@@ -7,6 +7,7 @@ use super::{ImageSize, Pattern};
 
 /// A declared material: a name and a response.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "Record", into = "Record")]
 pub struct Material {
     /// The name in the program, unique in its palette.
@@ -93,28 +94,36 @@ impl MaterialKind {
 
 /// A material as data: one flat mapping with the language's fields, in their order.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, expecting = "a mapping with the fields of a material")]
 struct Record {
     name: String,
     kind: Word,
+    /// Of an actuator, in env steps.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     period: Option<u32>,
+    /// Of an actuator, in degrees.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     phase: Option<f64>,
+    /// Least and greatest width of an actuator.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     range: Option<[f64; 2]>,
-    /// Counted from 1.
+    /// Of a sensor, counted from 1.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     stimulus: Option<usize>,
+    /// Rows and columns of the image that a sensor senses.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     image: Option<ImageSize>,
+    /// Width of a sensor without its stimulus.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     absent: Option<f64>,
+    /// Width of a sensor with its stimulus.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     present: Option<f64>,
 }
 
 #[derive(Clone, Copy, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 enum Word {
     Rigid,

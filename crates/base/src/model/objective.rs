@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What makes a body better than another in its niche.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum SearchObjective {
     /// The paper's two fitnesses: the distance in the variable simulation, and the smallest distance in the fixed ones.

@@ -13,6 +13,7 @@ use super::{Drive, Function, ImageSize, Material, MaterialKind, Response};
 ///
 /// Palettes are equal when their materials have the same names and, to the bit, the same numbers.
 #[derive(Clone, Debug, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "Vec<Material>", into = "Vec<Material>")]
 pub struct Palette {
     materials: Vec<Material>,

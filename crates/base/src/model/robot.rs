@@ -29,6 +29,7 @@ impl Robot {
 
 /// The character of a robot as a gate, measured over switches of its inputs (docs/physics.md 14).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Character {
     /// Cycles for which an input pattern must be held so that the output is correct at the end of every hold.
@@ -36,12 +37,15 @@ pub struct Character {
     /// The number of random switches in which wrong outputs were counted.
     pub switches: u32,
     /// The share of `switches` with a wrong output at the end of a hold of `clock` cycles.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub error_rate: f64,
     /// The share of wrong cycles in holds whose output should not change.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub glitch_rate: f64,
     /// The smallest displacement in the correct direction at the end of a hold, in voxels per cycle; negative if an
     /// output was wrong.
     pub margin: f64,
+    /// Whether the body ever fell over.
     pub topples: bool,
     /// Settle times, one entry for each of the transitions between different patterns: 12 of two stimuli, 56 of
     /// three.
@@ -52,6 +56,7 @@ pub struct Character {
 
 /// How far a world may differ before a robot makes errors.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct SafeRadius {
     /// The largest changes of the worlds at radius 1, such as `friction=10%,gravity=5%`.
@@ -77,6 +82,7 @@ impl Character {
 
 /// The settle time of one input transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(try_from = "TransitionRecord", into = "TransitionRecord")]
 pub struct Transition {
     pub stimuli: usize,
@@ -88,6 +94,7 @@ pub struct Transition {
 
 /// A [`Transition`] as it is written: the patterns are digits.
 #[derive(Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 struct TransitionRecord {
     from: String,
@@ -116,6 +123,7 @@ impl TryFrom<TransitionRecord> for Transition {
 
 /// The provenance of a robot: enough to make it again.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Provenance {
     pub program: String,

@@ -24,6 +24,7 @@ pub struct CircuitTest {
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 pub struct RowSource {
     pub file: String,
     /// The share of the rows in percent that must pass, if not all must.

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use serde::ser::{Serialize, SerializeStruct, Serializer};
+use serde::Serialize;
 
 use super::{Column, Enumeration};
 
@@ -46,7 +46,9 @@ impl Base {
     }
 }
 
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(with = "ValueRecord"))]
+#[serde(into = "ValueRecord")]
 pub struct Value {
     /// The bits, most significant first; `None` is unchecked.
     pub bits: Vec<Option<bool>>,
@@ -113,13 +115,19 @@ impl fmt::Display for Value {
     }
 }
 
-impl Serialize for Value {
-    /// `{ "text": "4'd5", "bits": "0101" }`
-    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut value = serializer.serialize_struct("Value", 2)?;
-        value.serialize_field("text", &self.to_string())?;
-        value.serialize_field("bits", &self.digits())?;
-        value.end()
+/// A [`Value`] as data.
+#[derive(Serialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
+struct ValueRecord {
+    /// As the user writes it, such as `4'd5`.
+    text: String,
+    /// The most significant bit first; `-` where nothing is expected or a robot failed.
+    bits: String,
+}
+
+impl From<Value> for ValueRecord {
+    fn from(value: Value) -> Self {
+        Self { text: value.to_string(), bits: value.digits() }
     }
 }
 

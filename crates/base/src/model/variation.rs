@@ -11,6 +11,7 @@ use super::{PhysicsWorld, WorldFactors, WorldNoise};
 
 /// The largest changes of a sample of worlds. A factor varies to either side by a share of itself; noise is added.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(into = "BTreeMap<String, f64>", try_from = "BTreeMap<String, f64>")]
 pub struct Variation {
     /// The changes of the quantities, in the order of [`Variation::NAMES`].

@@ -220,6 +220,7 @@ pub(super) fn variation_amount(name: &str, found: &str, most: f64) -> String {
 
 /// The reason why a simulation failed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum FaultKind {
     /// Too many of the body's voxels overlap (docs/physics.md 9).

@@ -6,6 +6,7 @@ use super::GroundProfile;
 
 /// A world to simulate in: its physics, and what goes wrong there. The default is the paper's.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct PhysicsWorld {
     pub factors: WorldFactors,
@@ -16,6 +17,7 @@ pub struct PhysicsWorld {
 
 /// The numbers of the physics as factors of the paper's, so 1 is the paper's world (docs/physics.md 15).
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WorldFactors {
     /// Friction on the ground, on the plane below it and between voxels.
@@ -33,6 +35,7 @@ pub struct WorldFactors {
 
 /// What goes wrong for each robot by itself (docs/physics.md 15).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct WorldNoise {
     /// The most voxels by which a robot starts to the left or the right of its place.

@@ -25,14 +25,21 @@ pub enum CandidateOutcome {
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct Counts {
+    /// Bodies tried.
     pub evaluations: u64,
     /// Networks drawn whose bodies could not be tried (too few actuators, or apart).
     pub undeveloped: u64,
+    /// Bodies dropped early because they could enter no niche.
     pub surpassed: u64,
+    /// Bodies that contradicted themselves.
     pub inconsistent: u64,
+    /// Bodies whose simulation failed.
     pub faults: u64,
+    /// Niches filled for the first time.
     pub new: u64,
+    /// Elites replaced or joined.
     pub improved: u64,
 }
