@@ -41,6 +41,8 @@ mod prove;
 mod robots;
 mod run;
 mod runs;
+#[cfg(test)]
+mod schemas;
 mod see;
 mod simulate;
 mod source_path;

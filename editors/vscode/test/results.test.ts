@@ -136,11 +136,9 @@ test("a test of very many inputs shows some of its failures", () => {
 });
 
 test("the fields that are read are in the schema", () => {
-  const schema = JSON.parse(readFileSync(path.join(ROOT, "docs/schema/test.json"), "utf8"));
-  const result = schema.properties.tests.items;
+  const types = JSON.parse(readFileSync(path.join(ROOT, "docs/schema/test.json"), "utf8")).$defs;
   const read = ["file", "line", "circuit", "title", "swarm", "level", "passed", "inputs", "outputs", "rows"];
-  read.forEach(name => assert.ok(result.required.includes(name), name));
-  const row = result.properties.rows.items;
+  read.forEach(name => assert.ok(types.TestVerdict.required.includes(name), name));
   const cells = ["inputs", "expected", "observed", "steady", "cycles", "needed", "passed", "lapses", "late"];
-  ["row", "line", ...cells].forEach(name => assert.ok(row.required.includes(name), name));
+  ["row", "line", ...cells].forEach(name => assert.ok(types.RowVerdict.required.includes(name), name));
 });
