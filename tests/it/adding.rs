@@ -1,9 +1,6 @@
 //! `nbc library add`: every requested behavior has a result, and robots with errors are left out.
 
-use std::fs;
-
-use crate::support::bench::{Bench, Ran};
-use crate::support::schema::validate;
+use crate::support::*;
 
 /// A small archive of small bodies with few behaviors, all of robots that err.
 const RUN: &str = "
@@ -20,7 +17,7 @@ evolution walks {
 fn bench() -> Bench {
     let bench = Bench::new();
     bench.runs("runs.nb", RUN);
-    assert_eq!(bench.run(&["evolve", "runs.nb"]).status, 0);
+    bench.ok("evolve runs.nb");
     bench
 }
 
@@ -29,7 +26,6 @@ fn add(bench: &Bench, more: &[&str]) -> Ran {
     bench.run(&[&usual[..], more].concat())
 }
 
-/// The robot files that were written.
 fn written(bench: &Bench) -> Vec<String> {
     let entries = fs::read_dir(bench.path().join("robots")).unwrap();
     let mut names: Vec<String> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
@@ -48,7 +44,7 @@ fn every_requested_behavior_has_a_result_and_robots_with_errors_are_left_out() {
     assert!(zero["outcome"] == "left_out" && zero["robot"]["error_rate"].as_f64() > Some(0.0), "{zero}");
     let reason = zero["reason"].as_str().unwrap();
     assert!(reason.contains(" of 1024 switches wrong (") && reason.ends_with(", at most 0 % accepted"), "{reason}");
-    assert!(!bench.path().join("robots").exists(), "no robot was added, so there is no library");
+    assert!(!bench.has("robots"), "no robot was added, so there is no library");
 }
 
 #[test]
@@ -64,11 +60,11 @@ fn a_failed_addition_leaves_nothing() {
     let bench = Bench::new();
     let missing = add(&bench, &[]);
     missing.expect_fault(&["there is no checkpoint `out/walks/seed-3/checkpoint.nbc`", "`out/gates/seed-1`"]);
-    assert!(!bench.path().join("robots").exists());
+    assert!(!bench.has("robots"));
     let bench = self::bench();
     let none = add(&bench, &["--behavior", "xor"]);
     assert_eq!(none.status, 1, "{}", none.err);
-    assert!(!bench.path().join("robots").exists(), "no robot was added, so there is no library");
+    assert!(!bench.has("robots"), "no robot was added, so there is no library");
     bench.file("robots", "a file");
     assert_eq!(add(&bench, &["--behavior", "xor"]).status, 2, "checked before anything is measured");
 }
@@ -77,18 +73,17 @@ fn a_failed_addition_leaves_nothing() {
 fn the_folder_of_a_run_stands_for_its_seeds_and_a_function_for_its_behavior() {
     let bench = bench();
     let whole = ["library", "add", "out/walks", "--into", "robots", "--tries", "1", "--finalists", "1"];
-    let ran = bench.run(&[&whole[..], &["--behavior", "zero", "--max-error", "0.8"]].concat());
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let ran = bench.ok(&[&whole[..], &["--behavior", "zero", "--max-error", "0.8"]].concat());
     assert!(ran.out.starts_with("LLLL  zero        added     zero_3x1, clock "), "{}", ran.out);
     assert!(ran.out.ends_with("\n1 of 1 behavior has a robot in robots\n"), "{}", ran.out);
     assert_eq!(written(&bench), ["zero_3x1.yaml"]);
     add(&bench, &["--behavior", "nnad"])
         .expect_fault(&["expected four or eight letters such as `RRRL`", "did you mean `nand`?"]);
-    let listed = bench.run(&["library", "list", "robots"]);
+    let listed = bench.run("library list robots");
     assert!(listed.status == 0 && listed.out.contains("zero_3x1") && !listed.out.contains("nand"), "{}", listed.out);
     for arguments in [&["zero_3x1", "robots"][..], &["zero", "robots"], &["robots/zero_3x1.yaml"]] {
         let shown = bench.run(&[&["library", "show"], arguments].concat());
         assert!(shown.status == 0 && shown.out.contains("zero_3x1"), "{arguments:?}: {}{}", shown.out, shown.err);
     }
-    bench.run(&["library", "show", "nand", "robots"]).expect_fault(&["no robot of the library is called `nand`"]);
+    bench.run("library show nand robots").expect_fault(&["no robot of the library is called `nand`"]);
 }

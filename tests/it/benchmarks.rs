@@ -1,12 +1,10 @@
 //! The compiler on the benchmark circuits.
 
-use std::fs;
-
 use nbc_circuit::formats::{Design, blif};
 use nbc_circuit::{Effort, MapOptions, map_with, prove};
 
 use crate::designs::{files, libraries, read};
-use crate::support::abc::abc;
+use crate::support::*;
 
 #[test]
 #[ignore = "maps all benchmarks; .ci/full runs it"]

@@ -3,24 +3,19 @@
 use nbc_base::budget::Limit;
 use nbc_base::diag::Code;
 
-use crate::support::bench::Bench;
-use crate::support::limits::refused_by;
-use crate::support::root;
+use crate::support::*;
 
 const WIDE: &str = "circuit f(a[1000000]) -> (q) { q = a[0] }\n";
 const BIT: &str = "circuit f(a) -> (q) { q = a }\n";
 
-/// Statements of a circuit of one bit.
 fn circuit(statements: &str) -> String {
     format!("circuit f(a) -> (q) {{\n{statements}\nq = a\n}}\n")
 }
 
-/// A loop around statements.
 fn turns(statements: &str) -> String {
     circuit(&format!("for i in 0..300000 {{\n{statements}\n}}"))
 }
 
-/// A list of numbered texts.
 fn numbered(range: std::ops::Range<usize>, text: impl Fn(usize) -> String) -> String {
     range.map(text).collect()
 }
@@ -124,10 +119,8 @@ fn texts_that_are_long_to_look_at_are_checked_in_bounds() {
     let errors = turns("net t[10]\n_ = t[i]");
     for (text, status) in [(passes.to_owned(), 0), (errors, 2)] {
         bench.file("long.nb", text);
-        let mut command = std::process::Command::new("sh");
-        command.args(["-c", "ulimit -t 5; ulimit -v 1048576; exec \"$0\" check long.nb", env!("CARGO_BIN_EXE_nbc")]);
-        let output = crate::support::limits::InTime::output_in_time(command.current_dir(bench.path()));
-        assert_eq!(output.status.code(), Some(status), "{:.300}", String::from_utf8_lossy(&output.stderr));
+        let ran = bench.limited(BOUNDS, "check long.nb");
+        assert_eq!(ran.status, status, "{:.300}", ran.err);
     }
 }
 
@@ -157,8 +150,7 @@ fn robot_files_are_counted_with_their_aliases() {
 
 #[test]
 fn words_far_outside_of_a_memory_take_no_room() {
-    let bench = Bench::new();
-    bench.file("far.hex", "@3fffffff 1\n");
+    let bench = Bench::with("far.hex", "@3fffffff 1\n");
     bench.file(
         "far.nb",
         "file words = \"far.hex\"\ncircuit f(d, clk) -> (at) { at = register(d, clk) }\n\
@@ -177,16 +169,14 @@ fn a_test_of_all_inputs_takes_a_moment() {
     let wrong = "circuit f(a[16]) -> (q[16]) { q = a * a }\ntest f for all inputs { q = a * (a xor 16'd256) }\n";
     for (text, status) in [(format!("{product}{other}"), 0), (square.to_owned(), 0), (wrong.to_owned(), 1)] {
         bench.file("all.nb", text);
-        let mut command = std::process::Command::new("sh");
-        command.args(["-c", "ulimit -t 4; ulimit -v 1048576; exec \"$0\" test all.nb", env!("CARGO_BIN_EXE_nbc")]);
-        let output = crate::support::limits::InTime::output_in_time(command.current_dir(bench.path()));
-        assert_eq!(output.status.code(), Some(status), "{:.300}", String::from_utf8_lossy(&output.stdout));
+        let ran = bench.limited(BOUNDS, "test all.nb");
+        assert_eq!(ran.status, status, "{:.300}", ran.out);
     }
 }
 
 #[test]
 fn the_page_of_limits_has_them_all() {
-    let page = std::fs::read_to_string(root().join("docs/limits.md")).unwrap();
+    let page = text_of("docs/limits.md");
     let rows: Vec<String> = Limit::ALL.iter().map(|limit| limit.row()).collect();
     let table: Vec<&str> = page.lines().filter(|line| line.starts_with("| ")).skip(1).collect();
     assert_eq!(table, rows, "docs/limits.md has the table of `Limit`");

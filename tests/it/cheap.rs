@@ -1,8 +1,7 @@
 //! What is known without a simulation: a check says it, and so does every command that begins with one. And nothing
 //! that is given is ignored.
 
-use crate::support::bench::Bench;
-use crate::support::schema::validate;
+use crate::support::*;
 
 const FLIP_FLOP: &str = "circuit ff(a, clk) -> (q) { q = register(a, clk) }\n";
 const ROWS: &str = "test ff {\n a clk | q\n 0 0 | 0\n 1 ^ | 1\n}\n";
@@ -10,8 +9,7 @@ const ROWS: &str = "test ff {\n a clk | q\n 0 0 | 0\n 1 ^ | 1\n}\n";
 /// A program that `check` and `test` refuse in the same words.
 #[track_caller]
 fn refused(text: &str, says: &str) {
-    let bench = Bench::new();
-    bench.file("a.nb", text);
+    let bench = Bench::with("a.nb", text);
     let [checked, tested] = ["check", "test"].map(|command| bench.run(&[command, "a.nb"]));
     checked.expect_fault(&[says]);
     assert_eq!((tested.status, tested.err), (2, checked.err), "{}", tested.out);
@@ -39,9 +37,9 @@ fn a_check_refuses_a_kind_of_registers_where_there_are_none() {
     let gate = "circuit g(a, b) -> (q) { q = a and b }\ntest g {\n a b | q\n 0 1 | 0\n}\n";
     let swarm = format!("swarm s {{ circuit: g, library: three, registers: mux }}\n{gate}");
     refused(&swarm, "`registers: mux` has no effect in the swarm `s`");
-    let bench = Bench::new();
-    bench.file("a.nb", format!("{FLIP_FLOP}swarm s {{ circuit: ff, library: three, registers: mux }}\n{ROWS}"));
-    assert_eq!(bench.run(&["check", "a.nb"]).status, 0);
+    let bench =
+        Bench::with("a.nb", format!("{FLIP_FLOP}swarm s {{ circuit: ff, library: three, registers: mux }}\n{ROWS}"));
+    bench.ok("check a.nb");
 }
 
 #[test]
@@ -51,9 +49,8 @@ fn a_check_looks_at_the_robots_of_an_evolution_that_has_run() {
         let evolution = "evolution few { objective: gate, box: 3 x 3, generations: 2 }\n";
         format!("{evolution}library own {{ from: few{fields} }}\nswarm s {{ circuit: g, library: own }}\n{gate}")
     };
-    let bench = Bench::new();
-    bench.file("a.nb", library(""));
-    assert_eq!(bench.run(&["check", "a.nb"]).status, 0, "it has not run");
+    let bench = Bench::with("a.nb", library(""));
+    bench.ok("check a.nb");
     let robot = |name: &str| {
         let robots = nbc_session::store::shipped_library().robots;
         nbc_session::store::print_robot(robots.iter().find(|robot| robot.name == name).unwrap())
@@ -63,9 +60,8 @@ fn a_check_looks_at_the_robots_of_an_evolution_that_has_run() {
         ("xor", robot("xor_5x5"), "", "cannot be made of"),
         ("nand", robot("nand_5x5"), ", without: [nobody]", "the library has no robot `nobody`"),
     ] {
-        let bench = Bench::new();
-        bench.file("a.nb", library(fields));
-        std::fs::create_dir_all(bench.path().join("out/few/robots")).unwrap();
+        let bench = Bench::with("a.nb", library(fields));
+        fs::create_dir_all(bench.path().join("out/few/robots")).unwrap();
         bench.file(&format!("out/few/robots/{name}.yaml"), text);
         let [checked, tested] = ["check", "test"].map(|command| bench.run(&[command, "a.nb"]));
         checked.expect_fault(&[says]);
@@ -92,18 +88,17 @@ fn a_check_refuses_libraries_without_the_robots_that_are_needed() {
         &format!("library few {{ from: shipped, without: [nobody] }}\nswarm s {{ circuit: g, library: few }}\n{gate}"),
         "the library has no robot `nobody`",
     );
-    let bench = Bench::new();
-    bench.file(
+    let bench = Bench::with(
         "a.nb",
         format!("library few {{ from: shipped, behaviors: [nand] }}\nswarm s {{ circuit: g, library: few }}\n{gate}"),
     );
-    let checked = bench.run(&["check", "a.nb"]);
+    let checked = bench.run("check a.nb");
     assert_eq!((checked.status, checked.err.as_str()), (0, ""), "nand makes everything");
     bench.file(
         "b.nb",
         "library big { from: shipped, behaviors: [nand] }\nevolution e { genome: voxels, box: 3 x 3, start: big }\n",
     );
-    bench.run(&["check", "b.nb"]).expect_fault(&["no robot of `big` fits into the box"]);
+    bench.run("check b.nb").expect_fault(&["no robot of `big` fits into the box"]);
 }
 
 #[test]
@@ -112,29 +107,25 @@ fn a_check_reads_the_files_that_memories_begin_with() {
 circuit echo(d[8], clk) -> (at[2], same) {\n at = register(at + 1, clk)\n same = d == 7\n}\n\
 environment store(at[2]) -> (d[8]) {\n net m[4][8] init words\n d = m[at]\n}\n\
 test echo with store {\n clk | same\n ^ | 1\n}\n";
-    let bench = Bench::new();
-    bench.file("a.nb", text);
-    let checked = bench.run(&["check", "a.nb"]);
+    let bench = Bench::with("a.nb", text);
+    let checked = bench.run("check a.nb");
     assert!(
         checked.status == 0 && checked.err.contains("warning[unreadable]: cannot read `words.hex`"),
         "{}",
         checked.err
     );
-    bench.run(&["test", "a.nb", "--logic"]).expect_fault(&["error[unreadable]: cannot read `words.hex`"]);
+    bench.run("test a.nb --logic").expect_fault(&["error[unreadable]: cannot read `words.hex`"]);
     bench.file("seven.hex", "7 7 7 7");
-    let tested = bench.run(&["test", "a.nb", "--logic", "--file", "words=seven.hex"]);
-    assert_eq!(tested.status, 0, "the declared file is not needed then: {}{}", tested.out, tested.err);
+    bench.ok("test a.nb --logic --file words=seven.hex");
     bench.file("words.hex", "7 7 7 7 7");
-    bench.run(&["check", "a.nb"]).expect_fault(&["`words.hex` has 5 words, and the memory 4"]);
+    bench.run("check a.nb").expect_fault(&["`words.hex` has 5 words, and the memory 4"]);
     bench.file("words.hex", "\u{feff}7 7\n");
-    let checked = bench.run(&["check", "a.nb"]);
-    assert_eq!(checked.status, 0, "{}", checked.err);
+    bench.ok("check a.nb");
 }
 
 #[test]
 fn files_that_no_memory_begins_with_are_refused() {
-    let bench = Bench::new();
-    bench.file("a.nb", format!("{FLIP_FLOP}{ROWS}"));
+    let bench = Bench::with("a.nb", format!("{FLIP_FLOP}{ROWS}"));
     bench.file("b.nb", format!("file idle = \"a.hex\"\n{FLIP_FLOP}{ROWS}"));
     for command in ["test", "run"] {
         let given = |file, option| bench.run(&[command, file, "--file", option]);
@@ -183,65 +174,18 @@ test h \"memory\" with e {
     ^   | 1  3
 }
 ";
-    let bench = Bench::new();
-    bench.file(
+    let bench = Bench::with(
         "one.nb",
         "circuit f(d, at, clk) -> (q, r) {\n net m[1][1]\n m[at] = register(d, clk)\n q = m\n r = m[at]\n}\n\
          test f {\n d at clk | q r\n 1 1 ^ | 0 0\n 1 0 ^ | 1 1\n 0 1 ^ | 1 0\n}\n",
     );
-    let ran = bench.run(&["test", "one.nb", "--logic"]);
+    let ran = bench.run("test one.nb --logic");
     assert!(ran.status == 0 && ran.out.contains("1 passed"), "{}{}", ran.out, ran.err);
     bench.file("a.nb", text);
-    let ran = bench.run(&["test", "a.nb", "--logic"]);
+    let ran = bench.run("test a.nb --logic");
     assert!(ran.status == 0 && ran.out.contains("2 passed"), "{}{}", ran.out, ran.err);
-    let checked = bench.run(&["check", "a.nb"]);
+    let checked = bench.run("check a.nb");
     assert_eq!(checked.err.matches("warning[index-outside]").count(), 6, "{}", checked.err);
-}
-
-#[test]
-fn values_are_read_in_every_notation_after_a_mark_of_byte_order() {
-    let text = "\u{feff}\
-enum op { idle, run, halt }
-let first = run
-circuit g(a[8]) -> (q[8]) { q = a }
-circuit machine[begin](x: op, clk) -> (state: op, n: op) {
-    state = register[start = begin](x, clk)
-    n     = register[start = first](x, clk)
-}
-circuit hand(x: op, e) -> (q: op) {
-    q init run = if e then x else q
-}
-swarm s { circuit: machine[begin = halt] }
-test g {
-    a       | q
-    0x1     | 1
-    0x10    | 16
-    0X1F    | 0x1f
-    0b1     | 0b00000001
-    8'b1    | 8'h01
-}
-test machine[halt] {
-    x    clk | state n
-    idle 0   | halt  run
-    idle ^   | idle  idle
-    run  ^   | run   run
-}
-test hand {
-    x    e | q
-    idle 0 | run
-    idle 1 | idle
-}
-simulate g with schedule (a) {
-    0x10 for 2 cycles
-    0x1  for 2 cycles
-}
-";
-    let bench = Bench::new();
-    bench.file("a.nb", text);
-    let ran = bench.run(&["test", "a.nb", "--logic"]);
-    assert!(ran.status == 0 && ran.out.contains("3 passed"), "{}{}", ran.out, ran.err);
-    let ran = bench.run(&["fmt", "--check", "a.nb"]);
-    assert!(!ran.err.contains("syntax"), "{}", ran.err);
 }
 
 #[test]
@@ -249,14 +193,13 @@ fn a_test_that_gives_up_says_after_how_many_rows_and_a_pulse_is_one() {
     let text = "circuit g(clk) -> (c[3], q) {\n c = register(c + 1, clk)\n q = c == 6\n}\n\
                 test g \"short\" {\n clk | c q\n ^ | - - until q, at most 3 rows\n}\n\
                 test g \"long\" {\n clk | c q\n 0 | 0 0\n repeat 7 {\n ^ | - -\n }\n}\n";
-    let bench = Bench::new();
-    bench.file("a.nb", text);
-    let ran = bench.run(&["test", "a.nb", "--logic"]);
+    let bench = Bench::with("a.nb", text);
+    let ran = bench.run("test a.nb --logic");
     let limit = "q=0, expected 1 (repeated 3 times, as often as its `until` permits)";
     assert!(ran.out.contains(limit) && ran.out.contains("pass  g \"long\" (8 rows"), "{}", ran.out);
-    let tested = bench.run(&["test", "a.nb", "--logic", "--format", "json"]);
+    let tested = bench.run("test a.nb --logic --format json");
     assert_eq!(validate("test", &tested.out)["tests"][0]["rows"][0]["until"], 3, "{}", tested.out);
     bench.file("b.nb", format!("{FLIP_FLOP}{ROWS}"));
-    let ran = bench.run(&["test", "b.nb", "--physics"]);
+    let ran = bench.run("test b.nb --physics");
     assert!(ran.out.contains("pass  ff (2 rows, physics)"), "{}{}", ran.out, ran.err);
 }

@@ -1,36 +1,15 @@
 //! The command line of the real program: its output and its exit status.
 
-use std::io::Write;
-use std::path::Path;
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
 use nbc_base::model::CYCLE_STEPS;
 use nbc_sim::Constants;
-use serde_json::Value;
 
-use crate::support::bench::Bench;
-use crate::support::limits::{self, InTime};
-
-const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
-
-#[track_caller]
-fn check_schedule(schedule: &str, parts: &[&str]) {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
-    bench.run(&["simulate", "walker.yaml", "--schedule", schedule]).expect_fault(parts);
-}
-
-#[track_caller]
-fn check_body(bytes: &[u8], parts: &[&str]) {
-    let bench = Bench::new();
-    bench.file("walker.yaml", bytes);
-    bench.run(&["simulate", "walker.yaml", "--schedule", "00*1"]).expect_fault(parts);
-}
+use crate::support::*;
 
 #[test]
 fn simulate_prints_every_env_step_as_json() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
+    let bench = Bench::with("walker.yaml", WALKER);
     let arguments = ["simulate", "walker.yaml", "--schedule", "00*1 01*56steps", "--format", "json"];
     let found = bench.run(&arguments).expect_json();
     let com_x: Vec<f64> = found["com_x"].as_array().unwrap().iter().map(|x| x.as_f64().unwrap()).collect();
@@ -43,37 +22,23 @@ fn simulate_prints_every_env_step_as_json() {
 
 #[test]
 fn simulate_reads_json_and_places_the_body() {
-    let bench = Bench::new();
-    bench.file("walker.json", r#"{"name": "x", "body": [[3]]}"#);
-    let arguments = [
-        "simulate",
-        "walker.json",
-        "--schedule",
-        "00*1steps",
-        "--start-x",
-        "30",
-        "--world-width",
-        "60",
-        "--format",
-        "json",
-    ];
-    let found = bench.run(&arguments).expect_json();
+    let bench = Bench::with("walker.json", r#"{"name": "x", "body": [[3]]}"#);
+    let found = bench.run("simulate walker.json --schedule 00*1steps --start-x 30 --world-width 60 --format json");
     // One voxel's first env step, docs/physics.md 13.
     let second = (29.972641329456213 + 30.996388239344416) / 2.0;
     for (i, expected) in [30.5, second].into_iter().enumerate() {
-        assert!((found["com_x"][i].as_f64().unwrap() - expected).abs() < 1e-9);
+        assert!((found.expect_json()["com_x"][i].as_f64().unwrap() - expected).abs() < 1e-9);
     }
 }
 
 #[test]
 fn an_unstable_body_is_a_result_that_fails() {
-    let bench = Bench::new();
-    bench.file("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
+    let bench = Bench::with("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
     let place = ["--start-x", "28", "--world-width", "60"];
     let arguments = [&["simulate", "wild.yaml", "--schedule", "11*60steps 00*60steps"], &place[..]].concat();
     let ran = bench.run(&[&arguments[..], &["--format", "json"]].concat());
     assert_eq!(ran.status, 1, "{}", ran.err);
-    let found = crate::support::schema::validate("simulate", &ran.out);
+    let found = validate("simulate", &ran.out);
     assert_eq!(found["unstable_at"], 72);
     assert_eq!(found["com_x"].as_array().unwrap().len(), 72);
     assert!(found["displacement"][0].is_number() && found["displacement"][1].is_null());
@@ -83,39 +48,8 @@ fn an_unstable_body_is_a_result_that_fails() {
 }
 
 #[test]
-fn errors_in_schedules_have_their_place() {
-    check_schedule("00*10 02*10", &["bad-schedule", "invalid stimulus pattern `02`", "--schedule:1:7"]);
-    check_schedule("00*0", &["the duration `0` is too short", "--schedule:1:4"]);
-    check_schedule("", &["the schedule is empty"]);
-    check_schedule("00*99999999999999999999", &["is too long"]);
-    check_schedule("00*10 é*3 10*x", &["invalid stimulus pattern `é`", "`x` is not a duration"]);
-}
-
-#[test]
-fn errors_in_robot_files_have_their_place() {
-    check_body(b"body: [\"33\", \"333\"]", &["robot-file", "row 2 has 3 voxels", "walker.yaml:1:"]);
-    check_body(b"body: []", &["the body has no voxels"]);
-    check_body(b"body: [\"39\"]", &["`9` is not a material code", "walker.yaml:1:10"]);
-    check_body(b"", &["walker.yaml"]);
-    check_body(b"\xff\xfe\x00", &["not valid UTF-8"]);
-    check_body(b"body: [", &["walker.yaml"]);
-    let long = [b"body: [\"", &b"3".repeat(500_000)[..], b"\"]"].concat();
-    check_body(&long, &["500000 x 1, expected at most 100 x 100"]);
-}
-
-#[test]
-fn missing_files_and_folders_are_reported() {
-    let bench = Bench::new();
-    let simulate = |robot: &str| bench.run(&["simulate", robot, "--schedule", "00*1"]);
-    simulate("none.yaml").expect_fault(&["cannot read `none.yaml`", "no such file"]);
-    simulate(".").expect_fault(&["cannot read `.`", "expected a regular file, found a folder"]);
-    simulate("no_such_robot").expect_fault(&["unknown-robot", "`no_such_robot`", "nbc library list"]);
-}
-
-#[test]
 fn a_body_must_stand_on_the_ground() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
+    let bench = Bench::with("walker.yaml", WALKER);
     let simulate = |more: &[&str]| bench.run(&[&["simulate", "walker.yaml", "--schedule", "00*1"], more].concat());
     simulate(&["--start-x", "496"]).expect_fault(&["`--start-x 496` is off the ground", "at most 495"]);
     simulate(&["--world-width", "4"]).expect_fault(&["too narrow for a body of 5"]);
@@ -129,14 +63,14 @@ fn usage_errors_end_with_status_2() {
     for arguments in [&["simulat"][..], &["simulate"], &["simulate", "x"], &["--format", "xml"], &[]] {
         assert_eq!(bench.run(arguments).status, 2, "{arguments:?}");
     }
-    assert_eq!(bench.run(&["--help"]).status, 0);
-    assert!(bench.run(&["--version"]).out.starts_with("nbc "));
+    bench.ok("--help");
+    assert!(bench.run("--version").out.starts_with("nbc "));
 }
 
 #[test]
 fn every_command_has_help_with_an_example() {
     let bench = Bench::new();
-    let help = bench.run(&["--help"]).out;
+    let help = bench.run("--help").out;
     let listed = help.split("Commands:").nth(1).unwrap().split("Options:").next().unwrap();
     let commands: Vec<&str> = listed.lines().filter_map(|line| line.split_whitespace().next()).collect();
     assert!(commands.len() > 3);
@@ -144,15 +78,6 @@ fn every_command_has_help_with_an_example() {
         let help = bench.run(&[command, "--help"]).out;
         assert!(help.contains("Example"), "`nbc {command} --help` has no example:\n{help}");
     }
-}
-
-#[test]
-fn errors_are_printed_as_json() {
-    let bench = Bench::new();
-    let ran = bench.run(&["simulate", "none.yaml", "--schedule", "00*1", "--format", "json"]);
-    assert_eq!(ran.status, 2);
-    let found: Value = serde_json::from_str(&ran.out).unwrap();
-    assert_eq!(found["diagnostics"][0]["code"], "unreadable");
 }
 
 #[test]
@@ -164,18 +89,6 @@ fn colors_are_used_only_on_request() {
     assert!(!color("never") && !color("auto"));
 }
 
-#[test]
-fn a_closed_pipe_ends_the_program_quietly() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
-    let arguments = ["simulate", "walker.yaml", "--schedule", "00*60", "--format", "json"];
-    let mut child = bench.command(&arguments).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    drop(child.stdout.take());
-    let output = limits::end(child);
-    assert_eq!(output.status.code(), Some(0));
-    assert_eq!(String::from_utf8(output.stderr).unwrap(), "");
-}
-
 /// A file whose test of `flip` passes or fails.
 pub fn flip(passes: bool) -> String {
     let low = u8::from(passes);
@@ -183,89 +96,81 @@ pub fn flip(passes: bool) -> String {
 }
 
 /// The exit status and standard error of the program if its standard output is closed from the start.
-fn unread(bench: &Bench, arguments: &[&str]) -> (Option<i32>, String) {
+fn unread(bench: &Bench, line: &str) -> (Option<i32>, String) {
     let (reader, writer) = std::io::pipe().unwrap();
     drop(reader);
-    let output = limits::end(bench.command(arguments).stdout(writer).stderr(Stdio::piped()).spawn().unwrap());
+    let output = end(bench.command(line).stdout(writer).stderr(Stdio::piped()).spawn().unwrap());
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
 #[test]
 fn a_closed_pipe_does_not_change_the_verdict() {
-    let bench = Bench::new();
-    bench.file("failing.nb", flip(false));
+    let bench = Bench::with("failing.nb", flip(false));
     bench.file("passing.nb", flip(true));
     bench.file("wide.nb", flip(true).replace("not a", "not  a"));
     bench.file("wrong.nb", "circuit");
-    let check = |arguments: &[&str], status| assert_eq!(unread(&bench, arguments).0, Some(status), "{arguments:?}");
-    check(&["test", "--logic", "failing.nb", "failing.nb"], 1);
-    check(&["test", "--logic", "failing.nb", "passing.nb", "--format", "json"], 1);
-    check(&["test", "--logic", "passing.nb"], 0);
-    check(&["run", "failing.nb", "--no-report"], 1);
-    check(&["run", "passing.nb", "--no-report"], 0);
-    check(&["fmt", "--check", "wide.nb", "passing.nb"], 1);
-    check(&["check", "wrong.nb", "--format", "json"], 2);
+    bench.file("walker.yaml", WALKER);
+    for (line, status) in [
+        ("test --logic failing.nb failing.nb", 1),
+        ("test --logic failing.nb passing.nb --format json", 1),
+        ("test --logic passing.nb", 0),
+        ("run failing.nb --no-report", 1),
+        ("run passing.nb --no-report", 0),
+        ("fmt --check wide.nb passing.nb", 1),
+        ("check wrong.nb --format json", 2),
+        ("simulate walker.yaml --schedule 00*60 --format json", 0),
+    ] {
+        assert_eq!(unread(&bench, line), (Some(status), String::new()), "{line}");
+    }
 }
 
 #[test]
 fn a_closed_pipe_does_not_stop_the_work() {
-    let bench = Bench::new();
-    bench.file("small.nb", "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 2, seed: 1..3 }\n");
-    assert_eq!(unread(&bench, &["evolve", "small.nb"]).0, Some(0));
+    let small = "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 2, seed: 1..3 }\n";
+    let bench = Bench::with("small.nb", small);
+    assert_eq!(unread(&bench, "evolve small.nb").0, Some(0));
     for seed in 1..=3 {
-        let path = bench.path().join(format!("out/small/seed-{seed}/progress.jsonl"));
-        assert_eq!(std::fs::read_to_string(path).unwrap().lines().count(), 2, "seed {seed} was run");
+        let progress = bench.read(format!("out/small/seed-{seed}/progress.jsonl"));
+        assert_eq!(progress.lines().count(), 2, "seed {seed} was run");
     }
 }
 
 #[test]
 fn a_full_disk_is_reported() {
     let bench = Bench::new();
-    for arguments in [&["completions", "bash"][..], &["--help"], &["--version"], &["evolve", "--help"], &["explain"]] {
-        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
-        let output = limits::end(bench.command(arguments).stdout(full).stderr(Stdio::piped()).spawn().unwrap());
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}");
-        assert!(String::from_utf8(output.stderr).unwrap().contains("cannot write the output"), "{arguments:?}");
+    for line in ["completions bash", "--help", "--version", "evolve --help", "explain"] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let ran = Ran::from(end(bench.command(line).stdout(full).stderr(Stdio::piped()).spawn().unwrap()));
+        assert!(ran.status == 2 && ran.err.contains("cannot write the output"), "{line}: {}", ran.err);
     }
 }
 
 /// The program, run by a user who may not start more threads. Root has no such limit, so root becomes nobody.
 #[cfg(target_os = "linux")]
-fn without_threads(prlimit: &Path, bench: &Bench, arguments: &[&str]) -> Output {
+fn without_threads(prlimit: &Path, bench: &Bench, arguments: &[&str]) -> Ran {
     use std::os::unix::fs::{MetadataExt, PermissionsExt};
-    std::fs::set_permissions(bench.path(), std::fs::Permissions::from_mode(0o777)).unwrap();
+    fs::set_permissions(bench.path(), fs::Permissions::from_mode(0o777)).unwrap();
     let program = bench.path().join("nbc");
-    std::fs::copy(env!("CARGO_BIN_EXE_nbc"), &program).unwrap();
-    let is_root = std::fs::metadata("/proc/self").unwrap().uid() == 0;
+    fs::copy(env!("CARGO_BIN_EXE_nbc"), &program).unwrap();
+    let is_root = fs::metadata("/proc/self").unwrap().uid() == 0;
     let mut command = Command::new(if is_root { "setpriv" } else { "env" });
     command.args(if is_root { &["--reuid=65534", "--clear-groups"][..] } else { &[] });
     command.arg(prlimit).arg("--nproc=1").arg(program).args(arguments);
-    command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "8").output_in_time()
+    command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "8").ran()
 }
 
 #[test]
 #[cfg(target_os = "linux")]
 fn fewer_threads_do_the_work_if_the_system_refuses_some() {
-    let Some(prlimit) = crate::support::tools::PRLIMIT.find() else { return };
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
+    let Some(prlimit) = PRLIMIT.find() else { return };
+    let bench = Bench::with("walker.yaml", WALKER);
     bench.file("passing.nb", flip(true));
     let arguments = ["simulate", "walker.yaml", "--schedule", "00*1", "--format", "json"];
     let alone = without_threads(&prlimit, &bench, &arguments);
-    let told = String::from_utf8(alone.stderr).unwrap();
-    assert!(alone.status.success() && told.contains("1 of 8 threads"), "{told}");
-    assert_eq!(String::from_utf8(alone.stdout).unwrap(), bench.run(&arguments).out);
+    assert!(alone.status == 0 && alone.err.contains("1 of 8 threads"), "{}", alone.err);
+    assert_eq!(alone.out, bench.run(&arguments).out);
     let tests = without_threads(&prlimit, &bench, &["test", "--physics", "passing.nb", "passing.nb"]);
-    assert!(tests.status.success(), "{}", String::from_utf8_lossy(&tests.stderr));
-}
-
-#[test]
-fn an_invalid_number_of_threads_is_reported() {
-    let bench = Bench::new();
-    let output = bench.command(&["library", "list"]).env("RAYON_NUM_THREADS", "two").output_in_time();
-    assert_eq!(output.status.code(), Some(2));
-    let told = String::from_utf8(output.stderr).unwrap();
-    assert!(told.contains("`RAYON_NUM_THREADS` is `two`, expected a number of threads"), "{told}");
+    assert_eq!(tests.status, 0, "{}", tests.err);
 }
 
 #[test]
@@ -278,7 +183,7 @@ fn completions_name_the_commands() {
 
 #[test]
 fn a_report_of_a_defect_names_the_program_and_the_machine_but_no_person() {
-    let told = Bench::new().run(&["bug-report"]).out;
+    let told = Bench::new().run("bug-report").out;
     for word in ["features", "system", "processor", "kernel", "threads", "yosys"] {
         assert!(told.contains(&format!("\n{word} ")), "{told}");
     }
@@ -291,64 +196,42 @@ fn a_report_of_a_defect_names_the_program_and_the_machine_but_no_person() {
 #[test]
 fn each_command_has_a_page_for_man() {
     let bench = Bench::new();
-    let told = bench.run(&["manual", "pages"]);
-    assert_eq!(told.status, 0, "{}", told.err);
+    bench.ok("manual pages");
     for (page, words) in
         [("nbc", "Circuits made of soft robots"), ("nbc-run", "SYNOPSIS"), ("nbc-library-add", "robot")]
     {
-        let text = std::fs::read_to_string(bench.path().join(format!("pages/{page}.1"))).unwrap();
+        let text = bench.read(format!("pages/{page}.1"));
         assert!(text.contains(&page.replace('-', "\\-")) && text.contains(words), "{text}");
     }
 }
 
 #[test]
 fn robot_files_are_read_from_a_pipe() {
-    let bench = Bench::new();
-    let arguments = ["simulate", "/dev/stdin", "--schedule", "00*1"];
-    let mut child = bench.command(&arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(WALKER.as_bytes()).unwrap();
-    assert_eq!(limits::end(child).status.code(), Some(0));
-}
-
-#[track_caller]
-fn check_drawing(kind: &str, file: &str, start: &[u8]) {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
-    let schedule: &[&str] = if kind == "sprite" { &[] } else { &["--schedule", "00*1 11*1"] };
-    let ran = bench.run(&[&["draw", "walker.yaml", "--as", kind, "-o", file], schedule].concat());
-    assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{}", ran.err);
-    assert!(std::fs::read(bench.path().join(file)).unwrap().starts_with(start));
+    assert_eq!(Bench::new().told("simulate /dev/stdin --schedule 00*1", WALKER).status, 0);
 }
 
 #[test]
 fn every_picture_of_a_robot_is_drawn() {
-    let png = b"\x89PNG";
-    check_drawing("sprite", "a.svg", b"<svg");
-    check_drawing("sprite", "a.png", png);
-    check_drawing("strip", "a.svg", b"<svg");
-    check_drawing("spacetime", "a.PNG", png);
-    check_drawing("gif", "a.gif", b"GIF89a");
-    check_drawing("apng", "a.png", png);
-}
-
-#[test]
-fn impossible_drawings_are_rejected_and_leave_no_file() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
-    let draw = |what: &str, kind: &str, file: &str| bench.run(&["draw", what, "--as", kind, "-o", file]);
-    draw("walker.yaml", "gif", "a.jpg").expect_fault(&["`a.jpg`", "ends in `.gif`"]);
-    draw("walker.yaml", "sprite", "a").expect_fault(&["`.svg` or `.png`"]);
-    draw("walker.yaml", "vcd", "a.vcd").expect_fault(&["`walker.yaml` is a robot", "`--as vcd`"]);
-    draw("none.nb", "vcd", "a.vcd").expect_fault(&["none.nb"]);
-    draw("walker.yaml", "sprite", "no/such/folder/a.svg").expect_fault(&["cannot write `no/such/folder/a.svg`"]);
-    assert_eq!(std::fs::read_dir(bench.path()).unwrap().count(), 1);
+    let bench = Bench::with("walker.yaml", WALKER);
+    let walk = "--schedule '00*1 11*1'";
+    for (kind, file, schedule, start) in [
+        ("sprite", "a.svg", "", &b"<svg"[..]),
+        ("sprite", "a.png", "", b"\x89PNG"),
+        ("strip", "b.svg", walk, b"<svg"),
+        ("spacetime", "a.PNG", walk, b"\x89PNG"),
+        ("gif", "a.gif", walk, b"GIF89a"),
+        ("apng", "b.png", walk, b"\x89PNG"),
+    ] {
+        assert_eq!(bench.ok(&format!("draw walker.yaml --as {kind} -o {file} {schedule}")).out, "");
+        assert!(bench.bytes(file).starts_with(start), "{kind} in {file}");
+    }
 }
 
 #[test]
 fn bench_prints_the_speed_as_json() {
-    let ran = Bench::new().run(&["bench", "--swarm", "--format", "json"]);
+    let ran = Bench::new().run("bench --swarm --format json");
     assert_eq!(ran.status, 0, "{}", ran.err);
-    let figures = crate::support::schema::validate("bench", &ran.out);
+    let figures = validate("bench", &ran.out);
     assert!(figures["machine"].is_string() && [4, 8].contains(&figures["width"].as_u64().unwrap()));
     let boxes: Vec<_> = figures["cases"].as_array().unwrap().iter().map(|case| case["box"].as_str().unwrap()).collect();
     assert_eq!(boxes, ["5x5", "7x7", "10x10"]);
@@ -365,7 +248,6 @@ fn bench_prints_the_speed_as_json() {
     }
 }
 
-/// The table of `--timings`: seconds by stage.
 fn timings(told: &str) -> std::collections::BTreeMap<&str, f64> {
     let rows = told.lines().skip_while(|line| !line.starts_with("stage ")).skip(1);
     let rows = rows.map(|line| line.split_whitespace().collect::<Vec<_>>()).take_while(|row| row.len() == 4);
@@ -395,14 +277,8 @@ fn timings_of_an_evolution_include_archive_and_development() {
     let bench = Bench::new();
     let small = "evolution small { box: 3 x 2, variable: short, fixed: 1 cycles, batch: 4, generations: 2, seed: 1 }";
     bench.runs("small.nb", small);
-    let ran = bench.run(&["evolve", "small.nb", "--timings"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    let seconds = timings(&ran.err);
-    assert!(
-        ["archive", "development", "output", "springs"].iter().all(|stage| seconds.contains_key(stage)),
-        "{}",
-        ran.err
-    );
+    let told = bench.ok("evolve small.nb --timings").err;
+    assert!(["archive", "development", "output", "springs"].iter().all(|at| timings(&told).contains_key(at)), "{told}");
 }
 
 #[test]
@@ -417,8 +293,7 @@ fn workers_and_a_device_cannot_both_simulate() {
 
 #[test]
 fn logic_needs_no_place_where_robots_are_simulated() {
-    let bench = Bench::new();
-    bench.file("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
+    let bench = Bench::with("gate.nb", "circuit gate(a) -> (y) { y = not a }\ntest gate { a | y\n 0 | 1 }\n");
     for (place, name) in [
         (["--device", "gpu"], "--device <DEVICE>"),
         #[cfg(feature = "cluster")]
@@ -431,65 +306,51 @@ fn logic_needs_no_place_where_robots_are_simulated() {
 
 #[test]
 fn what_is_looked_up_by_name_offers_the_nearest_one() {
-    let bench = Bench::new();
-    bench.file("passing.nb", flip(true));
-    let meant = |arguments: &[&str], name: &str| {
-        bench.run(arguments).expect_fault(&[&format!("did you mean `{name}`?")]);
-    };
-    meant(&["library", "show", "nnad"], "nand");
-    meant(&["library", "show", "nand5x5"], "nand_5x5");
-    meant(&["simulate", "nnad", "--schedule", "00*1"], "nand");
+    let bench = Bench::with("passing.nb", flip(true));
+    let meant = |line: &str, name: &str| bench.run(line).expect_fault(&[&format!("did you mean `{name}`?")]);
+    meant("library show nnad", "nand");
+    meant("library show nand5x5", "nand_5x5");
+    meant("simulate nnad --schedule 00*1", "nand");
     for command in ["run", "test", "check", "fmt", "build", "evolve"] {
-        meant(&[command, "pasing.nb"], "passing.nb");
-        meant(&[command, "passing"], "passing.nb");
+        meant(&format!("{command} pasing.nb"), "passing.nb");
+        meant(&format!("{command} passing"), "passing.nb");
     }
-    meant(&["build", "passing.nb", "--circuit", "flop"], "flip");
-    meant(&["test", "passing.nb", "--only", "flp"], "flip");
-    meant(&["run", "passing.nb", "--only", "flp"], "flip");
-    meant(&["evolve", "--run", "gaets"], "gates");
-    meant(&["draw", "passing.nb", "--as", "schematic", "--test", "flp", "-o", "x.svg"], "flip");
-    meant(&["build", "passing.nb", "--cells", "nnad"], "nand");
-    meant(&["explain", "unknwn"], "unknown");
+    meant("build passing.nb --circuit flop", "flip");
+    meant("test passing.nb --only flp", "flip");
+    meant("run passing.nb --only flp", "flip");
+    meant("evolve --run gaets", "gates");
+    meant("draw passing.nb --as schematic --test flp -o x.svg", "flip");
+    meant("build passing.nb --cells nnad", "nand");
+    meant("explain unknwn", "unknown");
     bench.file("user.nb", "use \"./pasing.nb\"\n");
-    meant(&["check", "user.nb"], "./passing.nb");
-    for (arguments, tip) in [(&["buld"][..], "'build'"), (&["build", "passing.nb", "--emit", "vrilog"], "'verilog'")] {
-        let ran = bench.run(arguments);
+    meant("check user.nb", "./passing.nb");
+    for (line, tip) in [("buld", "'build'"), ("build passing.nb --emit vrilog", "'verilog'")] {
+        let ran = bench.run(line);
         assert!(ran.status == 2 && ran.err.contains(tip), "{}", ran.err);
     }
 }
 
 #[test]
 fn a_circuit_with_parameters_is_built_with_numbers_for_them() {
-    let bench = Bench::new();
-    bench.file("wide.nb", "circuit wide[n, m](a[n], b[m]) -> (q) {\n    q = any(a) nand any(b)\n}\n");
+    let bench = Bench::with("wide.nb", "circuit wide[n, m](a[n], b[m]) -> (q) {\n    q = any(a) nand any(b)\n}\n");
     for arguments in [&["build", "wide.nb"][..], &["build", "wide.nb", "--circuit", "wide[2]"]] {
         let parameter = if arguments.len() == 2 { "n" } else { "m" };
         let message = format!("the parameter `{parameter}` of `wide` has no number");
         bench.run(arguments).expect_fault(&[&message, "such as `--circuit 'wide[4, 4]'`"]);
     }
-    let ran = bench.run(&["build", "wide.nb", "--circuit", "wide[4, 4]", "--cells", "nand,not"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-}
-
-/// Runs the program with a text on standard input.
-fn with_input(bench: &Bench, arguments: &[&str], text: &str) -> Output {
-    let mut command = bench.command(arguments);
-    let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-    child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-    limits::end(child)
+    bench.ok(&["build", "wide.nb", "--circuit", "wide[4, 4]", "--cells", "nand,not"]);
 }
 
 #[test]
 fn standard_input_is_formatted_to_standard_output() {
     let bench = Bench::new();
     let (wide, canonical) = (flip(true).replace("not a", "not  a"), flip(true));
-    let found = with_input(&bench, &["fmt", "-"], &wide);
-    assert_eq!((found.status.code(), String::from_utf8(found.stdout).unwrap()), (Some(0), canonical.clone()));
-    let check = |text: &str| with_input(&bench, &["fmt", "--check", "-"], text).status.code();
-    assert_eq!((check(&wide), check(&canonical)), (Some(1), Some(0)));
-    let broken = with_input(&bench, &["fmt", "-"], "circuit f(");
-    assert_eq!((broken.status.code(), broken.stdout), (Some(2), Vec::new()));
-    assert_eq!(with_input(&bench, &["fmt", "-", "--format", "json"], &wide).status.code(), Some(2));
+    assert_eq!(bench.told("fmt -", &wide).out, canonical);
+    let check = |text: &str| bench.told("fmt --check -", text).status;
+    assert_eq!((check(&wide), check(&canonical)), (1, 0));
+    let broken = bench.told("fmt -", "circuit f(");
+    assert_eq!((broken.status, broken.out.as_str()), (2, ""));
+    assert_eq!(bench.told("fmt - --format json", &wide).status, 2);
 }
 
 #[test]
@@ -497,7 +358,7 @@ fn an_evolution_that_finds_no_robot_says_so_and_fails() {
     let bench = Bench::new();
     let none = "evolution none { box: 3 x 2, variable: short, fixed: 1 cycles, batch: 1, generations: 1, seed: 2 }\n";
     bench.runs("none.nb", none);
-    let ran = bench.run(&["evolve", "none.nb"]);
+    let ran = bench.run("evolve none.nb");
     assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
     assert!(ran.out.contains("0 of 16 behaviors") && ran.err.contains("no run found a robot"), "{}", ran.err);
 }
@@ -505,22 +366,9 @@ fn an_evolution_that_finds_no_robot_says_so_and_fails() {
 #[test]
 fn folders_without_robots_are_errors() {
     let bench = Bench::new();
-    std::fs::create_dir(bench.path().join("empty")).unwrap();
+    fs::create_dir(bench.path().join("empty")).unwrap();
     for command in ["list", "verify"] {
         bench.run(&["library", command, "empty"]).expect_fault(&["`empty` contains no robot files"]);
     }
-    bench.run(&["library", "show", "nand", "empty"]).expect_fault(&["`empty` contains no robot files"]);
-}
-
-#[test]
-fn a_missing_library_is_made_by_the_commands_of_the_message() {
-    let bench = Bench::new();
-    let text =
-        "evolution walks { from: gates }\nlibrary mine { from: walks }\nswarm s { circuit: flip, library: mine }\n";
-    bench.file("own.nb", format!("{text}{}", flip(true)));
-    let ran = bench.run(&["test", "own.nb"]);
-    ran.expect_fault(&[
-        "`nbc evolve own.nb --run walks --out out`",
-        "`nbc library add out/walks --into out/walks/robots`",
-    ]);
+    bench.run("library show nand empty").expect_fault(&["`empty` contains no robot files"]);
 }

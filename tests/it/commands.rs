@@ -1,13 +1,11 @@
 //! What the manual says of tools that must be installed.
 
-use std::fs;
-
-use crate::support::root;
+use crate::support::*;
 
 #[test]
 fn the_table_of_prerequisites_has_the_tools_of_the_tests() {
-    let page = fs::read_to_string(root().join("docs/prerequisites.md")).unwrap();
-    let tools = fs::read_to_string(root().join("tests/it/support/tools.rs")).unwrap();
+    let page = text_of("docs/prerequisites.md");
+    let tools = text_of("tests/it/support/tools.rs");
     let packages: Vec<&str> = tools
         .lines()
         .filter(|line| line.starts_with("pub const "))

@@ -12,7 +12,7 @@ use nbc_sim::Simulator;
 use nbc_swarm::evolve::{Search, SearchState};
 use nbc_swarm::evolve_generation;
 
-use crate::support::bench::SHORT;
+use crate::support::*;
 
 /// Generations within which a change has an effect.
 const GENERATIONS: u32 = 6;
@@ -36,17 +36,13 @@ evolution base {
 }
 ";
 
-/// The evolution `base` with some fields changed.
 #[track_caller]
 fn declared(fields: &str) -> Evolution {
-    let mut world = MemoryWorld::default();
-    world.insert("run.nb", format!("{SHORT}{DECLARATIONS}\nevolution run {{ from: base, {fields} }}\n"));
-    let checked = Session::new(world).checked("run.nb");
+    let checked = checked(format!("{SHORT}{DECLARATIONS}\nevolution run {{ from: base, {fields} }}\n"));
     assert_eq!(checked.diagnostics, [], "{fields}");
     checked.program.evolution("run").unwrap().clone()
 }
 
-/// The states of a run after each of some generations.
 fn states(evolution: &Evolution) -> impl Iterator<Item = SearchState> {
     let mut search = Search::new(evolution, evolution.seeds[0]);
     (0..GENERATIONS).map(move |_| {
@@ -55,10 +51,8 @@ fn states(evolution: &Evolution) -> impl Iterator<Item = SearchState> {
     })
 }
 
-/// A field and its change in the declaration of `base`.
 type Change = (&'static str, fn(&mut Evolution));
 
-/// Changes that each have an effect on the run.
 fn changes() -> Vec<Change> {
     vec![
         ("box: 4 x 3", |run| run.width = 4),
@@ -150,9 +144,7 @@ fn each_field_makes_another_run() {
 
 #[test]
 fn the_papers_experiment_is_declared_as_the_paper_says() {
-    let mut world = MemoryWorld::default();
-    world.insert("paper.nb", include_str!("../../library/paper.nb"));
-    let checked = Session::new(world).checked("paper.nb");
+    let checked = checked(text_of("library/paper.nb"));
     let program = &checked.program;
     for (name, side) in [("paper5", 5), ("paper7", 7), ("paper10", 10)] {
         let run = program.evolution(name).unwrap();
@@ -177,9 +169,7 @@ schedule same(s1, s2) { 0 0 for 60 steps 0 1 for 60 steps 1 0 for 60 steps 1 1 f
 evolution own  { box: 3 x 3, materials: [muscle, antimuscle, eye, skin], variable: day, fixed: 1 cycles }
 evolution usual { from: own, materials: [muscle, antimuscle, s1_shrink, s2_grow], variable: same }
 ";
-    let mut world = MemoryWorld::default();
-    world.insert("run.nb", own);
-    let checked = Session::new(world).checked("run.nb");
+    let checked = checked(own);
     assert_eq!(checked.diagnostics, []);
     let walked = |name: &str| {
         let evolution = checked.program.evolution(name).unwrap();

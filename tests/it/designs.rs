@@ -1,14 +1,11 @@
 //! The circuits of `tests/benchmarks`, and the cells that they are mapped to.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-
 use nbc_base::model::Function;
 use nbc_base::source::FileId;
 use nbc_circuit::CellLibrary;
 use nbc_circuit::formats::{Design, aiger, bench, blif};
 
-use crate::support::root;
+use crate::support::*;
 
 pub fn files() -> Vec<PathBuf> {
     let folder = root().join("tests/benchmarks");

@@ -9,7 +9,6 @@ use nbc_base::model::{
 use nbc_sim::{Constants, Flock, InstructionSet, Kernel, LaneBackend, Monitor, Simulator};
 use proptest::prelude::*;
 
-/// Every kernel of this processor.
 fn kernels() -> impl Iterator<Item = Kernel> {
     InstructionSet::available()
         .into_iter()
@@ -168,26 +167,6 @@ fn a_stopped_flock_can_be_restored() {
     assert_eq!(other.center(2).map(f64::to_bits), [whole.com_x[100], whole.com_y[100]].map(f64::to_bits));
 }
 
-#[test]
-fn bodies_of_different_palettes_run_side_by_side() {
-    let setting = Setting::default();
-    let palettes = [Palette::paper(), own_palette()];
-    let trial = |i: usize| Trial {
-        body: Body::parse(&["343", "363", "507"], &palettes[i % 2]).unwrap(),
-        schedule: Schedule::constant(Pattern::PAIRS[i / 2], 100),
-    };
-    let trials: Vec<Trial> = (0..8).map(trial).collect();
-    let alone: Vec<_> = trials
-        .iter()
-        .map(|trial| bits(&simulate(Kernel::SCALAR, &setting, std::slice::from_ref(trial)).remove(0)))
-        .collect();
-    assert!(alone.chunks(2).all(|pair| pair[0] != pair[1]), "the same codes of two palettes are two robots");
-    for kernel in kernels() {
-        let beside: Vec<_> = simulate(kernel, &setting, &trials).iter().map(bits).collect();
-        assert!(alone == beside, "{kernel:?} gives other bits than the scalar run");
-    }
-}
-
 /// Trials of different lengths in the paper's smaller boxes, so that lanes are refilled at different times.
 pub fn patchwork() -> Vec<Trial> {
     let trial = |i: usize| Trial {
@@ -219,7 +198,6 @@ fn golden_hash_on_every_kernel_and_number_of_threads() {
     }
 }
 
-/// Bodies of several boxes, some of them more than once.
 pub fn swarm_of_bodies() -> Vec<Body> {
     let flat = Body::parse(&["34343", "33333"], &Palette::paper()).unwrap();
     let body = |robot: usize| match robot % 7 {
@@ -250,7 +228,6 @@ fn robots_of_a_swarm_advance_as_they_do_alone() {
     }
 }
 
-/// The bits of all points of a robot.
 pub fn point_bits(flock: &dyn Flock, robot: usize) -> Vec<[u64; 2]> {
     flock.points(robot).into_iter().map(|at| at.map(f64::to_bits)).collect()
 }

@@ -1,15 +1,10 @@
 //! `nbc draw` in the real program: the contents of pictures of libraries, evolution runs and swarms, and impossible
 //! pictures.
 
-use std::fs;
-
 use roxmltree::Document;
 
-use crate::support::bench::{Bench, Ran};
+use crate::support::*;
 
-const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
-
-/// Two seeds of a small run.
 const RUN: &str = "
 evolution tiny {
     box:         3 x 3
@@ -21,28 +16,23 @@ evolution tiny {
 }
 ";
 
-/// A folder with the run in `out/tiny` and its page.
 pub fn evolved() -> Bench {
     let bench = Bench::new();
     bench.runs("tiny.nb", RUN);
-    let ran = bench.run(&["evolve", "tiny.nb", "--report"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let ran = bench.ok("evolve tiny.nb --report");
     assert!(ran.out.contains("report  out/tiny/report.html"), "{}", ran.out);
     bench
 }
 
-/// Runs `nbc draw` with the words of a line.
 fn draw(bench: &Bench, line: &str) -> Ran {
-    let arguments: Vec<&str> = std::iter::once("draw").chain(line.split_whitespace()).collect();
-    bench.run(&arguments)
+    bench.run(&format!("draw {line}"))
 }
 
-/// Draws a picture and returns its SVG.
 #[track_caller]
 fn svg(bench: &Bench, line: &str) -> String {
     let ran = draw(bench, &format!("{line} -o a.svg"));
     assert_eq!((ran.status, ran.out.as_str()), (0, ""), "{}", ran.err);
-    fs::read_to_string(bench.path().join("a.svg")).unwrap()
+    bench.read("a.svg")
 }
 
 fn texts(svg: &str) -> Vec<String> {
@@ -98,7 +88,7 @@ fn missing_pictures_of_a_run_are_reported() {
     draw(&bench, "out/none --as heatmap -o a.svg").expect_fault(&["out/none"]);
     fs::write(bench.path().join("out/tiny/seed-2/checkpoint.nbc"), "nothing\n").unwrap();
     draw(&bench, "out/tiny --as heatmap -o a.svg").expect_fault(&["is not a checkpoint"]);
-    assert!(!bench.path().join("a.svg").exists());
+    assert!(!bench.has("a.svg"));
 }
 
 #[test]
@@ -114,8 +104,7 @@ fn a_library_is_drawn_robot_by_robot() {
 
 #[test]
 fn robots_of_a_swarm_are_chosen_by_their_nets() {
-    let bench = Bench::new();
-    bench.file(
+    let bench = Bench::with(
         "not.nb",
         "circuit inverter(a) -> (q) { q = not a }\ntest inverter \"inverts\" {\n    a | q\n    1 | 0\n}\n",
     );
@@ -125,14 +114,13 @@ fn robots_of_a_swarm_are_chosen_by_their_nets() {
     assert_eq!(svg(&bench, "not.nb --as spacetime --robots *"), chosen);
     draw(&bench, "not.nb --as spacetime --robots p -o b.svg").expect_fault(&["no robot drives `p`", "`q`"]);
     draw(&bench, "not.nb --as dot -o a.dot");
-    let dot = fs::read_to_string(bench.path().join("a.dot")).unwrap();
+    let dot = bench.read("a.dot");
     assert!(dot.starts_with("digraph") && dot.contains("not"), "{dot}");
 }
 
 #[test]
 fn a_pose_shows_the_deformed_body_over_its_outline() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
+    let bench = Bench::with("walker.yaml", WALKER);
     let pose = |at: &str| svg(&bench, &format!("walker.yaml --as pose --schedule 00*2 --at {at}"));
     let shapes = |svg: &str, dashed: bool| {
         let document = Document::parse(svg).unwrap();
@@ -157,8 +145,7 @@ fn a_pose_shows_the_deformed_body_over_its_outline() {
 
 #[test]
 fn a_fault_in_the_first_cycle_is_drawn_and_not_hidden() {
-    let bench = Bench::new();
-    bench.file("wild.yaml", "body: [\"57070\", \"73873\", \"00304\", \"00001\", \"00861\"]\n");
+    let bench = Bench::with("wild.yaml", WILD);
     let schedule = "--schedule 00*1";
     let diagram = svg(&bench, &format!("wild.yaml --as spacetime {schedule}"));
     assert!(texts(&diagram).contains(&"unstable in cycle 1".to_owned()), "{:?}", texts(&diagram));
@@ -171,8 +158,7 @@ fn a_fault_in_the_first_cycle_is_drawn_and_not_hidden() {
 
 #[test]
 fn options_that_cannot_apply_are_rejected() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
+    let bench = Bench::with("walker.yaml", WALKER);
     bench.file("idle.nb", "circuit inverter(a) -> (q) { q = not a }\n");
     let check = |line: &str, option: &str| {
         draw(&bench, &format!("{line} -o a.svg")).expect_fault(&[&format!("`{option}` does not apply"), "help"]);
@@ -188,13 +174,12 @@ fn options_that_cannot_apply_are_rejected() {
     check("nand --as sprite --swarm few", "--swarm");
     check("nand --as sprite --test first", "--test");
     check("nand --as spacetime --safe-colors", "--safe-colors");
-    assert!(!bench.path().join("a.svg").exists());
+    assert!(!bench.has("a.svg"));
 }
 
 #[test]
 fn failed_drawings_leave_no_file() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", WALKER);
+    let bench = Bench::with("walker.yaml", WALKER);
     bench.file("idle.nb", "circuit inverter(a) -> (q) { q = not a }\n");
     let arguments = ["draw", "walker.yaml", "--as", "spacetime", "-o", "a.svg", "--schedule", ""];
     bench.run(&arguments).expect_fault(&["the schedule is empty"]);

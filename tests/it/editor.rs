@@ -1,12 +1,8 @@
 //! The editor's grammar: it tokenizes the gallery, and every word has the correct scope.
 
-use std::fs;
-
 use regex::Regex;
-use serde_json::Value;
 
-use crate::support::programs::programs;
-use crate::support::root;
+use crate::support::*;
 
 /// A rule of the grammar: a pattern, the scope of the whole match, and the scopes of its groups.
 struct Rule {

@@ -1,6 +1,6 @@
 //! Tests with environments, repeated rows and several worlds, and what circuits of the same words compute.
 
-use crate::support::bench::Bench;
+use crate::support::*;
 
 const TELLER: &str = "
 file program = \"hello.csv\"
@@ -23,8 +23,7 @@ test teller \"says it\" with desk {
 ";
 
 fn teller() -> Bench {
-    let bench = Bench::new();
-    bench.file("a.nb", TELLER);
+    let bench = Bench::with("a.nb", TELLER);
     bench.file("hello.csv", "72, 105, 0\n");
     bench.file("other.hex", "4f 4b 21\n");
     bench.file("long.hex", "1 2 3 4 5 6 7 8 9\n");
@@ -36,17 +35,16 @@ fn teller() -> Bench {
 fn an_environment_answers_at_both_levels() {
     let bench = teller();
     for level in ["--logic", "--physics"] {
-        let ran = bench.run(&["test", "a.nb", level]);
-        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+        let ran = bench.ok(&["test", "a.nb", level]);
         assert!(ran.out.contains("\n    > Hi\n"), "{}", ran.out);
     }
-    let json = bench.run(&["test", "a.nb", "--logic", "--format", "json"]).expect_json();
+    let json = bench.run("test a.nb --logic --format json").expect_json();
     assert_eq!(json["tests"][0]["printed"], "Hi");
 }
 
 #[test]
 fn the_circuit_of_a_file_is_the_last_that_is_no_environment() {
-    let built = teller().run(&["build", "a.nb"]);
+    let built = teller().run("build a.nb");
     assert_eq!(built.status, 0, "{}{}", built.out, built.err);
     assert!(built.out.contains("teller"), "{}", built.out);
 }
@@ -55,8 +53,7 @@ fn the_circuit_of_a_file_is_the_last_that_is_no_environment() {
 fn a_declared_file_is_replaced_on_the_command_line() {
     let bench = teller();
     for arguments in [&["--program", "other.hex"][..], &["--program=other.hex"], &["--file", "program=other.hex"]] {
-        let ran = bench.run(&[&["test", "a.nb", "--logic"], arguments].concat());
-        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+        let ran = bench.ok(&[&["test", "a.nb", "--logic"], arguments].concat());
         assert!(ran.out.contains("> OK!\n"), "{}", ran.out);
     }
     let run = |arguments: &[&str]| bench.run(&[&["test", "a.nb", "--logic"], arguments].concat());
@@ -72,7 +69,7 @@ fn rows_are_repeated_a_number_of_times_or_until_an_output_has_a_value() {
         let bench = Bench::new();
         let circuit = "circuit c(clk) -> (n[3], top) {\n n = register(n + 1, clk)\n top = n == 7\n}\n";
         bench.file("a.nb", format!("{circuit}test c {{\n clk | n top\n{rows}\n}}\n"));
-        let ran = bench.run(&["test", "a.nb", "--logic"]);
+        let ran = bench.run("test a.nb --logic");
         assert_eq!(ran.status, i32::from(!passes), "{rows}\n{}{}", ran.out, ran.err);
         assert!(ran.out.contains(says), "{says:?} is not in\n{}", ran.out);
     };
@@ -90,9 +87,9 @@ fn a_test_runs_in_each_of_its_worlds() {
     let text = "world wet { friction: 95% }\ncircuit f(a) -> (q) { q = not a }\n\
                 test f in [paper, wet] {\n a | q\n 0 | 1\n}\nsimulate f with schedule (a) { 0 for 3 cycles }\n";
     bench.file("a.nb", text);
-    let ran = bench.run(&["test", "a.nb"]);
+    let ran = bench.run("test a.nb");
     assert!(ran.status == 0 && ran.out.contains("2 passed, 0 failed"), "{}{}", ran.out, ran.err);
-    let ran = bench.run(&["run", "a.nb", "--no-report"]);
+    let ran = bench.run("run a.nb --no-report");
     assert!(ran.status == 0 && ran.out.contains("simulate"), "{}{}", ran.out, ran.err);
 }
 
@@ -103,44 +100,7 @@ fn circuits_that_change_each_other_for_ever_are_refused() {
                 environment e(q) -> (a) { a = q }\n\
                 test f with e {\n clk | q\n 0 | -\n}\n";
     bench.file("a.nb", text);
-    let ran = bench.run(&["test", "a.nb", "--logic"]);
+    let ran = bench.run("test a.nb --logic");
     assert!(ran.err.contains("change each other for ever"), "{}{}", ran.out, ran.err);
     assert_eq!(ran.status, 1);
-}
-
-/// A test of circuits that is over all inputs, with what it compares.
-#[track_caller]
-fn computes(circuits: &str, test: &str) {
-    let bench = Bench::new();
-    bench.file("a.nb", format!("{circuits}\n{test}\n"));
-    let ran = bench.run(&["test", "a.nb", "--logic"]);
-    assert_eq!(ran.status, 0, "{circuits}\n{test}\n{}{}", ran.out, ran.err);
-}
-
-#[test]
-fn numbers_names_and_arrays_compute_what_they_say() {
-    computes(
-        "circuit f(a[4], b[2]) -> (p[4], l[4], r[4], s, w[2]) {\n p = a * 3\n l = a << b\n r = a >> 2\n s = a[b]\n \
-         net m[4][2]\n for i in 0..4 {\n m[i] = b + i\n }\n w = m[b]\n}",
-        "test f for all inputs {\n p = a + a + a\n \
-         l = table(b) { 0: a, 1: {a[2..0], 0}, 2: {a[1..0], 2'd0}, 3: {a[0], 3'd0} }\n \
-         r = {2'd0, a[3..2]}\n s = select(a, b)\n w = b + b\n}",
-    );
-    computes(
-        "enum e { x, y, z }\ncircuit f(a: e, b) -> (q: e, n[3]) {\n \
-         q = match a { x: y, y or z: if b then z else x, else: x }\n {n[2], n[1..0]} = {b, a}\n}",
-        "test f for all inputs {\n q = table(a, b) { 00-: 01, 01-: t, 10-: t, 11-: 00 }\n \
-         t = if b then 2'd2 else 0\n n = {b, a}\n}",
-    );
-    computes(
-        "let n = 3\ncircuit g[k](a[k]) -> (q) {\n let half = k / 2\n \
-         if half > 1 {\n q = a[half]\n } else {\n q = not a[0]\n }\n}\n\
-         circuit f(a[n]) -> (q, r) {\n q = g(a)\n r = g({a, a})\n}",
-        "test f for all inputs {\n q = not a[0]\n r = a[0]\n}",
-    );
-    computes(
-        "circuit sum(a[3], b[3] = 2, c = 0) -> (q[3]) { q = a + b + {2'd0, c} }\n\
-         circuit f(a[3], c) -> (p[3], q[3], r[3]) {\n p = sum(a)\n q = sum(c: c, a: a)\n r = sum(a, 7, c)\n}",
-        "test f for all inputs {\n p = a + 2\n q = a + 2 + {2'd0, c}\n r = a - 1 + {2'd0, c}\n}",
-    );
 }

@@ -1,22 +1,17 @@
 //! The claims of the manual: does again what it says was done, and compares.
 
-use std::fs;
-use std::path::Path;
 use std::process::Command;
 use std::time::{Duration, Instant};
 
 use serde::Deserialize;
 
-use crate::support::limits::{InTime, PATIENCE};
-use crate::support::root;
+use crate::support::*;
 
 /// What a page says, and the command that shows it.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Claim {
-    /// The claim in one sentence.
     claim: String,
-    /// The page, from the root of the repository.
     page: String,
     /// The command, with `{out}` for a folder that is removed afterwards. Words are parted by spaces; one with spaces
     /// is in single quotes.
@@ -38,29 +33,18 @@ struct Claim {
 }
 
 fn claims() -> Vec<Claim> {
-    serde_json::from_str(&fs::read_to_string(root().join("docs/evidence.json")).unwrap()).unwrap()
-}
-
-/// A text whose words are parted by single spaces, so that line ends and columns do not matter.
-fn squeezed(text: &str) -> String {
-    text.split_whitespace().collect::<Vec<_>>().join(" ")
+    serde_json::from_str(&text_of("docs/evidence.json")).unwrap()
 }
 
 impl Claim {
     fn page(&self) -> String {
-        squeezed(&fs::read_to_string(root().join(&self.page)).unwrap())
+        squeezed(&text_of(&self.page))
     }
 
-    /// The words of the command.
     fn words(&self, out: &Path) -> Vec<String> {
-        let words = self.command.split('\'').enumerate().flat_map(|(n, part)| match n % 2 {
-            1 => vec![part.to_owned()],
-            _ => part.split_whitespace().map(str::to_owned).collect(),
-        });
-        words.map(|word| word.replace("{out}", out.to_str().unwrap())).collect()
+        self.command.replace("{out}", out.to_str().unwrap()).words()
     }
 
-    /// The texts that the output or the page lacks.
     fn missing(&self, page: &str, printed: &str) -> Vec<String> {
         let all = squeezed(printed);
         let said = self.says.iter().chain(&self.prints).filter(|text| !all.contains(&squeezed(text)));
@@ -122,7 +106,7 @@ fn the_table_of_claims_is_that_of_the_list() {
         let link = page.strip_prefix("docs/").map_or_else(|| format!("../{page}"), str::to_owned);
         table += &format!("| {claim} | [{name}]({link}) | `{command}` | {} |\n", time(seconds));
     }
-    let page = fs::read_to_string(root().join("docs/reproduce.md")).unwrap();
+    let page = text_of("docs/reproduce.md");
     assert!(page.contains(&table), "docs/reproduce.md needs this table:\n{table}");
 }
 

@@ -1,21 +1,18 @@
 //! Evolution runs through the real program: the same bits on any number of threads and after any interruption; images
 //! that are exact.
 
-use std::fs;
 use std::io::{BufRead, BufReader};
 use std::process::{Command, Stdio};
 
-use nbc::Session;
 use nbc_base::model::{Body, Evolution, Palette, Pattern, Schedule, Setting, Spell, Trial};
-use nbc_base::source::MemoryWorld;
+
 use nbc_session::store::lock_folder;
 use nbc_sim::Simulator;
 use nbc_swarm::evolve::{Search, recodings};
 use nbc_swarm::{evaluate, evaluate_bodies};
 use proptest::prelude::*;
 
-use crate::support::bench::{Bench, SHORT};
-use crate::support::limits::{InTime, Limit};
+use crate::support::*;
 
 /// Two small runs, one for each objective.
 const RUNS: &str = "
@@ -47,7 +44,6 @@ fn bench() -> Bench {
     bench
 }
 
-/// The checkpoints of uninterrupted runs on this number of threads.
 fn straight(bench: &Bench, threads: &str) -> Vec<Vec<u8>> {
     let out = format!("threads-{threads}");
     let mut command = bench.command(&["evolve", "runs.nb", "--out", &out]);
@@ -103,8 +99,7 @@ fn the_same_seed_gives_the_same_archive_after_being_killed() {
     child.kill().unwrap();
     child.wait().unwrap();
     drop(limit);
-    let resumed = bench.run(&["evolve", "runs.nb", "--out", "killed", "--resume"]);
-    assert_eq!(resumed.status, 0, "{}", resumed.err);
+    bench.ok("evolve runs.nb --out killed --resume");
     assert_eq!(read(&bench, "killed"), one);
     let progress = |out: &str| fs::read_to_string(bench.path().join(out).join("walks/seed-3/progress.jsonl")).unwrap();
     assert_eq!(progress("killed"), progress("threads-1"), "each generation has one line");
@@ -113,15 +108,17 @@ fn the_same_seed_gives_the_same_archive_after_being_killed() {
 #[test]
 fn seeds_that_advance_together_leave_the_files_of_each_alone() {
     let bench = bench();
-    bench.runs("runs.nb", RUNS.replace("seed:        3", "seed:        1..3"));
+    bench.runs(
+        "runs.nb",
+        RUNS.replace("seed:        3", "seed:        1..3").replace("generations: 12", "generations: 5"),
+    );
     let evolve = |arguments: &[&str]| {
-        let ended = bench.run(&[&["evolve", "runs.nb"], arguments].concat());
-        assert_eq!(ended.status, 0, "{}", ended.err);
+        let ended = bench.ok(&[&["evolve", "runs.nb"], arguments].concat());
         ended.out
     };
     evolve(&["--out", "together"]);
     // One of them is ahead of the others when they continue.
-    evolve(&["--run", "walks", "--seed", "2", "--generations", "5", "--out", "late"]);
+    evolve(&["--run", "walks", "--seed", "2", "--generations", "2", "--out", "late"]);
     let said = evolve(&["--run", "walks", "--out", "late", "--resume"]);
     let order: Vec<&str> = said.lines().filter(|line| line.starts_with("walks, seed")).collect();
     assert_eq!(order, ["walks, seed 1", "walks, seed 2", "walks, seed 3"]);
@@ -134,7 +131,7 @@ fn seeds_that_advance_together_leave_the_files_of_each_alone() {
             // A checkpoint also has the seeds that were declared.
             let contents = |out: &str| {
                 let text = read(out, "checkpoint.nbc");
-                let whole: serde_json::Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
+                let whole: Value = serde_json::from_str(text.split_once('\n').unwrap().1).unwrap();
                 let parts = ["state", "env_steps", "left_out"].map(|part| whole[part].to_string());
                 (parts, read(out, "progress.jsonl"))
             };
@@ -150,16 +147,16 @@ fn seeds_that_advance_together_leave_the_files_of_each_alone() {
 #[cfg(unix)]
 fn a_signal_ends_a_run_with_a_checkpoint() {
     let bench = bench();
-    for signal in ["TERM", "USR1", "INT"] {
-        let arguments = ["evolve", "runs.nb", "--out", signal, "--generations", "1000000"];
+    for name in ["TERM", "USR1", "INT"] {
+        let arguments = ["evolve", "runs.nb", "--out", name, "--generations", "1000000"];
         let mut child = bench.command(&arguments).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
         let _limit = Limit::of(&child);
         // The program watches signals before it estimates the time of a long run.
         let estimate = BufReader::new(child.stderr.take().unwrap()).lines().next().unwrap().unwrap();
         assert!(estimate.starts_with("at most about ") && estimate.contains(" hours on this machine"), "{estimate}");
-        crate::support::tools::signal(signal, child.id());
+        signal(name, child.id());
         assert_eq!(child.wait().unwrap().code(), Some(4));
-        assert!(bench.path().join(signal).join(CHECKPOINTS[0]).exists());
+        assert!(bench.path().join(name).join(CHECKPOINTS[0]).exists());
     }
 }
 
@@ -167,7 +164,7 @@ fn a_signal_ends_a_run_with_a_checkpoint() {
 fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
     let bench = bench();
     let first = ["evolve", "runs.nb", "--run", "walks", "--generations", "2", "--out", "out"];
-    assert_eq!(bench.run(&first).status, 0);
+    bench.ok(&first);
     let path = bench.path().join("out").join(CHECKPOINTS[0]);
     let whole = fs::read(&path).unwrap();
     let check = |bytes: &[u8], arguments: &[&str], expected: &str| {
@@ -178,11 +175,7 @@ fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
         assert_eq!(fs::read(&path).unwrap(), bytes);
     };
     let resume = [&first[..], &["--resume"]].concat();
-    let mut damaged = whole.clone();
-    damaged[whole.len() / 2] ^= 4;
-    check(&damaged, &resume, "is damaged: its checksum does not match");
     check(&whole[..whole.len() / 2], &resume, "is damaged: its checksum does not match");
-    check(b"", &resume, "is not a checkpoint");
     check(b"PK\x03\x04 something else\n", &resume, "is not a checkpoint");
     for format in ["0", "3"] {
         let header = format!("nbc-checkpoint {format} ");
@@ -202,7 +195,7 @@ fn a_checkpoint_that_does_not_fit_is_rejected_and_unchanged() {
 fn a_folder_in_use_is_unchanged_and_its_process_reported() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--resume"];
-    assert_eq!(bench.run(&[&arguments[..], &["--generations", "2"]].concat()).status, 0);
+    bench.ok(&[&arguments[..], &["--generations", "2"]].concat());
     let folder = bench.path().join("out/walks/seed-3");
     let contents = || ["checkpoint.nbc", "progress.jsonl"].map(|name| fs::read(folder.join(name)).unwrap());
     let (before, lock) = (contents(), lock_folder(&folder).unwrap());
@@ -210,7 +203,7 @@ fn a_folder_in_use_is_unchanged_and_its_process_reported() {
     bench.run(&arguments).expect_fault(&["unwritable", &said]);
     assert_eq!(contents(), before);
     drop(lock);
-    assert_eq!(bench.run(&arguments).status, 0);
+    bench.ok(&arguments);
     assert_ne!(contents(), before);
 }
 
@@ -218,7 +211,7 @@ fn a_folder_in_use_is_unchanged_and_its_process_reported() {
 fn a_damaged_history_is_reported_and_set_aside() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--resume"];
-    assert_eq!(bench.run(&[&arguments[..], &["--generations", "6"]].concat()).status, 0);
+    bench.ok(&[&arguments[..], &["--generations", "6"]].concat());
     let path = bench.path().join("out/walks/seed-3/progress.jsonl");
     let whole = fs::read_to_string(&path).unwrap();
     let mut lines: Vec<&[u8]> = whole.lines().map(str::as_bytes).collect();
@@ -226,7 +219,7 @@ fn a_damaged_history_is_reported_and_set_aside() {
     let damaged = lines.join(&b'\n');
     fs::write(&path, &damaged).unwrap();
     let said = "`out/walks/seed-3/progress.jsonl` has no readable line for 1 of 6 generations, the first of";
-    let drawn = bench.run(&["draw", "out/walks", "--as", "progress", "-o", "a.svg"]);
+    let drawn = bench.run("draw out/walks --as progress -o a.svg");
     assert!(drawn.status == 0 && drawn.err.contains(said), "{}", drawn.err);
     let resumed = bench.run(&arguments);
     assert!(resumed.status == 0 && resumed.err.contains(said), "{}", resumed.err);
@@ -241,11 +234,11 @@ fn a_damaged_history_is_reported_and_set_aside() {
 #[test]
 fn the_same_run_is_not_counted_twice() {
     let bench = bench();
-    assert_eq!(bench.run(&["evolve", "runs.nb", "--run", "walks", "--generations", "2"]).status, 0);
+    bench.ok("evolve runs.nb --run walks --generations 2");
     let (own, copy) = (bench.path().join("out/walks/seed-3"), bench.path().join("out/walks/seed-4"));
     fs::create_dir_all(&copy).unwrap();
     fs::copy(own.join("checkpoint.nbc"), copy.join("checkpoint.nbc")).unwrap();
-    let ran = bench.run(&["draw", "out/walks", "--as", "comparison", "-o", "a.svg"]);
+    let ran = bench.run("draw out/walks --as comparison -o a.svg");
     ran.expect_fault(&["`out/walks/seed-4/checkpoint.nbc` has seed 3, like another run in the folder"]);
 }
 
@@ -253,10 +246,10 @@ fn the_same_run_is_not_counted_twice() {
 fn a_folder_that_cannot_be_written_is_reported() {
     let bench = bench();
     bench.file("taken", "a file");
-    let ran = bench.run(&["evolve", "runs.nb", "--run", "walks", "--out", "taken"]);
+    let ran = bench.run("evolve runs.nb --run walks --out taken");
     ran.expect_fault(&["unwritable", "cannot write `taken/walks/seed-3`"]);
     fs::create_dir_all(bench.path().join("out").join(CHECKPOINTS[0])).unwrap();
-    let ran = bench.run(&["evolve", "runs.nb", "--run", "walks"]);
+    let ran = bench.run("evolve runs.nb --run walks");
     ran.expect_fault(&["cannot read `out/walks/seed-3/checkpoint.nbc`"]);
 }
 
@@ -272,10 +265,8 @@ fn a_run_continues_from_its_last_checkpoint_after_a_full_disk() {
     assert!(told.contains("cannot write `out/walks/seed-3/"), "{told}");
     let path = bench.path().join("out").join(CHECKPOINTS[0]);
     assert!(path.exists(), "some generations had room");
-    let resumed = bench.run(&[&arguments[..], &["--resume"]].concat());
-    assert_eq!(resumed.status, 0, "{}", resumed.err);
-    let straight = bench.run(&[&arguments[..], &["--out", "roomy"]].concat());
-    assert_eq!(straight.status, 0, "{}", straight.err);
+    bench.ok(&[&arguments[..], &["--resume"]].concat());
+    bench.ok(&[&arguments[..], &["--out", "roomy"]].concat());
     assert_eq!(fs::read(path).unwrap(), fs::read(bench.path().join("roomy").join(CHECKPOINTS[0])).unwrap());
     let left: Vec<_> = fs::read_dir(bench.path().join("out/walks/seed-3")).unwrap().collect();
     assert_eq!(left.len(), 3, "no half-written files stay: {left:?}");
@@ -284,9 +275,9 @@ fn a_run_continues_from_its_last_checkpoint_after_a_full_disk() {
 #[test]
 fn each_generation_writes_a_line_and_the_run_prints_a_table() {
     let bench = bench();
-    let ran = bench.run(&["evolve", "runs.nb", "--run", "walks"]);
-    let text = fs::read_to_string(bench.path().join("out/walks/seed-3/progress.jsonl")).unwrap();
-    let lines: Vec<serde_json::Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let ran = bench.run("evolve runs.nb --run walks");
+    let text = bench.read("out/walks/seed-3/progress.jsonl");
+    let lines: Vec<Value> = text.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
     assert_eq!(lines.len(), 12);
     let mut fields: Vec<&str> = lines[0].as_object().unwrap().keys().map(String::as_str).collect();
     fields.sort_unstable();
@@ -315,9 +306,7 @@ fn each_generation_writes_a_line_and_the_run_prints_a_table() {
 }
 
 fn declared(name: &str) -> Evolution {
-    let mut world = MemoryWorld::default();
-    world.insert("runs.nb", format!("{SHORT}{RUNS}"));
-    Session::new(world).checked("runs.nb").program.evolution(name).unwrap().clone()
+    checked(format!("{SHORT}{RUNS}")).program.evolution(name).unwrap().clone()
 }
 
 #[test]
@@ -332,25 +321,6 @@ fn bodies_are_evaluated_as_candidates_of_an_empty_archive_are() {
 }
 
 #[test]
-fn skipped_simulations_do_not_change_the_archive() {
-    for name in ["walks", "turns"] {
-        let evolution = declared(name);
-        let empty = Search::new(&evolution, 3);
-        let (mut staged, mut full) = (empty.clone(), empty.clone());
-        for _ in 0..evolution.generations {
-            let candidates = staged.ask();
-            assert_eq!(candidates, full.ask());
-            staged.tell(&candidates, &evaluate(&Simulator::default(), &staged, &candidates).0);
-            // An empty archive accepts every body, so nothing is skipped.
-            full.tell(&candidates, &evaluate(&Simulator::default(), &empty, &candidates).0);
-            assert_eq!(staged.archive(), full.archive());
-        }
-        assert_eq!(full.counts().surpassed, 0);
-        assert!(staged.counts().surpassed > 0, "something was left out of `{name}`");
-    }
-}
-
-#[test]
 fn a_run_is_reported_as_text_and_as_json() {
     let bench = bench();
     let arguments = ["evolve", "runs.nb", "--run", "walks", "--generations", "3"];
@@ -360,7 +330,7 @@ fn a_run_is_reported_as_text_and_as_json() {
     let json = bench.run(&[&arguments[..], &["--out", "b", "--format", "json"]].concat());
     let ended = &json.expect_json()["runs"][0];
     assert_eq!((&ended["run"], &ended["generation"]), (&"walks".into(), &3.into()));
-    let unknown = bench.run(&["evolve", "runs.nb", "--run", "walk"]);
+    let unknown = bench.run("evolve runs.nb --run walk");
     assert_eq!(unknown.status, 2);
     assert!(unknown.err.contains("no evolution is called `walk`"), "{}", unknown.err);
 }
@@ -376,7 +346,7 @@ fn a_file_runs_its_own_evolutions_and_others_by_name() {
     };
     assert_eq!(runs(&["user.nb", "--out", "a"]), ["strolls"]);
     assert_eq!(runs(&["user.nb", "--run", "walks", "--generations", "2", "--out", "b"]), ["walks"]);
-    let idle = bench.run(&["evolve", "idle.nb"]);
+    let idle = bench.run("evolve idle.nb");
     assert_eq!(idle.status, 2);
     assert!(idle.err.contains("`idle.nb` declares no evolution"), "{}", idle.err);
     assert!(idle.err.contains("run one that it uses with `--run`: `gates`, `walks` or `turns`"), "{}", idle.err);

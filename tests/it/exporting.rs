@@ -1,12 +1,8 @@
 //! `nbc export`: archives and libraries as tables, with everything that is in them.
 
-use std::fs;
-
 use nbc_session::store::shipped_library;
-use serde_json::Value;
 
-use crate::support::bench::Bench;
-use crate::support::schema::validate;
+use crate::support::*;
 
 /// A run with two materials of its own, on two axes of one word.
 const RUN: &str = "
@@ -31,7 +27,7 @@ fn table(text: &str) -> (Vec<&str>, Vec<Vec<&str>>) {
 
 #[test]
 fn a_librarys_table_has_a_row_for_each_robot() {
-    let ran = Bench::new().run(&["export", "shipped"]);
+    let ran = Bench::new().run("export shipped");
     let (head, rows) = table(&ran.out);
     let library = shipped_library();
     assert_eq!((ran.status, rows.len()), (0, library.robots.len()));
@@ -52,18 +48,16 @@ fn a_librarys_table_has_a_row_for_each_robot() {
 
 #[test]
 fn an_archive_is_exported_completely_with_its_materials() {
-    let bench = Bench::new();
-    bench.file("own.nb", RUN);
-    let ran = bench.run(&["evolve", "own.nb"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let bench = Bench::with("own.nb", RUN);
+    bench.ok("evolve own.nb");
     for file in ["elites.csv", "elites.json"] {
         let ran = bench.run(&["export", "out/own", "-o", file]);
         assert_eq!((ran.status, ran.out.as_str(), ran.err), (0, "", format!("wrote {file}\n")));
     }
-    let read = |file: &str| fs::read_to_string(bench.path().join(file)).unwrap();
+    let read = |file: &str| bench.read(file);
     let json = validate("elites", &read("elites.json"));
     let elites = json["elites"].as_array().unwrap();
-    assert_eq!(json["axes"][2], serde_json::json!({ "name": "voxels", "bins": 2 }));
+    assert_eq!(json["axes"][2], json!({ "name": "voxels", "bins": 2 }));
     let text = read("elites.csv");
     let head: Vec<&str> = text.lines().next().unwrap().split(',').collect();
     assert!(head.contains(&"niche_voxels_1") && head.contains(&"niche_voxels_3") && head.contains(&"niche_behavior"));
@@ -77,16 +71,16 @@ fn an_archive_is_exported_completely_with_its_materials() {
         let hearts: usize = rows.iter().map(|row| row.matches('1').count()).sum();
         assert_eq!(elite["actuators"], hearts);
     }
-    let one: Value = bench.run(&["export", "out/own/seed-2", "--to", "json"]).expect_json();
+    let one: Value = bench.run("export out/own/seed-2 --to json").expect_json();
     assert!(one["elites"].as_array().unwrap().iter().all(|elite| elite["seed"] == 2));
 }
 
 #[test]
 fn impossible_exports_are_reported() {
     let bench = Bench::new();
-    bench.run(&["export", "none"]).expect_fault(&["none"]);
+    bench.run("export none").expect_fault(&["none"]);
     fs::create_dir(bench.path().join("empty")).unwrap();
-    bench.run(&["export", "empty"]).expect_fault(&["`empty` contains neither a run nor robots"]);
-    let both = bench.run(&["export", "shipped", "--to", "csv", "--format", "json"]);
+    bench.run("export empty").expect_fault(&["`empty` contains neither a run nor robots"]);
+    let both = bench.run("export shipped --to csv --format json");
     assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
 }

@@ -7,9 +7,6 @@ use nbc_base::diag::{Code, Diagnostic};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 use proptest::prelude::*;
-use serde_json::{Value, json};
-
-use crate::support::bench::Bench;
 
 /// Declarations with one error each, whose names no other declaration uses. A word that begins no declaration is not
 /// included, because it belongs to the previous one.
@@ -46,10 +43,8 @@ const BROKEN: &[(Code, &str)] = &[
     (Code::Width, "circuit g4(a[2], b[3]) -> (q[2]) { q = a and b }"),
 ];
 
-/// The declarations that the others refer to.
 const SOUND: &str = "circuit and_gate(a, b) -> (q) { q = a and b }";
 
-/// The codes and messages of a check.
 fn found(declarations: &[&str]) -> Vec<(Code, String)> {
     let mut sources = Sources::default();
     let file = sources.add("main.nb", declarations.join("\n\n"));
@@ -57,7 +52,6 @@ fn found(declarations: &[&str]) -> Vec<(Code, String)> {
     diagnostics.into_iter().map(|Diagnostic { code, message, .. }| (code, message)).collect()
 }
 
-/// What is found in each broken declaration alone.
 fn alone() -> &'static [Vec<(Code, String)>] {
     static ALONE: OnceLock<Vec<Vec<(Code, String)>>> = OnceLock::new();
     ALONE.get_or_init(|| BROKEN.iter().map(|(_, text)| found(&[SOUND, text])).collect())
@@ -92,31 +86,4 @@ proptest! {
         let slips = together.iter().filter(|(code, _)| *code == Code::Syntax).count();
         prop_assert!(slips >= chosen.iter().filter(syntax).count(), "each slip has a message: {:?}", together);
     }
-}
-
-#[test]
-fn messages_are_data_with_places_in_bytes_lines_and_columns() {
-    let bench = Bench::new();
-    bench.file("one.nb", "// größer\ncircuit é(a) -> (q) { q = a }\n");
-    bench.file("two.nb", "circuit f(a) -> (q) {\n    q = a // größer\n}\n\ncircuit f(a) -> (q) { q = a }\n");
-    let ran = bench.run(&["check", "one.nb", "two.nb", "--format", "json"]);
-    assert_eq!((ran.status, ran.err.as_str()), (2, ""));
-    let all: Value = serde_json::from_str(&ran.out).unwrap();
-    for diagnostic in all["diagnostics"].as_array().unwrap() {
-        for key in ["code", "severity", "message", "help", "labels", "related"] {
-            assert!(diagnostic.get(key).is_some(), "{key} of {diagnostic}");
-        }
-    }
-    let label =
-        |code: &str| &all["diagnostics"].as_array().unwrap().iter().find(|one| one["code"] == code).unwrap()["labels"];
-    let second = label("duplicate");
-    assert_eq!(second[0]["file"], "two.nb");
-    assert_eq!(second[0]["start"]["line"], 5);
-    assert_eq!(second[0]["start"]["column"], 9);
-    assert_eq!(second[1]["start"], json!({ "byte": 8, "line": 1, "column": 9 }));
-    assert_eq!(second[1]["end"], json!({ "byte": 9, "line": 1, "column": 10 }));
-    let first = label("syntax");
-    assert_eq!((&first[0]["file"], &first[0]["start"]["line"]), (&json!("one.nb"), &json!(2)));
-    // The comment above has two letters of two bytes each.
-    assert_eq!(first[0]["start"], json!({ "byte": 20, "line": 2, "column": 9 }));
 }

@@ -105,7 +105,6 @@ fn an_apng_shows_the_same_film() {
     }
 }
 
-/// Counts the written bytes.
 struct Counter(Rc<Cell<usize>>);
 
 impl Write for Counter {
@@ -166,13 +165,6 @@ fn a_swarm_walks_in_lanes_beside_its_stimuli() {
         let column = (width - 20..width).map(|x| count(picture, ground, x..x + 1)).max().unwrap();
         assert_eq!(column, 5 * 9, "five lanes stand on ground nine pixels deep");
     }
-}
-
-#[test]
-fn a_large_robot_has_a_film_too() {
-    let rows: Vec<&str> = (0..10).map(|row| if row < 7 { "3434343434" } else { "3400000034" }).collect();
-    let bytes = gif_bytes(&Body::parse(&rows, &Palette::paper()).unwrap(), 2);
-    assert_eq!(decode_gif(&bytes).0.len(), 2 * 12 + 1);
 }
 
 #[test]

@@ -1,65 +1,53 @@
 //! The first steps with the program: its words on success, `new`, `watch`, standard input, interruptions, the tutorial
 //! and the page for those who come from Verilog.
 
-use std::io::{BufRead, BufReader, Write};
+use std::collections::{BTreeMap, BTreeSet};
+use std::io::{BufRead, BufReader};
 use std::process::{Child, Command, Stdio};
 
 use nbc_base::model::Instance;
-use nbc_circuit::{Logic, Netlist, elaborate};
+use nbc_circuit::{Logic, NetId, Netlist, elaborate};
 use nbc_session::store::DiskWorld;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::manual::{Fence, fences};
-use crate::support::bench::Bench;
-use crate::support::limits::{self, Limit};
-use crate::support::root;
+
+use crate::support::*;
 
 const FINE: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n\ntest f {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
 
 #[test]
 fn a_program_without_errors_is_told_so() {
-    let bench = Bench::new();
-    bench.file("fine.nb", FINE);
+    let bench = Bench::with("fine.nb", FINE);
     bench.file("odd.nb", "circuit f(a, b) -> (q) { q = not a }\n");
-    let ran = bench.run(&["check", "fine.nb", "odd.nb"]);
+    let ran = bench.run("check fine.nb odd.nb");
     assert_eq!((ran.status, ran.out.as_str()), (0, "fine.nb: no errors\nodd.nb: no errors, 1 warning\n"));
 }
 
 #[test]
 fn standard_input_is_checked() {
-    let bench = Bench::new();
-    bench.file("used.nb", FINE);
-    let check = |text: &str| {
-        let mut command = bench.command(&["check", "-"]);
-        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
-        child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
-        let output = limits::end(child);
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        (output.status.code(), text(output.stdout), text(output.stderr))
-    };
-    let fine = check("use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\n");
-    assert_eq!(fine, (Some(0), "<stdin>: no errors\n".to_owned(), String::new()));
-    let (status, out, err) = check("circuit g(a) -> (q) { q = b }\n");
-    assert_eq!((status, out.as_str()), (Some(2), ""));
-    assert!(err.contains("[<stdin>:1:27]"), "{err}");
+    let bench = Bench::with("used.nb", FINE);
+    let fine = bench.told("check -", "use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\n");
+    assert_eq!((fine.status, &*fine.out, &*fine.err), (0, "<stdin>: no errors\n", ""));
+    bench.told("check -", "circuit g(a) -> (q) { q = b }\n").expect_fault(&["[<stdin>:1:27]"]);
 }
 
 #[test]
 fn new_writes_a_program_that_passes_and_overwrites_none() {
     let bench = Bench::new();
-    let ran = bench.run(&["new", "adder"]);
+    let ran = bench.run("new adder");
     assert_eq!((ran.status, ran.out.as_str()), (0, "wrote adder.nb; `nbc test adder.nb` tests it\n"), "{}", ran.err);
-    assert_eq!(bench.run(&["fmt", "--check", "adder.nb"]).status, 0, "it is in the canonical form");
-    let tested = bench.run(&["test", "adder.nb"]);
+    bench.ok("fmt --check adder.nb");
+    let tested = bench.run("test adder.nb");
     assert_eq!(tested.out, "pass  adder \"adds\" (4 rows, physics)\n1 passed, 0 failed\n", "{}", tested.err);
-    let json = bench.run(&["new", "other", "--format", "json"]);
+    let json = bench.run("new other --format json");
     assert!(json.status == 2 && json.out.contains("a first program cannot be JSON"), "{}", json.out);
-    assert!(!bench.path().join("other.nb").exists());
-    bench.run(&["new", "adder.nb"]).expect_fault(&["`adder.nb` exists already", "choose another name"]);
-    bench.run(&["new", "2nd"]).expect_fault(&["no circuit can have the name of `2nd.nb`"]);
-    bench.run(&["new", "nand"]).expect_fault(&["no circuit can have the name of `nand.nb`"]);
-    bench.run(&["new", "nowhere/adder"]).expect_fault(&["nowhere/adder.nb"]);
+    assert!(!bench.has("other.nb"));
+    bench.run("new adder.nb").expect_fault(&["`adder.nb` exists already", "choose another name"]);
+    bench.run("new 2nd").expect_fault(&["no circuit can have the name of `2nd.nb`"]);
+    bench.run("new nand").expect_fault(&["no circuit can have the name of `nand.nb`"]);
+    bench.run("new nowhere/adder").expect_fault(&["nowhere/adder.nb"]);
 }
 
 #[test]
@@ -73,13 +61,12 @@ fn one_test_of_several_is_chosen_by_its_title_or_circuit() {
         let ran = bench.run(&["test", "two.nb", "--logic", "--only", name]);
         assert!(ran.out.starts_with(found), "{}{}", ran.out, ran.err);
     }
-    bench.run(&["test", "two.nb", "--only", "h"]).expect_fault(&["called `h`", "there are `f`, `g` and `other`"]);
+    bench.run("test two.nb --only h").expect_fault(&["called `h`", "there are `f`, `g` and `other`"]);
 }
 
 #[test]
 fn verdicts_are_colored_where_that_is_wanted() {
-    let bench = Bench::new();
-    bench.file("fine.nb", FINE);
+    let bench = Bench::with("fine.nb", FINE);
     let out = |arguments: &[&str]| bench.run(arguments).out;
     assert!(out(&["test", "fine.nb", "--logic", "--color", "always"]).starts_with("\u{1b}[32mpass\u{1b}[0m  f"));
     assert!(out(&["test", "fine.nb", "--logic"]).starts_with("pass  f"));
@@ -90,13 +77,13 @@ fn verdicts_are_colored_where_that_is_wanted() {
 
 #[test]
 fn the_citation_is_of_this_version() {
-    let citation = std::fs::read_to_string(root().join("CITATION.cff")).unwrap();
+    let citation = text_of("CITATION.cff");
     let field = |name: &str| citation.lines().find_map(|line| line.strip_prefix(&format!("{name}: "))).unwrap();
     assert_eq!(
         (field("cff-version"), field("version"), field("type")),
         ("1.2.0", env!("CARGO_PKG_VERSION"), "software")
     );
-    let readme = fences(&std::fs::read_to_string(root().join("README.md")).unwrap());
+    let readme = fences(&text_of("README.md"));
     let entry = &readme.iter().find(|fence| fence.words == ["bibtex"]).unwrap().text;
     let value = |name: &str| {
         let line = entry.lines().find(|line| line.trim().starts_with(name)).unwrap();
@@ -108,7 +95,6 @@ fn the_citation_is_of_this_version() {
     assert!(citation.contains(&format!("  - name: {}", value("author"))), "{entry}");
 }
 
-/// A program that runs until it is told to stop.
 struct Running {
     child: Child,
     _limit: Limit,
@@ -131,7 +117,7 @@ impl Running {
     #[cfg(target_os = "linux")]
     fn watches_interrupts(&self) -> bool {
         const INT: u64 = 1 << 1;
-        let about = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
+        let about = fs::read_to_string(format!("/proc/{}/status", self.child.id())).unwrap();
         let caught = about.lines().find_map(|line| line.strip_prefix("SigCgt:")).unwrap();
         u64::from_str_radix(caught.trim(), 16).unwrap() & INT != 0
     }
@@ -139,7 +125,7 @@ impl Running {
     /// Sends Ctrl-C; the exit status, the rest of standard output and all of standard error.
     #[cfg(unix)]
     fn interrupt(mut self) -> (Option<i32>, String, String) {
-        crate::support::tools::signal("INT", self.child.id());
+        signal("INT", self.child.id());
         let out = self.lines.map(|line| line.unwrap() + "\n").collect();
         let mut err = String::new();
         std::io::Read::read_to_string(&mut self.child.stderr.take().unwrap(), &mut err).unwrap();
@@ -150,12 +136,11 @@ impl Running {
 #[test]
 #[cfg(unix)]
 fn watch_checks_and_tests_again_when_a_file_or_one_that_it_uses_is_saved() {
-    let bench = Bench::new();
-    bench.file("used.nb", FINE);
+    let bench = Bench::with("used.nb", FINE);
     bench.file("a.nb", "use \"used.nb\"\ncircuit g(a) -> (q) { q = f(a) }\ntest g {\n    a | q\n    0 | 1\n}\n");
-    let mut watch = Running::start(bench.command(&["watch", "a.nb", "--logic"]));
+    let mut watch = Running::start(bench.command("watch a.nb --logic"));
     // Saved in one step: a slow machine may pause within a write for longer than the program waits.
-    let save = |name, text: &str| std::fs::rename(bench.file("new", text), bench.path().join(name)).unwrap();
+    let save = |name, text: &str| fs::rename(bench.file("new", text), bench.path().join(name)).unwrap();
     watch.expect("a.nb: no errors");
     watch.expect("pass  g (1 row, logic)");
     watch.expect("1 passed, 0 failed");
@@ -180,9 +165,8 @@ const LONG: &str = "circuit f(a) -> (q) {\n    q = not a\n}\n\ntest f {\n    a |
 #[test]
 #[cfg(unix)]
 fn an_interrupted_test_says_what_was_done() {
-    let bench = Bench::new();
-    bench.file("long.nb", LONG);
-    let mut test = Running::start(bench.command(&["test", "long.nb"]));
+    let bench = Bench::with("long.nb", LONG);
+    let mut test = Running::start(bench.command("test long.nb"));
     test.expect("pass  f (1 row, physics)");
     let (status, out, err) = test.interrupt();
     assert_eq!((status, out.as_str()), (Some(4), "1 passed, 0 failed, 1 interrupted or not begun\n"), "{err}");
@@ -191,32 +175,18 @@ fn an_interrupted_test_says_what_was_done() {
 #[test]
 #[cfg(target_os = "linux")]
 fn an_interrupted_run_writes_what_is_complete() {
-    let bench = Bench::new();
-    bench.file("long.nb", LONG);
-    let run = Running::start(bench.command(&["run", "long.nb", "--no-report"]));
+    let bench = Bench::with("long.nb", LONG);
+    let run = Running::start(bench.command("run long.nb --no-report"));
     limits::until("the program watches no signals", || run.watches_interrupts());
     let (status, _, err) = run.interrupt();
     assert_eq!(status, Some(4), "{err}");
     assert!(err.contains(" of 2 tests and simulations complete"), "{err}");
 }
 
-/// The words of a command line.
-fn words(line: &str) -> Vec<String> {
-    let parts = line.split('\'').enumerate();
-    parts
-        .flat_map(|(i, part)| match i % 2 {
-            0 => part.split_whitespace().map(str::to_owned).collect(),
-            _ => vec![part.to_owned()],
-        })
-        .collect()
-}
-
-/// Runs the commands of a fence; the lines after a command are its output.
 fn execute(bench: &Bench, fence: &Fence) {
     for session in fence.text.split("$ nbc ").skip(1) {
         let (line, expected) = session.split_once('\n').unwrap();
-        let arguments = words(line);
-        let ran = bench.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+        let ran = bench.run(line);
         let fails = fence.words.iter().any(|word| word == "fails");
         assert_eq!(ran.status != 0, fails, "{line}: {}{}", ran.out, ran.err);
         if !expected.is_empty() {
@@ -227,7 +197,7 @@ fn execute(bench: &Bench, fence: &Fence) {
 
 /// Writes the files of a page and runs its commands, in their order; the number of commands.
 fn execute_page(bench: &Bench, page: &str) -> usize {
-    let fences = fences(&std::fs::read_to_string(root().join(page)).unwrap());
+    let fences = fences(&text_of(page));
     let mut commands = 0;
     for fence in &fences {
         let file = fence.words.iter().find_map(|word| word.strip_prefix("file="));
@@ -240,7 +210,7 @@ fn execute_page(bench: &Bench, page: &str) -> usize {
             (word, None) => panic!("{word} is neither a file nor a command"),
         }
         if let Some(name) = file.filter(|name| name.ends_with(".nb")) {
-            assert_eq!(bench.run(&["fmt", "--check", name]).status, 0, "{name} is in the canonical form");
+            bench.ok(&["fmt", "--check", name]);
         }
     }
     commands
@@ -251,7 +221,7 @@ fn every_step_of_the_tutorial_runs() {
     let bench = Bench::new();
     let commands = execute_page(&bench, "docs/tutorial.md");
     assert!(commands > 12, "{commands} commands");
-    assert!(bench.path().join("out/ring/report.html").exists());
+    assert!(bench.has("out/ring/report.html"));
 }
 
 #[test]
@@ -261,9 +231,9 @@ fn every_task_of_how_do_i_runs() {
     let commands = execute_page(&bench, "docs/how-do-i.md");
     assert!(commands > 12, "{commands} commands");
     for file in ["maj.nb", "vote.svg", "nand.png", "vote.html", "robots.csv"] {
-        assert!(bench.path().join(file).exists(), "{file}");
+        assert!(bench.has(file), "{file}");
     }
-    let page = std::fs::read_to_string(root().join("docs/how-do-i.md")).unwrap();
+    let page = text_of("docs/how-do-i.md");
     assert_eq!(page.lines().filter(|line| line.starts_with("## ")).count(), 10, "ten tasks");
 }
 
@@ -273,49 +243,41 @@ fn a_property_is_written_proved_broken_and_repaired() {
     assert_eq!(commands, 7);
 }
 
-/// A circuit of a program, with the places of its inputs in order of their names.
-fn circuit(bench: &Bench, file: &str, name: &str) -> (Netlist, Vec<(String, usize)>) {
-    let path = bench.path().join(file);
-    let checked = nbc::Session::new(DiskWorld).checked(path.to_str().unwrap());
-    assert!(!checked.has_errors(), "{file}: {:?}", checked.diagnostics);
-    let netlist = elaborate(&checked.program, &Instance::from(name)).unwrap();
-    let names = netlist.inputs().iter().enumerate().map(|(i, &input)| (netlist.net_name(input), i));
-    let names: std::collections::BTreeMap<_, _> = names.collect();
-    (netlist, names.into_iter().collect())
-}
-
 #[test]
 fn each_pair_of_the_page_for_verilog_computes_the_same() {
-    if !crate::support::tools::SLANG.is_there() {
-        return;
-    }
-    let text = std::fs::read_to_string(root().join("docs/from-verilog.md")).unwrap();
-    let fences: Vec<Fence> = fences(&text).into_iter().filter(|fence| fence.words.len() == 1).collect();
+    let Some(_) = SLANG.find() else { return };
+    let fences = fences(&text_of("docs/from-verilog.md"));
+    let fences: Vec<Fence> = fences.into_iter().filter(|fence| fence.words.len() == 1).collect();
     let pairs: Vec<_> = fences.chunk_by(|a, _| a.words == ["verilog"]).filter(|pair| pair.len() == 2).collect();
     assert_eq!(pairs.len(), 9);
+    let bench = Bench::with("theirs.v", pairs.iter().map(|pair| &*pair[0].text).collect::<String>());
+    bench.file("theirs.nb", "use \"theirs.v\"\n");
+    let mut session = nbc::Session::new(DiskWorld);
+    let mut program = |file: &str| {
+        let checked = session.checked(bench.path().join(file).to_str().unwrap());
+        assert!(!checked.has_errors(), "{file}: {:?}", checked.diagnostics);
+        checked
+    };
+    let theirs = program("theirs.nb");
     let mut random = ChaCha8Rng::seed_from_u64(1);
-    for pair in pairs {
-        let bench = Bench::new();
+    for (at, pair) in pairs.iter().enumerate() {
         let name = pair[0].text.split(['(', ' ', '#']).nth(1).unwrap();
-        bench.file("theirs.v", &pair[0].text);
-        bench.file("theirs.nb", "use \"theirs.v\"\n");
-        bench.file("ours.nb", &pair[1].text);
-        let both = ["theirs.nb", "ours.nb"].map(|file| circuit(&bench, file, name));
-        let names = |i: usize| both[i].1.iter().map(|(name, _)| name.as_str()).collect::<Vec<_>>();
-        assert_eq!(names(0), names(1), "{name}");
-        let mut values = vec![false; names(0).len()];
-        let mut logic = [0, 1].map(|i| Logic::new(&both[i].0));
+        let file = format!("ours{at}.nb");
+        bench.file(&file, &pair[1].text);
+        let both = [&theirs, &program(&file)].map(|it| elaborate(&it.program, &Instance::from(name)).unwrap());
+        let names =
+            |netlist: &Netlist, ports: &[NetId]| ports.iter().map(|&id| netlist.net_name(id)).collect::<Vec<_>>();
+        let inputs = both.each_ref().map(|netlist| names(netlist, netlist.inputs()));
+        assert_eq!(BTreeSet::from_iter(&inputs[0]), BTreeSet::from_iter(&inputs[1]), "{name}");
+        let mut values: BTreeMap<&String, bool> = inputs[0].iter().map(|input| (input, false)).collect();
+        let mut logic = both.each_ref().map(Logic::new);
         for step in 0..400 {
             if step > 0 {
-                let one = random.random_range(0..values.len());
-                values[one] = !values[one];
+                *values.get_mut(&inputs[0][random.random_range(0..inputs[0].len())]).unwrap() ^= true;
             }
             let outputs = [0, 1].map(|i| {
-                let mut inputs = vec![false; values.len()];
-                both[i].1.iter().zip(&values).for_each(|((_, place), &value)| inputs[*place] = value);
-                let outputs = logic[i].settle(&inputs).unwrap();
-                let names = both[i].0.outputs().iter().map(|&output| both[i].0.net_name(output));
-                names.zip(outputs).collect::<std::collections::BTreeMap<_, _>>()
+                let shown = logic[i].settle(&inputs[i].iter().map(|input| values[input]).collect::<Vec<_>>()).unwrap();
+                names(&both[i], both[i].outputs()).into_iter().zip(shown).collect::<BTreeMap<_, _>>()
             });
             assert_eq!(outputs[0], outputs[1], "{name} at {values:?}");
         }

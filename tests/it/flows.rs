@@ -1,13 +1,10 @@
 //! The rival in the measurements of the compiler: ten optimization flows of ABC, mapped to three libraries of cells.
 
-use std::fs;
-use std::path::Path;
-
 use nbc_base::model::Function;
 use nbc_circuit::Netlist;
 use nbc_circuit::formats::{Design, blif};
 
-use crate::support::abc::abc;
+use crate::support::*;
 
 const RESYN2: &str =
     "balance; rewrite; refactor; balance; rewrite; rewrite -z; balance; refactor -z; rewrite -z; balance";
@@ -15,7 +12,6 @@ const COMPRESS2RS: &str = "balance -l; resub -K 6 -l; rewrite -l; resub -K 6 -N 
     balance -l; resub -K 8 -N 2 -l; rewrite -l; resub -K 10 -l; rewrite -z -l; resub -K 10 -N 2 -l; balance -l; \
     resub -K 12 -l; refactor -z -l; resub -K 12 -N 2 -l; rewrite -z -l; balance -l";
 
-/// The flows: what happens to the graph, and how it is mapped. `compress2rs` and `resyn2` are the scripts above.
 const FLOWS: [(&str, &str); 10] = [
     ("resyn2", "amap"),
     ("ifraig; dc2; dc2; dc2; dc2", AMAP),
@@ -31,7 +27,6 @@ const FLOWS: [(&str, &str); 10] = [
 const AMAP: &str = "amap -F 10 -A 20";
 const DCH: &str = "dch; amap -F 10 -A 20";
 
-/// The names of the libraries' files, with their cells.
 const LIBRARIES: [(&str, &[&str]); 3] = [
     ("a", &["not", "nand"]),
     ("b", &["not", "nand", "and"]),
@@ -67,7 +62,6 @@ fn script(optimize: &str, map: &str) -> String {
     script
 }
 
-/// A library of these cells in the format of ABC, each cell of area 1.
 fn genlib(cells: &[&str]) -> String {
     let mut text = String::from("GATE zero 0 O=CONST0;\nGATE one 0 O=CONST1;\n");
     for name in cells {
@@ -87,7 +81,6 @@ fn genlib(cells: &[&str]) -> String {
     text
 }
 
-/// The areas that ABC printed, in order.
 fn areas(printed: &str) -> Vec<u32> {
     let after = printed.split("area =").skip(1);
     after.filter_map(|rest| rest.trim_start().split(['.', ' ']).next()?.parse().ok()).collect()
@@ -105,7 +98,6 @@ fn abc_finds_the_best_full_adder_of_all_cells() {
     assert!((9..=13).contains(&nands), "{nands}");
 }
 
-/// The sum and the carry of three bits.
 fn full_adder() -> Netlist {
     let mut netlist = Netlist::new("adder_1");
     let [a, b, c] = ["x0", "x1", "x2"].map(|name| netlist.add_input(name));

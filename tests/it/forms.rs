@@ -10,10 +10,8 @@ use nbc_circuit::{CancelFlag, Netlist};
 use nbc_session::store::DiskWorld;
 use nbc_session::{CompileOptions, Mapping, Session};
 
-use crate::support::bench::Bench;
-use crate::support::root;
+use crate::support::*;
 
-/// The circuits of these programs with registers or latches, as they were elaborated and as robots.
 fn mappings(file: &str) -> Vec<Mapping> {
     let mut session = Session::new(DiskWorld);
     let checked = session.checked(root().join("circuits").join(file).to_str().unwrap());
@@ -97,11 +95,10 @@ fn registers_that_read_their_own_clocks_are_compiled_in_each_form() {
     let bench = Bench::new();
     let swarm = "\nswarm all { circuit: reading, registers: mux, library: three }\n";
     bench.file("reading.nb", format!("{READING}{swarm}"));
-    let built = bench.run(&["build", "reading.nb", "--format", "json"]).expect_json();
+    let built = bench.run("build reading.nb --format json").expect_json();
     assert_eq!(built["unproved_registers"], false);
     let latch = ".model m\n.inputs b c\n.outputs q\n.latch d q ah c 2\n.names c b d\n0- 1\n-1 1\n.end\n";
     bench.file("latch.blif", latch);
-    let ran = bench.run(&["synth", "latch.blif", "--registers", "expand"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let ran = bench.ok("synth latch.blif --registers expand");
     assert!(ran.out.contains("proved from the file,"), "{}", ran.out);
 }

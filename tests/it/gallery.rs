@@ -1,28 +1,21 @@
 //! The pictures of README.md and docs/: all are made by the commands of docs/pictures.md, and none is left over.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::Path;
 
-use crate::support::bench::Bench;
-use crate::support::root;
+use crate::support::*;
 
-/// The most bytes of one picture and of all together.
 const MOST: [u64; 2] = [1_000_000, 4_000_000];
 const AGAIN: &str = "`cargo run --release --example gallery` makes them";
 
-/// The commands of docs/pictures.md, without the program's name.
 fn commands() -> Vec<String> {
-    let manual = fs::read_to_string(root().join("docs/pictures.md")).unwrap();
+    let manual = text_of("docs/pictures.md");
     manual.lines().filter_map(|line| line.strip_prefix("    nbc ")).map(str::to_owned).collect()
 }
 
-/// The file that a command writes into docs/pictures.
 fn written(command: &str) -> Option<String> {
     command.split_once("-o docs/pictures/").map(|(_, file)| file.trim().to_owned())
 }
 
-/// The pictures that a page shows.
 fn shown(page: &Path) -> Vec<String> {
     let text = fs::read_to_string(page).unwrap();
     let links = text.split("](").skip(1).filter_map(|rest| rest.split(')').next()?.split_once("pictures/"));
@@ -62,9 +55,7 @@ fn pictures_of_bodies_are_those_of_this_version() {
     let mut tried = 0;
     for command in quick {
         let file = written(&command).unwrap();
-        let line = command.replace("docs/pictures/", "").replace('\'', "");
-        let ran = bench.run(&line.split_whitespace().collect::<Vec<_>>());
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        bench.ok(&command.replace("docs/pictures/", ""));
         let [made, kept] = [bench.path().join(&file), root().join("docs/pictures").join(&file)].map(fs::read);
         assert!(made.unwrap() == kept.unwrap(), "docs/pictures/{file} is of another version; {AGAIN}");
         tried += 1;
@@ -78,8 +69,7 @@ fn pictures_of_bodies_are_those_of_this_version() {
 fn the_picture_of_the_processor_is_of_this_version() {
     let bench = Bench::new();
     let program = root().join("circuits/riscv.nb");
-    let ran = bench.run(&["draw", program.to_str().unwrap(), "--as", "schematic", "-o", "parts.png"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    bench.ok(&["draw", program.to_str().unwrap(), "--as", "schematic", "-o", "parts.png"]);
     let [made, kept] = [bench.path().join("parts.png"), root().join("docs/riscv-parts.png")].map(fs::read);
     assert!(made.unwrap() == kept.unwrap(), "docs/riscv-parts.png is of another version; docs/riscv.md makes it");
 }

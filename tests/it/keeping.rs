@@ -1,12 +1,10 @@
 //! Swarms of long tests are kept, and go on with the same bits.
 
-use std::fs;
-
-use crate::support::bench::Bench;
-use nbc_base::source::MemoryWorld;
 use nbc_session::store::SwarmCheckpoint;
-use nbc_session::{Checked, Observer, RunEnd, Session, SwarmKeeper, TestCase, TestOptions, TestRun};
-use nbc_swarm::{KeptSwarm, Level, SwarmTask};
+use nbc_session::{Checked, Observer, RunEnd, Session, SwarmKeeper, TestCase, TestRun};
+use nbc_swarm::{KeptSwarm, SwarmTask};
+
+use crate::support::*;
 
 const TEXT: &str = "circuit toggle(go, clk) -> (q, p) { q = register(q xor go, clk)\n p = q nand go }\n\
                     test toggle {\n go clk | q p\n 1 ^ | 1 0\n 0 ^ | 1 1\n 1 ^ | 0 1\n}\n";
@@ -53,17 +51,8 @@ impl SwarmKeeper for MemoryKeeper {
     }
 }
 
-fn session(text: &str) -> (Session, std::sync::Arc<Checked>) {
-    let mut world = MemoryWorld::default();
-    world.insert("a.nb", text);
-    let mut session = Session::new(world);
-    let checked = session.open("a.nb").unwrap();
-    (session, checked)
-}
-
 fn case(session: &Session, checked: &Checked) -> TestCase {
-    let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
-    session.cases(checked, &checked.program.tests[0], &options).unwrap().remove(0)
+    session.cases(checked, &checked.program.tests[0], &in_physics()).unwrap().remove(0)
 }
 
 fn bits(run: &TestRun) -> Vec<Vec<bool>> {
@@ -72,7 +61,7 @@ fn bits(run: &TestRun) -> Vec<Vec<bool>> {
 
 #[test]
 fn a_kept_swarm_goes_on_with_the_same_bits() {
-    let (session, checked) = session(TEXT);
+    let (session, checked) = session_of(TEXT);
     let whole = session.run_case(case(&session, &checked), &mut ());
     assert!(whole.verdict.passed && whole.end == RunEnd::Complete);
     let mut keeper = MemoryKeeper { stop_after: 9, ..MemoryKeeper::default() };
@@ -90,7 +79,7 @@ fn a_kept_swarm_goes_on_with_the_same_bits() {
 
 #[test]
 fn a_file_of_a_swarm_belongs_to_its_test() {
-    let (session, checked) = session(TEXT);
+    let (session, checked) = session_of(TEXT);
     let mut keeper = MemoryKeeper { stop_after: 5, ..MemoryKeeper::default() };
     session.run_case(case(&session, &checked), &mut keeper);
     let (task, kept) = (keeper.task.take().unwrap(), keeper.kept.take().unwrap());
@@ -118,12 +107,11 @@ fn a_command_goes_on_with_a_kept_swarm() {
     let bench = Bench::new();
     let rows = TEXT.replace(" 1 ^ | 1 0\n", " 1 ^ | 1 0\n repeat 4 {\n 1 ^ | - -\n 1 ^ | 1 0\n }\n");
     bench.file("a.nb", &rows);
-    let whole = bench.run(&["test", "a.nb", "--physics", "--format", "json"]);
-    assert_eq!(whole.status, 0, "{}{}", whole.out, whole.err);
+    let whole = bench.ok("test a.nb --physics --format json");
     let arguments = ["test", "a.nb", "--physics", "--format", "json", "--checkpoints", "kept/deep"];
     let kept = bench.path().join("kept/deep/test-1.swarm");
     // The first cycles, as the program would have kept them.
-    let (session, checked) = session(&rows);
+    let (session, checked) = session_of(rows);
     let mut keeper = MemoryKeeper { stop_after: 30, ..MemoryKeeper::default() };
     session.run_case(case(&session, &checked), &mut keeper);
     fs::create_dir_all(kept.parent().unwrap()).unwrap();

@@ -7,8 +7,7 @@ use nbc_lang::check::{self};
 use nbc_session::Session;
 use nbc_session::store::DiskWorld;
 
-use crate::support::programs::{passes, performs, programs, sound};
-use crate::support::root;
+use crate::support::*;
 
 #[test]
 fn the_prelude_has_the_papers_palette() {
@@ -20,7 +19,7 @@ fn the_prelude_has_the_papers_palette() {
 #[test]
 fn right_programs_are_read_without_a_word_and_do_what_their_tests_say() {
     for path in programs("tests/right") {
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = fs::read_to_string(&path).unwrap();
         let program = sound(path.to_str().unwrap(), &text);
         program.tests.iter().for_each(|test| passes(&program, test));
     }
@@ -28,7 +27,7 @@ fn right_programs_are_read_without_a_word_and_do_what_their_tests_say() {
 
 #[test]
 fn the_materials_of_three_stimuli_are_those_that_the_library_declares() {
-    let program = sound("three.nb", &std::fs::read_to_string(root().join("library/three.nb")).unwrap());
+    let program = sound("three.nb", &text_of("library/three.nb"));
     assert_eq!(program.evolution("three_gates").unwrap().palette, Palette::three());
     assert_eq!(Palette::three().inputs(), 3);
     assert_eq!(Palette::three().materials()[..8], *Palette::paper().materials());
@@ -36,7 +35,7 @@ fn the_materials_of_three_stimuli_are_those_that_the_library_declares() {
 
 #[test]
 fn the_prelude_is_read_extended_and_redeclared() {
-    let read = crate::support::bench::Bench::new().run(&["explain", "prelude"]);
+    let read = Bench::new().run("explain prelude");
     assert!(read.out.contains("material muscle ") && read.out.contains("schedule sweep("), "{}", read.out);
 
     let extended = sound(
@@ -84,28 +83,4 @@ fn every_test_of_the_gallery_passes_at_the_level_of_logic() {
         }
         performs(&mut Session::new(DiskWorld), path.to_str().unwrap());
     }
-}
-
-#[test]
-fn the_outputs_of_a_table_may_be_expressions() {
-    let text = "\
-circuit by_table(op[2], a[3], b[3]) -> (q[3], r[3], s) {
-    q = table(op) { 00: a + b, 01: a - b, 10: 101, 11: {b[0], 2'b10} }
-    r = table(op) { 1-: if a == b then 3'd1 else a, else: a xor b }
-    s = table(op, a[0]) {
-        000: b[1] 001: 1 -10: 0
-        else: not b[0]
-    }
-}
-
-circuit by_choice(op[2], a[3], b[3]) -> (q[3], r[3], s) {
-    q = if op == 2'd0 then a + b else if op == 2'd1 then a - b else if op == 2'd2 then 3'd5 else {b[0], 2'b10}
-    r = if not op[1] then a xor b else if a == b then 3'd1 else a
-    s = if op[0] and not a[0] then 0 else if op != 2'd0 then not b[0] else if a[0] then 1 else b[1]
-}
-
-test by_table for all inputs against by_choice
-";
-    let program = sound("table.nb", text);
-    passes(&program, &program.tests[0]);
 }

@@ -1,12 +1,7 @@
 //! `nbc learn`: circuits from rows, the same for the same seed, which the program can use and test.
 
-use std::fs;
+use crate::support::*;
 
-use serde_json::Value;
-
-use crate::support::bench::Bench;
-
-/// Rows of a function of numbers that are scattered over all values of some bits.
 fn rows(bits: u32, count: u64, function: impl Fn(u64) -> u64) -> String {
     let numbers = (0..count).map(|at| at.wrapping_mul(0x9e37_79b9_7f4a_7c15) >> (64 - bits));
     let lines: String = numbers.map(|number| format!("{number},{}\n", function(number))).collect();
@@ -14,8 +9,7 @@ fn rows(bits: u32, count: u64, function: impl Fn(u64) -> u64) -> String {
 }
 
 fn learned(bench: &Bench, arguments: &[&str]) -> Value {
-    let ran = bench.run(&[&["learn"], arguments, &["--format", "json"]].concat());
-    assert_eq!(ran.status, 0, "{arguments:?}: {}", ran.err);
+    let ran = bench.ok(&[&["learn"], arguments, &["--format", "json"]].concat());
     serde_json::from_str(&ran.out).unwrap()
 }
 
@@ -51,25 +45,22 @@ fn a_chain_is_recognized_in_any_order_of_its_columns() {
 
 #[test]
 fn a_learned_circuit_is_a_program_that_says_where_it_is_from() {
-    let bench = Bench::new();
-    bench.file("votes.csv", rows(9, 400, |x| u64::from(x.count_ones() > 4)));
-    let ran = bench.run(&["learn", "votes.csv", "-o", "majority.nb", "--seed", "3"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let bench = Bench::with("votes.csv", rows(9, 400, |x| u64::from(x.count_ones() > 4)));
+    let ran = bench.ok("learn votes.csv -o majority.nb --seed 3");
     assert!(ran.out.starts_with("majority: 9 input bits, 1 output bit\n"), "{}", ran.out);
     assert!(ran.out.contains("held out: 100.00 % (80 of 80 rows)\n"), "{}", ran.out);
-    let text = fs::read_to_string(bench.path().join("majority.nb")).unwrap();
+    let text = bench.read("majority.nb");
     assert!(text.contains(": nbc learn votes.csv --gates 5000 --hold-out 20 --seed 3\n"), "{text}");
     assert!(text.contains("//! 320 of 320 training rows right; 80 of 80 rows that were held out right\n"), "{text}");
-    assert_eq!(bench.run(&["fmt", "--check", "majority.nb"]).status, 0, "it is as the formatter writes it");
+    bench.ok("fmt --check majority.nb");
     bench.file("a.nb", "use \"majority.nb\"\n\ntest majority \"as counted\" from \"votes.csv\"\n");
-    let tested = bench.run(&["test", "a.nb", "--logic"]);
+    let tested = bench.run("test a.nb --logic");
     assert_eq!((tested.status, tested.err.as_str()), (0, ""), "{}", tested.out);
     // The other formats are read back as the same circuit.
     for name in ["majority.blif", "majority.aag", "majority.aig", "majority.pla"] {
-        assert_eq!(bench.run(&["learn", "votes.csv", "-o", name, "--seed", "3"]).status, 0, "{name}");
+        bench.ok(&["learn", "votes.csv", "-o", name, "--seed", "3"]);
         bench.file("b.nb", format!("use \"{name}\"\n\ntest majority from \"votes.csv\"\n"));
-        let tested = bench.run(&["test", "b.nb", "--logic"]);
-        assert_eq!(tested.status, 0, "{name}: {}{}", tested.out, tested.err);
+        bench.ok("test b.nb --logic");
     }
 }
 
@@ -117,11 +108,10 @@ fn a_small_budget_gives_a_small_tree() {
 
 #[test]
 fn confusions_are_a_picture_of_one_output_with_few_values() {
-    let bench = Bench::new();
-    bench.file("remainder.csv", rows(8, 200, |x| x % 5));
-    let ran = bench.run(&["learn", "remainder.csv", "--confusion", "remainder.svg"]);
+    let bench = Bench::with("remainder.csv", rows(8, 200, |x| x % 5));
+    let ran = bench.run("learn remainder.csv --confusion remainder.svg");
     assert_eq!((ran.status, ran.err.as_str()), (0, "wrote remainder.svg\n"));
-    let picture = fs::read_to_string(bench.path().join("remainder.svg")).unwrap();
+    let picture = bench.read("remainder.svg");
     assert!(
         picture.contains(">remainder: y</text>") && picture.contains(" of 40 rows that were held out"),
         "{picture}"
@@ -141,9 +131,8 @@ fn the_same_seed_gives_the_same_file() {
     // Noise, so that the choice of rows matters.
     bench.file("noise.csv", rows(10, 300, |x| (((x * x) >> 3) & 1) ^ u64::from(x % 7 == 3)));
     let file = |seed: &str| {
-        let ran = bench.run(&["learn", "noise.csv", "-o", "noise.blif", "--seed", seed]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
-        fs::read_to_string(bench.path().join("noise.blif")).unwrap()
+        bench.ok(&["learn", "noise.csv", "-o", "noise.blif", "--seed", seed]);
+        bench.read("noise.blif")
     };
     let [one, two, again] = ["1", "2", "1"].map(file);
     assert!(one == again && one != two);
@@ -164,8 +153,7 @@ fn rows_of_a_group_are_held_out_together() {
 
 #[test]
 fn open_outputs_are_chosen_and_rows_that_cannot_be_learned_from_are_refused() {
-    let bench = Bench::new();
-    bench.file("open.pla", ".i 4\n.o 1\n11-- 1\n00-- 0\n01-- -\n10-- -\n");
+    let bench = Bench::with("open.pla", ".i 4\n.o 1\n11-- 1\n00-- 0\n01-- -\n10-- -\n");
     let found = learned(&bench, &["open.pla", "--hold-out", "0"]);
     assert_eq!((&found["ands"], &found["training"]["right"]), (&0.into(), &16.into()), "{found}");
     assert!(found.get("held_out").is_none());

@@ -61,7 +61,6 @@ fn each_gate_is_correct_after_random_switches() {
     }
 }
 
-/// Random patterns, one a cycle.
 fn stream(cycles: usize, seed: u64) -> Vec<Pattern> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     (0..cycles).map(|_| Pattern::PAIRS[rng.random_range(0..4usize)]).collect()

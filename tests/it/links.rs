@@ -1,17 +1,13 @@
 //! Links of the manual and of the other pages: what they name is there.
 
 use std::collections::BTreeSet;
-use std::fs;
-use std::path::{Path, PathBuf};
 
 use regex::Regex;
 
-use crate::support::root;
+use crate::support::*;
 
-/// Folders with pages, and the files beside them.
 const PLACES: [&str; 9] = ["", "docs", "docs/errors", "grammar", "web", "editors/vscode", "python", ".ci", "circuits"];
 
-/// All pages.
 fn pages() -> Vec<PathBuf> {
     let files = PLACES.iter().flat_map(|place| fs::read_dir(root().join(place)).unwrap());
     let mut pages: Vec<PathBuf> = files.map(|file| file.unwrap().path()).collect();
@@ -102,7 +98,7 @@ fn sections_that_are_named_are_there() {
 
 #[test]
 fn the_book_has_every_page() {
-    let summary = fs::read_to_string(root().join("docs/SUMMARY.md")).unwrap();
+    let summary = text_of("docs/SUMMARY.md");
     let listed: BTreeSet<&str> =
         summary.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|to| to.0).collect();
     for page in fs::read_dir(root().join("docs")).unwrap().map(|page| page.unwrap().file_name().into_string().unwrap())

@@ -1,6 +1,7 @@
 //! Sessions without the command line: sources in memory, swarms that are stepped, work that is cancelled.
 
-use nbc::{CompileOptions, Level, MemoryWorld, Observer, Session, TestOptions, TestRun};
+use crate::support::*;
+use nbc::{CompileOptions, Observer, Session, TestRun};
 use nbc_session::RunEnd;
 
 #[allow(dead_code, reason = "the example's own main reads the terminal")]
@@ -9,17 +10,9 @@ mod example;
 
 const LATCH: &str = include_str!("../../circuits/latch.nb");
 
-fn session() -> Session {
-    let mut session = Session::new(MemoryWorld::default());
-    session.update("latch.nb", 1, LATCH);
-    session
-}
-
-fn in_physics(observer: &mut dyn Observer) -> TestRun {
-    let mut session = session();
-    let checked = session.open("latch.nb").unwrap();
-    let options = TestOptions { level: Some(Level::Physics), ..TestOptions::default() };
-    session.test(&checked, &checked.program.tests[0], &options, observer).unwrap().remove(0)
+fn observed(observer: &mut dyn Observer) -> TestRun {
+    let (session, checked) = session_of(LATCH);
+    session.test(&checked, &checked.program.tests[0], &in_physics(), observer).unwrap().remove(0)
 }
 
 #[test]
@@ -41,10 +34,10 @@ fn the_example_steps_the_latch() {
 
 #[test]
 fn a_live_swarm_does_what_a_test_does() {
-    let run = in_physics(&mut ());
+    let run = observed(&mut ());
     assert!(run.verdict.passed && run.end == RunEnd::Complete);
     let tested = run.swarm.unwrap();
-    let mut live = session().swarm(&tested.compiled);
+    let mut live = session_of(LATCH).0.swarm(&tested.compiled);
     for cycle in &tested.trace.cycles {
         assert_eq!(live.step(&cycle.inputs), Ok(cycle));
     }
@@ -53,8 +46,7 @@ fn a_live_swarm_does_what_a_test_does() {
 
 #[test]
 fn a_swarm_in_parts_does_the_same() {
-    let mut session = session();
-    let checked = session.open("latch.nb").unwrap();
+    let (session, checked) = session_of(LATCH);
     let compiled = session.compile(&checked, &"d_latch".into(), &CompileOptions::default()).unwrap();
     let (mut whole, mut parted) = (session.swarm(&compiled), session.swarm(&compiled));
     for (inputs, at) in [([false, true], 2), ([true, true], 4), ([true, false], 1)] {
@@ -70,8 +62,7 @@ fn a_swarm_in_parts_does_the_same() {
 
 #[test]
 fn a_restored_swarm_does_the_same_again() {
-    let mut session = session();
-    let checked = session.open("latch.nb").unwrap();
+    let (session, checked) = session_of(LATCH);
     let compiled = session.compile(&checked, &"d_latch".into(), &CompileOptions::default()).unwrap();
     let mut swarm = session.swarm(&compiled);
     let walk = |swarm: &mut nbc::LiveSwarm| {
@@ -88,7 +79,6 @@ fn a_restored_swarm_does_the_same_again() {
     assert_eq!(walk(&mut other), first);
 }
 
-/// Cancels after that many cycles.
 struct Until(u64);
 
 impl Observer for Until {
@@ -103,9 +93,9 @@ impl Observer for Until {
 
 #[test]
 fn a_cancelled_test_has_its_completed_rows_and_has_not_passed() {
-    let whole = in_physics(&mut ());
+    let whole = observed(&mut ());
     let first = whole.verdict.rows[0].cycles.unwrap() as u64;
-    let run = in_physics(&mut Until(first + 1));
+    let run = observed(&mut Until(first + 1));
     assert_eq!((run.end, run.verdict.passed), (RunEnd::Cancelled, false));
     assert_eq!(run.verdict.rows, whole.verdict.rows[..1]);
     assert_eq!(run.swarm.unwrap().trace.cycles.len() as u64, first + 1);
@@ -113,8 +103,8 @@ fn a_cancelled_test_has_its_completed_rows_and_has_not_passed() {
 
 #[test]
 fn an_error_has_its_sources() {
-    let mut session = session();
-    session.update("latch.nb", 2, LATCH.replace("not d", "not f"));
-    let fault = session.open("latch.nb").unwrap_err();
-    assert!(fault.to_string().starts_with("latch.nb:5:31: error[unknown]"), "{fault}");
+    let (mut session, _) = session_of(LATCH);
+    session.update("a.nb", 2, LATCH.replace("not d", "not f"));
+    let fault = session.open("a.nb").unwrap_err();
+    assert!(fault.to_string().starts_with("a.nb:5:31: error[unknown]"), "{fault}");
 }

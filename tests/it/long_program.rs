@@ -1,6 +1,5 @@
 //! A program of ten thousand lines, for what must stay quick.
 
-/// A program of ten thousand lines: circuits that use each other, each with a test.
 pub fn long_program() -> String {
     let mut text =
         String::from("circuit c0(a, b, v[8]) -> (q, w[8]) {\n    q = (a nand b) xor v[0]\n    w = not v\n}\n");

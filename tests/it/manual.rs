@@ -1,18 +1,13 @@
 //! Executes every example of the manual and of the error pages. The message of each failing example is recorded in
 //! `tests/ui/pages`; `NBC_UPDATE_UI=1 cargo test --test it manual` rewrites the records.
 
-use std::fs;
-
 use nbc_base::diag::{Code, Diagnostic, Severity, render};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_lang::check;
 use nbc_session::Session;
 
-use crate::support::bench::Bench;
-use crate::support::programs::{passes, performs};
-use crate::support::root;
+use crate::support::*;
 
-/// A fenced piece of a page: the words after the fence, and the text.
 pub struct Fence {
     pub words: Vec<String>,
     pub text: String,
@@ -36,11 +31,6 @@ pub fn fences(page: &str) -> Vec<Fence> {
     fences
 }
 
-fn read(path: &str) -> String {
-    fs::read_to_string(root().join(path)).unwrap()
-}
-
-/// The diagnostics of a program called `main.nb`.
 fn said(text: &str) -> (Vec<Diagnostic>, String) {
     let mut world = MemoryWorld::default();
     world.insert("main.nb", text);
@@ -51,11 +41,9 @@ fn said(text: &str) -> (Vec<Diagnostic>, String) {
     (diagnostics, text)
 }
 
-/// Runs the command of a fence, checks its exit status, and returns its standard error.
 fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
     let line = fence.text.trim().strip_prefix("$ nbc ").expect("a command of the program");
-    let arguments: Vec<String> = line.split_whitespace().map(|word| word.trim_matches('\'').to_owned()).collect();
-    let ran = bench.run(&arguments.iter().map(String::as_str).collect::<Vec<_>>());
+    let ran = bench.run(line);
     if fence.words.contains(&"fails".to_owned()) {
         assert_eq!(ran.status == 2, code.severity() == Severity::Error, "{line}: {}{}", ran.out, ran.err);
         assert!(ran.err.contains(&format!("[{code}]: ")), "{line} says `{code}`: {}", ran.err);
@@ -65,18 +53,15 @@ fn run_command(bench: &Bench, fence: &Fence, code: Code) -> String {
     ran.err
 }
 
-/// Executes a page; returns the message of its failing example.
 fn check_page(code: Code) -> String {
     let bench = Bench::new();
-    let fences = fences(&read(&format!("docs/errors/{code}.md")));
+    let fences = fences(&text_of(&format!("docs/errors/{code}.md")));
     let (mut failing, mut mended) = (Vec::new(), 0);
     for fence in &fences {
         let fails = fence.words.contains(&"fails".to_owned());
         let said = match fence.words[0].as_str() {
             "file" => {
-                let path = bench.path().join(&fence.words[1]);
-                fs::create_dir_all(path.parent().unwrap()).unwrap();
-                fs::write(path, &fence.text).unwrap();
+                bench.file(&fence.words[1], &fence.text);
                 continue;
             }
             "console" => run_command(&bench, fence, code),
@@ -111,22 +96,22 @@ fn every_error_page_has_a_failing_and_a_corrected_example() {
 #[test]
 fn every_example_of_the_manual_runs() {
     let [majority, votes, hello] = [("blif", 0), ("csv", 0), ("csv", 1)].map(|(word, at)| {
-        let shown = fences(&read("docs/language.md")).into_iter().filter(|fence| fence.words == [word]).nth(at);
+        let shown = fences(&text_of("docs/language.md")).into_iter().filter(|fence| fence.words == [word]).nth(at);
         shown.expect("the manual shows the files that examples use").text
     });
     let pages =
         ["docs/language.md", "grammar/README.md", "docs/computer.md", "docs/evolution.md", "docs/robustness.md"];
     for (path, least) in pages.into_iter().zip([6, 6, 1, 1, 1]) {
-        let examples: Vec<_> = fences(&read(path)).into_iter().filter(|fence| fence.words == ["nb"]).collect();
+        let examples: Vec<_> = fences(&text_of(path)).into_iter().filter(|fence| fence.words == ["nb"]).collect();
         assert!(examples.len() >= least, "{path} has examples");
         for example in examples {
             let mut sources = Sources::default();
             let file = sources.add("main.nb", example.text.as_str());
             let mut world = MemoryWorld::default();
-            world.insert("adders.nb", read("circuits/full_adder.nb"));
-            world.insert("digits.csv", read("library/seeing/digits.csv"));
-            world.insert("computer.nb", read("circuits/computer.nb"));
-            world.insert("circuits/counter.nb", read("circuits/counter.nb"));
+            world.insert("adders.nb", text_of("circuits/full_adder.nb"));
+            world.insert("digits.csv", text_of("library/seeing/digits.csv"));
+            world.insert("computer.nb", text_of("circuits/computer.nb"));
+            world.insert("circuits/counter.nb", text_of("circuits/counter.nb"));
             world.insert("majority.blif", majority.as_str());
             world.insert("votes.csv", votes.as_str());
             world.insert("hello.csv", hello.as_str());

@@ -1,22 +1,16 @@
 //! Memory made of cells works for any data and any delays of its cells, also in physics.
 
 use nbc_base::model::{Function, Instance, Program};
-use nbc_base::source::{FileId, MemoryWorld, Sources};
-use nbc_circuit::formats::{Design, blif};
-use nbc_circuit::passes::dissolve_wires;
-use nbc_circuit::{
-    CellLibrary, Delayed, Effort, Guarded, Logic, Loops, MapOptions, Netlist, Role, elaborate, map, map_with, prove,
-};
-use nbc_lang::check;
-use nbc_session::store::DiskWorld;
+
+use nbc_circuit::{CellLibrary, Delayed, Guarded, Netlist, Role, elaborate, map, prove};
+
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::support::programs::programs;
 use crate::support::random_program::random_program;
+use crate::support::*;
 
-/// The inputs of a random circuit.
 const INPUTS: [&str; 4] = ["a", "b", "clk", "en"];
 pub const CLOCK: usize = 2;
 pub const ENABLE: usize = 3;
@@ -31,7 +25,6 @@ enum Data {
     Choice(usize, usize),
 }
 
-/// When a memory element takes it.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     /// A register, and whether its clock is inverted.
@@ -42,7 +35,6 @@ enum Kind {
     Fixed(bool),
 }
 
-/// A memory element of a random circuit.
 #[derive(Clone, Copy, Debug)]
 pub struct Element {
     kind: Kind,
@@ -140,13 +132,8 @@ pub fn elements() -> impl Strategy<Value = Vec<Element>> {
     })
 }
 
-/// Checks a text without its warnings, such as that of an unused input.
 pub fn program(text: &str) -> Program {
-    let mut sources = Sources::default();
-    let file = sources.add("memory.nb", text);
-    let checked = check::check(&MemoryWorld::default(), &mut sources, file);
-    assert!(!checked.has_errors(), "{:?}\n{text}", checked.diagnostics);
-    checked.program
+    session_of(text).1.program.clone()
 }
 
 pub fn mapped(text: &str, cells: &CellLibrary) -> Netlist {
@@ -206,10 +193,7 @@ fn check_random_programs(seeds: std::ops::Range<u64>) {
     let library = CellLibrary::uniform([Function::NAND]);
     for seed in seeds {
         let text = random_program(seed);
-        let mut sources = Sources::default();
-        let file = sources.add("a.nb", &text);
-        let program = check::check(&MemoryWorld::default(), &mut sources, file).program;
-        let source = elaborate(&program, &"main".into()).unwrap();
+        let source = elaborate(&checked(&*text).program, &"main".into()).unwrap();
         let proof = prove(&source, &map(&source, &library).unwrap());
         assert!(proof.is_ok(), "program {seed}: {}\n{text}", proof.unwrap_err());
     }
@@ -227,84 +211,15 @@ fn registers_of_two_thousand_random_programs_are_proved() {
     check_random_programs(6..2_006);
 }
 
-#[test]
-fn registers_that_the_result_does_without_are_proved() {
-    let constant = ["register(a, clk, enable: q)", "latch(a, q)", "register(a, q)"]
-        .map(|memory| format!("net r\n r = {memory}\n q = 1'd1 or r\n p = clk and r and 0"));
-    let alike = "net r[2]\n r = register[start = 3]({a, a}, clk, enable: a and 0)\n q = r[0] xor r[1]\n p = q";
-    for lines in constant.into_iter().chain([alike.to_owned()]) {
-        let text = format!("circuit c(a, clk) -> (q, p) {{ {lines} }}");
-        let mut sources = Sources::default();
-        let file = sources.add("a.nb", &text);
-        let program = check::check(&MemoryWorld::default(), &mut sources, file).program;
-        let source = elaborate(&program, &"c".into()).unwrap();
-        assert!(prove(&source, &map(&source, &CellLibrary::uniform([Function::NAND])).unwrap()).is_ok(), "{text}");
-    }
-}
-
-#[test]
-fn a_register_of_a_constant_keeps_its_guards() {
-    let netlist = mapped("circuit memory(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n", &libraries()[0]);
-    let guarded = Guarded::of(&netlist);
-    let count = |role| netlist.ids().filter(|&id| guarded.role(id) == Some(role)).count();
-    assert_eq!([Role::Memory, Role::Guard, Role::Control].map(count), [4, 4, 1], "{netlist}");
-}
-
 fn run(program: &str) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("memory.nb");
-    std::fs::write(&path, program).unwrap();
+    fs::write(&path, program).unwrap();
     nbc::run_file(&path, &nbc::CompileOptions::default()).unwrap_or_else(|error| panic!("{error}")).assert_passed();
-}
-
-#[test]
-fn a_register_stores_a_constant_in_physics() {
-    run("circuit once(clk) -> (q) {\n    q = register[start = 0](1, clk)\n}\n\
-         test once \"takes 1 at the first rise\" {\n    clk | q\n    0   | 0\n    1   | 1\n    0   | 1\n    1   | \
-         1\n}\n");
 }
 
 #[test]
 fn ones_are_shifted_in_step_by_step_in_physics() {
     run("circuit ones(clk) -> (q[3]) {\n    q = register({q[1], q[0], 1}, clk)\n}\n\
          test ones \"counts rises\" {\n    clk | q\n    0 | 000\n    1 | 001\n    0 | 001\n    1 | 011\n}\n");
-}
-
-/// The circuits of the gallery with memory, mapped. The processor is left out: its registers are those of the others,
-/// and it takes as long as all of them together.
-fn gallery(library: &CellLibrary) -> Vec<Netlist> {
-    let mut found = Vec::new();
-    // The cells are what matters here, not how few they are.
-    let fast = MapOptions { effort: Effort::Fast, ..MapOptions::default() };
-    for path in programs("circuits").into_iter().filter(|path| !path.ends_with("riscv.nb")) {
-        let checked = nbc::Session::new(DiskWorld).checked(path.to_str().unwrap());
-        let program = &checked.program;
-        let circuits: std::collections::BTreeSet<_> =
-            program.tests.iter().map(|test| test.circuit.to_string()).collect();
-        let of = |name: &String| program.tests.iter().find(|test| test.circuit.to_string() == *name).unwrap();
-        let netlists = circuits.iter().map(|name| elaborate(program, &of(name).circuit).unwrap());
-        let with_memory = netlists.filter(|netlist| !Loops::memory(netlist).cores().is_empty());
-        found.extend(with_memory.map(|netlist| map_with(&netlist, library, &fast).unwrap()));
-    }
-    assert!(found.len() > 5, "the gallery has memory");
-    found
-}
-
-#[test]
-fn blif_of_a_swarm_with_memory_reads_back_equal() {
-    let mut random = ChaCha8Rng::seed_from_u64(4);
-    for netlist in libraries().iter().flat_map(gallery) {
-        let text = blif::write(&Design::new(netlist.clone(), Vec::new()));
-        let read = blif::read(&text, FileId(0), None).unwrap_or_else(|faults| panic!("{faults:?}\n{text}"));
-        let mut again = read.logic;
-        dissolve_wires(&mut again).unwrap();
-        let proof = prove(&netlist, &again).unwrap_or_else(|error| panic!("{error}\n{text}"));
-        assert_eq!(proof.cuts.len(), Loops::memory(&netlist).cores().concat().len());
-        let mut both = [Logic::new(&netlist), Logic::new(&again)];
-        for _ in 0..100 {
-            let inputs: Vec<bool> = netlist.inputs().iter().map(|_| random.random_range(0..2) == 1).collect();
-            let [one, two] = &mut both;
-            assert_eq!(one.settle(&inputs), two.settle(&inputs), "{text}");
-        }
-    }
 }

@@ -1,13 +1,11 @@
 //! The modules of all crates and what each of them imports, read from the text of the source.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::sync::{LazyLock, OnceLock};
 
 use regex::Regex;
 
-use crate::support::root;
+use crate::support::*;
 
 /// A path of modules and items, which begins with the crate.
 type Item = Vec<String>;
@@ -15,7 +13,6 @@ type Item = Vec<String>;
 /// A file of the source.
 pub struct Module {
     pub path: PathBuf,
-    /// The path of the module.
     name: Item,
     /// The text without unit tests; every line keeps its number.
     pub product: String,
@@ -23,7 +20,6 @@ pub struct Module {
     pub code: String,
 }
 
-/// The folders of sources: that of the program, then those of the other crates.
 fn sources() -> Vec<PathBuf> {
     let crates = fs::read_dir(root().join("crates")).unwrap().map(|entry| entry.unwrap().path().join("src"));
     std::iter::once(root().join("src")).chain(crates).collect()
@@ -59,7 +55,6 @@ impl Module {
         Self { name: module_name(&path), code: code_only(&product), product, path }
     }
 
-    /// The file in the repository, for messages.
     pub fn file(&self) -> String {
         self.path.strip_prefix(root()).unwrap().display().to_string()
     }
@@ -157,7 +152,6 @@ pub fn imports(modules: &[Module]) -> Vec<BTreeSet<usize>> {
     named.iter().enumerate().map(imported).collect()
 }
 
-/// The items of `pub use` and of other `use` declarations.
 fn uses(code: &str) -> (Vec<Item>, Vec<Item>) {
     static DECLARATION: LazyLock<Regex> =
         LazyLock::new(|| Regex::new(r"(?m)^( *)(pub(?:\([^)]*\))?\s+)?use\s+([^;]+);").unwrap());
@@ -171,7 +165,6 @@ fn uses(code: &str) -> (Vec<Item>, Vec<Item>) {
     (public, private)
 }
 
-/// The items of a tree such as `crate::model::{Body, program::{Swarm as S}}`.
 fn expand(tree: &str, before: &[String], items: &mut Vec<Item>) {
     let names =
         |path: &str| path.split("::").map(str::trim).filter(|name| !name.is_empty()).map(str::to_owned).collect();
@@ -199,7 +192,6 @@ fn expand(tree: &str, before: &[String], items: &mut Vec<Item>) {
     }
 }
 
-/// The paths outside `use` declarations.
 fn paths(code: &str) -> Vec<Item> {
     static PATTERNS: LazyLock<[Regex; 3]> = LazyLock::new(|| {
         let declaration = r"(?m)^\s*(pub(?:\([^)]*\))?\s+)?use\s+[^;]+;";

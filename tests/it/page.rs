@@ -1,7 +1,6 @@
 //! The HTML report: its contents, and its scripts in a real browser if there is one.
 
 use std::io::{BufRead, BufReader};
-use std::path::Path;
 use std::process::{Command, Stdio};
 use std::sync::mpsc;
 use std::thread;
@@ -13,12 +12,9 @@ use nbc_base::model::{
 use nbc_base::source::{FileId, Span};
 use nbc_session::report::{self, PageSwarm, Scheme, Stage, SwarmOutcome};
 use nbc_swarm::{Assembly, Level, Member, Recorded, Recording, RowHold, SwarmTrace, TestVerdict, judge_swarm};
-use serde_json::Value;
 
-use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::tools::CHROMIUM;
 use crate::support::traces::{large, latch, latch_netlist};
+use crate::support::*;
 
 pub fn robot(name: &str, function: Function) -> Robot {
     let rows = ["66666", "46666", "44444", "44404", "44005"];
@@ -141,7 +137,6 @@ fn page_of(trace: &SwarmTrace) -> String {
     report::draw_run_page("circuits/<latch>.nb", &[test(), test()], Scheme::Paper)
 }
 
-/// The data that the page's script reads.
 fn data(page: &str) -> Value {
     let start = page.find("type=\"application/json\">").unwrap() + "type=\"application/json\">".len();
     let end = start + page[start..].find("</script>").unwrap();
@@ -164,7 +159,7 @@ fn the_page_is_self_contained() {
     assert_eq!(test["robots"].as_array().unwrap().len(), 5);
     assert_eq!(test["cycles"], 24);
     assert_eq!(test["robots"][0]["sensed"][1].as_str().unwrap().len(), 24);
-    assert_eq!(test["marks"], serde_json::json!([8, 16]));
+    assert_eq!(test["marks"], json!([8, 16]));
     let frames = test["robots"][0]["frames"].as_str().unwrap().len() / 4 * 3 / 2;
     let points = test["robots"][0]["corners"].as_u64().unwrap() as usize;
     assert_eq!(frames / (points * 2), 24 * 12 + 1);
@@ -190,7 +185,6 @@ fn the_page_of_a_large_swarm_is_small() {
     assert_eq!(swarm["cells"][0]["bits"].as_str().unwrap().len(), 1000 / 4, "four cycles are a digit");
 }
 
-/// Headless Chromium with a file.
 fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> Command {
     let profile = format!("--user-data-dir={}", folder.join("profile").display());
     let mut command = Command::new(browser);
@@ -199,85 +193,12 @@ fn browse(browser: &Path, folder: &Path, arguments: &[&str], file: &Path) -> Com
     command
 }
 
-/// A reader's actions, as scripts before and after the page's own.
-const WATCH: &str = "<script>window.faults = []; addEventListener('error', e => faults.push(e.message));\
-    addEventListener('securitypolicyviolation', e => faults.push('blocked ' + e.blockedURI)); console.error = m => \
-    faults.push(String(m));\
-    const tell = found => console.log('found ' + JSON.stringify({ ...found, faults }));\
-    const later = (ready, then) => { const started = performance.now(), wait = setInterval(() => {\
-    if (ready() || performance.now() - started > 60000) { clearInterval(wait); then(); } }, 100); };</script>";
-const READER: &str = r#"<script>
-const section = document.getElementById("swarm-0"), slider = section.querySelector(".scrub");
-const stage = section.querySelector(".stage"), shot = () => stage.querySelector("canvas").toDataURL();
-const cell = name => section.querySelector(`[data-id="cell-${name}"]`);
-let still = "";
-const drawn = () => (still = shot()).length > 5000, moved = () => shot() !== still && Number(slider.value) > 1;
-later(drawn, () => { section.querySelector(".play").click(); later(moved, () => {
-  const walked = moved(), tall = stage.clientHeight; section.querySelector(".play").click();
-  cell(1).dispatchEvent(new KeyboardEvent("keydown", { key: "Enter", bubbles: true }));
-  const alone = stage.clientHeight, pressed = cell(1).getAttribute("aria-pressed");
-  const panel = section.querySelector(".robot").textContent;
-  cell(2).dispatchEvent(new MouseEvent("mouseover", { bubbles: true }));
-  const hovered = section.querySelector(".robot").textContent;
-  slider.value = 6; slider.dispatchEvent(new Event("input"));
-  const clock = section.querySelector(".clock").textContent, wide = document.documentElement.scrollWidth <= innerWidth;
-  tell({ walked, tall, alone, pressed, panel, hovered, focusable: cell(1).tabIndex, clock, wide });
-}); });
-</script>"#;
-const EXPLORER: &str = r##"<script>
-const niches = [...document.querySelectorAll("button.niche")], last = niches[niches.length - 1];
-const stage = document.querySelector(".stage"), slider = document.querySelector(".scrub");
-const { elites } = JSON.parse(document.getElementById("data").textContent);
-last.click();
-const elite = elites[Number(last.dataset.elite)], shot = () => stage.toDataURL();
-let still = "";
-const drawn = () => (still = shot()).length > 2000, moved = () => shot() !== still && Number(slider.value) > 0.2;
-later(drawn, () => later(moved, () => {
-  const walked = moved(), panel = document.querySelector(".robot").textContent;
-  niches[0].focus(); niches[0].dispatchEvent(new KeyboardEvent("keydown", { key: "ArrowRight", bubbles: true }));
-  const stepped = document.activeElement === niches[1], maps = document.querySelectorAll(".map").length;
-  const axis = document.querySelectorAll(".axis")[1]; axis.value = "2"; axis.dispatchEvent(new Event("change"));
-  const again = document.querySelectorAll("button.niche").length;
-  const wide = document.documentElement.scrollWidth <= innerWidth, body = elite.about[4][1];
-  tell({ walked, behavior: elite.behavior, body, panel, stepped, maps, niches: niches.length, again, wide });
-}));
-</script>"##;
-
-const SIMULATION: &str = r#"<script>
-const section = document.getElementById("swarm-1"), slider = section.querySelector(".scrub");
-const shot = () => section.querySelector(".stage canvas").toDataURL();
-let still = "";
-const drawn = () => (still = shot()).length > 5000, moved = () => shot() !== still && Number(slider.value) > 1;
-section.scrollIntoView();
-const rows = [...section.querySelectorAll("tr")].filter(row => row.querySelector("td"))
-  .map(row => [...row.cells].map(cell => cell.textContent.trim()));
-later(drawn, () => {
-  section.querySelector(".play").click();
-  later(moved, () => tell({ walked: moved(), rows, wide: document.documentElement.scrollWidth <= innerWidth }));
-});
-</script>"#;
-
-const SHEETS: &str = r#"<script>
-const sheet = document.querySelector(".sheet"), crumbs = () => [...document.querySelectorAll(".crumbs button")];
-const drawn = kind => [...sheet.querySelectorAll(`[data-id^="${kind}-"]`)];
-const about = () => document.querySelector(".crumbs span").textContent;
-const click = part => part.dispatchEvent(new MouseEvent("click", { bubbles: true }));
-const whole = drawn("part").map(part => part.querySelector("text").textContent);
-const cells = drawn("cell").length, whole_about = about();
-click(drawn("part")[0]);
-const opened = crumbs().map(crumb => crumb.textContent), inside = about();
-const search = document.querySelector(".search"); search.value = "q[5]"; search.dispatchEvent(new Event("input"));
-document.querySelector(".results button").click();
-const panel = document.querySelector(".robot").textContent;
-const chosen = drawn("cell").filter(cell => cell.getAttribute("aria-pressed") === "true").length;
-const reach = document.querySelector(".reach"); reach.value = "before"; reach.dispatchEvent(new Event("change"));
-const lit = sheet.querySelectorAll(".marked").length;
-sheet.dispatchEvent(new KeyboardEvent("keydown", { key: "Escape" })); crumbs()[0].click();
-const path = drawn("part").filter(part => part.classList.contains("marked")).length;
-const high = document.documentElement.scrollHeight / innerHeight;
-const wide = document.documentElement.scrollWidth <= innerWidth;
-tell({ whole, cells, whole_about, opened, inside, panel, chosen, lit, path, high, wide });
-</script>"#;
+/// What a reader does, as scripts before and after the page's own.
+const WATCH: &str = include_str!("browser/watch.js");
+const READER: &str = include_str!("browser/reader.js");
+const EXPLORER: &str = include_str!("browser/explorer.js");
+const SIMULATION: &str = include_str!("browser/simulation.js");
+const SHEETS: &str = include_str!("browser/sheets.js");
 
 /// What the reader's script tells on the console. Frames come in real time only: a virtual clock runs ahead of them on
 /// a busy machine.
@@ -301,30 +222,29 @@ fn told(mut command: Command) -> String {
     found.unwrap_or_else(|| panic!("the reader's script did not end:\n{said}"))
 }
 
-/// The findings of the reader's script on a page in a window of this size.
 fn found(browser: &Path, page: &str, reader: &str, size: &str) -> Value {
     let folder = tempfile::tempdir().unwrap();
-    let watched =
-        page.replace("<head>\n", &format!("<head>\n{WATCH}\n")).replace("</body>", &format!("{reader}\n</body>"));
+    let watched = page
+        .replace("<head>\n", &format!("<head>\n<script>{WATCH}</script>\n"))
+        .replace("</body>", &format!("<script>{reader}</script>\n</body>"));
     let file = folder.path().join("watched.html");
-    std::fs::write(&file, watched).unwrap();
+    fs::write(&file, watched).unwrap();
     // With its debugger the browser stays, and its console goes to standard error.
     let arguments = [size, "--remote-debugging-port=0", "--enable-logging=stderr"];
     let found: Value = serde_json::from_str(&told(browse(browser, folder.path(), &arguments, &file))).unwrap();
-    assert_eq!(found["faults"], serde_json::json!([]), "{found}");
+    assert_eq!(found["faults"], json!([]), "{found}");
     assert_eq!(found["wide"], true, "nothing sticks out of the page: {found}");
     found
 }
 
-/// Keeps a page and its screenshot among the artefacts of the tests.
 fn keep(browser: &Path, name: &str, page: &str, size: (u32, u32), look: &str) {
     let artefacts = Path::new(env!("CARGO_TARGET_TMPDIR"));
     let (file, picture) = (artefacts.join(format!("{name}.html")), artefacts.join(format!("{name}.png")));
-    std::fs::write(&file, page).unwrap();
+    fs::write(&file, page).unwrap();
     let (to, window) = (format!("--screenshot={}", picture.display()), format!("--window-size={},{}", size.0, size.1));
     let folder = tempfile::tempdir().unwrap();
     browse(browser, folder.path(), &[&window, look, "--virtual-time-budget=1000", &to], &file).output_in_time();
-    let decoder = png::Decoder::new(BufReader::new(std::fs::File::open(&picture).unwrap()));
+    let decoder = png::Decoder::new(BufReader::new(fs::File::open(&picture).unwrap()));
     let mut reader = decoder.read_info().unwrap();
     let mut pixels = vec![0; reader.output_buffer_size().unwrap()];
     let info = reader.next_frame(&mut pixels).unwrap();
@@ -353,7 +273,6 @@ fn the_page_of_a_run_works_in_a_browser() {
     keep(&browser, "run-phone-dark", &page, (500, 1500), DARK);
 }
 
-/// Two adders in a row.
 const SUMS: &str = "
 circuit sums(a[8], b[8], c[8]) -> (q[8]) {
     first  = a + b
@@ -364,20 +283,19 @@ circuit sums(a[8], b[8], c[8]) -> (q[8]) {
 
 #[test]
 fn the_sheets_of_a_schematic_open_in_a_browser() {
-    let bench = Bench::new();
-    bench.file("sums.nb", SUMS);
+    let bench = Bench::with("sums.nb", SUMS);
     for name in ["a", "b"] {
-        assert_eq!(bench.run(&["draw", "sums.nb", "--as", "schematic", "-o", &format!("{name}.html")]).status, 0);
+        bench.ok(&["draw", "sums.nb", "--as", "schematic", "-o", &format!("{name}.html")]);
     }
-    let page = std::fs::read_to_string(bench.path().join("a.html")).unwrap();
-    assert!(page == std::fs::read_to_string(bench.path().join("b.html")).unwrap(), "the same page each time");
+    let page = bench.read("a.html");
+    assert!(page == bench.read("b.html"), "the same page each time");
     let sheets = data(&page)["schematic"]["sheets"].as_array().unwrap().len();
     assert!(sheets >= 3, "{sheets} sheets");
     let Some(browser) = CHROMIUM.find() else { return };
     for size in ["--window-size=1200,900", "--window-size=500,800"] {
         let found = found(&browser, &page, SHEETS, size);
-        assert_eq!(found["whole"], serde_json::json!(["first", "second"]), "{found}");
-        assert_eq!(found["opened"], serde_json::json!(["sums", "first"]), "{found}");
+        assert_eq!(found["whole"], json!(["first", "second"]), "{found}");
+        assert_eq!(found["opened"], json!(["sums", "first"]), "{found}");
         assert_ne!(found["inside"], found["whole_about"], "{found}");
         assert_eq!((&found["cells"], &found["whole_about"]), (&0.into(), &"68 robots".into()), "{found}");
         assert!(found["panel"].as_str().unwrap().starts_with("q[5] = "), "{found}");
@@ -392,7 +310,7 @@ fn the_sheets_of_a_schematic_open_in_a_browser() {
 #[test]
 fn the_page_of_an_evolution_opens_elites_in_a_browser() {
     let bench = crate::drawing::evolved();
-    let page = std::fs::read_to_string(bench.path().join("out/tiny/report.html")).unwrap();
+    let page = bench.read("out/tiny/report.html");
     assert!(page.len() < 5_000_000 && page.contains("of 16 behaviors in") && page.contains("2 seeds together"));
     let data = data(&page);
     let elites = data["elites"].as_array().unwrap();
@@ -408,7 +326,6 @@ fn the_page_of_an_evolution_opens_elites_in_a_browser() {
     keep(&browser, "evolution-phone-dark", &page, (500, 2400), DARK);
 }
 
-/// A bus that is chosen or zero, tested and simulated.
 const BUSES: &str = "
 circuit choice(a[2], s) -> (q[2], r) {
     q = if s then a else 2'd0
@@ -427,23 +344,19 @@ test choice \"selects\" {
 
 #[test]
 fn a_simulation_has_its_section_and_a_bus_its_strip() {
-    let bench = Bench::new();
-    bench.file("buses.nb", BUSES);
-    assert_eq!(bench.run(&["run", "buses.nb"]).status, 0);
-    let diagram = std::fs::read_to_string(bench.path().join("out/buses/simulate-pair-spacetime.svg")).unwrap();
+    let bench = Bench::with("buses.nb", BUSES);
+    bench.ok("run buses.nb");
+    let diagram = bench.read("out/buses/simulate-pair-spacetime.svg");
     let values: Vec<&str> =
         diagram.split("<text").filter_map(|text| text.split_once('>')?.1.split('<').next()).collect();
     for value in ["2'd0", "2'd3"] {
         // Each of the outputs q[1], q[0] and r shows the strip of the bus `a`.
         assert_eq!(values.iter().filter(|found| **found == value).count(), 3, "{values:?}");
     }
-    let page = std::fs::read_to_string(bench.path().join("out/buses/report.html")).unwrap();
+    let page = bench.read("out/buses/report.html");
     let Some(browser) = CHROMIUM.find() else { return };
     let found = found(&browser, &page, SIMULATION, "--window-size=1200,900");
     assert_eq!(found["walked"], true, "the simulated robots move: {found}");
-    let rows = serde_json::json!([
-        ["8", "2'd0", "1", "3", "2'd0", "0", "1", "1"],
-        ["9", "2'd3", "1", "3", "2'd3", "1", "1", "1"]
-    ]);
+    let rows = json!([["8", "2'd0", "1", "3", "2'd0", "0", "1", "1"], ["9", "2'd3", "1", "3", "2'd3", "1", "1", "1"]]);
     assert_eq!(found["rows"], rows);
 }

@@ -1,26 +1,17 @@
 //! Materials of a program's own, wherever a body goes: archive, checkpoint, robot file, picture, swarm.
 
-use std::fs;
 use std::sync::Arc;
 
-use nbc_base::model::{
-    Body, CYCLE_STEPS, Column, Function, Material, MaterialKind, Palette, Pattern, PhysicsWorld, Robot, Schedule,
-    Spell, Trial,
-};
+use nbc_base::model::{Body, Function, Material, MaterialKind, Palette, Robot};
 use nbc_session::store::{self, Checkpoint, DiskWorld};
-use nbc_sim::Simulator;
+
 use nbc_swarm::evolve::Elite;
-use nbc_swarm::{Assembly, Member, StimulusSource, SwarmConditions};
 
-use crate::support::bench::Bench;
-use crate::support::root;
+use crate::support::*;
 
-/// A folder with a run in `out/hearts/seed-1`, whose third material is not the paper's.
 fn hearts() -> Bench {
-    let bench = Bench::new();
-    bench.file("own.nb", fs::read(root().join("tests/golden/hearts.nb")).unwrap());
-    let ran = bench.run(&["evolve", "own.nb"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let bench = Bench::with("own.nb", fs::read(root().join("tests/golden/hearts.nb")).unwrap());
+    bench.ok("evolve own.nb");
     bench
 }
 
@@ -39,9 +30,8 @@ fn robot_files_have_no_tags() {
 #[test]
 fn a_run_is_drawn_with_the_materials_of_its_checkpoint() {
     let ran = hearts();
-    let drawn = ran.run(&["draw", "out/hearts", "--as", "sprite", "-o", "a.svg"]);
-    assert_eq!(drawn.status, 0, "{}", drawn.err);
-    let svg = fs::read_to_string(ran.path().join("a.svg")).unwrap();
+    ran.ok("draw out/hearts --as sprite -o a.svg");
+    let svg = ran.read("a.svg");
     assert!(svg.contains("3 heart: 0.98..1.02 in 84 steps, 0°"), "{svg}");
     assert!(svg.contains("2 muscle") && !svg.contains("3 muscle"), "{svg}");
 }
@@ -62,11 +52,7 @@ fn a_foreign_checkpoint_with_a_correct_checksum_is_rejected() {
     let with_key = |key: &str| format!("{before}\"niches\":[[[{key}]{after}");
     let check = |text: &str, expected: &str| {
         fs::write(&path, sealed(text)).unwrap();
-        for kind in ["heatmap", "report", "sprite"] {
-            let file = if kind == "report" { "a.html" } else { "a.svg" };
-            let ran = bench.run(&["draw", "out/hearts", "--as", kind, "-o", file]);
-            ran.expect_fault(&["checkpoint", expected]);
-        }
+        bench.run("draw out/hearts --as heatmap -o a.svg").expect_fault(&["checkpoint", expected]);
     };
     check(&with_key(""), "the archive has no niche []");
     check(&with_key("0,0,0,16"), "the archive has no niche [0, 0, 0, 16]");
@@ -101,10 +87,9 @@ evolution nine {
 ";
 
 #[test]
-fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
-    let bench = Bench::new();
-    bench.file("nine.nb", NINE);
-    assert_eq!(bench.run(&["evolve", "nine.nb"]).status, 0);
+fn a_body_of_nine_materials_is_the_same_in_archive_file_and_simulation() {
+    let bench = Bench::with("nine.nb", NINE);
+    bench.ok("evolve nine.nb");
     let run = bench.path().join("out/nine/seed-5");
     let checkpoint = Checkpoint::read("a", &fs::read(run.join("checkpoint.nbc")).unwrap()).unwrap();
     let names: Vec<&str> = checkpoint.declared.palette.materials().iter().map(|m| m.name.as_str()).collect();
@@ -117,8 +102,7 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     // The robot file has the archive's body and numbers.
     let word = behavior.to_string();
     let add = ["library", "add", "out/nine/seed-5", "--into", "robots", "--tries", "1", "--max-error", "1"];
-    let ran = bench.run(&[&add[..], &["--behavior", &word]].concat());
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok(&[&add[..], &["--behavior", &word]].concat());
     let library = store::read_library(&DiskWorld, bench.path().join("robots").to_str().unwrap()).unwrap();
     let [robot] = &library.robots[..] else { panic!("one robot was written") };
     let elite = elites.clone().find(|elite| elite.body == robot.body).expect("the robot is of the archive");
@@ -136,56 +120,6 @@ fn a_body_of_nine_materials_is_the_same_from_archive_to_swarm() {
     if Body::parse(&robot.body.rows(), &Palette::paper()).is_ok() {
         bench.file("paper.json", format!("{{\"body\": {rows}}}"));
         assert_ne!(walked("paper.json", "00"), robot.displacement[0], "the same codes are another robot in the paper");
-    }
-
-    // The pictures of the run and of the file show the same voxels and materials.
-    let draw = |arguments: &[&str]| {
-        let ran = bench.run(&[&["draw"], arguments, &["--as", "sprite", "-o", "a.svg"]].concat());
-        assert_eq!(ran.status, 0, "{}", ran.err);
-        let svg = fs::read_to_string(bench.path().join("a.svg")).unwrap();
-        let parts =
-            |part: &str| svg.split('<').filter(|tag| tag.starts_with(part)).map(str::to_owned).collect::<Vec<_>>();
-        // The titles differ.
-        (parts("polygon"), parts("text").into_iter().skip(1).collect::<Vec<_>>())
-    };
-    let (voxels, legend) = draw(&[&file]);
-    let (code, material) =
-        robot.body.materials().find(|(_, m)| m.paper_code().is_none()).expect("it has an own material");
-    assert!(legend.iter().any(|text| text.contains(&format!(">{code} {}", material.name))), "{legend:?}");
-    assert!(!voxels.is_empty());
-    if checkpoint.state.niches.iter().flat_map(|(_, elites)| elites).filter(|other| other.behavior == behavior).count()
-        == 1
-    {
-        assert_eq!(draw(&["out/nine/seed-5", "--behavior", &word]), (voxels, legend));
-    }
-
-    // In a swarm with a robot of the paper's palette it takes the same path as alone.
-    let paper = &store::shipped_library().robots[0];
-    let member = |robot: &Robot| Member {
-        net: robot.name.clone(),
-        block: Vec::new(),
-        robot: robot.clone(),
-        senses: vec![StimulusSource::Input(0), StimulusSource::Constant(false)],
-        start: false,
-        held: vec![Vec::new(); 2],
-    };
-    let assembly = Assembly {
-        circuit: "both".to_owned(),
-        inputs: vec![Column::new("a", 1)],
-        members: vec![member(robot), member(paper)],
-        outputs: Vec::new(),
-        shown: Vec::new(),
-        beat: 1,
-        world: PhysicsWorld::default(),
-    };
-    let conditions = SwarmConditions { inputs: vec![vec![true], vec![false]], window: 1, poses: None };
-    let trace = nbc_swarm::simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {});
-    let spells = [2, 0].map(|i| Spell::of(Pattern::PAIRS[i], CYCLE_STEPS)).to_vec();
-    for (of_swarm, body) in trace.robots.iter().zip([&elite.body, &paper.body]) {
-        let trial = Trial { body: body.clone(), schedule: Schedule { spells: spells.clone() } };
-        let alone = Simulator::default().run_trials(&assembly.setting(2), &[trial]).remove(0);
-        let every = CYCLE_STEPS as usize / trace.samples_per_cycle;
-        assert_eq!(of_swarm.com_x, alone.com_x.into_iter().step_by(every).collect::<Vec<_>>());
     }
 }
 
@@ -236,7 +170,6 @@ test inverter \"turns over\" {
     assert!(report.passed());
 }
 
-/// A body whose last material senses a third stimulus.
 const THIRD: &str = r#"{
     "materials": [
         { "name": "actuator", "kind": "actuator", "period": 84, "phase": 0, "range": [0.6, 1.6] },
@@ -247,13 +180,12 @@ const THIRD: &str = r#"{
 
 #[test]
 fn patterns_have_a_digit_for_each_stimulus_that_a_body_senses() {
-    let bench = Bench::new();
-    bench.file("third.json", THIRD);
+    let bench = Bench::with("third.json", THIRD);
     let simulate = |schedule: &str| bench.run(&["simulate", "third.json", "--schedule", schedule, "--format", "json"]);
     let walked = |schedule: &str| simulate(schedule).expect_json()["displacement"][0].as_f64().unwrap();
     assert_eq!(walked("000*3"), walked("110*3"), "nothing senses these stimuli");
     assert_ne!(walked("000*3"), walked("001*3"));
-    bench.run(&["simulate", "third.json", "--schedule", "00*3"]).expect_fault(&[
+    bench.run("simulate third.json --schedule 00*3").expect_fault(&[
         "invalid stimulus pattern `00`",
         "expected 3 digits, 0 or 1, for the stimuli that the materials of the body sense",
         "`001*10` is ten cycles",
@@ -261,8 +193,8 @@ fn patterns_have_a_digit_for_each_stimulus_that_a_body_senses() {
     let ran = bench.run(&["simulate", "third.json", "--schedule", "001*1 110*1"]);
     assert!(ran.out.contains("\n001 ") && ran.out.contains("\n110 "), "{}", ran.out);
     let draw = |kind: &str, file: &str| {
-        assert_eq!(bench.run(&["draw", "third.json", "--as", kind, "-o", file]).status, 0);
-        fs::read_to_string(bench.path().join(file)).unwrap()
+        bench.ok(&["draw", "third.json", "--as", kind, "-o", file]);
+        bench.read(file)
     };
     let (strip, paths) = (draw("strip", "strip.svg"), draw("spacetime", "paths.svg"));
     assert!(

@@ -15,9 +15,8 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::memory::{CLOCK, ENABLE, Element, elements, libraries, mapped, next, program, text};
-use crate::support::bench::Bench;
-use crate::support::root;
-use crate::support::schema::validate;
+
+use crate::support::*;
 
 /// A clock for each cell: one to three cycles, and at most two for cells that compute an enable.
 fn kinds(netlist: &Netlist, random: &mut ChaCha8Rng) -> BTreeMap<NetId, CellKind> {
@@ -246,9 +245,8 @@ const SHIFT: &str = "circuit shift(a, clk) -> (q[3]) {\n    q = register({q[1..0
 
 #[test]
 fn the_times_of_a_clock_are_printed() {
-    let bench = Bench::new();
-    bench.file("shift.nb", SHIFT);
-    let told = bench.run(&["build", "shift.nb", "--cells", "nand,not", "--emit", "timing"]).out;
+    let bench = Bench::with("shift.nb", SHIFT);
+    let told = bench.run("build shift.nb --cells nand,not --emit timing").out;
     let expected = "\
         clock    clk: high 4, low 4, period 9 cycles at least\n\
         input    a: stable 3 cycles before clk rises, 1 after\n\
@@ -263,19 +261,18 @@ fn latches_that_are_not_made_of_one_robot_are_reported() {
     let bench = Bench::new();
     let reset = "circuit kept(d, r, clk) -> (q) {\n    q = async_register(d, clk, r)\n}\n";
     bench.file("kept.nb", format!("{reset}swarm s {{ circuit: kept, library: three, registers: mux }}\n"));
-    let told = bench.run(&["build", "kept.nb", "--emit", "timing"]).out;
+    let told = bench.run("build kept.nb --emit timing").out;
     assert!(told.contains("stays as written: it is not a latch of one bit\n"), "{told}");
-    let report = validate("build", &bench.run(&["build", "kept.nb", "--format", "json"]).out);
+    let report = validate("build", &bench.run("build kept.nb --format json").out);
     assert!(!report["phases"]["kept"].as_array().unwrap().is_empty());
 }
 
 #[test]
 fn the_page_and_the_json_of_a_run_have_the_clocks() {
-    let bench = Bench::new();
-    bench.file("shift.nb", SHIFT);
-    let ran = bench.run(&["run", "shift.nb", "--format", "json"]);
+    let bench = Bench::with("shift.nb", SHIFT);
+    let ran = bench.run("run shift.nb --format json");
     let report = validate("run", &ran.out);
     assert_eq!(report["tests"][0]["timing"]["phases"]["clocks"][0]["clock"], "clk");
-    let page = std::fs::read_to_string(bench.path().join("out/shift/report.html")).unwrap();
+    let page = bench.read("out/shift/report.html");
     assert!(page.contains("clock    clk: high "), "the page has the times of the clock");
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nbc_base::model::{Behavior, Body, FaultKind, Palette, Pattern, Schedule, Setting, Spell, Trajectory, Trial};
-use nbc_sim::{Constants, InstructionSet, Kernel, LaneBackend, Simulator};
+use nbc_sim::{Constants, LaneBackend, Simulator};
 use serde::Deserialize;
 
 /// Largest difference from a reference, in voxels (docs/physics.md 12).
@@ -107,29 +107,6 @@ fn reference_trajectories() {
     for case in traces() {
         let difference = case.difference(&simulate(&case, &Constants::default()));
         assert!(difference < TOLERANCE, "{}: {difference:e} voxels from the reference", case.name);
-    }
-}
-
-/// Whether all cases with the same box and setting agree when simulated side by side, two of each case, so that lanes
-/// have both equal and different bodies.
-#[test]
-fn reference_trajectories_in_the_lanes_of_every_kernel() {
-    let mut groups: BTreeMap<_, Vec<Case>> = BTreeMap::new();
-    for case in traces() {
-        groups.entry((case.start_x, case.world_width)).or_default().push(case);
-    }
-    let wide = InstructionSet::available().into_iter().flat_map(|set| [4, 8].map(|lanes| Kernel::new(set, lanes)));
-    for kernel in wide.flatten() {
-        let simulator = Simulator::new(LaneBackend { kernel, ..LaneBackend::default() });
-        for cases in groups.values() {
-            let copies: Vec<&Case> = cases.iter().flat_map(|case| [case; 2]).collect();
-            let trials: Vec<Trial> =
-                copies.iter().map(|case| Trial { body: case.body(), schedule: case.schedule() }).collect();
-            for (case, found) in copies.iter().zip(simulator.run_trials(&cases[0].setting(), &trials)) {
-                let difference = case.difference(&found);
-                assert!(difference < TOLERANCE, "{}, {kernel:?}: {difference:e} voxels", case.name);
-            }
-        }
     }
 }
 
@@ -241,7 +218,6 @@ fn published_robots_walk_as_published() {
     }
 }
 
-/// A constant by its name, to be changed.
 type NamedConstant = (&'static str, fn(&mut Constants) -> &mut f64);
 
 /// Every constant except thresholds for degenerate shapes (`parallel`, `shortest`, `nowhere`) and integers

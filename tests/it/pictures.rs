@@ -12,7 +12,6 @@ fn paper_rows() -> SwarmTrace {
     latch(&[(false, true), (true, true), (true, false), (false, false), (false, true)], 8)
 }
 
-/// The texts of a drawing, in order.
 fn texts(svg: &str) -> Vec<String> {
     let document = roxmltree::Document::parse(svg).expect("a drawing is well-formed XML");
     document.descendants().filter(|n| n.has_tag_name("text")).map(|n| n.text().unwrap_or("").to_owned()).collect()

@@ -1,8 +1,8 @@
 //! Plots of evolution: heat maps, progress, champions, comparisons.
 
-use nbc::Session;
+use crate::support::*;
 use nbc_base::model::{Axis, Behavior, Body, Count, Displacements, Trajectory};
-use nbc_base::source::MemoryWorld;
+
 use nbc_session::report::{self, ArchiveMap, Champions, Course};
 use nbc_swarm::evolve::{Archive, Champion, Elite, NicheKey};
 use roxmltree::{Document, Node};
@@ -67,9 +67,7 @@ fn heatmap(archive: &Archive, x: usize, y: usize) -> String {
 }
 
 fn evolution() -> nbc_base::model::Evolution {
-    let mut world = MemoryWorld::default();
-    world.insert("empty.nb", "");
-    let paper = Session::new(world).checked("empty.nb").program.evolution("gates").unwrap().clone();
+    let paper = checked("").program.evolution("gates").unwrap().clone();
     nbc_base::model::Evolution { width: 3, height: 3, descriptors: axes(), generations: 1, ..paper }
 }
 

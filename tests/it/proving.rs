@@ -1,13 +1,7 @@
 //! Properties of all steps, through the program: the gallery, its mutants, and models in AIGER's format.
 
-use std::fs;
+use crate::support::*;
 
-use serde_json::Value;
-
-use crate::support::bench::Bench;
-use crate::support::root;
-
-/// A file of the gallery, with a part of its text replaced.
 fn mutant(bench: &Bench, file: &str, replaced: &str, by: &str) -> String {
     let text = fs::read_to_string(root().join("circuits").join(file)).unwrap();
     assert!(text.contains(replaced), "{file} has `{replaced}`");
@@ -15,7 +9,6 @@ fn mutant(bench: &Bench, file: &str, replaced: &str, by: &str) -> String {
     file.to_owned()
 }
 
-/// What is known of the properties of a file, in order.
 fn verdicts(bench: &Bench, arguments: &[&str], status: i32) -> Vec<Value> {
     let ran = bench.run(&[&["prove"], arguments, &["--format", "json"]].concat());
     assert_eq!(ran.status, status, "{}{}", ran.out, ran.err);
@@ -73,7 +66,7 @@ fn a_proof_of_what_is_never_checked_is_called_empty() {
         let found = verdicts(&bench, &[&file], 0);
         assert_eq!(found[0]["empty"].as_str(), why, "{properties}: {found:?}");
     }
-    let text = bench.run(&["prove", "0.nb"]).out;
+    let text = bench.run("prove 0.nb").out;
     assert!(text.contains("    proved     always q  (but empty: no step satisfies the assumptions)\n"), "{text}");
 
     // A bad state that is the input, under a constraint of the constant 0, and under one of the input's opposite.
@@ -100,12 +93,11 @@ fn a_mutant_of_the_gallery_is_refuted_by_a_test_that_it_passes() {
         let refuted = found.iter().find(|found| found["verdict"] == "refuted").unwrap();
         assert!(refuted["property"].as_str().unwrap().contains(property), "{refuted}");
         let test = refuted["test"].as_str().unwrap();
-        let text = fs::read_to_string(bench.path().join(&file)).unwrap();
+        let text = bench.read(&file);
         // The tests of the file fail now; only the one that was printed is run.
         bench.file("shown.nb", format!("{text}\n{test}"));
-        let ran = bench.run(&["test", "shown.nb", "--logic", "--only", refuted["property"].as_str().unwrap()]);
-        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-        assert_eq!(bench.run(&["fmt", "--check", "shown.nb"]).status, 0, "it is in the canonical form");
+        bench.ok(&["test", "shown.nb", "--logic", "--only", refuted["property"].as_str().unwrap()]);
+        bench.ok("fmt --check shown.nb");
     }
 }
 
@@ -119,31 +111,18 @@ fn robots_do_what_refutes_a_property() {
     assert!(refuted.iter().all(|found| found["physics"] == true), "{refuted:?}");
 }
 
-/// The runs that docs/always.md lists.
-#[test]
-fn robots_show_what_refutes_the_properties_of_mutants() {
-    for (file, part, other, property) in MUTANTS {
-        let bench = Bench::new();
-        let file = mutant(&bench, file, part, other);
-        let found = verdicts(&bench, &[&file, "--physics"], 1);
-        let refuted: Vec<&Value> = found.iter().filter(|found| found["verdict"] == "refuted").collect();
-        assert!(refuted.iter().any(|found| found["property"].as_str().unwrap().contains(property)), "{found:?}");
-        assert!(refuted.iter().all(|found| found["physics"] == true), "{refuted:?}");
-    }
-}
-
 #[test]
 fn a_search_that_ends_is_undecided_and_the_same_again() {
     let bench = Bench::new();
     let wide = "circuit wide(clk) -> (count[24]) {\n    count = register(count + 1, clk)\n}\n\n\
                 prove wide \"ends\" {\n    never count == 9000000\n}\n";
     bench.file("wide.nb", wide);
-    let search = || bench.run(&["prove", "wide.nb", "--work", "2000", "--format", "json"]);
+    let search = || bench.run("prove wide.nb --work 2000 --format json");
     let first = search();
     assert_eq!(first.status, 1, "{}", first.err);
     assert!(first.out.contains("\"verdict\":\"undecided\""), "{}", first.out);
     assert_eq!(search().out, first.out);
-    let text = bench.run(&["prove", "wide.nb", "--work", "2000"]).out;
+    let text = bench.run("prove wide.nb --work 2000").out;
     assert!(text.contains("undecided  never count == 9000000  (it holds in the first "), "{text}");
     assert!(text.ends_with("0 proved, 0 refuted, 1 undecided\n"), "{text}");
 }
@@ -178,10 +157,10 @@ fn models_are_decided_with_witnesses() {
     let found = verdicts(&bench, &["model.aag", "--witness", "model.wit"], 1);
     assert_eq!((&found[0]["property"], &found[0]["verdict"]), (&"on".into(), &"refuted".into()));
     assert_eq!((&found[1]["property"], &found[1]["verdict"]), (&"both".into(), &"proved".into()));
-    let witness = fs::read_to_string(bench.path().join("model.wit")).unwrap();
+    let witness = bench.read("model.wit");
     assert_eq!(witness, "1\nb0\n0\n0\n0\n.\n0\nb1\n.\n");
     bench.file("live.aag", "aag 1 1 0 0 0 0 0 1\n2\n1\n2\n");
-    bench.run(&["prove", "live.aag"]).expect_fault(&["justice properties are not supported"]);
+    bench.run("prove live.aag").expect_fault(&["justice properties are not supported"]);
     let latch = root().join("circuits/latch.nb");
     let refused = bench.run(&["prove", latch.to_str().unwrap(), "--witness", "latch.wit"]);
     refused.expect_fault(&["`--witness` is for one model"]);
@@ -207,8 +186,7 @@ test up \"is three toggles\" against toggled for ever
 
 #[test]
 fn two_circuits_are_equal_for_ever_or_a_run_shows_where_they_differ() {
-    let bench = Bench::new();
-    bench.file("counters.nb", COUNTERS);
+    let bench = Bench::with("counters.nb", COUNTERS);
     let test = |level: &str| -> Value {
         let ran = bench.run(&["test", "counters.nb", level, "--format", "json"]);
         serde_json::from_str(&ran.out).unwrap_or_else(|_| panic!("{}", ran.err))
@@ -220,23 +198,22 @@ fn two_circuits_are_equal_for_ever_or_a_run_shows_where_they_differ() {
         assert_eq!(found["proof"], "proved by induction over 1 step");
         assert_eq!(found["rows"], Value::Array(Vec::new()));
     }
-    bench.run(&["run", "counters.nb"]).expect_fault(&["there is nothing to run"]);
-    bench.run(&["test", "counters.nb", "--vary", "10%"]).expect_fault(&["none of these tests runs in a world"]);
+    bench.run("run counters.nb").expect_fault(&["there is nothing to run"]);
+    bench.run("test counters.nb --vary 10%").expect_fault(&["none of these tests runs in a world"]);
     bench.file("counters.nb", COUNTERS.replace("(go and low and mid)", "(low and mid)"));
     let found = &test("--logic")["tests"][0];
     assert_eq!((&found["passed"], &found["proof"]), (&false.into(), &"refuted after 5 steps".into()), "{found}");
     let last = found["rows"].as_array().unwrap().last().unwrap();
     assert!(last["passed"] == false && last["expected"] != last["observed"], "{last}");
-    let text = bench.run(&["test", "counters.nb"]);
+    let text = bench.run("test counters.nb");
     assert!(text.out.contains("FAIL  up \"is three toggles\" (refuted after 5 steps, logic)"), "{}", text.out);
     bench.file("counters.nb", COUNTERS.replace("against toggled", "against other"));
-    bench.run(&["test", "counters.nb"]).expect_fault(&["`other` cannot be compared with this circuit for ever"]);
+    bench.run("test counters.nb").expect_fault(&["`other` cannot be compared with this circuit for ever"]);
 }
 
 #[test]
 fn a_register_that_stores_when_its_clock_falls_has_steps() {
-    let bench = Bench::new();
-    bench.file(
+    let bench = Bench::with(
         "falls.nb",
         "circuit toggle(go, clk) -> (q) {\n    q = register(q xor go, not clk)\n}\n\n\
          prove toggle {\n    never before(go or not go) and q != before(q) xor go\n    never q and before(q)\n}\n",
@@ -244,10 +221,10 @@ fn a_register_that_stores_when_its_clock_falls_has_steps() {
     let found = verdicts(&bench, &["falls.nb"], 1);
     assert_eq!((&found[0]["verdict"], &found[1]["steps"]), (&"proved".into(), &3.into()), "{found:?}");
     let test = found[1]["test"].as_str().unwrap();
-    let text = fs::read_to_string(bench.path().join("falls.nb")).unwrap();
+    let text = bench.read("falls.nb");
     bench.file("shown.nb", format!("{text}\n{test}"));
-    assert_eq!(bench.run(&["test", "shown.nb"]).status, 0, "{test}");
-    assert_eq!(bench.run(&["fmt", "--check", "shown.nb"]).status, 0, "{test}");
+    bench.ok("test shown.nb");
+    bench.ok("fmt --check shown.nb");
 }
 
 #[test]
@@ -273,10 +250,9 @@ prove shift[4] {
     // Its test has the ports alone.
     assert!(found[2]["test"].as_str().unwrap().contains("d clk | q\n"), "{found:?}");
     bench.file("shift.nb", text.replace("inside == 4'd9", "beside == 4'd9"));
-    bench.run(&["prove", "shift.nb"]).expect_fault(&["`beside`"]);
+    bench.run("prove shift.nb").expect_fault(&["`beside`"]);
 }
 
-/// A flip-flop of eight cells whose second latch starts so.
 fn flip_flop(q: &str, nq: &str) -> String {
     let latch = "    low = not clk
     set = nand(d, low)
@@ -289,18 +265,17 @@ fn flip_flop(q: &str, nq: &str) -> String {
 
 #[test]
 fn a_register_starts_as_its_cells_do() {
-    let bench = Bench::new();
-    bench.file("one.nb", flip_flop("", " init 0"));
-    let ran = bench.run(&["prove", "one.nb"]);
+    let bench = Bench::with("one.nb", flip_flop("", " init 0"));
+    let ran = bench.run("prove one.nb");
     assert!(ran.status == 1 && ran.out.contains("refuted    never q  (after 1 step)"), "{}{}", ran.out, ran.err);
     bench.file("none.nb", flip_flop(" init 0", " init 0"));
-    let ran = bench.run(&["prove", "none.nb"]);
+    let ran = bench.run("prove none.nb");
     assert!(ran.err.contains("no-steps") && ran.err.contains("does not settle"), "{}{}", ran.out, ran.err);
     bench.file(
         "waves.nb",
         format!("{}\nswarm s {{ circuit: stored, registers: waves }}\n", flip_flop(" init 0", " init 0")),
     );
-    let ran = bench.run(&["build", "waves.nb"]);
+    let ran = bench.run("build waves.nb");
     assert!(
         ran.err.contains("the cells of the register `q` have start values that contradict"),
         "{}{}",

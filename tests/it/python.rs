@@ -1,13 +1,9 @@
 //! The text of the Python package: it is a door, and keeps the rules of the source where they apply.
 
-use std::fs;
-use std::path::PathBuf;
-
 use regex::Regex;
 
-use crate::support::root;
+use crate::support::*;
 
-/// The files with this extension in these folders of `python/`.
 fn files(folders: &[&str], extension: &str) -> Vec<(PathBuf, String)> {
     let mut open: Vec<PathBuf> = folders.iter().map(|folder| root().join("python").join(folder)).collect();
     let mut found = Vec::new();
@@ -23,7 +19,6 @@ fn files(folders: &[&str], extension: &str) -> Vec<(PathBuf, String)> {
     found
 }
 
-/// Fails with the rule when a line that is not a comment matches.
 fn forbid(rule: &str, pattern: &str) {
     let pattern = Regex::new(pattern).unwrap();
     let mut found = Vec::new();

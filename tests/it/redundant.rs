@@ -7,8 +7,7 @@ use nbc_circuit::network::View;
 use nbc_circuit::{NetId, Netlist};
 use proptest::prelude::*;
 
-use crate::support::abc::abc_agrees;
-use crate::support::bench::Bench;
+use crate::support::*;
 
 /// Two bits that count twice, a bit that stays 0, and a bit that nothing reads.
 const REDUNDANT: &str = "\
@@ -35,8 +34,7 @@ n5 = OR(q5, en)
 
 #[test]
 fn synthesis_names_the_registers_that_it_removes() {
-    let bench = Bench::new();
-    bench.file("twice.bench", REDUNDANT);
+    let bench = Bench::with("twice.bench", REDUNDANT);
     let arguments = ["synth", "twice.bench", "-o", "once.blif", "--cells", "nand,not"];
     let ran = bench.run(&arguments);
     let lines = ["that never change: q4 = 0\n", "that equal another: q2 = q0, q3 = q1\n", "that no output needs: q5\n"];
@@ -47,37 +45,14 @@ fn synthesis_names_the_registers_that_it_removes() {
     assert_eq!(report["latches"], 2);
     assert_eq!(
         report["removed"],
-        serde_json::json!({ "constant": { "q4": 0 }, "equal": { "q2": "q0", "q3": "q1" }, "unused": ["q5"] })
+        json!({ "constant": { "q4": 0 }, "equal": { "q2": "q0", "q3": "q1" }, "unused": ["q5"] })
     );
     abc_agrees(&bench, "dsec", "twice.bench", "once.blif");
 }
 
-/// The robots of a circuit of a program, and the tests of the program at the level of logic.
-fn robots(program: &str) -> usize {
-    let bench = Bench::new();
-    bench.file("a.nb", program);
-    assert_eq!(bench.run(&["test", "a.nb", "--logic"]).status, 0);
-    let json = bench.run(&["build", "a.nb", "--circuit", "both", "--emit", "json"]).expect_json();
-    json["cells"].as_array().unwrap().len()
-}
-
-#[test]
-fn two_counters_that_count_the_same_are_one() {
-    let both = |other: &str| {
-        format!(
-            "circuit count[start = 0](clk) -> (q[2]) {{\n    q = register[start = start](q xor {{q[0], 1}}, clk)\n}}\n\
-             circuit both(clk) -> (x[2], y[2]) {{\n    x = count(clk)\n    y = {other}(clk)\n}}\n\
-             test both {{\n    clk | x  y\n    0   | 00 --\n    1   | 01 --\n    0   | 01 --\n    1   | 10 --\n}}\n"
-        )
-    };
-    let (equal, unequal) = (robots(&both("count")), robots(&both("count[start = 1]")));
-    assert!(equal <= unequal / 2 + 1, "{equal} robots if both start alike, else {unequal}");
-}
-
 #[test]
 fn a_program_uses_a_circuit_without_them() {
-    let bench = Bench::new();
-    bench.file("twice.bench", REDUNDANT);
+    let bench = Bench::with("twice.bench", REDUNDANT);
     bench.file("once.nb", "use \"twice.bench\"\n");
     let cells = |circuit: &str| {
         let built = bench.run(&["build", "once.nb", "--circuit", circuit, "--cells", "nand,not", "--format", "json"]);
@@ -160,9 +135,8 @@ proptest! {
 
 #[test]
 fn the_circuit_is_shown_after_each_pass_that_changes_it() {
-    let bench = Bench::new();
-    bench.file("a.nb", "circuit a(x, y) -> (q, r) {\n    q = x and (y or 1)\n    r = not (x and y)\n}\n");
-    let told = bench.run(&["build", "a.nb", "--emit", "passes"]).out;
+    let bench = Bench::with("a.nb", "circuit a(x, y) -> (q, r) {\n    q = x and (y or 1)\n    r = not (x and y)\n}\n");
+    let told = bench.run("build a.nb --emit passes").out;
     insta::assert_snapshot!(told, @r"
     as written: 4 cells
     netlist a(x, y) -> (q, r) {

@@ -1,10 +1,6 @@
 //! A file's declarations decide what runs: swarms, libraries and simulations, in the real program.
 
-use std::fs;
-
-use serde_json::Value;
-
-use crate::support::bench::{Bench, Ran};
+use crate::support::*;
 
 /// A correct robot, and one with the same body whose file has errors.
 const TURNER: &str = "format: 2
@@ -20,7 +16,6 @@ const INVERTER: &str = "circuit inverter(a) -> (q) { q = not a }\n";
 
 const TEST: &str = "test inverter \"inverts\" {\n    a | q\n    0 | 1\n    1 | 0\n}\n";
 
-/// A folder with `robots/turner.yaml`.
 fn bench() -> Bench {
     let bench = Bench::new();
     fs::create_dir(bench.path().join("robots")).unwrap();
@@ -28,20 +23,11 @@ fn bench() -> Bench {
     bench
 }
 
-fn run(bench: &Bench, line: &str) -> Ran {
-    bench.run(&line.split_whitespace().collect::<Vec<_>>())
-}
-
-/// The robots that a run or a picture of a file names.
 #[track_caller]
 fn json(bench: &Bench, line: &str) -> Value {
-    let ran = run(bench, &format!("{line} --format json"));
+    let ran = bench.run(&format!("{line} --format json"));
     assert!(ran.status < 2, "{line}: {}", ran.err);
     serde_json::from_str(&ran.out).unwrap()
-}
-
-fn read(bench: &Bench, path: &str) -> String {
-    fs::read_to_string(bench.path().join(path)).unwrap_or_else(|error| panic!("{path}: {error}"))
 }
 
 fn texts(values: &Value) -> Vec<&str> {
@@ -65,8 +51,8 @@ fn a_declared_library_and_swarm_apply_to_every_command() {
         2,
         "the clock of `turner`; that of the shipped robot is 1"
     );
-    assert_eq!(run(&bench, "draw a.nb --as schematic -o a.svg").status, 0);
-    assert!(read(&bench, "a.svg").contains("turner"), "the schematic names the robot");
+    bench.ok("draw a.nb --as schematic -o a.svg");
+    assert!(bench.read("a.svg").contains("turner"), "the schematic names the robot");
 }
 
 #[test]
@@ -84,7 +70,7 @@ fn the_folder_of_a_library_is_relative_to_its_file() {
     let path = bench.path().join("a.nb");
     assert_eq!(json(&from_elsewhere, &format!("test {} --physics", path.display()))["passed"], true);
     fs::remove_dir_all(bench.path().join("parts/robots")).unwrap();
-    run(&bench, "test a.nb --physics").expect_fault(&["cannot read the library `parts/robots`", "parts/own.nb:2"]);
+    bench.run("test a.nb --physics").expect_fault(&["cannot read the library `parts/robots`", "parts/own.nb:2"]);
 }
 
 #[test]
@@ -95,12 +81,12 @@ fn robots_of_an_evolution_are_read_from_the_folder_of_runs() {
          swarm one {{ circuit: inverter, library: mine }}\n{TEST}"
     );
     bench.file("a.nb", program);
-    run(&bench, "test a.nb --physics").expect_fault(&[
+    bench.run("test a.nb --physics").expect_fault(&[
         "`out/walkers/robots`",
         "`nbc evolve a.nb --run walkers --out out`, then `nbc library add out/walkers --into out/walkers/robots`",
     ]);
     for command in ["test a.nb --physics", "run a.nb", "build a.nb", "draw a.nb --as dot -o a.dot"] {
-        run(&bench, &format!("{command} --runs elsewhere")).expect_fault(&[
+        bench.run(&format!("{command} --runs elsewhere")).expect_fault(&[
             "`elsewhere/walkers/robots`",
             "--into elsewhere/walkers/robots",
             "--out elsewhere",
@@ -128,27 +114,27 @@ fn all_swarms_of_a_circuit_run() {
     assert_eq!(levels["tests"].as_array().unwrap().len(), 2);
     assert_eq!(json(&bench, "test a.nb --logic")["tests"].as_array().unwrap().len(), 1, "gates are of no library");
     for file in ["inverter-usual-waves.vcd", "inverter-own-waves.vcd", "simulate-own-cycles.csv"] {
-        read(&bench, &format!("out/a/{file}"));
+        bench.read(&format!("out/a/{file}"));
     }
-    run(&bench, "build a.nb").expect_fault(&[
+    bench.run("build a.nb").expect_fault(&[
         "several swarms are declared for `inverter`",
         "`--swarm usual`",
         "`--swarm own`",
     ]);
     assert_eq!(json(&bench, "build a.nb --emit json --swarm own")["hold"], 2);
-    assert_eq!(run(&bench, "build a.nb --cells nand").status, 0, "cells that the user chooses are no swarm's");
-    run(&bench, "draw a.nb --as schematic -o a.svg").expect_fault(&["several swarms", "`--swarm own`"]);
-    run(&bench, "draw a.nb --as spacetime -o a.svg").expect_fault(&["several swarms", "`--swarm own`"]);
-    assert_eq!(run(&bench, "draw a.nb --as spacetime --swarm own -o a.svg").status, 0);
-    assert!(read(&bench, "a.svg").contains("turner"));
-    run(&bench, "build a.nb --swarm owl").expect_fault(&["no swarm is called `owl`", "`own`"]);
+    bench.ok("build a.nb --cells nand");
+    bench.run("draw a.nb --as schematic -o a.svg").expect_fault(&["several swarms", "`--swarm own`"]);
+    bench.run("draw a.nb --as spacetime -o a.svg").expect_fault(&["several swarms", "`--swarm own`"]);
+    bench.ok("draw a.nb --as spacetime --swarm own -o a.svg");
+    assert!(bench.read("a.svg").contains("turner"));
+    bench.run("build a.nb --swarm owl").expect_fault(&["no swarm is called `owl`", "`own`"]);
 }
 
 #[test]
 fn an_unused_library_is_reported() {
     let bench = bench();
     bench.file("a.nb", format!("{INVERTER}library mine {{ from: \"robots\" }}\n{TEST}"));
-    let ran = run(&bench, "check a.nb");
+    let ran = bench.run("check a.nb");
     assert!(ran.err.contains("no swarm uses the library `mine`"), "{}", ran.err);
 }
 
@@ -162,11 +148,10 @@ fn a_simulation_writes_all_its_results() {
                    simulate cells with schedule (d, en) {\n    2'd1 1 for 12 cycles\n    2'd2 0 for 3 cycles\n    \
                    2'd2 1 for 12 cycles\n}\n";
     bench.file("a.nb", program);
-    let ran = run(&bench, "run a.nb");
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    let ran = bench.ok("run a.nb");
     assert!(ran.out.contains("simulate cells, of delay") && !ran.out.contains("pass"), "{}", ran.out);
     assert!(ran.out.contains("2'd1 1"), "{}", ran.out);
-    let found: Value = serde_json::from_str(&read(&bench, "out/a/result.json")).unwrap();
+    let found: Value = serde_json::from_str(&bench.read("out/a/result.json")).unwrap();
     assert_eq!(found["tests"], Value::Array(Vec::new()));
     let simulation = &found["simulations"][0];
     assert_eq!((&simulation["swarm"], &simulation["circuit"]), (&"cells".into(), &"delay".into()));
@@ -177,10 +162,10 @@ fn a_simulation_writes_all_its_results() {
     assert_eq!(told[1], (vec!["2'd2", "0"], vec!["2'd1"]), "the latch remembers");
     assert_eq!(told[2], (vec!["2'd2", "1"], vec!["2'd2"]));
     let robots = simulation["robots"].as_array().unwrap();
-    check_table(&read(&bench, "out/a/simulate-cells-cycles.csv"), robots);
-    let waves = read(&bench, "out/a/simulate-cells-waves.vcd");
+    check_table(&bench.read("out/a/simulate-cells-cycles.csv"), robots);
+    let waves = bench.read("out/a/simulate-cells-waves.vcd");
     assert!(waves.contains("$var wire 2 ! d [1:0] $end") && waves.contains("\nb01 !\n"), "{waves}");
-    assert!(read(&bench, "out/a/report.html").contains("1 simulation"));
+    assert!(bench.read("out/a/report.html").contains("1 simulation"));
     for file in ["spacetime.svg", "spacetime.png", "schematic.svg"] {
         assert!(bench.path().join(format!("out/a/simulate-cells-{file}")).is_file(), "{file}");
     }
@@ -205,8 +190,7 @@ fn check_table(table: &str, robots: &[Value]) {
 
 #[test]
 fn tests_and_simulations_can_be_selected() {
-    let bench = Bench::new();
-    bench.file(
+    let bench = Bench::with(
         "a.nb",
         format!("{INVERTER}{RING}{SWARM}{TEST}simulate ring_of_three with schedule () {{\n    for 4 cycles\n}}\n"),
     );
@@ -215,9 +199,9 @@ fn tests_and_simulations_can_be_selected() {
         ["tests", "simulations"].map(|key| found[key].as_array().unwrap().len())
     };
     assert_eq!([counts("inverts"), counts("inverter"), counts("ring_of_three")], [[1, 0], [1, 0], [0, 1]]);
-    run(&bench, "run a.nb --only rung").expect_fault(&["`rung`", "`inverter`", "`inverts`", "`ring_of_three`"]);
+    bench.run("run a.nb --only rung").expect_fault(&["`rung`", "`inverter`", "`inverts`", "`ring_of_three`"]);
     bench.file("bare.nb", INVERTER);
-    run(&bench, "run bare.nb").expect_fault(&["no test and no simulation"]);
+    bench.run("run bare.nb").expect_fault(&["no test and no simulation"]);
 }
 
 #[test]
@@ -234,7 +218,7 @@ fn a_ring_without_inputs_is_tested_and_simulated() {
     let row = &found["simulations"][0]["rows"][0];
     assert!(row["changes"][0].as_u64().unwrap() > 3, "the ring oscillates: {row}");
     bench.file("b.nb", format!("{RING}test ring \"stops\" {{\n    | q\n    | 1\n}}\n"));
-    let ran = run(&bench, "test b.nb --logic");
+    let ran = bench.run("test b.nb --logic");
     assert_eq!(ran.status, 1, "{}", ran.err);
     assert!(ran.out.contains("b.nb:6: row 1: q keeps changing, expected 1"), "{}", ran.out);
     bench.file(
@@ -243,7 +227,7 @@ fn a_ring_without_inputs_is_tested_and_simulated() {
             "{INVERTER}swarm one {{ circuit: inverter }}\nsimulate one with schedule () {{\n    for 4 cycles\n}}\n"
         ),
     );
-    run(&bench, "check c.nb").expect_fault(&["no values for the input `a`"]);
+    bench.run("check c.nb").expect_fault(&["no values for the input `a`"]);
 }
 
 #[test]
@@ -253,31 +237,29 @@ fn a_failed_test_lists_its_rows_in_their_notation() {
                    // rows are counted as they stand\ntest add_four \"adds\" {\n    a     b    | sum   odd\n    \
                    4'd3  0001 | 4'd4  0\n\n    4'd5  0100 | 4'd8  -\n    4'hf  0000 | 1111  0\n}\n";
     bench.file("a.nb", program);
-    let ran = run(&bench, "test a.nb --logic");
+    let ran = bench.run("test a.nb --logic");
     assert_eq!(ran.status, 1);
     assert!(ran.out.contains("    a.nb:11: row 2: a=4'd5 b=0100 | sum=4'd9, expected 4'd8\n"), "{}", ran.out);
     assert!(ran.out.contains("    a.nb:12: row 3: a=4'hf b=0000 | odd=1, expected 0\n"), "{}", ran.out);
     let found = json(&bench, "test a.nb --logic");
     let test = &found["tests"][0];
     assert_eq!((&test["file"], &test["line"], &test["level"]), (&"a.nb".into(), &7.into(), &"logic".into()));
-    assert_eq!(test["outputs"], serde_json::json!([{ "name": "sum", "width": 4 }, { "name": "odd", "width": 1 }]));
+    assert_eq!(test["outputs"], json!([{ "name": "sum", "width": 4 }, { "name": "odd", "width": 1 }]));
     let row = &test["rows"][1];
     assert_eq!((&row["row"], &row["line"], &row["passed"]), (&2.into(), &11.into(), &false.into()));
-    assert_eq!(row["observed"][0], serde_json::json!({ "text": "4'd9", "bits": "1001" }));
+    assert_eq!(row["observed"][0], json!({ "text": "4'd9", "bits": "1001" }));
     assert_eq!((texts(&row["inputs"]), texts(&row["expected"])), (vec!["4'd5", "0100"], vec!["4'd8", "-"]));
 }
 
 #[test]
 fn build_chooses_the_right_circuit() {
-    let bench = Bench::new();
-    bench.file(
+    let bench = Bench::with(
         "a.nb",
         "circuit choose[w = 2](a[w], b[w], s) -> (q[w]) { q = if s then a else b }\ntest choose for \
         all inputs { q = if not s then b else a }\n",
     );
     let circuit = |more: &[&str]| {
-        let ran = bench.run(&[&["build", "a.nb", "--emit", "json"], more].concat());
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        let ran = bench.ok(&[&["build", "a.nb", "--emit", "json"], more].concat());
         let found: Value = serde_json::from_str(&ran.out).unwrap();
         (found["circuit"].as_str().unwrap().to_owned(), found["inputs"].as_array().unwrap().len())
     };
@@ -292,19 +274,17 @@ fn build_chooses_the_right_circuit() {
     build("choose as tested").expect_fault(&["is not the name of a circuit"]);
     // A circuit without inferable widths is built with the parameters of its test.
     bench.file("b.nb", "circuit turn[w](a[w]) -> (q[w]) { q = not a }\ntest turn[3] {\n    a | q\n    000 | 111\n}\n");
-    assert!(run(&bench, "build b.nb").out.starts_with("netlist turn[3]("));
+    assert!(bench.run("build b.nb").out.starts_with("netlist turn[3]("));
 }
 
 #[test]
 fn a_circuit_without_tests_is_drawn_without_simulation() {
-    let bench = Bench::new();
-    bench.file("a.nb", format!("circuit wide[n](a[n]) -> (q[n]) {{ q = not a }}\n{INVERTER}"));
-    assert_eq!(run(&bench, "draw a.nb --as dot -o a.dot").status, 0);
-    assert!(read(&bench, "a.dot").contains("not"));
-    let ran = bench.run(&["draw", "a.nb", "--as", "schematic", "--circuit", "wide[n = 2]", "-o", "a.svg"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    assert!(read(&bench, "a.svg").contains("q[1]"));
-    run(&bench, "draw a.nb --as spacetime -o b.svg").expect_fault(&["no test and no simulation", "`--as schematic`"]);
+    let bench = Bench::with("a.nb", format!("circuit wide[n](a[n]) -> (q[n]) {{ q = not a }}\n{INVERTER}"));
+    bench.ok("draw a.nb --as dot -o a.dot");
+    assert!(bench.read("a.dot").contains("not"));
+    bench.ok(&["draw", "a.nb", "--as", "schematic", "--circuit", "wide[n = 2]", "-o", "a.svg"]);
+    assert!(bench.read("a.svg").contains("q[1]"));
+    bench.run("draw a.nb --as spacetime -o b.svg").expect_fault(&["no test and no simulation", "`--as schematic`"]);
     bench.file(
         "b.nb",
         format!(
@@ -312,11 +292,10 @@ fn a_circuit_without_tests_is_drawn_without_simulation() {
         a | q\n    1 | 1\n}}\n"
         ),
     );
-    let ran = bench.run(&["draw", "b.nb", "--as", "vcd", "--test", "is the same", "-o", "b.vcd"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    assert!(read(&bench, "b.vcd").contains("module same"));
-    assert_eq!(run(&bench, "draw b.nb --as schematic --test inverts -o b.svg").status, 0);
-    assert!(read(&bench, "b.svg").contains("inverter"));
+    bench.ok(&["draw", "b.nb", "--as", "vcd", "--test", "is the same", "-o", "b.vcd"]);
+    assert!(bench.read("b.vcd").contains("module same"));
+    bench.ok("draw b.nb --as schematic --test inverts -o b.svg");
+    assert!(bench.read("b.svg").contains("inverter"));
 }
 
 #[test]
@@ -333,7 +312,7 @@ fn a_robot_with_errors_is_reported_once_and_first() {
         ),
     );
     for command in ["test a.nb --physics", "run a.nb"] {
-        let ran = run(&bench, command);
+        let ran = bench.run(command);
         assert_eq!(ran.status, 1, "{}", ran.err);
         assert_eq!(ran.err.matches("`inverter` uses the robot `turner`, wrong in 43.0 %").count(), 1, "{}", ran.err);
         let after = ran.out.split("FAIL").nth(1).unwrap();

@@ -1,18 +1,13 @@
 //! Output for programs: with `--format json`, every command prints what its schema in `docs/schema` describes.
 
 use std::collections::BTreeSet;
-use std::fs;
 
 use nbc_session::report::Schema;
-use serde_json::Value;
 
-use crate::support::bench::Bench;
-use crate::support::root;
-use crate::support::schema::{schema, validate};
+use crate::support::*;
 
 const FLIP: &str = "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n";
 
-/// A wave machine whose step is short.
 const WAVES: &str = "\
 circuit bit(clk) -> (y) {
     y = register(not y, clk)
@@ -26,7 +21,6 @@ test bit {
 }
 ";
 
-/// Runs a command with `--format json` and validates its output.
 #[track_caller]
 fn check(bench: &Bench, word: &str, status: i32, arguments: &[&str]) -> Value {
     let ran = bench.run(&[arguments, &["--format", "json"]].concat());
@@ -35,8 +29,7 @@ fn check(bench: &Bench, word: &str, status: i32, arguments: &[&str]) -> Value {
 }
 
 fn bench() -> Bench {
-    let bench = Bench::new();
-    bench.file("flip.nb", FLIP);
+    let bench = Bench::with("flip.nb", FLIP);
     bench.file("wrong.nb", FLIP.replace("not a", "not b"));
     bench.file("waves.nb", WAVES);
     bench.file("walker.yaml", "body: [\"00345\", \"33333\"]\n");
@@ -59,7 +52,7 @@ fn every_schema_has_its_file_and_is_a_schema() {
 #[test]
 fn a_schema_rejects_unknown_fields() {
     let validator = jsonschema::draft202012::new(&schema("drawn")).unwrap();
-    let drawn = serde_json::json!({ "schema": "urn:nbc:drawn:1", "file": "a.svg", "kind": "sprite" });
+    let drawn = json!({ "schema": "urn:nbc:drawn:1", "file": "a.svg", "kind": "sprite" });
     assert!(validator.is_valid(&drawn));
     for (key, value) in [("more", Value::Null), ("file", 3.into()), ("schema", "urn:nbc:drawn:2".into())] {
         let mut other = drawn.clone();
@@ -84,9 +77,9 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "run", 0, &["run", "waves.nb", "--no-report"]);
     let counter = root().join("circuits/counter.nb");
     let ports = &check(&bench, "build", 0, &["build", counter.to_str().unwrap()])["ports"];
-    let port = |name: &str, width: usize| serde_json::json!([{ "name": name, "width": width }]);
+    let port = |name: &str, width: usize| json!([{ "name": name, "width": width }]);
     assert_eq!((&ports["inputs"], &ports["outputs"]), (&port("clk", 1), &port("count", 3)));
-    let both = bench.run(&["build", "flip.nb", "--emit", "blif", "--format", "json"]);
+    let both = bench.run("build flip.nb --emit blif --format json");
     assert!(both.status == 2 && both.err.contains("ask for two formats"), "{}", both.err);
     check(&bench, "drawn", 0, &["draw", "walker.yaml", "--as", "sprite", "-o", "a.svg"]);
     #[cfg(feature = "play")]
@@ -107,7 +100,7 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
     check(&bench, "verify", 0, &["library", "verify", robot.to_str().unwrap()]);
     fs::copy(&robot, bench.path().join("zero.yaml")).unwrap();
     check(&bench, "run", 0, &["run", "flip.nb", "--no-report"]);
-    validate("run", &fs::read_to_string(bench.path().join("out/flip/result.json")).unwrap());
+    validate("run", &bench.read("out/flip/result.json"));
     bench.file("failing.nb", FLIP.replace("0 | 1", "0 | 0\n    1 | 0"));
     check(&bench, "run", 1, &["run", "failing.nb", "--no-report"]);
     let simulation = "swarm own { circuit: flip }\n\nsimulate own with schedule (a) {\n    0 for 3 cycles\n}\n";
@@ -137,8 +130,10 @@ fn every_command_prints_valid_json_or_rejects_the_option() {
 
 #[test]
 fn runs_and_archives_match_their_schemas() {
-    let bench = Bench::new();
-    bench.file("small.nb", "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 3, seed: 1..2 }\n");
+    let bench = Bench::with(
+        "small.nb",
+        "evolution small { box: 3 x 2, fixed: 1 cycles, batch: 4, generations: 3, seed: 1..2 }\n",
+    );
     let evolved = check(&bench, "evolve", 0, &["evolve", "small.nb"]);
     let elites = check(&bench, "elites", 0, &["export", "out/small"]);
     let seeds: BTreeSet<u64> =

@@ -1,16 +1,12 @@
 //! Bodies that see, from the text of a program to the images that they tell apart.
 
-use std::fs;
-
 use nbc_base::model::{Body, Evolution, ImageOrder, Pattern, Program, SearchObjective, Setting, Trial};
 use nbc_base::source::MemoryWorld;
 use nbc_session::Session;
 use nbc_session::store::DiskWorld;
 use nbc_sim::Simulator;
 
-use crate::support::bench::Bench;
-use crate::support::root;
-use crate::support::schema::validate;
+use crate::support::*;
 
 /// Images of two rows and columns: those with ink on top, and those with ink below.
 const SPOTS: &str = "a,b,c,d,label\n4,4,0,0,top\n3,4,1,0,top\n0,0,4,4,bottom\n0,1,4,3,bottom\n1,0,3,4,bottom\n";
@@ -74,24 +70,20 @@ fn a_schedule_shows_each_image_of_its_sets_and_numbers_the_sets() {
 
 #[test]
 fn a_program_with_images_is_in_canonical_form() {
-    let bench = Bench::new();
-    bench.file("spots.csv", SPOTS);
+    let bench = Bench::with("spots.csv", SPOTS);
     bench.file("tell.nb", PROGRAM.replace("stimulus spot[2][2]", "stimulus   spot [ 2 ] [2]"));
-    assert_eq!(bench.run(&["fmt", "tell.nb"]).status, 0);
-    assert_eq!(fs::read_to_string(bench.path().join("tell.nb")).unwrap(), PROGRAM);
+    bench.ok("fmt tell.nb");
+    assert_eq!(bench.read("tell.nb"), PROGRAM);
 }
 
 #[test]
 fn bodies_are_evolved_and_tell_the_images_that_they_were_evolved_with_apart_as_the_archive_says() {
-    let bench = Bench::new();
-    bench.file("spots.csv", SPOTS);
+    let bench = Bench::with("spots.csv", SPOTS);
     bench.file("tell.nb", PROGRAM);
     for run in ["tell", "tell_in_turn"] {
-        let ran = bench.run(&["evolve", "tell.nb", "--run", run]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        bench.ok(&["evolve", "tell.nb", "--run", run]);
     }
-    let seen = bench.run(&["see", "tell.nb", "spots", "out/tell", "--best", "3", "--format", "json"]);
-    assert_eq!(seen.status, 0, "{}", seen.err);
+    let seen = bench.ok("see tell.nb spots out/tell --best 3 --format json");
     let found = validate("see", &seen.out);
     let bodies = found["bodies"].as_array().unwrap();
     assert!((1..=3).contains(&bodies.len()), "{found}");
@@ -103,19 +95,18 @@ fn bodies_are_evolved_and_tell_the_images_that_they_were_evolved_with_apart_as_t
         assert_ne!(sets[0]["way"], sets[1]["way"]);
         assert!(least <= 0.0 || body["accuracy"] == 1.0, "{body}");
     }
-    let text = bench.run(&["see", "tell.nb", "spots", "out/tell/seed-5"]);
+    let text = bench.run("see tell.nb spots out/tell/seed-5");
     assert!(text.out.starts_with("1 body before the images of spots\nevolution  seed"), "{}", text.out);
-    let map = bench.run(&["see", "tell.nb", "spots", "out/tell", "--map", "needed.svg"]);
-    assert_eq!((map.status, &map.out), (0, &bench.run(&["see", "tell.nb", "spots", "out/tell"]).out), "{}", map.err);
-    let picture = fs::read_to_string(bench.path().join("needed.svg")).unwrap();
+    let map = bench.run("see tell.nb spots out/tell --map needed.svg");
+    assert_eq!((map.status, &map.out), (0, &bench.run("see tell.nb spots out/tell").out), "{}", map.err);
+    let picture = bench.read("needed.svg");
     assert!(["losses", "mean-tops", "mean-bottoms"].iter().all(|part| picture.contains(&format!("id=\"{part}\""))));
     let both = ["see", "tell.nb", "spots", "out/tell", "out/tell_in_turn", "--best", "2", "--chart", "chart.svg"];
-    let ran = bench.run(&both);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let ran = bench.ok(&both);
     let of = |evolution: &str| ran.out.lines().filter(|line| line.starts_with(&format!("{evolution}  "))).count();
     assert_eq!([of("tell"), of("tell_in_turn")], [2, 2], "{}", ran.out);
     assert!(ran.out.lines().any(|line| line.starts_with("tell: ") && line.contains(" % on average, ")), "{}", ran.out);
-    let chart = fs::read_to_string(bench.path().join("chart.svg")).unwrap();
+    let chart = bench.read("chart.svg");
     for part in ["evolution-tell\"", "evolution-tell_in_turn\"", "2 bodies"] {
         assert!(chart.contains(part), "{part}");
     }
@@ -123,19 +114,17 @@ fn bodies_are_evolved_and_tell_the_images_that_they_were_evolved_with_apart_as_t
     let checkpoint = |folder: &str| fs::read(bench.path().join(folder).join("tell/seed-5/checkpoint.nbc")).unwrap();
     for generations in [&["--generations", "2"][..], &["--resume"]] {
         let again = ["evolve", "tell.nb", "--run", "tell", "--out", "again"];
-        let ran = bench.run(&[&again[..], generations].concat());
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        bench.ok(&[&again[..], generations].concat());
     }
     assert_eq!(checkpoint("out"), checkpoint("again"));
 }
 
 #[test]
 fn a_body_of_a_run_is_simulated_and_drawn_before_images() {
-    let bench = Bench::new();
-    bench.file("spots.csv", SPOTS);
+    let bench = Bench::with("spots.csv", SPOTS);
     bench.file("tell.nb", PROGRAM);
-    assert_eq!(bench.run(&["evolve", "tell.nb", "--run", "tell"]).status, 0);
-    let seen = bench.run(&["see", "tell.nb", "spots", "out/tell", "--format", "json"]);
+    bench.ok("evolve tell.nb --run tell");
+    let seen = bench.run("see tell.nb spots out/tell --format json");
     let best = &validate("see", &seen.out)["bodies"][0];
     let behavior = if best["sets"][0]["way"] == "right" { "RRLL" } else { "LLRR" };
     let shown = ["--behavior", behavior, "--images", "tell.nb", "--schedule", "tops*20steps bottoms*30steps"];
@@ -150,22 +139,20 @@ fn a_body_of_a_run_is_simulated_and_drawn_before_images() {
     let ran = simulate(&[&shown[..], &["--format", "json"]].concat());
     assert_eq!(ran.status, 0, "{}", ran.err);
     let found = validate("simulate", &ran.out);
-    assert_eq!(found["displacement"], serde_json::json!(walked.displacements(&trial.schedule)));
+    assert_eq!(found["displacement"], json!(walked.displacements(&trial.schedule)));
     let text = simulate(&shown).out;
     let first: Vec<&str> = text.lines().filter_map(|line| line.split("  ").next()).collect();
     assert_eq!(first[1..5], ["tops 1", "tops 2", "bottoms 1", "bottoms 2"], "{text}");
 
     for (kind, file) in [("gif", "film.gif"), ("strip", "strip.svg"), ("pose", "pose.svg"), ("spacetime", "path.svg")] {
-        let drawn = bench.run(&[&["draw", "out/tell", "--as", kind, "-o", file][..], &shown].concat());
-        assert_eq!(drawn.status, 0, "{}", drawn.err);
+        bench.ok(&[&["draw", "out/tell", "--as", kind, "-o", file][..], &shown].concat());
     }
-    let picture = |file: &str| fs::read_to_string(bench.path().join(file)).unwrap();
+    let picture = |file: &str| bench.read(file);
     // A strip shows all images, of which three have a pixel that is three quarters black; a pose shows the last one.
     assert_eq!(["strip.svg", "pose.svg"].map(|file| picture(file).matches("\"#535353\"").count()), [3, 1]);
     assert!(!picture("path.svg").contains("stimulus"));
     // The page of a run lets its elites walk before the first image of each set.
-    let page = bench.run(&["draw", "out/tell", "--as", "report", "-o", "page.html"]);
-    assert_eq!(page.status, 0, "{}", page.err);
+    bench.ok("draw out/tell --as report -o page.html");
     assert!(picture("page.html").contains(r#""images":[[[1.0,1.0],[0.0,0.0]],[[0.0,0.25],[1.0,0.75]]]"#));
 
     let (images, behavior) = (&shown[2..], &shown[..2]);
@@ -174,9 +161,9 @@ fn a_body_of_a_run_is_simulated_and_drawn_before_images() {
     simulate(&dark).expect_fault(&["the body senses images of 2 x 2 pixels, but is shown none", "`--images`"]);
     let drawn = bench.run(&[&["draw", "out/tell", "--as", "gif", "-o", "dark.gif"][..], behavior].concat());
     drawn.expect_fault(&["the body senses images of 2 x 2 pixels, but is shown none"]);
-    let blind = bench.run(&["simulate", "nand", "--schedule", "00*1", "--images", "tell.nb"]);
+    let blind = bench.run("simulate nand --schedule 00*1 --images tell.nb");
     blind.expect_fault(&["`--images` is for bodies that sense images"]);
-    let own = bench.run(&["simulate", "nand", "--schedule", "00*1", "--behavior", "nand"]);
+    let own = bench.run("simulate nand --schedule 00*1 --behavior nand");
     own.expect_fault(&["`--behavior` chooses among the robots of runs"]);
 }
 
@@ -193,11 +180,10 @@ fn images_are_read_from_png() {
 
 #[test]
 fn images_and_bodies_that_do_not_fit_are_refused() {
-    let bench = Bench::new();
-    bench.file("spots.csv", SPOTS);
+    let bench = Bench::with("spots.csv", SPOTS);
     let other = "\nschedule one(spot) {\n    tops for 9 steps\n}\n";
     bench.file("tell.nb", format!("{PROGRAM}{other}"));
-    assert_eq!(bench.run(&["evolve", "tell.nb", "--run", "tell", "--generations", "1"]).status, 0);
+    bench.ok("evolve tell.nb --run tell --generations 1");
     let see = |file: &str, schedule: &str| bench.run(&["see", file, schedule, "out/tell"]);
     see("tell.nb", "spot").expect_fault(&["no schedule is called `spot`", "`spots`"]);
     see("tell.nb", "one").expect_fault(&["the schedule `one` shows 1 set of images, expected 2 sets"]);

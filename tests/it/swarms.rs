@@ -1,23 +1,19 @@
 //! Compiled swarms in full physics match their truth tables, with the holds of `hold: auto`.
 
-use std::fs;
-use std::path::PathBuf;
-
 use nbc::{CompileOptions, RunReport};
 use nbc_base::model::{Function, PhysicsWorld, Robot};
 use nbc_circuit::formats::{Design, nb};
-use nbc_circuit::{Delays, MappingObjective, Netlist, Timing};
+use nbc_circuit::{MappingObjective, Netlist};
 use nbc_session::SwarmRun;
-use nbc_session::report::{Stage, describe_test};
+use nbc_session::report::describe_test;
 use nbc_session::store::shipped_library;
 use nbc_sim::Simulator;
-use nbc_swarm::{Assembly, Member, Recording, Room, StimulusSource, SwarmConditions, SwarmTrace, simulate};
+use nbc_swarm::{Assembly, Member, StimulusSource, SwarmConditions, simulate};
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::support::programs::programs;
+use crate::support::*;
 
-/// A circuit for the function of three inputs with these outputs, and a test of all its rows.
 fn program(truth: u8) -> String {
     let mut netlist = Netlist::new("f");
     let inputs = ["a", "b", "c"].map(|name| netlist.add_input(name));
@@ -39,7 +35,6 @@ fn program(truth: u8) -> String {
     )
 }
 
-/// Runs a program's tests in physics.
 fn run(program: &str, options: &CompileOptions) -> RunReport {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("f.nb");
@@ -47,7 +42,6 @@ fn run(program: &str, options: &CompileOptions) -> RunReport {
     nbc::run_file(&path, options).unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The swarm of the first test.
 fn swarm(report: &RunReport) -> &SwarmRun {
     report.tests[0].swarm.as_ref().unwrap()
 }
@@ -62,30 +56,6 @@ fn check(truth: u8) {
 #[test]
 fn some_functions_of_three_inputs_compute() {
     [0b1100_1010, 0b1001_0110, 0b0001_0110].into_iter().for_each(check);
-}
-
-#[test]
-fn a_short_hold_is_reported_with_a_sufficient_one() {
-    let latch = fs::read_to_string("circuits/latch.nb").unwrap().replace("1 1 | 1", "1 1 | 1 for 2 cycles");
-    let report = run(&latch, &CompileOptions::default());
-    let told = describe_test(&report.tests[0].verdict);
-    let needed = report.tests[0].verdict.rows[1].needed.unwrap();
-    assert!(!report.passed());
-    assert!(told.contains(&format!("nearest fix: hold the row for {needed} cycles")), "{told}");
-}
-
-#[test]
-fn a_wrong_robot_is_reported_with_its_net_and_cycle() {
-    let mut library = shipped_library();
-    let place = |function| library.robots.iter().position(|robot| robot.function() == function).unwrap();
-    let (not, buf) = (place(Function::NOT), place(Function::BUF));
-    library.robots[not].body = library.robots[buf].body.clone();
-    let name = library.robots[not].name.clone();
-    let inverter = "circuit flip(a) -> (y) {\n    y = not a\n}\ntest flip \"inverts\" {\n    a | y\n    0 | 1\n}\n";
-    let report = run(inverter, &CompileOptions { robots: Some(library), ..CompileOptions::default() });
-    let told = describe_test(&report.tests[0].verdict);
-    assert!(told.contains(&format!("robot {name} on net y output 0 on stimuli 0")), "{told}");
-    assert!(told.contains(&format!("nearest fix: a robot other than {name} on net y")), "{told}");
 }
 
 #[test]
@@ -106,35 +76,6 @@ fn a_robot_never_reaches_the_end_of_its_ground() {
     let room = |cycles| assembly.setting(cycles).world_width / 2;
     assert_eq!(room(80), room(1000), "tests of a circuit have the same world");
     assert!(room(20_000) as f64 > 20_000.0 * 2.0 * walked / 80.0);
-}
-
-#[test]
-fn poses_are_recorded_while_a_swarm_is_simulated() {
-    let member = |robot: &Robot| Member {
-        block: Vec::new(),
-        net: robot.name.clone(),
-        robot: robot.clone(),
-        senses: vec![StimulusSource::Constant(true), StimulusSource::Robot(0)],
-        start: false,
-        held: vec![Vec::new(); 2],
-    };
-    let assembly = Assembly {
-        beat: 1,
-        circuit: "three".to_owned(),
-        inputs: Vec::new(),
-        members: shipped_library().robots[..3].iter().map(member).collect(),
-        outputs: vec![crate::support::traces::port("y")],
-        shown: vec![StimulusSource::Robot(1)],
-        world: PhysicsWorld::default(),
-    };
-    let run = |poses| {
-        let conditions = SwarmConditions { inputs: vec![Vec::new(); 3], window: 1, poses };
-        simulate(&Simulator::default(), &assembly, &conditions, &mut |_| {})
-    };
-    let (plain, recorded) = (run(None), run(Some(Room::SWARM)));
-    assert!(plain.recording.robots.is_empty());
-    assert_eq!(recorded.recording, Stage::of_swarm(&assembly, &plain, 7).record(3));
-    assert_eq!(SwarmTrace { recording: Recording::default(), ..recorded }, plain, "reading poses changes nothing");
 }
 
 /// Run with `cargo test --release --test it fifty_random -- --ignored --nocapture`.
@@ -196,13 +137,4 @@ fn the_objective_chooses_among_robots_of_the_same_function() {
     });
     let [(thin, short), (wide, long)] = found;
     assert!(wide > 4.0 * thin && short < long, "{found:?}");
-}
-
-#[test]
-fn measured_settle_times_are_within_the_clocks() {
-    let report = nbc::run_file("circuits/half_adder.nb", &CompileOptions::default()).unwrap();
-    let compiled = &swarm(&report).compiled;
-    let cells = nbc_swarm::cells(&shipped_library());
-    let measured = Timing::of(&compiled.mapping.netlist, &cells, Delays::Transition);
-    assert!(measured.hold <= compiled.timing.hold, "{} and {}", measured.hold, compiled.timing.hold);
 }

@@ -1,9 +1,8 @@
 //! Figures of the manual that follow from its own tables: sums, means and ratios, and what two pages say of one thing.
 
 use std::collections::BTreeMap;
-use std::fs;
 
-use crate::support::root;
+use crate::support::*;
 
 fn read(page: &str) -> String {
     fs::read_to_string(root().join("docs").join(page)).unwrap()
@@ -23,7 +22,6 @@ fn number(cell: &str) -> f64 {
     cell.parse().unwrap_or_else(|_| panic!("{cell} is no number"))
 }
 
-/// For each circuit, the ratio of two columns of its row.
 fn ratios(rows: &[Vec<String>], [over, under]: [usize; 2]) -> Vec<(f64, &str)> {
     let mut ratios: Vec<_> = rows.iter().map(|row| (number(&row[over]) / number(&row[under]), &row[0][..])).collect();
     ratios.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -35,7 +33,6 @@ fn mean(ratios: &[(f64, &str)]) -> f64 {
 }
 
 fn expect(page: &str, sentence: &str) {
-    let squeezed = |text: &str| text.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(squeezed(&read(page)).contains(&squeezed(sentence)), "docs/{page} should say: {sentence}");
 }
 

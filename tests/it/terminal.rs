@@ -1,9 +1,6 @@
 //! Output to a terminal: no name or text of a user can control it.
 
-use std::path::Path;
-
-use crate::support::bench::Bench;
-use crate::support::root;
+use crate::support::*;
 
 /// Clears the screen, sets the title, rings, colors, and reads from right to left.
 const HOSTILE: &str = "\u{1b}[2J\u{1b}]0;pwned\u{7}\u{9b}31m\u{202e}x";
@@ -16,7 +13,6 @@ fn steering(text: &str) -> Vec<char> {
     colors.replace_all(text, "").chars().filter(hidden).collect()
 }
 
-/// Runs a command with text and JSON output; the text shows the hostile string as codes.
 #[track_caller]
 fn check(bench: &Bench, arguments: &[&str]) {
     let quiet = |further: &[&str]| {
@@ -55,7 +51,7 @@ fn titles_excerpts_and_paths_are_shown_as_codes() {
 #[test]
 fn robots_circuits_and_checkpoints_are_shown_as_codes() {
     let bench = Bench::new();
-    let robot = std::fs::read_to_string(root().join("library/robots/nand_5x5.yaml")).unwrap();
+    let robot = text_of("library/robots/nand_5x5.yaml");
     bench.file("robot.yaml", format!("\"\\e[2J\\e]0;pwned\\a\\x9b31m\\u202ex\": 1\n{robot}"));
     check(&bench, &["library", "verify", "robot.yaml"]);
     bench.file(&format!("{HOSTILE}.yaml"), "body: []");
@@ -63,7 +59,7 @@ fn robots_circuits_and_checkpoints_are_shown_as_codes() {
     bench.file("names.blif", format!(".model m\n.inputs a\n.outputs {HOSTILE}\n.end\n"));
     check(&bench, &["synth", "names.blif", "--cells", "nand"]);
     let run = Path::new("run").join("seed-1");
-    std::fs::create_dir_all(bench.path().join(&run)).unwrap();
+    fs::create_dir_all(bench.path().join(&run)).unwrap();
     bench.file("run/seed-1/checkpoint.nbc", format!("nbc-checkpoint {} 0 0\n", HOSTILE.replace(' ', "")));
     check(&bench, &["draw", "run", "--as", "heatmap", "-o", "a.svg"]);
 }

@@ -1,9 +1,6 @@
 //! `nbc test`: every kind of test detects errors, and the number of robots decides the level.
 
-use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::programs::programs;
-use crate::support::root;
+use crate::support::*;
 
 const CIRCUITS: &str = "
 circuit exclusive(a, b) -> (q) { q = a xor b }
@@ -15,12 +12,10 @@ circuit both(a, b) -> (q) { q = a and b }
 circuit toggle(clk) -> (q) { q = register(not q, clk) }
 ";
 
-/// Runs one test at the level of logic: whether it passes, and its output.
 #[track_caller]
 fn check_test(test: &str, passes: bool, says: &str) {
-    let bench = Bench::new();
-    bench.file("a.nb", format!("{CIRCUITS}\n{test}\n"));
-    let ran = bench.run(&["test", "a.nb", "--logic"]);
+    let bench = Bench::with("a.nb", format!("{CIRCUITS}\n{test}\n"));
+    let ran = bench.run("test a.nb --logic");
     assert_eq!(ran.status, i32::from(!passes), "{test}\n{}{}", ran.out, ran.err);
     assert!(ran.out.contains(says), "{says:?} is not in\n{}", ran.out);
 }
@@ -53,11 +48,10 @@ fn all_inputs_are_compared_with_an_expression_or_a_circuit() {
 
 #[test]
 fn rows_are_read_from_a_file_and_some_may_fail() {
-    let bench = Bench::new();
-    bench.file("rows.csv", "a,b,q\n0,1,1\n1,1,0\n1,0,1\n0,0,1\n");
+    let bench = Bench::with("rows.csv", "a,b,q\n0,1,1\n1,1,0\n1,0,1\n0,0,1\n");
     let run = |share: &str| {
         bench.file("a.nb", format!("{CIRCUITS}\ntest exclusive \"x\" from \"rows.csv\"{share}\n"));
-        bench.run(&["test", "a.nb", "--logic"])
+        bench.run("test a.nb --logic")
     };
     let all = run("");
     assert!(all.status == 1 && all.out.contains("rows.csv:5: row 4: a=0 b=0 | q=0, expected 1"), "{}", all.out);
@@ -74,22 +68,21 @@ fn rows_are_read_from_a_file_and_some_may_fail() {
         "{}",
         more.out
     );
-    let formatted = bench.run(&["fmt", "a.nb"]);
-    assert_eq!(formatted.status, 0, "{}", formatted.err);
-    let text = std::fs::read_to_string(bench.path().join("a.nb")).unwrap();
+    bench.ok("fmt a.nb");
+    let text = bench.read("a.nb");
     assert!(text.contains("test exclusive \"x\" from \"rows.csv\" at least 75.1%\n"), "{text}");
-    let json = bench.run(&["test", "a.nb", "--logic", "--format", "json"]);
-    let found: serde_json::Value = serde_json::from_str(&json.out).unwrap();
-    assert_eq!(found["tests"][0]["rows_from"], serde_json::json!({ "file": "rows.csv", "at_least": 75.1 }));
+    let json = bench.run("test a.nb --logic --format json");
+    let found: Value = serde_json::from_str(&json.out).unwrap();
+    assert_eq!(found["tests"][0]["rows_from"], json!({ "file": "rows.csv", "at_least": 75.1 }));
     // In physics, too: the robots of an exclusive or, held for each row.
-    let physics = bench.run(&["test", "a.nb", "--physics"]);
+    let physics = bench.run("test a.nb --physics");
     assert!(physics.out.contains("(3 of 4 rows, at least 75.1 %, physics)"), "{}{}", physics.out, physics.err);
 }
 
 #[test]
 fn small_swarms_are_tested_in_physics_and_large_ones_in_logic() {
-    let bench = Bench::new();
-    bench.file("small.nb", "circuit inverter(a) -> (q) { q = not a }\n\ntest inverter {\n a | q\n 1 | 0\n}\n");
+    let bench =
+        Bench::with("small.nb", "circuit inverter(a) -> (q) { q = not a }\n\ntest inverter {\n a | q\n 1 | 0\n}\n");
     // A chain of 13 full adders, which optimization cannot reduce to fewer than 40 robots.
     bench.file(
         "large.nb",
@@ -137,43 +130,6 @@ fn no_test_runs_if_a_file_has_errors() {
     let bench = slow_then_quick();
     bench.file("broken.nb", "circuit inverter(a) -> (q) { q = not b }\n");
     bench.file("bare.nb", "circuit inverter(a) -> (q) { q = not a }\n");
-    bench.run(&["test", "quick.nb", "broken.nb"]).expect_fault(&["no net is called `b`"]);
-    bench.run(&["test", "quick.nb", "bare.nb"]).expect_fault(&["`bare.nb` declares no test"]);
+    bench.run("test quick.nb broken.nb").expect_fault(&["no net is called `b`"]);
+    bench.run("test quick.nb bare.nb").expect_fault(&["`bare.nb` declares no test"]);
 }
-
-#[test]
-fn the_gallery_passes_nbc_test() {
-    let paths: Vec<_> = programs("circuits").iter().map(|path| path.to_str().unwrap().to_owned()).collect();
-    let arguments: Vec<&str> =
-        ["test", "--logic", "--format", "json"].into_iter().chain(paths.iter().map(String::as_str)).collect();
-    let found = Bench::new().run(&arguments).expect_json();
-    assert_eq!(found["passed"], true);
-    let tested = |name: &str| {
-        found["tests"].as_array().unwrap().iter().any(|test| test["file"].as_str().unwrap().ends_with(name))
-    };
-    for name in GALLERY {
-        assert!(tested(&format!("{name}.nb")), "`circuits/{name}.nb` has tests");
-        assert!(root().join(format!("circuits/{name}.nb")).is_file());
-    }
-}
-
-/// The output for the gallery.
-const GALLERY: &[&str] = &[
-    "comparator",
-    "counter",
-    "d_flip_flop",
-    "decoder",
-    "full_adder",
-    "half_adder",
-    "latch",
-    "lfsr",
-    "majority",
-    "multiplexer",
-    "parity",
-    "ripple_adder",
-    "rule_110",
-    "sequence_detector",
-    "seven_segment",
-    "sr_latch",
-    "t_flip_flop",
-];

@@ -3,12 +3,9 @@
 use nbc_base::model::{Behavior, Function, Pattern};
 use nbc_circuit::{CellLibrary, Netlist, map, prove};
 use nbc_session::store;
-use serde_json::Value;
 
-use crate::support::bench::{Bench, Ran};
-use crate::support::root;
+use crate::support::*;
 
-/// Short searches in the setting of `library/three.nb`.
 const SHORT: &str = "
 use \"three.nb\"
 evolution short {
@@ -27,15 +24,13 @@ evolution rows { from: short, box: 3 x 1, batch: 6 }
 ";
 
 fn bench() -> Bench {
-    let bench = Bench::new();
-    bench.file("three.nb", std::fs::read_to_string(root().join("library/three.nb")).unwrap());
+    let bench = Bench::with("three.nb", text_of("library/three.nb"));
     bench.file("short.nb", SHORT);
     bench
 }
 
 fn evolve(bench: &Bench, run: &str, out: &str, more: &[&str]) -> Ran {
-    let ran = bench.run(&[&["evolve", "short.nb", "--run", run, "--out", out], more].concat());
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let ran = bench.ok(&[&["evolve", "short.nb", "--run", run, "--out", out], more].concat());
     ran
 }
 
@@ -45,11 +40,10 @@ fn a_search_for_gates_of_three_inputs_fills_classes_and_can_be_resumed() {
     evolve(&bench, "short", "whole", &[]);
     evolve(&bench, "short", "parts", &["--generations", "1"]);
     evolve(&bench, "short", "parts", &["--resume"]);
-    let checkpoint = |out: &str| std::fs::read(bench.path().join(out).join("short/seed-1/checkpoint.nbc")).unwrap();
+    let checkpoint = |out: &str| fs::read(bench.path().join(out).join("short/seed-1/checkpoint.nbc")).unwrap();
     assert_eq!(checkpoint("whole"), checkpoint("parts"));
-    let exported = bench.run(&["export", "whole/short", "--to", "json", "-o", "elites.json"]);
-    assert_eq!(exported.status, 0, "{}", exported.err);
-    let text = std::fs::read_to_string(bench.path().join("elites.json")).unwrap();
+    bench.ok("export whole/short --to json -o elites.json");
+    let text = bench.read("elites.json");
     let found: Value = serde_json::from_str(&text).unwrap();
     let elites = found["elites"].as_array().unwrap();
     assert!(!elites.is_empty());
@@ -65,8 +59,7 @@ fn a_search_for_gates_of_three_inputs_fills_classes_and_can_be_resumed() {
 fn a_search_for_some_behaviors_scores_bodies_as_those() {
     let bench = bench();
     evolve(&bench, "multiplexers", "out", &[]);
-    let exported = bench.run(&["export", "out/multiplexers", "--to", "csv"]);
-    assert_eq!(exported.status, 0, "{}", exported.err);
+    let exported = bench.ok("export out/multiplexers --to csv");
     let rows: Vec<&str> = exported.out.lines().skip(1).collect();
     let mux = Behavior::from(Function::MUX).to_string();
     assert!(rows.iter().all(|row| row.contains(&mux)), "{}", exported.out);
@@ -81,12 +74,12 @@ fn an_archive_of_classes_gives_a_robot_of_a_behavior_whose_class_it_has() {
         bench.run(&[&add[..], &["--finalists", "1", "--behavior", behavior]].concat())
     };
     // Whatever was found, the constants are a class of two, of which the archive has one.
-    let elites = bench.run(&["export", "out/rows", "--to", "csv"]).out;
+    let elites = bench.run("export out/rows --to csv").out;
     let (other, letters) = if elites.contains(",LLLLLLLL,") { ("one3", "RRRRRRRR") } else { ("zero3", "LLLLLLLL") };
     assert!(!elites.contains(letters), "{elites}");
     let ran = add(other);
     assert_eq!(ran.status, 0, "{}", ran.out);
-    let listed = bench.run(&["library", "list", "robots", "--format", "json"]).expect_json();
+    let listed = bench.run("library list robots --format json").expect_json();
     let found: Vec<&str> =
         listed["robots"].as_array().unwrap().iter().map(|one| one["behavior"].as_str().unwrap()).collect();
     assert_eq!(found, [letters]);
@@ -149,14 +142,6 @@ fn mapping_with_three_senses_needs_fewer_cells_and_is_proved() {
 }
 
 #[test]
-fn a_library_without_a_steady_multiplexer_makes_no_latches_of_one_robot() {
-    let bench = Bench::new();
-    let text = "circuit bit(d, clk) -> (q) { q = register(d, clk) }\nswarm s { circuit: bit, registers: mux }\n";
-    bench.file("bit.nb", text);
-    bench.run(&["build", "bit.nb"]).expect_fault(&["no multiplexer without glitches", "`library: three`"]);
-}
-
-#[test]
 fn wave_machines_have_gates_of_three_inputs() {
     let bench = Bench::new();
     let text = "enum place { none = 2'b00, one = 2'b01, gap = 2'b10, found = 2'b11 }
@@ -180,11 +165,10 @@ test detector {
 }
 ";
     bench.file("detector.nb", text);
-    let built: Value = bench.run(&["build", "detector.nb", "--format", "json"]).expect_json();
+    let built: Value = bench.run("build detector.nb --format json").expect_json();
     let functions = built["by_function"].as_object().unwrap();
     assert!(functions.keys().any(|name| name.starts_with("f3_")), "a gate of three inputs: {functions:?}");
-    let tested = bench.run(&["test", "detector.nb", "--logic"]);
-    assert_eq!(tested.status, 0, "{}{}", tested.out, tested.err);
+    bench.ok("test detector.nb --logic");
 }
 
 #[test]
@@ -199,7 +183,7 @@ fn every_command_that_makes_a_circuit_takes_its_robots_from_the_library_of_the_o
         let ran = with(&["run", "both.nb", "--no-report", "--format", "json"]).expect_json();
         let drawn = with(&["draw", "both.nb", "--as", "dot", "-o", "both.dot"]);
         assert_eq!(drawn.status, 0, "{}", drawn.err);
-        let drawn = std::fs::read_to_string(bench.path().join("both.dot")).unwrap();
+        let drawn = bench.read("both.dot");
         let hardened =
             with(&["build", "both.nb", "--format", "json", "--harden", "friction=1%", "--worlds", "1"]).expect_json();
         assert_eq!(with(&["test", "both.nb", "--physics"]).status, 0);
@@ -218,15 +202,10 @@ fn every_command_that_makes_a_circuit_takes_its_robots_from_the_library_of_the_o
     };
     assert_eq!(robots(&[])[..2], [2, 2]);
     assert_eq!(robots(&["--library", "three"]), [1; 4]);
-    let walked = bench.run(&["simulate", "and3", "--library", "three", "--schedule", "111*1"]);
-    assert_eq!(walked.status, 0, "{}", walked.err);
-    bench.run(&["simulate", "and3", "--schedule", "111*1"]).expect_fault(&["no robot of the library is called `and3`"]);
+    bench.ok("simulate and3 --library three --schedule 111*1");
+    bench.run("simulate and3 --schedule 111*1").expect_fault(&["no robot of the library is called `and3`"]);
     let pose = ["draw", "and3_5x5", "--library", "three", "--as", "sprite", "-o", "a.svg"];
-    assert_eq!(bench.run(&pose).status, 0);
-    bench
-        .run(&["draw", "shipped", "--library", "three", "--as", "sprite", "-o", "a.svg"])
-        .expect_fault(&["`--library`"]);
-    bench
-        .run(&["draw", "and", "--objective", "delay", "--as", "sprite", "-o", "a.svg"])
-        .expect_fault(&["`--objective`"]);
+    bench.ok(&pose);
+    bench.run("draw shipped --library three --as sprite -o a.svg").expect_fault(&["`--library`"]);
+    bench.run("draw and --objective delay --as sprite -o a.svg").expect_fault(&["`--objective`"]);
 }

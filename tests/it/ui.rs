@@ -2,18 +2,13 @@
 //!
 //! `NBC_UPDATE_UI=1 cargo test --test it ui` rewrites the records; read the diff before you commit it.
 
-use std::fs;
-use std::path::Path;
-
 use nbc_base::diag::{Code, Diagnostic, Severity, render};
 use nbc_base::source::{MemoryWorld, OverlayWorld, Sources};
 use nbc_lang::check;
 use nbc_session::store::DiskWorld;
 
-use crate::support::programs::programs;
-use crate::support::root;
+use crate::support::*;
 
-/// The diagnostics of a file of the repository, by its path from the root.
 fn found(path: &str) -> (Vec<Diagnostic>, String) {
     let mut sources = Sources::default();
     let diagnostics = match check::open(&DiskWorld, path, &mut sources) {

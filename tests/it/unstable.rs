@@ -1,20 +1,12 @@
 //! A robot whose simulation fails has no output: it fails its row, its world, its simulation and its search, and every
 //! door names it.
 
-use std::fs;
-use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
-
-use serde_json::{Value, json};
-
-use crate::support::bench::Bench;
-use crate::support::limits::{InTime, end};
-use crate::support::schema::validate;
-use crate::support::tools::signal;
 use nbc_base::source::MemoryWorld;
 use nbc_session::report::describe_test;
-use nbc_session::{CompileOptions, RunReport, Session, TestOptions, TestRun};
-use nbc_swarm::{Level, SwarmBits};
+use nbc_session::{CompileOptions, RunReport, Session};
+use nbc_swarm::SwarmBits;
+
+use crate::support::*;
 
 /// In this world robots become unstable in their first cycles. No motion is a 0, which is what each row expects.
 pub const BOOM: &str = "\
@@ -63,26 +55,12 @@ simulate s with schedule (a, b) {
 ";
 
 fn boom() -> Bench {
-    let bench = Bench::new();
-    bench.file("boom.nb", BOOM);
+    let bench = Bench::with("boom.nb", BOOM);
     bench
 }
 
-/// Whether a text says which robot failed and when.
 pub fn names(text: &str) -> bool {
     text.lines().any(|line| line.contains("robot ") && line.contains(" became unstable in cycle "))
-}
-
-fn physics() -> TestOptions {
-    TestOptions { level: Some(Level::Physics), ..TestOptions::default() }
-}
-
-/// The runs of the first test of a program.
-fn tested(text: &str) -> Vec<TestRun> {
-    let mut session = Session::new(MemoryWorld::default());
-    session.update("a.nb", 1, text);
-    let checked = session.open("a.nb").unwrap();
-    session.test(&checked, &checked.program.tests[0], &physics(), &mut ()).unwrap()
 }
 
 #[test]
@@ -93,11 +71,11 @@ fn a_test_fails_with_the_robot_even_where_it_expects_what_no_motion_would_be() {
         assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
         assert!(ran.out.contains("FAIL") && names(&ran.out) && !ran.out.contains("pass\n"), "{}", ran.out);
     }
-    let told = bench.run(&["test", "boom.nb"]).out;
+    let told = bench.run("test boom.nb").out;
     assert!(told.contains("boom.nb:9: row 1: a=0 b=1 | robot and_5x5 on net r became unstable in cycle 1"), "{told}");
     assert!(told.contains("2 rows more failed"), "{told}");
-    let told = validate("test", &bench.run(&["test", "boom.nb", "--format", "json"]).out);
-    let result = validate("run", &fs::read_to_string(bench.path().join("out/boom/result.json")).unwrap());
+    let told = validate("test", &bench.run("test boom.nb --format json").out);
+    let result = validate("run", &bench.read("out/boom/result.json"));
     for report in [&told, &result] {
         assert_eq!((&report["passed"], &report["tests"][0]["passed"]), (&json!(false), &json!(false)));
         let rows = report["tests"][0]["rows"].as_array().unwrap();
@@ -109,7 +87,7 @@ fn a_test_fails_with_the_robot_even_where_it_expects_what_no_motion_would_be() {
         }
     }
     assert_eq!(result["tests"][0]["robots"][0]["displacement"], Value::Null);
-    let page = fs::read_to_string(bench.path().join("out/boom/report.html")).unwrap();
+    let page = bench.read("out/boom/report.html");
     assert!(names(&page) && page.contains("FAIL: 0 of 1 test passed"));
 }
 
@@ -174,64 +152,40 @@ fn hardening_leaves_out_a_robot_that_fails() {
 
 #[test]
 fn a_simulation_with_a_fault_ends_with_status_one() {
-    let bench = Bench::new();
-    bench.file("s.nb", SIMULATED);
-    let ran = bench.run(&["run", "s.nb"]);
+    let bench = Bench::with("s.nb", SIMULATED);
+    let ran = bench.run("run s.nb");
     assert_eq!(ran.status, 1, "{}{}", ran.out, ran.err);
     assert!(names(&ran.out) && ran.out.ends_with("FAIL\n"), "{}", ran.out);
-    let result = validate("run", &fs::read_to_string(bench.path().join("out/s/result.json")).unwrap());
+    let result = validate("run", &bench.read("out/s/result.json"));
     assert_eq!((&result["passed"], &result["simulations"][0]["fault"]["cycle"]), (&json!(false), &json!(0)));
-    let page = fs::read_to_string(bench.path().join("out/s/report.html")).unwrap();
+    let page = bench.read("out/s/report.html");
     assert!(page.contains("FAIL: 1 of 1 simulation failed"), "the page says it, too");
 }
 
 #[test]
 fn a_picture_names_the_robot_that_fails_in_it() {
-    let bench = Bench::new();
-    bench.file("s.nb", SIMULATED);
+    let bench = Bench::with("s.nb", SIMULATED);
     for kind in [["spacetime", "s.svg"], ["gif", "s.gif"], ["vcd", "s.vcd"], ["report", "s.html"]] {
-        let drawn = bench.run(&["draw", "s.nb", "--as", kind[0], "-o", kind[1]]);
-        assert_eq!(drawn.status, 0, "{}", drawn.err);
+        let drawn = bench.ok(&["draw", "s.nb", "--as", kind[0], "-o", kind[1]]);
         let warning = "warning[fault]: robot and_5x5 on net r became unstable in cycle 1\n";
         assert!(drawn.err.contains(warning), "{kind:?}: {}", drawn.err);
     }
-    bench.file("wild.yaml", "body: ['57070', '73873', '00304', '00001', '00861']");
+    bench.file("wild.yaml", WILD);
     for kind in [["spacetime", "w.svg"], ["gif", "w.gif"], ["strip", "w.svg"], ["pose", "w.svg"]] {
-        let drawn = bench.run(&["draw", "wild.yaml", "--schedule", "00*4", "--as", kind[0], "-o", kind[1]]);
-        assert_eq!(drawn.status, 0, "{}", drawn.err);
+        let drawn = bench.ok(&["draw", "wild.yaml", "--schedule", "00*4", "--as", kind[0], "-o", kind[1]]);
         let warning = "warning[fault]: robot wild became unstable in env step 28\n";
         assert!(drawn.err.contains(warning), "{kind:?}: {}", drawn.err);
     }
     let before = ["draw", "wild.yaml", "--schedule", "00*4", "--as", "pose", "--at", "0.3", "-o", "w.svg"];
     assert!(!bench.run(&before).err.contains("warning"));
-    let sound = bench.run(&["draw", "nand", "--schedule", "11*2", "--as", "spacetime", "-o", "n.svg"]);
+    let sound = bench.run("draw nand --schedule 11*2 --as spacetime -o n.svg");
     assert_eq!((sound.status, sound.err.as_str()), (0, "wrote n.svg\n"));
 }
 
 #[test]
 fn a_robot_that_explodes_takes_no_more_time_than_others() {
-    let bench = boom();
-    let asked = "ulimit -t 2; exec \"$0\" test boom.nb --vary friction=1% --worlds 40";
-    let mut command = Command::new("sh");
-    command.args(["-c", asked, env!("CARGO_BIN_EXE_nbc")]).current_dir(bench.path());
-    let output = command.output_in_time();
-    let said = String::from_utf8(output.stdout).unwrap();
-    assert!(said.contains("0 of 40 worlds pass"), "{:?}: {said}", output.status);
-}
-
-#[test]
-#[cfg(unix)]
-fn hardening_ends_at_a_signal() {
-    let bench = boom();
-    let asked = ["build", "boom.nb", "--harden", "friction=1%", "--worlds", "1000000"];
-    let program = bench.command(&asked).stdout(Stdio::null()).spawn().unwrap();
-    // All worlds take minutes; by then it is at work.
-    std::thread::sleep(Duration::from_secs(2));
-    let begun = Instant::now();
-    signal("TERM", program.id());
-    let output = end(program);
-    assert_eq!(output.status.code(), Some(4));
-    assert!(begun.elapsed() < Duration::from_secs(10), "{:?}", begun.elapsed());
+    let ran = boom().limited("ulimit -t 2", "test boom.nb --vary friction=1% --worlds 40");
+    assert!(ran.out.contains("0 of 40 worlds pass"), "{}: {}", ran.status, ran.out);
 }
 
 #[test]
@@ -248,9 +202,7 @@ fn reports_of_the_library_fail() {
 
 #[test]
 fn a_live_swarm_ends_with_the_fault() {
-    let mut session = Session::new(MemoryWorld::default());
-    session.update("a.nb", 1, SIMULATED);
-    let checked = session.open("a.nb").unwrap();
+    let (session, checked) = session_of(SIMULATED);
     let compiled = session.compile(&checked, &"conj".into(), &CompileOptions::default()).unwrap();
     let mut swarm = session.swarm(&compiled);
     let start = swarm.snapshot();
@@ -264,10 +216,8 @@ fn a_live_swarm_ends_with_the_fault() {
 
 #[test]
 fn bits_from_another_machine_have_the_fault() {
-    let mut session = Session::new(MemoryWorld::default());
-    session.update("a.nb", 1, BOOM);
-    let checked = session.open("a.nb").unwrap();
-    let case = session.cases(&checked, &checked.program.tests[0], &physics()).unwrap().remove(0);
+    let (session, checked) = session_of(BOOM);
+    let case = session.cases(&checked, &checked.program.tests[0], &in_physics()).unwrap().remove(0);
     let bits = SwarmBits::simulate(&nbc::Simulator::default(), &case.task().unwrap());
     assert!(bits.cycles.is_empty() && bits.fault.is_some());
     let there = case.clone().judge(&bits);
@@ -283,7 +233,7 @@ fn a_search_in_a_world_in_which_every_body_fails_fills_no_niche() {
         let fields = "box: 3 x 2, batch: 4, generations: 2, seed: 1, world: w";
         let run = format!("{world}evolution small {{ {fields}, {objective} }}\n");
         bench.runs("small.nb", run);
-        let evolved = bench.run(&["evolve", "small.nb", "--format", "json"]);
+        let evolved = bench.run("evolve small.nb --format json");
         let evolved: Value = serde_json::from_str(&evolved.out).unwrap_or_else(|_| panic!("{}", evolved.err));
         assert_eq!(evolved["runs"][0]["filled"], 0, "{objective}: {evolved}");
     }

@@ -8,12 +8,9 @@ use nbc_circuit::elaborate;
 use nbc_circuit::formats::{CircuitFormat, Design, aiger, blif};
 use nbc_lang::check;
 
-use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::tools::SLANG;
+use crate::support::*;
 use crate::written::{order, same_in_order};
 
-/// A file of the folder, with the program that uses it checked; returns the program and its messages.
 fn checked(files: &[(&str, &str)], program: &str) -> (Program, Vec<String>) {
     let mut world = MemoryWorld::default();
     files.iter().for_each(|(path, text)| world.insert(*path, *text));
@@ -36,7 +33,6 @@ fn a_pla_is_a_circuit_and_open_outputs_are_0() {
     assert_eq!(written, ".i 3\n.o 2\n.ilb x[2] x[1] x[0]\n.ob y[1] y[0]\n.p 2\n11- 10\n--1 10\n.e\n");
 }
 
-/// Two bits that are added, an output that is an input, and a counter of two bits.
 const BLIF: &str = "\
 .model alu
 .inputs a[0] a[1] b in clk
@@ -92,12 +88,10 @@ test twice {
 
 #[test]
 fn a_model_with_buses_and_state_is_called_and_tested() {
-    let bench = Bench::new();
-    bench.file("alu.blif", BLIF);
+    let bench = Bench::with("alu.blif", BLIF);
     bench.file("p.nb", format!("use \"alu.blif\"\n{CALLS}"));
-    let ran = bench.run(&["test", "--logic", "p.nb"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    assert_eq!(bench.run(&["check", "p.nb"]).err, "", "the file of another tool causes no warnings");
+    bench.ok("test --logic p.nb");
+    assert_eq!(bench.run("check p.nb").err, "", "the file of another tool causes no warnings");
 }
 
 #[test]
@@ -114,24 +108,20 @@ fn a_circuit_of_another_tool_calls_the_standard_register() {
 
 #[test]
 fn a_list_of_files_is_one_design_of_verilog_and_each_other_file_by_itself() {
-    let bench = Bench::new();
-    bench.file("a.nb", "circuit inverted(a) -> (q) { q = not a }\n");
+    let bench = Bench::with("a.nb", "circuit inverted(a) -> (q) { q = not a }\n");
     bench.file("b.nb", "circuit same(a) -> (q) { q = a }\n");
     bench.file("alu.blif", BLIF);
     bench.file(
         "p.nb",
         format!("use \"a.nb\", \"alu.blif\",\n    \"b.nb\"\n{CALLS}\ntest same {{ a | q\n    1 | 1 }}\n"),
     );
-    let ran = bench.run(&["test", "--logic", "p.nb"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test --logic p.nb");
     bench.file("q.nb", "use \"a.nb\", \"c.nb\"\n");
-    bench.run(&["check", "q.nb"]).expect_fault(&["cannot read `c.nb`", "q.nb:1:13", "a.nb"]);
-    if !SLANG.is_there() {
-        return;
-    }
+    bench.run("check q.nb").expect_fault(&["cannot read `c.nb`", "q.nb:1:13", "a.nb"]);
+    let Some(_) = SLANG.find() else { return };
     bench.file("top.v", "module top(input [3:0] a, output [3:0] y);\n  add #(4) u(a, `ONE, y);\nendmodule\n");
     bench.file("one.v", "`define ONE 4'd1\n");
-    std::fs::create_dir(bench.path().join("parts")).unwrap();
+    fs::create_dir(bench.path().join("parts")).unwrap();
     bench.file(
         "parts/add.v",
         "module add #(parameter N = 2) (input [N-1:0] a, b, output [N-1:0] y);\n  assign y = a + b;\nendmodule\n",
@@ -139,11 +129,10 @@ fn a_list_of_files_is_one_design_of_verilog_and_each_other_file_by_itself() {
     let rows = "test top {\n    a    | y\n    4'd3 | 4'd4\n    4'd15 | 4'd0\n}\n";
     for list in ["\"one.v\", \"top.v\", \"parts/add.v\"", "\"one.v\", \"parts\", \"top.v\", \"b.nb\""] {
         bench.file("v.nb", format!("use {list}\n\n{rows}"));
-        let ran = bench.run(&["test", "--logic", "v.nb"]);
-        assert_eq!(ran.status, 0, "{list}: {}{}", ran.out, ran.err);
+        bench.ok("test --logic v.nb");
     }
     bench.file("w.nb", "use \"one.v\", \"top.v\"\n");
-    bench.run(&["check", "w.nb"]).expect_fault(&["unknown module 'add'", "top.v:2"]);
+    bench.run("check w.nb").expect_fault(&["unknown module 'add'", "top.v:2"]);
 }
 
 #[test]
@@ -165,8 +154,7 @@ test count { en clk | q
     0 ^ | 1 }
 ";
     bench.file("p.nb", program);
-    let ran = bench.run(&["test", "--logic", "p.nb"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test --logic p.nb");
 }
 
 #[test]
@@ -182,7 +170,6 @@ fn a_world_without_programs_of_its_own_reads_no_verilog() {
     assert_eq!(messages, ["cannot read `a.v`: Verilog is not read here"]);
 }
 
-/// An arithmetic unit with a module inside, a range above 0 and a register, and a second unit.
 const VERILOG: &str = "\
 module adder #(parameter N = 2)(input [N-1:0] a, b, output [N-1:0] y);
   assign y = a + b;
@@ -205,11 +192,8 @@ module test_bench; wire [3:0] y; alu u(.a(4'd1), .b(4'd2), .op(2'b00), .y(y)); e
 
 #[test]
 fn verilog_modules_are_circuits_with_their_buses() {
-    if !SLANG.is_there() {
-        return;
-    }
-    let bench = Bench::new();
-    bench.file("alu.v", VERILOG);
+    let Some(_) = SLANG.find() else { return };
+    let bench = Bench::with("alu.v", VERILOG);
     let program = "use \"alu.v\"\n
 circuit sum(a[4], b[4], c[4]) -> (y[4]) {
     y = alu(alu(a, b, 2'b00), c, 2'b00)
@@ -228,17 +212,16 @@ test count { clk reset | value
     ^ 0 | 3'd0 }
 ";
     bench.file("p.nb", program);
-    let ran = bench.run(&["test", "--logic", "p.nb"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test --logic p.nb");
     bench.file("q.nb", "use \"alu.v\"\ncircuit f(a[2], b[2]) -> (q[2]) { q = adder(a, b) }\n");
-    bench.run(&["check", "q.nb"]).expect_fault(&["`adder`"]);
+    bench.run("check q.nb").expect_fault(&["`adder`"]);
 }
 
 /// Runs `nbc check` on a program that uses a Verilog file, with programs from `path` only.
 fn check_with(bench: &Bench, verilog: &str, path: &str) -> String {
     bench.file("unit.v", verilog);
     bench.file("p.nb", "use \"unit.v\"\n\ncircuit f(a) -> (q) {\n    q = unit(a)\n}\n");
-    let Output { status, stderr, .. } = bench.command(&["check", "p.nb"]).env("PATH", path).output_in_time();
+    let Output { status, stderr, .. } = bench.command("check p.nb").env("PATH", path).output_in_time();
     assert_eq!(status.code(), Some(2));
     let said = String::from_utf8(stderr).unwrap();
     said.split_whitespace().filter(|word| *word != "│").collect::<Vec<_>>().join(" ")
@@ -253,9 +236,7 @@ fn without_a_reader_the_use_says_what_to_install() {
 
 #[test]
 fn errors_of_verilog_are_at_the_line_of_the_used_file() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let path = std::env::var("PATH").unwrap();
     let check = |verilog: &str, expected: &[&str]| {
         let said = check_with(&Bench::new(), verilog, &path);
@@ -269,29 +250,25 @@ fn errors_of_verilog_are_at_the_line_of_the_used_file() {
 
 #[test]
 fn verilog_is_synthesized_to_buses_and_registers() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let verilog = "module count(input clk, input [2:0] step, output reg [2:0] value);\n  initial value = 5;\n  \
         always @(posedge clk) value <= value + step;\nendmodule\n";
     bench.file("count.v", verilog);
-    let ran = bench.run(&["synth", "count.v", "-o", "count.nb", "--cells", "nand,not"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    let written = std::fs::read_to_string(bench.path().join("count.nb")).unwrap();
+    bench.ok("synth count.v -o count.nb --cells nand,not");
+    let written = bench.read("count.nb");
     assert!(written.starts_with("circuit count(clk, step[3]) -> (value[3]) {\n"), "{written}");
     assert!(written.contains(" = register[start = 5](value_next, clk)\n"), "{written}");
     let test = "test count { clk step | value\n    0 3'd3 | 3'd5\n    ^ 3'd3 | 3'd0\n    ^ 3'd2 | 3'd2 }\n";
     bench.file("count.nb", format!("{written}\n{test}"));
-    let ran = bench.run(&["test", "--logic", "count.nb"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test --logic count.nb");
 }
 
 #[test]
 fn a_used_benchmark_computes_the_same() {
-    for entry in std::fs::read_dir("tests/benchmarks").unwrap() {
+    for entry in fs::read_dir("tests/benchmarks").unwrap() {
         let path = entry.unwrap().path();
-        let text = std::fs::read_to_string(&path).unwrap_or_default();
+        let text = fs::read_to_string(&path).unwrap_or_default();
         let Some(design) = text.contains(".model").then(|| blif::read(&text, FileId(0), None).unwrap()) else {
             continue;
         };

@@ -3,9 +3,7 @@
 
 use std::process::Command;
 
-use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::tools::{IVERILOG, SLANG};
+use crate::support::*;
 
 /// A counter with the commonest reset, and its test bench, which Yosys could not read.
 const COUNTER: &str = "\
@@ -18,7 +16,6 @@ endmodule
 
 ";
 
-/// Checks that a reset acts without an edge of the clock, and holds.
 const BENCH: &str = "\
 (* keep *)
 module bench;
@@ -43,7 +40,6 @@ module bench;
 endmodule
 ";
 
-/// Runs a test bench with a module from another file.
 #[track_caller]
 fn passes_its_bench(bench: &Bench, module: &str) {
     let made = Command::new("iverilog")
@@ -57,11 +53,8 @@ fn passes_its_bench(bench: &Bench, module: &str) {
 
 #[test]
 fn a_module_without_content_or_outputs_is_named() {
-    if !SLANG.is_there() {
-        return;
-    }
-    let bench = Bench::new();
-    bench.file("empty.v", "\nmodule e(input a, output q);\nendmodule\n");
+    let Some(_) = SLANG.find() else { return };
+    let bench = Bench::with("empty.v", "\nmodule e(input a, output q);\nendmodule\n");
     bench.file(
         "inside.v",
         "module e(input a, output q);\nendmodule\nmodule m(input a, output q);\n  e u(a, q);\nendmodule\n",
@@ -74,13 +67,12 @@ fn a_module_without_content_or_outputs_is_named() {
         }
     }
     bench.file("none.v", "module bench;\n  reg a = 1;\nendmodule\n");
-    bench.run(&["synth", "none.v", "-o", "none.nb"]).expect_fault(&["the files have no module with outputs"]);
+    bench.run("synth none.v -o none.nb").expect_fault(&["the files have no module with outputs"]);
     bench.file("none.blif", ".model b\n.inputs a\n.end\n");
-    bench.run(&["synth", "none.blif"]).expect_fault(&["`b` has no outputs"]);
-    assert!(!bench.path().join("none.nb").exists());
+    bench.run("synth none.blif").expect_fault(&["`b` has no outputs"]);
+    assert!(!bench.has("none.nb"));
 }
 
-/// A register with assertions of each kind.
 const ASSERTED: &str = "\
 module m(input clk, a, b, output reg q);
   property p; @(posedge clk) a |-> ##1 q; endproperty
@@ -96,37 +88,28 @@ endmodule
 
 #[test]
 fn assertions_are_left_out_with_a_warning() {
-    if !SLANG.is_there() {
-        return;
-    }
-    let bench = Bench::new();
-    bench.file("m.v", ASSERTED);
+    let Some(_) = SLANG.find() else { return };
+    let bench = Bench::with("m.v", ASSERTED);
     let rows = "test m {\n    clk a b | q\n    ^   1 0 | 1\n    ^   0 1 | 1\n    ^   0 0 | 0\n}\n";
     bench.file("m.nb", format!("use \"m.v\"\n\n{rows}"));
-    let ran = bench.run(&["test", "m.nb", "--logic"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
-    let ran = bench.run(&["synth", "m.v", "--cells", "nand,not"]);
+    bench.ok("test m.nb --logic");
+    let ran = bench.run("synth m.v --cells nand,not");
     assert!(ran.status == 0 && ran.err.contains("assertions are ignored"), "{}", ran.err);
 }
 
 #[test]
 fn the_original_bench_fits_what_is_written() {
-    if !SLANG.is_there() || !IVERILOG.is_there() {
-        return;
-    }
-    let bench = Bench::new();
-    bench.file("counter.v", COUNTER);
+    let (Some(_), Some(_)) = (SLANG.find(), IVERILOG.find()) else { return };
+    let bench = Bench::with("counter.v", COUNTER);
     bench.file("bench.v", BENCH);
     passes_its_bench(&bench, "counter.v");
-    let ran = bench.run(&["synth", "counter.v", "--cells", "nand,not", "-o", "out.v"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    let written = std::fs::read_to_string(bench.path().join("out.v")).unwrap();
+    bench.ok("synth counter.v --cells nand,not -o out.v");
+    let written = bench.read("out.v");
     let head = "module counter(input clk, input rst_n, input en, output [3:0] count, output odd);\n";
     assert!(written.starts_with(head), "{written}");
     passes_its_bench(&bench, "out.v");
     // And what is written can be read again.
-    let ran = bench.run(&["synth", "out.v", "--cells", "nand,not", "-o", "again.v"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    bench.ok("synth out.v --cells nand,not -o again.v");
     passes_its_bench(&bench, "again.v");
 }
 
@@ -148,41 +131,33 @@ test counter {
 
 #[test]
 fn an_asynchronous_reset_needs_no_edge_of_the_clock() {
-    if !SLANG.is_there() {
-        return;
-    }
-    let bench = Bench::new();
-    bench.file("counter.v", COUNTER);
+    let Some(_) = SLANG.find() else { return };
+    let bench = Bench::with("counter.v", COUNTER);
     bench.file("used.nb", format!("use \"counter.v\"\n{RESET_ROWS}"));
-    let ran = bench.run(&["test", "used.nb", "--logic"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test used.nb --logic");
     // Every format that keeps registers, and cells.
     for (out, more) in [("a.nb", &[][..]), ("a.blif", &[]), ("b.nb", &["--registers", "expand"])] {
-        let ran = bench.run(&[&["synth", "counter.v", "--cells", "nand,not", "-o", out], more].concat());
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        let ran = bench.ok(&[&["synth", "counter.v", "--cells", "nand,not", "-o", out], more].concat());
         assert_eq!(ran.out.contains(" but for the cells of its registers,"), !more.is_empty(), "{}", ran.out);
         let name = format!("test_{out}.nb");
         match out.strip_suffix(".nb") {
             Some(_) => {
-                let written = std::fs::read_to_string(bench.path().join(out)).unwrap();
+                let written = bench.read(out);
                 bench.file(&name, format!("{written}{RESET_ROWS}"));
             }
             None => _ = bench.file(&name, format!("use \"{out}\"\n{RESET_ROWS}")),
         }
-        let ran = bench.run(&["test", &name, "--logic"]);
-        assert_eq!(ran.status, 0, "{out}: {}{}", ran.out, ran.err);
+        bench.ok(&["test", &name, "--logic"]);
     }
-    let written = std::fs::read_to_string(bench.path().join("a.nb")).unwrap();
+    let written = bench.read("a.nb");
     assert!(written.contains(" = async_register[start = 5]("), "{written}");
-    let refused = bench.run(&["synth", "counter.v", "--cells", "nand,not", "-o", "a.aig"]);
+    let refused = bench.run("synth counter.v --cells nand,not -o a.aig");
     refused.expect_fault(&["AIGER has no asynchronous set or reset"]);
 }
 
 #[test]
 fn a_reset_acts_after_mapping_to_robots() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let text = "module one_bit(input clk, input r, input d, output reg q);\n  \
         always @(posedge clk, posedge r) if (r) q <= 1; else q <= d;\nendmodule\n";
@@ -190,15 +165,12 @@ fn a_reset_acts_after_mapping_to_robots() {
     let rows = "test one_bit {\n    clk r d | q\n    0 1 0 | 1\n    0 0 0 | 1\n    \
         1 0 0 | 0\n    1 1 0 | 1\n    1 0 0 | 1\n}\n";
     bench.file("bit.nb", format!("use \"one_bit.v\"\n\n{rows}"));
-    let ran = bench.run(&["test", "bit.nb", "--physics"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test bit.nb --physics");
 }
 
 #[test]
 fn a_register_may_load_without_its_clock_and_set_and_reset_are_refused() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let text = "module load(input clk, s, d, r, output reg [1:0] l);\n  \
         always @(negedge clk, posedge s) if (s) l <= {d, r}; else l <= l + 1;\nendmodule\n";
@@ -207,45 +179,38 @@ fn a_register_may_load_without_its_clock_and_set_and_reset_are_refused() {
         1 0 0 1 | 11\n    0 0 0 1 | 00\n}\n";
     for file in ["load.v", "out.blif", "out.nb"] {
         if file != "load.v" {
-            assert_eq!(bench.run(&["synth", "load.v", "-o", file, "--cells", "nand,not"]).status, 0, "{file}");
+            bench.ok(&["synth", "load.v", "-o", file, "--cells", "nand,not"]);
         }
         bench.file("again.nb", format!("use \"{file}\"\n\n{rows}"));
-        let ran = bench.run(&["test", "again.nb", "--logic"]);
-        assert_eq!(ran.status, 0, "{file}: {}{}", ran.out, ran.err);
+        bench.ok("test again.nb --logic");
     }
     let both = "module both(input clk, s, r, d, output reg q);\n  \
         always @(posedge clk, posedge s, posedge r) if (r) q <= 0; else if (s) q <= 1; else q <= d;\nendmodule\n";
     bench.file("both.v", both);
-    bench.run(&["synth", "both.v"]).expect_fault(&["multiple asynchronous loads unsupported", "both.v:2:"]);
+    bench.run("synth both.v").expect_fault(&["multiple asynchronous loads unsupported", "both.v:2:"]);
 }
 
 #[test]
 fn a_module_without_outputs_is_left_out_with_a_word() {
-    if !SLANG.is_there() {
-        return;
-    }
-    let bench = Bench::new();
-    bench.file("all.v", format!("{BENCH}{COUNTER}"));
-    let ran = bench.run(&["synth", "all.v", "--cells", "nand,not"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
+    let Some(_) = SLANG.find() else { return };
+    let bench = Bench::with("all.v", format!("{BENCH}{COUNTER}"));
+    let ran = bench.ok("synth all.v --cells nand,not");
     assert!(ran.err.contains("module `bench` is left out") && ran.err.contains("all.v:2:1"), "{}", ran.err);
     bench.file("used.nb", format!("use \"all.v\"\n{RESET_ROWS}"));
-    assert_eq!(bench.run(&["test", "used.nb", "--logic"]).status, 0);
+    bench.ok("test used.nb --logic");
     bench.file("none.v", "module none(input a);\nendmodule\n");
     bench.file("used.nb", "use \"none.v\"\n");
-    bench.run(&["check", "used.nb"]).expect_fault(&["have no module with outputs"]);
+    bench.run("check used.nb").expect_fault(&["have no module with outputs"]);
     // A fault counts in each module.
     let files =
         "module m(input a, output q); assign q = a; endmodule\nmodule b; initial $readmemh(\"x\", m); endmodule\n";
     bench.file("b.v", files);
-    bench.run(&["synth", "b.v", "--cells", "nand,not"]).expect_fault(&["'m' cannot be used", "b.v:2:"]);
+    bench.run("synth b.v --cells nand,not").expect_fault(&["'m' cannot be used", "b.v:2:"]);
 }
 
 #[test]
 fn wires_that_nothing_drives_are_zero_with_a_warning() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let text = "module inner(input x, output y);\n  assign y = ~x;\nendmodule\n\
         module open(input a, output q, output r, output z);\n  wire t;\n  assign q = a | t;\n  \
@@ -253,8 +218,7 @@ fn wires_that_nothing_drives_are_zero_with_a_warning() {
     bench.file("open.v", text);
     bench.file("p.nb", "use \"open.v\"\n\ntest open {\n    a | q r z\n    1 | 1 0 1\n    0 | 0 0 1\n}\n");
     for arguments in [&["synth", "open.v", "--cells", "nand,not"][..], &["test", "p.nb", "--logic"]] {
-        let ran = bench.run(arguments);
-        assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+        let ran = bench.ok(arguments);
         for (wire, line) in [("t", 5), ("r", 4), ("u.x", 1)] {
             let is_told = ran.err.contains(&format!("nothing drives `{wire}`"));
             assert!(is_told && ran.err.contains(&format!("open.v:{line}:")), "{wire}: {}", ran.err);
@@ -264,9 +228,7 @@ fn wires_that_nothing_drives_are_zero_with_a_warning() {
 
 #[test]
 fn errors_of_the_translation_are_at_lines_of_verilog() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     for (body, expected) in [
         ("assign q = ~(d & ~(c & q));", ["`q` depends on itself", "m.v:1:"]),
@@ -281,16 +243,14 @@ fn errors_of_the_translation_are_at_lines_of_verilog() {
     ] {
         bench.file("m.v", format!("module m(input c, d, output q);\n{body}\nendmodule\n"));
         bench.file("m.nb", "use \"m.v\"\n");
-        bench.run(&["synth", "m.v", "--cells", "nand,not"]).expect_fault(&expected);
-        bench.run(&["check", "m.nb"]).expect_fault(&[expected[0], expected[1], "m.nb:1:5"]);
+        bench.run("synth m.v --cells nand,not").expect_fault(&expected);
+        bench.run("check m.nb").expect_fault(&[expected[0], expected[1], "m.nb:1:5"]);
     }
 }
 
 #[test]
 fn powers_are_products() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let text = "module power(input [2:0] a, input [1:0] b, input signed [2:0] s, e, \
         output [7:0] cube, two, any, output signed [7:0] signs);\n  \
@@ -320,15 +280,12 @@ fn powers_are_products() {
         }
     }
     bench.file("power.nb", rows + "}\n");
-    let ran = bench.run(&["test", "power.nb", "--logic", "--effort", "fast"]);
-    assert_eq!(ran.status, 0, "{}{}", ran.out, ran.err);
+    bench.ok("test power.nb --logic --effort fast");
 }
 
 #[test]
 fn a_module_and_its_parameters_can_be_chosen() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let other = "module other(input a, output q, output r);\n  assign q = ~a;\n  assign r = a;\nendmodule\n";
     bench.file("two.v", format!("{COUNTER}{other}"));
@@ -351,23 +308,19 @@ fn a_module_and_its_parameters_can_be_chosen() {
     assert_eq!(blif(&["--top", "two", "--format", "json"]).expect_json()["inputs"], 0);
     blif(&["--param", "N=1"]).expect_fault(&["`one.blif` has no parameters"]);
     bench.file("one.bench", "INPUT(a)\nOUTPUT(q)\nq = NOT(a)\n");
-    bench
-        .run(&["synth", "one.bench", "--top", "m", "--cells", "nand"])
-        .expect_fault(&["one circuit, which has no name"]);
+    bench.run("synth one.bench --top m --cells nand").expect_fault(&["one circuit, which has no name"]);
 }
 
 #[test]
 fn yosys_proves_what_is_written_equal_port_by_port() {
-    if !SLANG.is_there() {
-        return;
-    }
+    let Some(_) = SLANG.find() else { return };
     let bench = Bench::new();
     let text = "module alu(input [1:0] op, input [5:2] a, input [3:0] b, output reg [3:0] q, output zero);\n  \
         always @* case (op) 0: q = a + b; 1: q = a - b; 2: q = a & b; default: q = a ^ b; endcase\n  \
         assign zero = q == 0;\nendmodule\n";
     bench.file("alu.v", text);
-    assert_eq!(bench.run(&["synth", "alu.v", "--cells", "nand,not", "-o", "out.v"]).status, 0);
-    let written = std::fs::read_to_string(bench.path().join("out.v")).unwrap();
+    bench.ok("synth alu.v --cells nand,not -o out.v");
+    let written = bench.read("out.v");
     let head = "module alu(input [1:0] op, input [5:2] a, input [3:0] b, output [3:0] q, output zero);\n";
     assert!(written.starts_with(head), "{written}");
     let script = "read_verilog -sv alu.v; proc; opt_clean; rename alu gold; read_verilog out.v; \

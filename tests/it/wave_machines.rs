@@ -1,9 +1,7 @@
 //! Wave machines: programs that cannot be one, with their exact messages, and random machines in full physics.
 
 use std::fmt::Write;
-use std::fs;
 
-use nbc_base::source::MemoryWorld;
 use nbc_circuit::waves::{ClockStep, Reading};
 use nbc_session::store::DiskWorld;
 use nbc_session::{Choice, CompileOptions, Compiled, Session};
@@ -12,9 +10,7 @@ use nbc_swarm::SwarmConditions;
 use rand::{Rng, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::support::bench::Bench;
-use crate::support::programs::programs;
-use crate::support::root;
+use crate::support::*;
 
 /// The steps of each random machine in physics.
 const STEPS: usize = 10;
@@ -68,10 +64,7 @@ fn wrong_outputs(machines: usize, seed: u64) -> (usize, usize) {
     let (mut robots, mut wrong) = (0, 0);
     for _ in 0..machines {
         let text = program(&mut random);
-        let mut world = MemoryWorld::default();
-        world.insert("m.nb", &text);
-        let mut session = Session::new(world);
-        let checked = session.open("m.nb").unwrap();
+        let (session, checked) = session_of(text);
         let compiled = session.compile(&checked, &"m".into(), &CompileOptions::default()).unwrap();
         let ports = compiled.assembly.inputs.len();
         robots += compiled.assembly.members.len();

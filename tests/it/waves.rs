@@ -3,8 +3,8 @@
 use nbc_session::report;
 use vcd::{Command, Header, Parser};
 
-use crate::support::bench::Bench;
 use crate::support::traces::latch;
+use crate::support::*;
 
 /// A dump as the other reader sees it.
 struct Waves {
@@ -81,12 +81,11 @@ fn a_run_writes_its_waveforms_beside_the_report() {
     let program =
         "circuit inverter(a) -> (q) { q = not a }\ntest inverter \"inverts\" {\n    a | q\n    1 | 0\n    0 | 1\n}\n";
     bench.file("not.nb", program);
-    assert_eq!(bench.run(&["run", "not.nb"]).status, 0);
+    bench.ok("run not.nb");
     assert!(bench.path().join("out/not/report.html").is_file());
-    let bytes = std::fs::read(bench.path().join("out/not/inverter-waves.vcd")).unwrap();
-    let drawn = bench.run(&["draw", "not.nb", "--as", "vcd", "-o", "a.vcd"]);
-    assert_eq!(drawn.status, 0, "{}", drawn.err);
-    assert!(bytes == std::fs::read(bench.path().join("a.vcd")).unwrap(), "the same run has the same waveforms");
+    let bytes = bench.bytes("out/not/inverter-waves.vcd");
+    bench.ok("draw not.nb --as vcd -o a.vcd");
+    assert!(bytes == bench.bytes("a.vcd"), "the same run has the same waveforms");
     let waves = read(&bytes);
     let hold = changes(&waves, "inverter.inputs.a")[1].0;
     assert_eq!(changes(&waves, "inverter.inputs.a"), [(0, "1".to_owned()), (hold, "0".to_owned())]);

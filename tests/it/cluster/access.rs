@@ -1,7 +1,5 @@
 //! Passwords, credentials and TLS.
 
-use std::fs;
-use std::path::Path;
 use std::process::Command;
 
 use base64::Engine;
@@ -12,9 +10,8 @@ use crate::cluster::keys::{Key, Owner};
 use crate::cluster::server::Server;
 use crate::cluster::wire::subject_of;
 use crate::cluster::{Running, assert_same, bench};
-use crate::support::limits::InTime;
-use crate::support::schema::validate;
-use crate::support::tools::OPENSSL;
+
+use crate::support::*;
 
 #[test]
 fn servers_that_cannot_be_used_are_named_without_the_password() {
@@ -34,7 +31,6 @@ fn servers_that_cannot_be_used_are_named_without_the_password() {
     bench.run(&["worker", "--nats", &right, "--name", "a.b"]).expect_fault(&["`a.b` cannot be the name of a worker"]);
 }
 
-/// A signed token of NATS.
 fn token(issuer: &Key, subject: &str, name: &str, nats: Value) -> String {
     let encode = |value: &Value| URL_SAFE_NO_PAD.encode(value.to_string());
     let head = json!({ "typ": "JWT", "alg": "ed25519-nkey" });
@@ -45,7 +41,6 @@ fn token(issuer: &Key, subject: &str, name: &str, nats: Value) -> String {
     format!("{signed}.{signature}")
 }
 
-/// The rights of an account to these without limit.
 fn unlimited(names: &[&str]) -> Value {
     let everywhere = ["subs", "data", "payload", "imports", "exports", "conn", "leaf"];
     let mut limits: Map<String, Value> =
@@ -85,9 +80,7 @@ fn issue_credentials(folder: &Path) {
 #[test]
 fn credentials_with_few_rights_suffice_and_are_needed() {
     let bench = bench();
-    if !OPENSSL.is_there() {
-        return;
-    }
+    let Some(_) = OPENSSL.find() else { return };
     issue_credentials(bench.path());
     let config = bench.path().join("server.conf").display().to_string();
     let Some(server) = Server::start(&["--config", &config]) else { return };
@@ -98,9 +91,8 @@ fn credentials_with_few_rights_suffice_and_are_needed() {
     assert_same(&bench, &Running::start(&bench, &[&["evolve", "small.nb"], &access[..]].concat()).end());
 }
 
-/// Makes a root certificate and one for this machine, as docs/cluster.md says.
 fn issue_certificates(folder: &Path) {
-    let page = fs::read_to_string(crate::support::root().join("docs/cluster.md")).unwrap();
+    let page = text_of("docs/cluster.md");
     let indented = page.lines().filter_map(|line| line.strip_prefix("    "));
     let commands: Vec<&str> =
         indented.filter(|line| line.starts_with("openssl ") || line.starts_with("echo ")).collect();
@@ -113,9 +105,7 @@ fn issue_certificates(folder: &Path) {
 #[test]
 fn a_server_with_tls_is_used_only_if_its_certificate_is_trusted() {
     let bench = bench();
-    if !OPENSSL.is_there() {
-        return;
-    }
+    let Some(_) = OPENSSL.find() else { return };
     issue_certificates(bench.path());
     let path = |name: &str| bench.path().join(name).display().to_string();
     let options = ["--tls", "--tlscert", &path("server.pem"), "--tlskey", &path("server-key.pem")];

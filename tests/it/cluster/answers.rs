@@ -2,11 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use serde_json::{Value, json};
-
 use crate::cluster::server::Server;
 use crate::cluster::wire::{Seen, VERSION, Wire, foreign_note, message, subject_of};
 use crate::cluster::{SMALL_STEPS, assert_same, bench, evolve, worker};
+use crate::support::*;
 
 /// The subject for an answer of a worker to the search that a task belongs to.
 fn answer_subject(task: &Seen, worker: &str) -> String {
@@ -193,5 +192,5 @@ fn a_worker_that_is_wrong_after_its_results_were_used_ends_the_search_with_a_che
     let ran = search.end();
     assert_eq!(ran.status, 2, "{}", ran.err);
     assert!(ran.err.contains("worker `turncoat` sent a wrong result, and earlier ones of it were used"), "{}", ran.err);
-    assert!(second.path().join("out/small/seed-1/checkpoint.nbc").exists());
+    assert!(second.has("out/small/seed-1/checkpoint.nbc"));
 }

@@ -1,12 +1,10 @@
 //! `nbc library verify`, `nbc library add` and `nbc test` with workers: what they print and write is what they print
 //! and write alone.
 
-use std::fs;
-
 use crate::cluster::server::Server;
 use crate::cluster::wire::{Wire, subject_of};
 use crate::cluster::{Running, files, worker};
-use crate::support::bench::{Bench, Ran};
+use crate::support::*;
 
 /// A circuit with a test that it passes, one that it fails, and one at the level of logic.
 const LATCH: &str = "\
@@ -31,7 +29,6 @@ test sr_latch \"is told what is wrong\" in rough {
 }
 ";
 
-/// A small archive of small bodies with few behaviors.
 const WALKS: &str = "\
 evolution walks { box: 3 x 1, variable: short, fixed: 1 cycles, batch: 6, generations: 4, seed: 3 }
 ";
@@ -61,7 +58,7 @@ fn compare(bench: &Bench, command: &[&str], status: i32) -> Ran {
 fn robots_are_selected_measured_and_verified_by_workers() {
     let bench = Bench::new();
     bench.runs("walks.nb", WALKS);
-    assert_eq!(bench.run(&["evolve", "walks.nb"]).status, 0);
+    bench.ok("evolve walks.nb");
     let add = ["library", "add", "out/walks/seed-3", "--tries", "1", "--finalists", "1", "--max-error", "1", "--into"];
     let behaviors = ["--behavior", "LLLL"];
     let alone = bench.run(&[&add[..], &["alone"], &behaviors].concat());
@@ -82,16 +79,14 @@ fn robots_are_selected_measured_and_verified_by_workers() {
 
 #[test]
 fn swarms_are_tested_by_workers() {
-    let bench = Bench::new();
-    bench.file("latch.nb", LATCH);
+    let bench = Bench::with("latch.nb", LATCH);
     let ran = compare(&bench, &["test", "latch.nb", "--physics", "--format", "json"], 1);
     assert!(ran.out.is_empty() || ran.out.contains("\"lapses\""), "{}", ran.out);
 }
 
 #[test]
 fn a_signal_stops_what_workers_do() {
-    let bench = Bench::new();
-    bench.file("latch.nb", LATCH);
+    let bench = Bench::with("latch.nb", LATCH);
     // Without workers, nothing is ever done.
     for (command, out) in [
         (&["test", "latch.nb", "--physics"][..], "0 passed, 0 failed, 2 interrupted or not begun\n"),
@@ -104,15 +99,5 @@ fn a_signal_stops_what_workers_do() {
         working.signal("TERM");
         let ran = working.end();
         assert_eq!((ran.status, &*ran.out), (4, out), "{}", ran.err);
-    }
-}
-
-#[test]
-fn a_server_that_is_not_there_is_named() {
-    let bench = Bench::new();
-    bench.file("latch.nb", LATCH);
-    for command in [&["test", "latch.nb", "--physics"][..], &["library", "verify"]] {
-        let ran = bench.run(&[command, &["--nats", "nats://127.0.0.1:1"]].concat());
-        ran.expect_fault(&["cannot use the NATS server `nats://127.0.0.1:1`"]);
     }
 }

@@ -1,12 +1,10 @@
 //! Keys of NATS, made with openssl.
 
-use std::fs;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use data_encoding::BASE32_NOPAD;
 
-use crate::support::limits::InTime;
+use crate::support::*;
 
 /// Whose key it is: the byte before the key, which its first letter shows.
 #[derive(Clone, Copy)]

@@ -1,16 +1,11 @@
 //! Workers, searches and servers that are killed.
 
-use std::collections::BTreeMap;
-use std::time::Duration;
-
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::cluster::server::Server;
 use crate::cluster::wire::{Wire, subject_of};
-use crate::cluster::{Running, assert_equal, assert_same, bench, evolve, files, worker};
-use crate::support::bench::Bench;
-use crate::support::root;
+use crate::cluster::{Running, assert_same, bench, evolve, worker};
 
 #[test]
 fn two_workers_that_are_both_killed_once_give_the_bytes_of_a_run_alone() {
@@ -69,7 +64,6 @@ fn a_server_that_loses_its_disk_is_given_the_tasks_again() {
     the_server_fails(Server::restart_empty);
 }
 
-/// The server fails in the middle of a search.
 #[track_caller]
 fn the_server_fails(fail: fn(&mut Server)) {
     let Some(mut server) = Server::start(&[]) else { return };
@@ -108,30 +102,4 @@ fn an_interrupted_search_can_be_resumed_alone() {
     assert!(ran.out.contains("interrupted; `--resume` continues the run"), "{}", ran.out);
     let resumed = Running::start(&bench, &["evolve", "small.nb", "--resume"]).end();
     assert_same(&bench, &resumed);
-}
-
-/// `cargo test --release --features cluster --test it the_papers_quick_run -- --ignored --nocapture`: minutes.
-#[test]
-#[ignore = "evaluates 9,600 bodies twice"]
-fn the_papers_quick_run_on_two_workers_gives_the_bytes_of_the_run_alone() {
-    let Some(server) = Server::start(&[]) else { return };
-    let (alone, together) = (Bench::new(), Bench::new());
-    let paper = root().join("library/paper.nb").display().to_string();
-    let quick = ["evolve", &paper, "--quick"];
-    let mut wire = Wire::open(&server);
-    let search = Running::start(&together, &[&quick[..], &["--nats", &server.url()]].concat());
-    let mut workers: BTreeMap<&str, Running> =
-        ["first", "second"].into_iter().map(|name| (name, worker(&together, &server, name))).collect();
-    for (old, new) in [("first", "third"), ("second", "fourth")] {
-        (0..1000).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of(old)));
-        workers.remove(old).unwrap().kill();
-        workers.insert(new, worker(&together, &server, new));
-    }
-    let ran = search.end_within(Duration::from_secs(3600));
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    eprintln!("{}{}", ran.err, ran.out);
-    let expected = alone.run(&quick);
-    assert_eq!(expected.status, 0, "{}", expected.err);
-    eprintln!("{}{}", expected.err, expected.out);
-    assert_equal(&files(&together.path().join("out")), &files(&alone.path().join("out")));
 }

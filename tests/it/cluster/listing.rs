@@ -6,9 +6,8 @@ use std::process::Stdio;
 use crate::cluster::server::Server;
 use crate::cluster::wire::Wire;
 use crate::cluster::{bench, evolve, worker};
-use crate::support::limits::Limit;
-use crate::support::schema::validate;
-use crate::support::tools;
+
+use crate::support::*;
 
 #[test]
 fn workers_and_searches_are_listed() {
@@ -19,8 +18,7 @@ fn workers_and_searches_are_listed() {
     let _worker = worker(&bench, &server, "steady");
     (0..10).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("steady")));
     let list = || {
-        let ran = bench.run(&["workers", "--nats", &server.url(), "--format", "json"]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        let ran = bench.ok(&["workers", "--nats", &server.url(), "--format", "json"]);
         validate("workers", &ran.out)
     };
     // On a busy machine the search may not have read the first report of the worker yet.

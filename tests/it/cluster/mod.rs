@@ -14,13 +14,11 @@ mod server;
 mod wire;
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
 use std::sync::OnceLock;
 
 use crate::cluster::running::Running;
 use crate::cluster::server::Server;
-use crate::support::bench::{Bench, Ran};
+use crate::support::*;
 
 const SMALL: &str = "\
 evolution small { box: 3 x 3, variable: short, fixed: 1 cycles, batch: 8, generations: 6, seed: 1..3 }
@@ -38,14 +36,12 @@ fn evolve(bench: &Bench, server: &Server, more: &[&str]) -> Running {
     Running::start(bench, &[&arguments, more].concat())
 }
 
-/// A folder with the declarations.
 fn bench() -> Bench {
     let bench = Bench::new();
     bench.runs("small.nb", SMALL);
     bench
 }
 
-/// The files below a folder of results, without the locks.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut found = BTreeMap::new();
     for entry in fs::read_dir(folder).unwrap().map(Result::unwrap) {

@@ -1,112 +1,19 @@
 //! Networks that are cut, disks that are full, and subjects that are taken.
 
-use std::fs;
-use std::path::Path;
 use std::process::{Command, Stdio};
-use std::thread;
+
 use std::time::{Duration, Instant};
 
 use crate::cluster::server::Server;
 use crate::cluster::wire::{Wire, subject_of};
-use crate::cluster::{Running, assert_same, bench, evolve, worker};
-use crate::support::bench::Bench;
-use crate::support::limits;
-use crate::support::tools::{signal, skip};
+use crate::cluster::{assert_same, bench, evolve, worker};
 
-/// Runs a command of the system; whether it succeeded.
+use crate::support::*;
+
 fn succeeds(line: &str) -> bool {
     let words: Vec<&str> = line.split_whitespace().collect();
     let started = Command::new(words[0]).args(&words[1..]).stdout(Stdio::null()).stderr(Stdio::null()).spawn();
     started.is_ok_and(|child| limits::end(child).status.success())
-}
-
-/// A network of its own, joined to this one by a cable; removed when it is dropped.
-struct Namespace {
-    name: String,
-    /// The last number but one of the addresses of both ends.
-    net: u32,
-}
-
-impl Namespace {
-    /// `None`, with a message, where this user cannot make it.
-    fn make() -> Option<Self> {
-        let process = std::process::id();
-        let this = Self { name: format!("nbc{process}"), net: process % 250 };
-        let Self { name, net } = &this;
-        let steps = [
-            format!("ip netns add {name}"),
-            format!("ip link add {name}a type veth peer name {name}b"),
-            format!("ip link set {name}b netns {name}"),
-            format!("ip addr add 10.199.{net}.1/24 dev {name}a"),
-            format!("ip link set {name}a up"),
-            format!("ip netns exec {name} ip addr add 10.199.{net}.2/24 dev {name}b"),
-            format!("ip netns exec {name} ip link set {name}b up"),
-        ];
-        for step in steps {
-            if !succeeds(&step) {
-                skip(format_args!("`{step}` fails"), "run it as root, with `ip` (apt-get install iproute2)");
-                return None;
-            }
-        }
-        Some(this)
-    }
-
-    fn cut(&self) {
-        assert!(succeeds(&format!("ip link set {}a down", self.name)));
-    }
-
-    fn join(&self) {
-        assert!(succeeds(&format!("ip link set {}a up", self.name)));
-    }
-
-    /// Starts the program inside; it knows the server by the address of this side.
-    fn start(&self, bench: &Bench, server: &Server, arguments: &[&str]) -> Running {
-        let url = format!("nats://10.199.{}.1:{}", self.net, server.port());
-        let mut command = Command::new("ip");
-        command.args(["netns", "exec", &self.name, env!("CARGO_BIN_EXE_nbc")]).args(arguments).args(["--nats", &url]);
-        Running::spawn(command.current_dir(bench.path()).env("RAYON_NUM_THREADS", "1"))
-    }
-}
-
-impl Drop for Namespace {
-    fn drop(&mut self) {
-        succeeds(&format!("ip link delete {}a", self.name));
-        succeeds(&format!("ip netns delete {}", self.name));
-    }
-}
-
-/// Keeps the network cut for half a minute.
-fn cut_for_half_a_minute(namespace: &Namespace) {
-    namespace.cut();
-    let cut = Instant::now();
-    while cut.elapsed() < Duration::from_secs(30) {
-        thread::sleep(Duration::from_millis(100));
-    }
-    namespace.join();
-}
-
-/// `cargo test --features cluster --test it outages -- --ignored`: two minutes, as root.
-#[test]
-#[ignore = "cuts the network for half a minute, twice"]
-fn a_network_that_is_cut_for_half_a_minute_loses_nothing() {
-    let Some(namespace) = Namespace::make() else { return };
-    let Some(server) = Server::start(&[]) else { return };
-    // Between the server and a worker.
-    let first = bench();
-    let mut wire = Wire::open(&server);
-    let far = namespace.start(&first, &server, &["worker", "--threads", "1", "--name", "far"]);
-    let search = evolve(&first, &server, &[]);
-    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("far")));
-    cut_for_half_a_minute(&namespace);
-    assert_same(&first, &search.end());
-    drop(far);
-    // Between the server and the search.
-    let second = bench();
-    let _near = worker(&second, &server, "near");
-    let search = namespace.start(&second, &server, &["evolve", "small.nb"]);
-    (0..20).for_each(|_| _ = wire.wait_for(|message| message.is_answer_of("near")));
-    cut_for_half_a_minute(&namespace);
-    assert_same(&second, &search.end());
 }
 
 /// A small disk; unmounted when it is dropped.
@@ -214,7 +121,7 @@ fn a_queue_is_opened_as_soon_as_its_subjects_are_free() {
     let Some(server) = Server::start(&[]) else { return };
     let (bench, mut wire) = (bench(), Wire::open(&server));
     // What a program is told while another one makes the queue.
-    let other = serde_json::json!({ "name": "other", "subjects": [subject_of("task.>")] });
+    let other = json!({ "name": "other", "subjects": [subject_of("task.>")] });
     wire.request("$JS.API.STREAM.CREATE.other", &other.to_string());
     wire.subscribe("$JS.API.STREAM.CREATE.>");
     let worker = worker(&bench, &server, "early");

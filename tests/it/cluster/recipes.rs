@@ -1,8 +1,6 @@
 //! The recipes of docs/cluster.md, with stand-ins for what starts programs elsewhere.
 
-use std::fs;
 use std::os::unix::fs::PermissionsExt;
-use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::thread;
 use std::time::{Duration, Instant};
@@ -12,15 +10,14 @@ use serde_yaml::Value;
 use crate::cluster::server::Server;
 use crate::cluster::wire::{Wire, subject_of};
 use crate::cluster::{Running, assert_same, bench};
-use crate::support::bench::Bench;
-use crate::support::limits::PATIENCE;
-use crate::support::root;
+
+use crate::support::*;
 
 const PROGRAM: &str = env!("CARGO_BIN_EXE_nbc");
 
 /// The indented lines of a section, without their indent.
 fn recipe(section: &str) -> String {
-    let page = fs::read_to_string(root().join("docs/cluster.md")).unwrap();
+    let page = text_of("docs/cluster.md");
     let mut lines = page.lines().skip_while(|line| *line != format!("## {section}")).skip(1);
     let inside: Vec<&str> = lines.by_ref().take_while(|line| !line.starts_with("## ")).collect();
     let code: Vec<&str> = inside.into_iter().filter_map(|line| line.strip_prefix("    ")).collect();
@@ -51,7 +48,6 @@ impl Site {
         fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
     }
 
-    /// A shell that runs a script with the programs of this folder.
     fn shell(&self, script: &str, variables: &[(&str, &str)]) -> Running {
         let path = format!("{}:{}", self.programs.display(), std::env::var("PATH").unwrap());
         let mut command = Command::new("sh");
@@ -71,12 +67,10 @@ impl Drop for Site {
     }
 }
 
-/// The lines of a script that begin so.
 fn lines(script: &str, start: &str) -> String {
     script.lines().filter(|line| line.starts_with(start)).collect::<Vec<_>>().join("\n")
 }
 
-/// The script for the server and the declarations of this test.
 fn here(script: &str, server: &Server) -> String {
     script.replace("4222", &server.port().to_string()).replace("library/paper.nb", "small.nb")
 }
@@ -128,7 +122,6 @@ fn a_slurm_array() {
     drop(second);
 }
 
-/// The words of a list in YAML.
 fn words(list: &Value) -> Vec<String> {
     let word = |word: &Value| word.as_str().expect("a word").to_owned();
     list.as_sequence().expect("a list").iter().map(word).collect()

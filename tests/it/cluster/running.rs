@@ -7,9 +7,7 @@ use std::sync::{Arc, Condvar, Mutex};
 use std::thread::{self, JoinHandle};
 use std::time::Duration;
 
-use crate::support::bench::{Bench, Ran};
-use crate::support::limits::PATIENCE;
-use crate::support::tools;
+use crate::support::*;
 
 /// A program in the background, which is killed when it is dropped.
 pub struct Running {
@@ -45,7 +43,6 @@ impl Running {
         Self { child, log, out, reader: Some(reader) }
     }
 
-    /// Waits until a line of standard error has the text.
     #[track_caller]
     pub fn wait_for(&self, text: &str) {
         let (log, changed) = &*self.log;
@@ -63,13 +60,11 @@ impl Running {
         drop(self);
     }
 
-    /// Waits until it ends.
     #[track_caller]
     pub fn end(self) -> Ran {
         self.end_within(PATIENCE)
     }
 
-    /// Waits for so long until it ends.
     #[track_caller]
     pub fn end_within(mut self, patience: Duration) -> Ran {
         let out = self.out.recv_timeout(patience);

@@ -1,17 +1,13 @@
 //! A NATS server of a test's own.
 
-use std::fs;
 use std::net::TcpStream;
-use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::support::limits::PATIENCE;
-use crate::support::tools::NATS_SERVER;
+use crate::support::*;
 
 /// The server, which is killed when it is dropped.
 pub struct Server {
@@ -41,13 +37,11 @@ impl Server {
         Some(Self { port, options, store, child, folder })
     }
 
-    /// Kills it and starts it again on the same disk.
     pub fn restart(&mut self) {
         self.stop();
         self.start_again();
     }
 
-    /// Kills it and starts it again on an empty disk.
     pub fn restart_empty(&mut self) {
         self.stop();
         fs::remove_dir_all(&self.store).unwrap();
@@ -93,7 +87,6 @@ fn spawn(port: &str, folder: &TempDir, store: &Path, options: &[String]) -> Chil
     command.arg(store).args(options).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
-/// Waits until the server listens and has written where.
 fn chosen_port(folder: &TempDir, server: &Child) -> u16 {
     let path = folder.path().join(format!("nats-server_{}.ports", server.id()));
     let started = Instant::now();

@@ -4,15 +4,12 @@ use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use serde_json::{Value, json};
-
 use crate::cluster::server::Server;
-use crate::support::limits::PATIENCE;
+use crate::support::*;
 
 /// The first byte of each message.
 pub const VERSION: u8 = 8;
 
-/// A subject of these messages.
 pub fn subject_of(rest: &str) -> String {
     format!("nbc.v{VERSION}.{rest}")
 }
@@ -22,7 +19,6 @@ pub struct Wire {
     reader: BufReader<TcpStream>,
 }
 
-/// A message.
 pub struct Seen {
     pub subject: String,
     /// The subject for an answer, or empty.
@@ -68,7 +64,6 @@ impl Wire {
         while self.line() != "PONG" {}
     }
 
-    /// Asks the server itself and waits for its answer, which is not an error.
     pub fn request(&mut self, subject: &str, payload: &str) {
         let reply = subject_of("reply.wire");
         self.publish(&format!("{subject} {reply}"), payload.as_bytes());
@@ -82,7 +77,6 @@ impl Wire {
         self.say(&[head.as_bytes(), payload, b"\r\n"].concat());
     }
 
-    /// The next message that is wanted.
     #[track_caller]
     pub fn wait_for(&mut self, wanted: impl Fn(&Seen) -> bool) -> Seen {
         let end = Instant::now() + PATIENCE;

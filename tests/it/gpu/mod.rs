@@ -18,7 +18,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
 use crate::determinism::{GOLDEN, bits, broken_palette, hash, own_palette, patchwork, point_bits, swarm_of_bodies};
-use crate::support::tools::skip;
+use crate::support::*;
 
 /// Work-items of a group on a processor, and a number at which groups wait for each other.
 const GROUPS: [usize; 2] = [1, 8];
@@ -26,14 +26,12 @@ const GROUPS: [usize; 2] = [1, 8];
 /// One test at a time uses the device: PoCL 3.1 crashes if two threads list devices at once.
 static TURN: Mutex<()> = Mutex::new(());
 
-/// The first device, if there is one, and the turn of a test.
 fn first_device() -> Option<(OpenClDevice, MutexGuard<'static, ()>)> {
     let turn = TURN.lock().unwrap_or_else(PoisonError::into_inner);
     let devices = OpenClDevice::all().unwrap_or_default();
     devices.into_iter().next().map(|device| (device, turn))
 }
 
-/// The same; without a device, the test is to end.
 fn device() -> Option<(OpenClDevice, MutexGuard<'static, ()>)> {
     let found = first_device();
     if found.is_none() {
@@ -46,7 +44,6 @@ fn backend(device: &OpenClDevice, group: usize) -> OpenClBackend {
     OpenClBackend::unchecked(device, LaneBackend::default(), Some(group)).unwrap()
 }
 
-/// Asserts that a device gives the bits of the lanes.
 #[track_caller]
 fn check(backend: &OpenClBackend, setting: &Setting, trials: &[Trial]) -> Vec<Trajectory> {
     let found = Simulator::new(backend.clone()).run_trials(setting, trials);
@@ -102,19 +99,6 @@ fn two_hundred_bodies_of_5x5_by_the_papers_protocol() {
     agrees_on_two_hundred(5);
 }
 
-#[test]
-#[ignore = "many minutes on a processor"]
-fn two_hundred_bodies_of_7x7_by_the_papers_protocol() {
-    agrees_on_two_hundred(7);
-}
-
-#[test]
-#[ignore = "many minutes on a processor"]
-fn two_hundred_bodies_of_10x10_by_the_papers_protocol() {
-    agrees_on_two_hundred(10);
-}
-
-/// Evaluates 200 random bodies of a square box here and on the device.
 fn agrees_on_two_hundred(side: usize) {
     let Some((device, _turn)) = device() else { return };
     let backend = backend(&device, 1);
@@ -126,11 +110,8 @@ fn agrees_on_two_hundred(side: usize) {
     assert_eq!(found, evaluate_bodies(&Simulator::default(), &evolution, bodies));
 }
 
-/// An evolution of a source text.
 fn declared(source: &str, name: &str) -> Evolution {
-    let mut session = nbc::Session::new(nbc::MemoryWorld::default());
-    session.update("run.nb", 1, source);
-    session.open("run.nb").unwrap().program.evolution(name).unwrap().clone()
+    session_of(source).1.program.evolution(name).unwrap().clone()
 }
 
 #[test]
@@ -214,7 +195,6 @@ fn robots_of_a_swarm() {
     }
 }
 
-/// Asserts that two flocks are in the same state, to the last bit.
 #[track_caller]
 fn assert_alike(found: &dyn Flock, expected: &dyn Flock) {
     assert_eq!(found.len(), expected.len());

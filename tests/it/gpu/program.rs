@@ -1,18 +1,14 @@
 //! `--device` and `nbc devices` of the program.
 
-use std::fs;
-
 use crate::gpu::{device, first_device};
-use crate::support::bench::{Bench, Ran};
-use crate::support::limits::InTime;
-use crate::support::schema::validate;
+
+use crate::support::*;
 
 const RUNS: &str = "\
 evolution walks { from: gates, box: 3 x 2, variable: short, fixed: 1 cycles, batch: 6, generations: 6, seed: 3 }
 evolution turns { from: walks, objective: gate, batch: 2, generations: 2 }
 ";
 
-/// The program on a machine without drivers.
 fn without_drivers(bench: &Bench, arguments: &[&str]) -> Ran {
     let output = bench.command(arguments).env("OCL_ICD_VENDORS", bench.path()).output_in_time();
     let text = |bytes| String::from_utf8(bytes).unwrap();
@@ -25,11 +21,10 @@ fn devices_are_listed_with_their_verdict() {
         return;
     }
     let bench = Bench::new();
-    let listed = bench.run(&["devices", "--format", "json"]);
-    assert_eq!(listed.status, 0, "{}{}", listed.out, listed.err);
+    let listed = bench.ok("devices --format json");
     let devices = &validate("devices", &listed.out)["devices"];
     assert!(devices[0]["usable"] == true && devices[0]["boxes"][0]["different"] == 0, "{devices}");
-    let text = bench.run(&["devices"]).out;
+    let text = bench.run("devices").out;
     assert!(text.contains("gpu:0") && text.contains("simulations with the bits of this processor"), "{text}");
 }
 
@@ -38,8 +33,7 @@ fn simulations_have_the_same_bytes_on_a_device() {
     if device().is_none() {
         return;
     }
-    let bench = Bench::new();
-    bench.file("walker.yaml", "body: [\"00345\", \"33333\"]\n");
+    let bench = Bench::with("walker.yaml", "body: [\"00345\", \"33333\"]\n");
     let simulate = |device: &str| {
         let ran =
             bench.run(&["simulate", "walker.yaml", "--schedule", "01*1 10*1", "--format", "json", "--device", device]);
@@ -60,8 +54,7 @@ fn evolutions_write_the_same_bytes_on_a_device() {
     let bench = Bench::new();
     bench.runs("runs.nb", RUNS);
     let evolve = |device: &str| {
-        let ran = bench.run(&["evolve", "runs.nb", "--out", device, "--device", device]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
+        bench.ok(&["evolve", "runs.nb", "--out", device, "--device", device]);
         let read =
             |run: &str, file: &str| fs::read(bench.path().join(device).join(run).join("seed-3").join(file)).unwrap();
         [("walks", "checkpoint.nbc"), ("walks", "progress.jsonl"), ("turns", "checkpoint.nbc")]
@@ -76,21 +69,20 @@ fn circuits_run_the_same_on_a_device() {
         return;
     }
     let run = |device: &str| {
-        let bench = Bench::new();
-        bench.file("flip.nb", "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n");
-        let ran = bench.run(&["run", "flip.nb", "--no-report", "--device", device]);
-        assert_eq!(ran.status, 0, "{}", ran.err);
-        let tested = bench.run(&["test", "flip.nb", "--physics", "--format", "json", "--device", device]);
-        assert_eq!(tested.status, 0, "{}", tested.err);
-        (fs::read_to_string(bench.path().join("out/flip/result.json")).unwrap(), tested.out)
+        let bench = Bench::with(
+            "flip.nb",
+            "circuit flip(a) -> (y) {\n    y = not a\n}\n\ntest flip {\n    a | y\n    0 | 1\n}\n",
+        );
+        bench.ok(&["run", "flip.nb", "--no-report", "--device", device]);
+        let tested = bench.ok(&["test", "flip.nb", "--physics", "--format", "json", "--device", device]);
+        (bench.read("out/flip/result.json"), tested.out)
     };
     assert_eq!(run("gpu"), run("cpu"));
 }
 
 #[test]
 fn a_device_that_is_not_there_is_reported() {
-    let bench = Bench::new();
-    bench.file("walker.yaml", "body: [\"00345\", \"33333\"]\n");
+    let bench = Bench::with("walker.yaml", "body: [\"00345\", \"33333\"]\n");
     let simulate = |device: &'static str| ["simulate", "walker.yaml", "--schedule", "01*1", "--device", device];
     without_drivers(&bench, &simulate("gpu")).expect_fault(&["no OpenCL driver was found", "install the driver"]);
     without_drivers(&bench, &["devices"]).expect_fault(&["no OpenCL driver was found"]);

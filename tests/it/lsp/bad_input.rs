@@ -1,16 +1,14 @@
 //! Input that is not as expected: files that are not text, floods of edits.
 
-use serde_json::{Value, json};
-
 use crate::lsp::HALF;
-use crate::lsp::client::{Client, at, file, opened, place, uri};
+use crate::lsp::client::{at, file, opened, place, uri};
 use crate::lsp::renaming::client_of;
 use crate::lsp::typing_client::TypingClient;
-use crate::support::bench::Bench;
+
+use crate::support::*;
 
 const NOT_TEXT: &[u8] = b"circuit half(a, b) -> (s, c) {\n    s = \xff\n}\n";
 
-/// The messages of diagnostics.
 fn messages(found: &Value) -> Vec<&str> {
     found.as_array().unwrap().iter().map(|problem| problem["message"].as_str().unwrap()).collect()
 }
@@ -41,32 +39,6 @@ fn a_used_file_that_is_not_utf_8_is_a_diagnostic_until_it_is_text() {
     let changed = ["half.nb", "cells.blif"].map(|name| json!({ "uri": uri(&bench.path().join(name)), "type": 2 }));
     client.tell("workspace/didChangeWatchedFiles", json!({ "changes": changed }));
     assert_eq!(client.diagnostics(&own), json!([]), "{}", half.display());
-    client.goodbye();
-}
-
-#[test]
-fn commands_refuse_what_is_not_utf_8() {
-    let bench = Bench::new();
-    bench.file("half.nb", NOT_TEXT);
-    std::fs::create_dir(bench.path().join("robots")).unwrap();
-    bench.file("robots/nand.yaml", NOT_TEXT);
-    let text = "circuit f(a, b) -> (q) {\n    q = a nand b\n}\n\ntest f {\n    a b | q\n    0 0 | 1\n}\n\n\
-                library mine { from: \"robots\" }\n\nswarm s { circuit: f, library: mine }\n";
-    let (own, text) = file(&bench, "a.nb", text);
-    let mut client = Client::start();
-    client.open(&own, &text);
-    let mut run = |uri: &str| {
-        let asked = json!({ "command": "nbc.run", "arguments": [{ "uri": uri }] });
-        client.ask("workspace/executeCommand", asked).unwrap_err()
-    };
-    let refused = run(&own);
-    assert!(refused.contains("not valid UTF-8") || refused == "the source has errors", "{refused}");
-    assert!(run(&uri(&bench.path().join("half.nb"))).contains("is not open"));
-    // An editor shows such a file with other characters.
-    let shown = String::from_utf8_lossy(NOT_TEXT).into_owned();
-    client.open(&uri(&bench.path().join("half.nb")), &shown);
-    let found = client.diagnostics(&uri(&bench.path().join("half.nb")));
-    assert!(!messages(&found).is_empty(), "{found}");
     client.goodbye();
 }
 

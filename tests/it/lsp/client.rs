@@ -1,29 +1,22 @@
 //! A client of `nbc lsp` over pipes.
 
 use std::io::{BufReader, Write};
-use std::path::Path;
 use std::process::{Child, ChildStdin, ChildStdout, Command, Stdio};
 
 use lsp_server::{Message, Response};
-use serde_json::{Value, json};
 
-use crate::support::bench::Bench;
-use crate::support::limits::Limit;
+use crate::support::*;
 
-/// A running server and its client.
 pub(super) struct Client {
     pub(super) server: Child,
     _limit: Limit,
     pub(super) input: Option<ChildStdin>,
     output: BufReader<ChildStdout>,
     next: i32,
-    /// The version of the text that was sent last.
     version: i32,
     answers: Vec<Response>,
     capabilities: Value,
-    /// The methods of the server's requests.
     pub(super) requests: Vec<String>,
-    /// The progress that was told.
     pub(super) told: Vec<Value>,
     /// The diagnostics published since they were last asked for, by URI.
     published: Vec<(String, Value)>,
@@ -38,12 +31,10 @@ impl Client {
         Self::initialized(&json!({ "clientInfo": { "name": "tests" }, "capabilities": capabilities }))
     }
 
-    /// A client that sends these parameters first.
     pub(super) fn initialized(parameters: &Value) -> Self {
         Self::of(&mut Command::new(env!("CARGO_BIN_EXE_nbc")), parameters)
     }
 
-    /// A client of a server whose program is that of a command.
     pub(super) fn of(program: &mut Command, parameters: &Value) -> Self {
         let mut server = program
             .args(["lsp", "--stdio"])
@@ -85,13 +76,11 @@ impl Client {
         self.send(&json!({ "jsonrpc": "2.0", "method": method, "params": parameters }));
     }
 
-    /// The result of a request, or the message of its error.
     pub(super) fn ask(&mut self, method: &str, parameters: Value) -> Result<Value, String> {
         let id = self.begin(method, parameters);
         self.wait(id)
     }
 
-    /// Sends a request.
     pub(super) fn begin(&mut self, method: &str, parameters: Value) -> i32 {
         self.next += 1;
         self.send(&json!({ "jsonrpc": "2.0", "id": self.next, "method": method, "params": parameters }));
@@ -120,12 +109,10 @@ impl Client {
         }
     }
 
-    /// What the server said that it can do.
     pub(super) fn capabilities(&self) -> &Value {
         &self.capabilities
     }
 
-    /// Replaces the whole text of a file.
     pub(super) fn change(&mut self, uri: &str, text: &str) {
         self.edit(uri, &json!([{ "text": text }]));
     }
@@ -158,12 +145,10 @@ impl Client {
         unreachable!("it counts on")
     }
 
-    /// The text of a range.
     pub(super) fn text(&self, text: &str, range: &Value) -> String {
         text[offset(text, &range["start"])..offset(text, &range["end"])].to_owned()
     }
 
-    /// A text after edits.
     pub(super) fn edited(&self, text: &str, edits: &[Value]) -> String {
         let place = |edit: &Value| offset(text, &edit["range"]["start"])..offset(text, &edit["range"]["end"]);
         let mut edits: Vec<_> = edits.iter().map(|edit| (place(edit), edit["newText"].as_str().unwrap())).collect();
@@ -196,7 +181,6 @@ pub(super) fn uri(path: &Path) -> String {
     format!("file://{}", path.canonicalize().unwrap().display())
 }
 
-/// A file of a folder, with its URI and its text.
 pub(super) fn file(bench: &Bench, name: &str, text: &str) -> (String, String) {
     bench.file(name, text);
     (uri(&bench.path().join(name)), text.to_owned())
@@ -211,7 +195,6 @@ pub(super) fn opened(name: &str, text: &str) -> (Bench, Client, String, String) 
     (bench, client, uri, text)
 }
 
-/// The place of a word in a text that has it, in lines and characters.
 pub(super) fn at(text: &str, word: &str) -> Value {
     let before = &text[..text.find(word).unwrap()];
     let line = before.matches('\n').count();
@@ -223,7 +206,6 @@ pub(super) fn place(uri: &str, text: &str, word: &str) -> Value {
     json!({ "textDocument": { "uri": uri }, "position": at(text, word) })
 }
 
-/// The byte of a position in UTF-16.
 fn offset(text: &str, position: &Value) -> usize {
     let line = position["line"].as_u64().unwrap() as usize;
     let start: usize = text.split_inclusive('\n').take(line).map(str::len).sum();

@@ -1,40 +1,33 @@
 //! Real editors with their own clients.
 
-use std::path::PathBuf;
 use std::process::Command;
-
-use serde_json::Value;
 
 use crate::lsp::client::at;
 use crate::manual::fences;
-use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::root;
-use crate::support::tools::{EMACS, NEOVIM};
 
-/// The circuit that a user asks about.
+use crate::support::*;
+
 const NAME: &str = "d_latch";
 
 /// A bench with `latch.nb`, its text, and the byte of a use of [`NAME`].
 fn latch() -> (Bench, String, usize) {
     let bench = Bench::new();
-    let text = std::fs::read_to_string(root().join("circuits/latch.nb")).unwrap();
+    let text = text_of("circuits/latch.nb");
     bench.file("latch.nb", &text);
     let used = text.rfind(&format!("test {NAME}")).unwrap() + "test ".len();
     (bench, text, used)
 }
 
-/// What an editor wrote of what it found.
 fn run(bench: &Bench, editor: &mut Command) -> Value {
     let output = editor.current_dir(bench.path()).output_in_time();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let found = std::fs::read(bench.path().join("found.json"));
+    let found = fs::read(bench.path().join("found.json"));
     serde_json::from_slice(&found.unwrap_or_else(|_| panic!("{output:?}"))).unwrap()
 }
 
 /// The example of the manual in a language, which configures an editor.
 fn configuration(language: &str) -> String {
-    let manual = std::fs::read_to_string(root().join("docs/editors.md")).unwrap();
+    let manual = text_of("docs/editors.md");
     let found = fences(&manual).into_iter().find(|fence| fence.words == [language]);
     found.unwrap_or_else(|| panic!("the manual has no {language}")).text
 }
@@ -73,7 +66,6 @@ fn neovim_hovers_goes_to_definitions_renames_and_formats() {
     assert!(found["signature"].as_str().unwrap().contains("memory(d, e) -> (q, nq)"), "{found}");
 }
 
-/// Emacs with eglot.
 fn emacs() -> Option<PathBuf> {
     let emacs = EMACS.find()?;
     let eglot = Command::new(&emacs).args(["--batch", "-f", "package-initialize", "-l", "eglot"]).output_in_time();
@@ -84,13 +76,12 @@ fn emacs() -> Option<PathBuf> {
     Some(emacs)
 }
 
-/// It is configured as the manual says.
 #[test]
 fn emacs_hovers_goes_to_definitions_renames_and_formats() {
     let Some(emacs) = emacs() else { return };
     let (bench, text, used) = latch();
     bench.file("init.el", configuration("elisp"));
-    let program = std::path::Path::new(env!("CARGO_BIN_EXE_nbc")).parent().unwrap();
+    let program = Path::new(env!("CARGO_BIN_EXE_nbc")).parent().unwrap();
     let before = std::env::var_os("PATH").unwrap_or_default();
     let path = std::env::join_paths([program.into()].into_iter().chain(std::env::split_paths(&before))).unwrap();
     let mut editor = Command::new(emacs);

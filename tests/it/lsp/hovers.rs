@@ -2,11 +2,11 @@
 
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
-use serde_json::json;
 
 use crate::lsp::client::{Client, file, opened, place};
 use crate::lsp::{ADDER, HALF};
-use crate::support::bench::Bench;
+
+use crate::support::*;
 
 /// Hovers over a word of an open text until the answer has what only compiling tells, and returns it.
 fn settled(client: &mut Client, uri: &str, text: &str, word: &str, wanted: &str) -> String {
@@ -23,7 +23,6 @@ fn hover(client: &mut Client, uri: &str, text: &str, word: &str) -> String {
     found["contents"]["value"].as_str().unwrap_or_else(|| panic!("{word}: {found}")).to_owned()
 }
 
-/// The pictures of Markdown.
 fn pictures(markdown: &str) -> Vec<String> {
     let encoded = markdown.split("data:image/svg+xml;base64,").skip(1).map(|rest| rest.split(')').next().unwrap());
     encoded.map(|text| String::from_utf8(STANDARD.decode(text).unwrap()).unwrap()).collect()
@@ -113,33 +112,4 @@ fn a_function_is_shown_as_the_robot_that_computes_it() {
     let shown = settled(&mut client, &uri, &text, "s {", "**1 robot** as `s`");
     assert!(shown.contains("swarm s"), "{shown}");
     client.goodbye();
-}
-
-#[test]
-fn keywords_fields_and_constants_are_explained() {
-    let (_bench, mut client, uri, text) =
-        opened("a.nb", "circuit f(a[4]) -> (q) {\n    q = a == 4'd10\n}\n\nswarm s { circuit: f, window: 3 cycles }\n");
-    let shown = hover(&mut client, &uri, &text, "circuit f");
-    assert!(shown.starts_with("A circuit has inputs") && shown.contains("```nb\ncircuit half_adder"), "{shown}");
-    let shown = hover(&mut client, &uri, &text, "window");
-    assert!(shown.contains("`window` is the number of cycles"), "{shown}");
-    let shown = hover(&mut client, &uri, &text, "4'd10");
-    assert!(shown.contains("| decimal | `4'd10` |\n| binary | `4'b1010` |\n| hexadecimal | `4'ha` |"), "{shown}");
-    client.goodbye();
-}
-
-#[test]
-fn a_client_of_a_terminal_gets_no_pictures() {
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "a.nb", "evolution mine { materials: [muscle] }\nlibrary l { from: mine }\n");
-    for (name, options, count) in
-        [("Neovim", json!({}), 0), ("Neovim", json!({ "pictures": true }), 1), ("Code", json!({}), 1)]
-    {
-        let mut client = Client::initialized(
-            &json!({ "clientInfo": { "name": name }, "initializationOptions": options, "capabilities": {} }),
-        );
-        client.open(&uri, &text);
-        assert_eq!(pictures(&hover(&mut client, &uri, &text, "muscle")).len(), count, "{name} {options}");
-        client.goodbye();
-    }
 }

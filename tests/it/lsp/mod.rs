@@ -15,10 +15,9 @@ mod writing;
 
 use std::io::Write;
 
-use serde_json::{Value, json};
-
-use crate::support::bench::Bench;
 use client::{Client, at, file, opened, place};
+
+use crate::support::*;
 
 pub(crate) const ADDER: &str = "\
 use \"half.nb\"
@@ -52,7 +51,7 @@ fn errors_are_published_while_typing_and_fixed_by_quick_fixes() {
     assert_eq!((&problem["code"], &problem["severity"]), (&json!("syntax"), &json!(1)));
     assert_eq!(problem["range"]["start"], at(&text, "&"));
     let page = problem["codeDescription"]["href"].as_str().unwrap().strip_prefix("file://").unwrap();
-    assert!(std::fs::read_to_string(page).unwrap().contains("# "), "the page of the code is there to be read");
+    assert!(fs::read_to_string(page).unwrap().contains("# "), "the page of the code is there to be read");
 
     let asked = json!({ "textDocument": { "uri": uri }, "range": problem["range"], "context": { "diagnostics": [] } });
     let actions = client.ask("textDocument/codeAction", asked).unwrap();
@@ -95,7 +94,7 @@ fn names_lead_to_their_declarations_in_other_files_and_in_the_prelude() {
     let found = client.ask("textDocument/definition", place(&full, &text, "half(t")).unwrap();
     assert_eq!(found, json!({ "uri": half, "range": { "start": at(HALF, "half"), "end": at(HALF, "(a, b)") } }));
     let found = client.ask("textDocument/definition", place(&full, &text, "latch")).unwrap();
-    let prelude = std::fs::read_to_string(found["uri"].as_str().unwrap().strip_prefix("file://").unwrap()).unwrap();
+    let prelude = fs::read_to_string(found["uri"].as_str().unwrap().strip_prefix("file://").unwrap()).unwrap();
     let line = found["range"]["start"]["line"].as_u64().unwrap() as usize;
     assert!(prelude.lines().nth(line).unwrap().starts_with("circuit latch"), "{found}");
     let nothing = client.ask("textDocument/definition", place(&full, &text, "1 1 0")).unwrap();
@@ -108,8 +107,8 @@ fn a_text_is_formatted_as_by_the_program() {
     let (bench, mut client, uri, _) = opened("a.nb", "circuit   f(a)->(q){q=not a}\n");
     let asked = json!({ "textDocument": { "uri": uri }, "options": { "tabSize": 4, "insertSpaces": true } });
     let edits = client.ask("textDocument/formatting", asked.clone()).unwrap();
-    assert_eq!(bench.run(&["fmt", "a.nb"]).status, 0);
-    assert_eq!(edits[0]["newText"], std::fs::read_to_string(bench.path().join("a.nb")).unwrap());
+    bench.ok("fmt a.nb");
+    assert_eq!(edits[0]["newText"], bench.read("a.nb"));
     let change = json!({ "textDocument": { "uri": uri, "version": 2 }, "contentChanges": [{ "text": "circuit f(" }] });
     client.tell("textDocument/didChange", change);
     assert_eq!(client.ask("textDocument/formatting", asked).unwrap(), Value::Null, "a broken text stays as it is");

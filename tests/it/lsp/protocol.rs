@@ -5,12 +5,10 @@ use std::process::{Command, Stdio};
 use std::time::Instant;
 
 use lsp_server::ErrorCode;
-use serde_json::{Value, json};
 
 use crate::lsp::client::opened;
-use crate::support::limits;
+use crate::support::*;
 
-/// A frame with a message.
 fn frame(message: &Value) -> String {
     let text = message.to_string();
     format!("Content-Length: {}\r\n\r\n{text}", text.len())
@@ -40,7 +38,6 @@ fn talk(sent: &[String]) -> (Option<i32>, Vec<(Value, i64)>) {
     (ended.status.code(), answers)
 }
 
-/// The next message.
 fn body(output: &mut impl BufRead) -> Option<Value> {
     let mut line = String::new();
     output.read_line(&mut line).unwrap();
@@ -51,38 +48,12 @@ fn body(output: &mut impl BufRead) -> Option<Value> {
     Some(serde_json::from_slice(&bytes).unwrap())
 }
 
-/// Answers in one order. Those to what is not a message do not wait for others.
-fn sorted(mut answers: Vec<(Value, i64)>) -> Vec<(Value, i64)> {
-    answers.sort_by_key(|(id, code)| (id.to_string(), *code));
-    answers
-}
-
 fn start() -> String {
     request(1, "initialize", &json!({ "capabilities": {} })) + &told("initialized")
 }
 
 const OK: i64 = 0;
 const INVALID: i64 = ErrorCode::InvalidRequest as i64;
-
-#[test]
-fn a_length_that_no_machine_has_is_an_error_and_not_a_crash() {
-    for length in ["10000000000000", "67108865", "18446744073709551616", "-1"] {
-        let (status, answers) = talk(&[start(), format!("Content-Length: {length}\r\n\r\n{{}}")]);
-        assert_eq!(status, Some(2), "{length}");
-        assert_eq!(sorted(answers), sorted(vec![(json!(1), OK), (Value::Null, INVALID)]), "{length}");
-    }
-}
-
-#[test]
-fn what_is_not_a_message_is_answered_and_the_server_goes_on() {
-    let broken = |text: &str| format!("Content-Length: {}\r\n\r\n{text}", text.len());
-    let sent = [start(), broken("{x}"), broken("[]"), broken("{\"id\":3}"), request(4, "shutdown", &Value::Null)];
-    let (status, answers) = talk(&[&sent[..], &[told("exit")]].concat());
-    assert_eq!(status, Some(0));
-    let parse = ErrorCode::ParseError as i64;
-    let expected = [(Value::Null, parse), (Value::Null, INVALID), (json!(3), INVALID), (json!(1), OK), (json!(4), OK)];
-    assert_eq!(sorted(answers), sorted(expected.to_vec()));
-}
 
 #[test]
 fn nothing_is_answered_after_shutdown_and_exit_has_the_status_of_the_protocol() {

@@ -1,10 +1,9 @@
 //! Uses of names over files, and new names.
 
-use serde_json::json;
-
 use crate::lsp::client::{Client, at, file, place, uri};
 use crate::lsp::{ADDER, HALF};
-use crate::support::bench::Bench;
+
+use crate::support::*;
 
 #[test]
 fn a_new_name_is_written_in_all_open_files() {
@@ -37,36 +36,6 @@ fn a_new_name_is_written_in_all_open_files() {
     client.goodbye();
 }
 
-#[test]
-fn members_and_outputs_are_renamed_in_the_rows_of_tests() {
-    let text = "\
-enum mood { calm, busy }
-circuit turn(m: mood, clk) -> (n: mood, ready) {
-    n = register(if m == calm then busy else calm, clk)
-    ready = n == busy
-}
-test turn {
-    m clk | n
-    calm ^ | busy
-    calm ^ | - until ready, at most 3 rows
-}
-";
-    let bench = Bench::new();
-    let (uri, text) = file(&bench, "turn.nb", text);
-    let mut client = client_of(&bench);
-    client.open(&uri, &text);
-    for (name, count) in [("calm", 5), ("busy", 4), ("ready)", 3)] {
-        let mut asked = place(&uri, &text, name);
-        asked["newName"] = json!("other");
-        let edit = client.ask("textDocument/rename", asked).unwrap();
-        assert_eq!(edit["changes"][&uri].as_array().unwrap().len(), count, "{name}: {edit}");
-    }
-    let hover = client.ask("textDocument/hover", place(&uri, &text, "ready, at most")).unwrap();
-    assert!(hover["contents"]["value"].as_str().unwrap().contains("ready"), "{hover}");
-    client.goodbye();
-}
-
-/// A client with the folder of a bench as its workspace.
 pub(super) fn client_of(bench: &Bench) -> Client {
     let folder = json!({ "uri": uri(bench.path()), "name": "bench" });
     Client::initialized(&json!({ "workspaceFolders": [folder], "capabilities": {} }))
@@ -77,7 +46,7 @@ fn a_new_name_is_written_in_files_that_are_not_open() {
     let bench = Bench::new();
     let (half, text) = file(&bench, "half.nb", HALF);
     let (full, _) = file(&bench, "full.nb", ADDER);
-    std::fs::create_dir(bench.path().join("out")).unwrap();
+    fs::create_dir(bench.path().join("out")).unwrap();
     file(&bench, "out/copy.nb", ADDER);
     let mut client = client_of(&bench);
     client.open(&half, &text);

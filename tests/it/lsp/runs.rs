@@ -2,10 +2,8 @@
 
 use std::process::Command;
 
-use serde_json::{Value, json};
-
 use crate::lsp::client::{Client, file, opened};
-use crate::support::bench::Bench;
+use crate::support::*;
 use crate::unstable::{BOOM, SIMULATED, names};
 
 const TESTED: &str = "\
@@ -47,16 +45,16 @@ fn lenses_run_tests_and_simulations_and_give_their_pages() {
     let found = lenses(&mut client, &uri);
     let ran = execute(&mut client, titled(&found, "run in physics", 4)).unwrap();
     assert_eq!((&ran["passed"], &ran["text"]), (&json!(true), &json!("pass: 1 of 1 passed")));
-    let page = std::fs::read_to_string(ran["path"].as_str().unwrap()).unwrap();
+    let page = fs::read_to_string(ran["path"].as_str().unwrap()).unwrap();
     assert!(page.contains("is a nand") && page.contains("<svg") && page.contains("pass: 1 of 1 test passed"));
     let ran = execute(&mut client, titled(&found, "run as logic", 4)).unwrap();
-    let page = std::fs::read_to_string(ran["path"].as_str().unwrap()).unwrap();
+    let page = fs::read_to_string(ran["path"].as_str().unwrap()).unwrap();
     assert!(ran["passed"] == true && page.contains("<pre>") && page.contains("is a nand"), "{ran}");
     assert_eq!(ran["page"].as_str().unwrap(), format!("file://{}", ran["path"].as_str().unwrap()));
     let ran = execute(&mut client, titled(&found, "run in physics", 12)).unwrap();
     assert_eq!((&ran["passed"], &ran["text"]), (&Value::Null, &json!("simulated")));
     let drawn = execute(&mut client, titled(&found, "schematic", 0)).unwrap();
-    let picture = std::fs::read_to_string(drawn["path"].as_str().unwrap()).unwrap();
+    let picture = fs::read_to_string(drawn["path"].as_str().unwrap()).unwrap();
     assert!(picture.starts_with("<svg"));
     client.goodbye();
 }
@@ -153,7 +151,6 @@ fn wrong_commands_are_refused() {
     client.goodbye();
 }
 
-/// A client of a server whose temporary files are in a folder.
 fn client_with_temporary_files(bench: &Bench) -> Client {
     Client::of(Command::new(env!("CARGO_BIN_EXE_nbc")).env("TMPDIR", bench.path()), &json!({ "capabilities": {} }))
 }
@@ -163,14 +160,14 @@ fn client_with_temporary_files(bench: &Bench) -> Client {
 fn results_end_with_their_server_and_those_of_dead_servers_are_removed() {
     let (bench, temporary) = (Bench::new(), Bench::new());
     let (uri, text) = file(&bench, "a.nb", TESTED);
-    let user = std::os::unix::fs::MetadataExt::uid(&std::fs::metadata(temporary.path()).unwrap());
+    let user = std::os::unix::fs::MetadataExt::uid(&fs::metadata(temporary.path()).unwrap());
     let all = temporary.path().join(format!("nbc-{}-{user}", env!("CARGO_PKG_VERSION")));
     let kept = ["results-x", "other", "prelude.nb"].map(|name| all.join(name));
     for folder in ["results-4194305/a_nb", "results-x", "other"] {
-        std::fs::create_dir_all(all.join(folder)).unwrap();
+        fs::create_dir_all(all.join(folder)).unwrap();
     }
-    std::fs::write(all.join("results-4194305/a_nb/report.html"), "of a server that was killed").unwrap();
-    std::fs::write(&kept[2], "").unwrap();
+    fs::write(all.join("results-4194305/a_nb/report.html"), "of a server that was killed").unwrap();
+    fs::write(&kept[2], "").unwrap();
     std::os::unix::fs::symlink(bench.path(), all.join("results-4194306")).unwrap();
 
     let asked = json!({ "command": "nbc.schematic", "arguments": [{ "uri": uri }] });
@@ -178,8 +175,8 @@ fn results_end_with_their_server_and_those_of_dead_servers_are_removed() {
     first.open(&uri, &text);
     let drawn = first.ask("workspace/executeCommand", asked.clone()).unwrap();
     assert!(!all.join("results-4194305").exists() && kept.iter().all(|path| path.exists()));
-    assert!(bench.path().join("a.nb").exists(), "links are not followed");
-    let path = std::path::PathBuf::from(drawn["path"].as_str().unwrap());
+    assert!(bench.has("a.nb"), "links are not followed");
+    let path = PathBuf::from(drawn["path"].as_str().unwrap());
     assert!(path.starts_with(all.join(format!("results-{}", first.server.id()))), "{drawn}");
     // Another server leaves the results of one that lives.
     client_with_temporary_files(&temporary).goodbye();
@@ -197,7 +194,7 @@ fn results_end_with_their_server_and_those_of_dead_servers_are_removed() {
         }
         drop(client.input.take());
         client.server.wait().unwrap();
-        let path = std::path::Path::new(drawn["path"].as_str().unwrap());
+        let path = Path::new(drawn["path"].as_str().unwrap());
         assert_eq!(path.exists(), is_killed);
         client_with_temporary_files(&temporary).goodbye();
         assert!(!path.exists());

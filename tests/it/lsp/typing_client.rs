@@ -1,16 +1,13 @@
 //! A client that types letters and takes them back, again and again.
 
-use serde_json::{Value, json};
-
 use crate::lsp::client::{Client, file};
-use crate::support::bench::Bench;
-use crate::support::programs::programs;
+
+use crate::support::*;
 
 /// Messages that are sent before the answer to the last of them is awaited. What the server sends meanwhile fits into
 /// its pipe.
 const AHEAD: usize = 20;
 
-/// A client with an open text, and the edits so far.
 pub(super) struct TypingClient {
     client: Client,
     uri: String,
@@ -20,7 +17,7 @@ pub(super) struct TypingClient {
 impl TypingClient {
     pub(super) fn start(bench: &Bench) -> Self {
         let path = programs("circuits").into_iter().find(|path| path.ends_with("full_adder.nb")).unwrap();
-        let (uri, text) = file(bench, "a.nb", &std::fs::read_to_string(path).unwrap());
+        let (uri, text) = file(bench, "a.nb", &fs::read_to_string(path).unwrap());
         let mut client = Client::start();
         client.open(&uri, &text);
         Self { client, uri, edits: 0 }
@@ -41,9 +38,8 @@ impl TypingClient {
         }
     }
 
-    /// The memory that the server holds, in megabytes.
     pub(super) fn megabytes(&self) -> f64 {
-        let status = std::fs::read_to_string(format!("/proc/{}/status", self.client.server.id())).unwrap();
+        let status = fs::read_to_string(format!("/proc/{}/status", self.client.server.id())).unwrap();
         let held = status.lines().find_map(|line| line.strip_prefix("VmRSS:")).unwrap();
         held.trim().trim_end_matches(" kB").parse::<f64>().unwrap() / 1024.0
     }
@@ -55,7 +51,6 @@ impl TypingClient {
     }
 }
 
-/// The edit with that number: a letter is typed or taken back.
 fn change(number: usize) -> Value {
     let is_there = number % 2 == 1;
     let (start, end) = (json!({ "line": 0, "character": 0 }), json!({ "line": 0, "character": u32::from(is_there) }));

@@ -1,12 +1,9 @@
 //! Verilog in editors: it is read only as long as somebody waits for it.
 
-use serde_json::{Value, json};
-
 use crate::lsp::client::{Client, uri};
 use crate::support::slow_yosys::{MODULE, SlowYosys, USER, ended};
-use crate::support::tools::{SLANG, signal};
+use crate::support::*;
 
-/// A server that waits for Yosys, with the URI of its text and the process.
 fn waiting(slow: &SlowYosys) -> (Client, String, u32) {
     let mut client = Client::of(&mut slow.program(), &json!({ "capabilities": {} }));
     let own = uri(&slow.bench.path().join("a.nb"));
@@ -17,11 +14,8 @@ fn waiting(slow: &SlowYosys) -> (Client, String, u32) {
 
 #[test]
 fn verilog_that_a_text_uses_is_read() {
-    if !SLANG.is_there() {
-        return;
-    }
-    let bench = crate::support::bench::Bench::new();
-    bench.file("m.v", MODULE);
+    let Some(_) = SLANG.find() else { return };
+    let bench = Bench::with("m.v", MODULE);
     let own = uri(&bench.file("a.nb", USER));
     let mut client = Client::initialized(&json!({ "capabilities": {} }));
     client.open(&own, USER);

@@ -1,17 +1,15 @@
 //! What editors add to a text: selections, colors, hints, links, lenses.
 
-use serde_json::{Value, json};
-
 use crate::lsp::client::{Client, at, file, opened, uri};
 use crate::lsp::{ADDER, HALF};
-use crate::support::bench::Bench;
+
+use crate::support::*;
 
 fn whole(uri: &str) -> Value {
     let range = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 9999, "character": 0 } });
     json!({ "textDocument": { "uri": uri }, "range": range })
 }
 
-/// The hints of a text as they are read: each label in its place.
 fn with_hints(text: &str, hints: &Value) -> String {
     let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
     let mut hints = hints.as_array().unwrap().clone();
@@ -130,32 +128,6 @@ fn a_selection_grows_from_the_word_to_the_file() {
 }
 
 #[test]
-fn tokens_after_characters_of_several_bytes_are_at_their_places() {
-    let bench = Bench::new();
-    let line = "test f \"é𝄞\" { // é";
-    let text = format!("circuit f(a) -> (q) {{ q = a }}\n{line}\n    a | q\n    0 | 0\n}}\né\n");
-    let (uri, text) = file(&bench, "a.nb", &text);
-    // Where each token of the second line begins, and its length.
-    let wide = [(0, 4), (5, 1), (7, 5), (15, 4)];
-    let bytes = [(0, 4), (5, 1), (7, 8), (18, 5)];
-    for (encoding, expected) in [("utf-16", wide), ("utf-8", bytes)] {
-        let mut client = Client::with(&json!({ "general": { "positionEncodings": [encoding] } }));
-        client.open(&uri, &text);
-        let tokens = client.ask("textDocument/semanticTokens/full", json!({ "textDocument": { "uri": uri } })).unwrap();
-        let (mut row, mut column, mut found) = (0, 0, Vec::new());
-        for token in tokens["data"].as_array().unwrap().chunks(5) {
-            let number = |at: usize| token[at].as_u64().unwrap();
-            column = if number(0) == 0 { column + number(1) } else { number(1) };
-            row += number(0);
-            found.extend((row == 1).then_some((column, number(2))));
-            assert!(row < 5, "a word that means nothing has no color");
-        }
-        assert_eq!(found, expected, "{encoding}");
-        client.goodbye();
-    }
-}
-
-#[test]
 fn every_token_has_its_meaning() {
     let bench = Bench::new();
     let text = "// é\nuse \"half.nb\"\ncircuit f[n = 2](a[n]) -> (q) {\n    (q, _) = half(a[0], a[1])\n}\n\
@@ -206,7 +178,7 @@ fn every_token_has_its_meaning() {
 fn files_and_folders_that_a_source_names_are_links() {
     let bench = Bench::new();
     file(&bench, "half.nb", HALF);
-    std::fs::create_dir(bench.path().join("robots")).unwrap();
+    fs::create_dir(bench.path().join("robots")).unwrap();
     let text = format!("{ADDER}\nlibrary mine {{ from: \"robots\" }}\nuse \"missing.nb\"\n");
     let (full, text) = file(&bench, "full.nb", &text);
     let mut client = Client::start();

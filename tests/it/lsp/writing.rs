@@ -1,9 +1,8 @@
 //! Help while a text is being written: completion, signatures, fixes.
 
-use serde_json::{Value, json};
-
 use crate::lsp::client::{Client, at, file, opened, place};
-use crate::support::bench::Bench;
+
+use crate::support::*;
 
 const START: &str = "\
 // Adds two bits.
@@ -20,7 +19,6 @@ material brisk { kind: actuator, period: 42 steps, range: 0.8..1.4 }
 
 ";
 
-/// The completions at the `$` of a text that begins as above.
 fn completions(client: &mut Client, uri: &str, rest: &str) -> Vec<Value> {
     let text = format!("{START}{rest}");
     let place = place(uri, &text, "$");
@@ -70,7 +68,7 @@ fn completion_knows_the_place() {
 fn completion_finds_the_files_and_folders_of_a_path() {
     let bench = Bench::new();
     for folder in ["parts", "parts/robots", ".hidden"] {
-        std::fs::create_dir(bench.path().join(folder)).unwrap();
+        fs::create_dir(bench.path().join(folder)).unwrap();
     }
     for name in ["half.nb", "notes.txt", "parts/cells.blif", "parts/mux.v", ".secret.nb"] {
         bench.file(name, "");

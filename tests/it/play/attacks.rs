@@ -1,23 +1,19 @@
 //! Those who take more than their share, or look where the token may be seen.
 
-use std::fs;
 use std::net::TcpStream;
-use std::path::Path;
 use std::process::Command;
 use std::thread;
 use std::time::Duration;
 
-use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
-use super::page::Server;
-use crate::support::limits;
+use super::page::{Server, served};
+use crate::support::*;
 
 fn text(message: &Value) -> Message {
     Message::text(message.to_string())
 }
 
-/// The next answer of the language server to one of these requests.
 fn answer(socket: &mut WebSocket<TcpStream>) -> Value {
     loop {
         let Message::Text(text) = socket.read().unwrap() else { continue };
@@ -30,9 +26,7 @@ fn answer(socket: &mut WebSocket<TcpStream>) -> Value {
 
 #[test]
 fn a_number_that_is_in_use_is_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &[]);
-    let mut page = server.page();
+    let (_folder, _server, mut page) = served(&[]);
     let mut evolve = json!({ "do": "evolve", "body": null, "box": [3, 3], "generations": 1000, "seed": 1 });
     let id = page.begin(evolve.clone());
     evolve["id"] = json!(id);
@@ -60,7 +54,7 @@ fn those_who_stay_silent_keep_nobody_out() {
 
 #[test]
 fn a_full_server_says_so_to_people() {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = Bench::new();
     let server = Server::start(folder.path(), &[]);
     let mut pages: Vec<_> = (0..32).map(|_| server.page()).collect();
     let (head, body) = server.fetch("");
@@ -77,8 +71,7 @@ fn a_full_server_says_so_to_people() {
 
 #[test]
 fn what_is_no_message_of_the_language_server_is_answered_by_an_error() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &[]);
+    let (_folder, server, _) = served(&[]);
     let mut socket = server.socket("language", &format!("http://{}", server.host())).unwrap();
     let initialize = |params: Value| json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": params });
     for (message, id, code) in [
@@ -99,7 +92,6 @@ fn what_is_no_message_of_the_language_server_is_answered_by_an_error() {
     assert!(answer(&mut socket)["result"]["capabilities"].is_object());
 }
 
-/// The memory that a process uses, in MiB.
 #[cfg(target_os = "linux")]
 fn memory_of(process: u32) -> u64 {
     let status = fs::read_to_string(format!("/proc/{process}/status")).unwrap();
@@ -110,8 +102,7 @@ fn memory_of(process: u32) -> u64 {
 #[test]
 #[cfg(target_os = "linux")]
 fn messages_that_nobody_has_time_for_wait_at_their_sender() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &[]);
+    let (_folder, server, _) = served(&[]);
     let mut socket = server.socket("language", &format!("http://{}", server.host())).unwrap();
     let initialize = json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": { "capabilities": {} } });
     socket.send(text(&initialize)).unwrap();
@@ -159,8 +150,7 @@ fn the_token_is_not_among_the_arguments_of_the_browser() {
 
 #[test]
 fn scripts_are_small_and_kept_and_the_document_is_not() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &[]);
+    let (_folder, server, _) = served(&[]);
     let (head, body) = server.fetch("");
     assert!(head.contains("no-store"), "{head}");
     let html = String::from_utf8(body).unwrap();

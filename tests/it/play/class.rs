@@ -1,10 +1,8 @@
 //! A class: learners join it, and the teacher's page shows where they are.
 
-use serde_json::{Value, json};
+use super::page::{Server, served};
+use crate::support::*;
 
-use super::page::Server;
-
-/// The members, as the teacher's page gets them.
 fn members(server: &Server) -> Vec<Value> {
     let path = format!("/{}/members", server.teacher.as_deref().unwrap());
     let (head, body) = server.get(&path, &format!("Host: {}\r\n", server.host()));
@@ -14,9 +12,7 @@ fn members(server: &Server) -> Vec<Value> {
 
 #[test]
 fn a_learner_is_in_the_class_until_the_page_leaves() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &["--class"]);
-    let mut page = server.page();
+    let (_folder, server, mut page) = served(&["--class"]);
     assert_eq!(page.done(json!({ "do": "hello" }))["class"], true);
     let place = json!({ "lesson": "gate", "done": 1, "size": null });
     let progress = json!({ "do": "progress", "place": place, "finished": 2 });
@@ -49,8 +45,7 @@ fn a_learner_is_in_the_class_until_the_page_leaves() {
 
 #[test]
 fn learners_save_files_of_their_own_in_the_shared_folder() {
-    let folder = tempfile::tempdir().unwrap();
-    std::fs::write(folder.path().join("latch.nb"), "// of all\n").unwrap();
+    let folder = Bench::with("latch.nb", "// of all\n");
     let server = Server::start(folder.path(), &["--class"]);
     let mut page = server.page();
     let stamp = page.done(json!({ "do": "read", "path": "latch.nb" }))["stamp"].clone();
@@ -65,15 +60,14 @@ fn learners_save_files_of_their_own_in_the_shared_folder() {
     }
     let saved = page.done(save("latch.Ada_L_.nb", &Value::Null));
     page.done(save("latch.Ada_L_.nb", &saved["stamp"]));
-    let names = std::fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
+    let names = fs::read_dir(folder.path()).unwrap().map(|entry| entry.unwrap().file_name());
     assert_eq!(names.count(), 2);
-    assert_eq!(std::fs::read_to_string(folder.path().join("latch.nb")).unwrap(), "// of all\n");
+    assert_eq!(folder.read("latch.nb"), "// of all\n");
 }
 
 #[test]
 fn the_teacher_s_address_leads_to_the_class_only_and_to_nobody_else() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &["--class"]);
+    let (_folder, server, _) = served(&["--class"]);
     let teacher = server.teacher.clone().unwrap();
     assert!(teacher.len() == 32 && teacher != server.token());
     let own = format!("Host: {}\r\n", server.host());
@@ -96,9 +90,7 @@ fn the_teacher_s_address_leads_to_the_class_only_and_to_nobody_else() {
 
 #[test]
 fn there_is_no_class_unless_it_was_asked_for() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &["--pages", "1"]);
-    let mut page = server.page();
+    let (_folder, server, mut page) = served(&["--pages", "1"]);
     assert_eq!(page.done(json!({ "do": "hello" }))["class"], false);
     let refused = page.ask(json!({ "do": "join", "name": "Ada" })).unwrap_err();
     assert!(refused["message"].as_str().unwrap().contains("no class"));

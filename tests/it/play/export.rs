@@ -1,13 +1,9 @@
 //! Pages of their own. `tests/it/page.rs` opens the page of results in a browser.
 
-use std::fs;
-
-use serde_json::json;
-
 use super::LATCH;
 use super::page::Server;
-use crate::support::bench::Bench;
-use crate::support::schema::validate;
+
+use crate::support::*;
 
 const TWO: &str = "\
 circuit one(a) -> (q) {
@@ -31,16 +27,14 @@ test two {
 
 #[test]
 fn the_recorded_page_is_that_of_a_run_and_the_command_says_so() {
-    let bench = Bench::new();
-    bench.file("latch.nb", LATCH);
-    let ran = bench.run(&["play", "latch.nb", "--export", "latch.html"]);
-    assert_eq!(ran.status, 0, "{}", ran.err);
-    let page = fs::read_to_string(bench.path().join("latch.html")).unwrap();
+    let bench = Bench::with("latch.nb", LATCH);
+    let ran = bench.ok("play latch.nb --export latch.html");
+    let page = bench.read("latch.html");
     let size = page.len().div_ceil(1000);
     assert_eq!(ran.out, format!("wrote latch.html: d_latch with 5 robots, {size} kB; a browser opens it\n"));
-    assert_eq!(bench.run(&["run", "latch.nb"]).status, 0);
-    assert!(fs::read_to_string(bench.path().join("out/latch/report.html")).unwrap() == page, "the page of the run");
-    let again = bench.run(&["play", "latch.nb", "--export", "again.html", "--format", "json"]);
+    bench.ok("run latch.nb");
+    assert!(bench.read("out/latch/report.html") == page, "the page of the run");
+    let again = bench.run("play latch.nb --export again.html --format json");
     let written = validate("player", &again.out);
     assert_eq!(
         written,
@@ -52,29 +46,28 @@ fn the_recorded_page_is_that_of_a_run_and_the_command_says_so() {
 
 #[test]
 fn another_circuit_can_be_chosen_and_mistakes_are_told() {
-    let bench = Bench::new();
-    bench.file("two.nb", TWO);
-    let ran = bench.run(&["play", "two.nb", "--export", "one.html", "--circuit", "one"]);
+    let bench = Bench::with("two.nb", TWO);
+    let ran = bench.run("play two.nb --export one.html --circuit one");
     assert!(ran.out.contains("one with 1 robot,"), "{}{}", ran.out, ran.err);
-    let page = |name: &str| fs::read_to_string(bench.path().join(name)).unwrap();
+    let page = |name: &str| bench.read(name);
     assert!(page("one.html").contains("pass: 1 of 1 test passed"));
-    let failing = bench.run(&["play", "two.nb", "--export", "two.html"]);
+    let failing = bench.run("play two.nb --export two.html");
     assert!(failing.status == 0 && failing.out.contains("two with "), "{}{}", failing.out, failing.err);
     assert!(page("two.html").contains("FAIL: 1 of 2 tests passed"));
     bench
-        .run(&["play", "two.nb", "--export", "x.html", "--circuit", "untested"])
+        .run("play two.nb --export x.html --circuit untested")
         .expect_fault(&["`untested` has no test and no simulation to record", "`--live`"]);
-    let wrong = bench.run(&["play", "two.nb", "--export", "x.html", "--circuit", "onn"]);
+    let wrong = bench.run("play two.nb --export x.html --circuit onn");
     wrong.expect_fault(&["onn", "one"]);
-    bench.run(&["play", "none.nb", "--export", "x.html"]).expect_fault(&["none.nb"]);
-    bench.run(&["play", "--export", "x.html"]).expect_fault(&["FILE"]);
-    bench.run(&["play", "two.nb", "--circuit", "one"]).expect_fault(&["--export"]);
-    bench.run(&["play", "two.nb", "--export", "x.html", "--port", "8000"]).expect_fault(&["--port"]);
-    bench.run(&["play", "two.nb", "--export", "x.html", "--live", "--effort", "fast"]).expect_fault(&["--live"]);
+    bench.run("play none.nb --export x.html").expect_fault(&["none.nb"]);
+    bench.run("play --export x.html").expect_fault(&["FILE"]);
+    bench.run("play two.nb --circuit one").expect_fault(&["--export"]);
+    bench.run("play two.nb --export x.html --port 8000").expect_fault(&["--port"]);
+    bench.run("play two.nb --export x.html --live --effort fast").expect_fault(&["--live"]);
     // A build of this source alone has no page for it.
-    bench.run(&["play", "two.nb", "--export", "x.html", "--live"]).expect_fault(&["without the page of `--live`"]);
-    bench.run(&["play", "two.nb", "--export", "no/such/x.html"]).expect_fault(&["no/such/x.html"]);
-    assert!(!bench.path().join("x.html").exists());
+    bench.run("play two.nb --export x.html --live").expect_fault(&["without the page of `--live`"]);
+    bench.run("play two.nb --export no/such/x.html").expect_fault(&["no/such/x.html"]);
+    assert!(!bench.has("x.html"));
 }
 
 #[test]

@@ -1,18 +1,13 @@
 //! The lessons that a page gets: those of the program, or those of an author.
 
-use std::fs;
-use std::path::Path;
-
-use serde_json::json;
-
-use super::page::Server;
+use super::page::{Server, served};
+use crate::support::*;
 
 const LESSON: &str = "# Mine\n\n## Step\n\nStart it.\n\n- check: evolving\n- do: evolve\n";
 
 #[test]
 fn the_lessons_of_the_program_are_there_without_their_solutions() {
-    let folder = tempfile::tempdir().unwrap();
-    let server = Server::start(folder.path(), &[]);
+    let (_folder, server, _) = served(&[]);
     let answer = server.page().done(json!({ "do": "lessons" }));
     assert!(answer["findings"].as_array().unwrap().is_empty());
     let lessons = answer["lessons"].as_array().unwrap();

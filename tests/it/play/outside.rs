@@ -1,38 +1,21 @@
 //! The language server behind a page: what is outside of its folder stays unknown to it, whatever it asks.
 
-use std::fs;
 use std::net::TcpStream;
-use std::path::Path;
 
-use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 use super::page::Server;
+use crate::support::*;
 
-/// The requests about a text.
-const METHODS: [&str; 19] = [
-    "textDocument/hover",
-    "textDocument/definition",
-    "textDocument/references",
-    "textDocument/documentHighlight",
-    "textDocument/prepareRename",
-    "textDocument/rename",
-    "textDocument/documentSymbol",
-    "textDocument/foldingRange",
-    "textDocument/formatting",
-    "textDocument/rangeFormatting",
-    "textDocument/codeAction",
-    "textDocument/completion",
-    "textDocument/signatureHelp",
-    "textDocument/selectionRange",
-    "textDocument/semanticTokens/full",
-    "textDocument/semanticTokens/range",
-    "textDocument/inlayHint",
-    "textDocument/documentLink",
-    "textDocument/codeLens",
-];
+/// The requests about a text, without the word before their names.
+const METHODS: &str = "hover definition references documentHighlight prepareRename rename documentSymbol foldingRange \
+    formatting rangeFormatting codeAction completion signatureHelp selectionRange semanticTokens/full \
+    semanticTokens/range inlayHint documentLink codeLens";
 
-/// A page's connection to its language server.
+fn methods() -> impl Iterator<Item = String> {
+    METHODS.split_whitespace().map(|name| format!("textDocument/{name}"))
+}
+
 struct Language {
     socket: WebSocket<TcpStream>,
     next: u64,
@@ -87,7 +70,7 @@ impl Language {
                 "newName": "other", "options": { "tabSize": 4, "insertSpaces": true },
                 "context": { "includeDeclaration": true, "diagnostics": [], "triggerKind": 1 },
             });
-            said.extend(METHODS.iter().flat_map(|method| self.ask(method, parameters.clone())));
+            said.extend(methods().flat_map(|method| self.ask(&method, parameters.clone())));
         }
         said.extend(self.ask("workspace/symbol", json!({ "query": "" })));
         for command in ["nbc.run", "nbc.test", "nbc.schematic", "nbc.timing"] {
@@ -105,21 +88,18 @@ impl Language {
     }
 }
 
-/// A folder with secrets in which another one is served, that has a link to the first.
-fn secret() -> (tempfile::TempDir, Server) {
-    let folder = tempfile::tempdir().unwrap();
-    let served = folder.path().join("served");
-    fs::create_dir_all(served.join("inner")).unwrap();
-    fs::create_dir(folder.path().join("secret_robots")).unwrap();
+fn secret() -> (Bench, Server) {
+    let bench = Bench::new();
     for name in ["secret.nb", "secret.v", "secret_robots/secret.yaml", "served/own.nb", "served/inner/part.nb"] {
-        fs::write(folder.path().join(name), "circuit hidden(a) -> (q) { q = not a }\n").unwrap();
+        bench.file(name, "circuit hidden(a) -> (q) { q = not a }\n");
     }
+    let served = bench.path().join("served");
     #[cfg(unix)]
-    std::os::unix::fs::symlink(folder.path(), served.join("up")).unwrap();
+    std::os::unix::fs::symlink(bench.path(), served.join("up")).unwrap();
     #[cfg(unix)]
-    std::os::unix::fs::symlink(folder.path().join("secret.nb"), served.join("link.nb")).unwrap();
+    std::os::unix::fs::symlink(bench.path().join("secret.nb"), served.join("link.nb")).unwrap();
     let server = Server::start(&served, &["own.nb"]);
-    (folder, server)
+    (bench, server)
 }
 
 fn text(file: &str, folder: &str) -> String {
@@ -166,8 +146,8 @@ fn texts_outside_of_the_folder_are_not_opened_by_their_addresses() {
     for name in ["secret.nb", "served/up/secret.nb", "served/link.nb"] {
         let uri = format!("file://{}/{name}", whole.display());
         let asked = json!({ "textDocument": { "uri": uri }, "position": { "line": 0, "character": 9 } });
-        for method in METHODS {
-            let said = language.ask(method, asked.clone()).pop().unwrap();
+        for method in methods() {
+            let said = language.ask(&method, asked.clone()).pop().unwrap();
             assert!(said["error"].is_object() || said["result"].is_null(), "{method}: {said}");
         }
     }

@@ -3,17 +3,21 @@
 use std::collections::VecDeque;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 
-use serde_json::{Value, json};
 use tungstenite::client::IntoClientRequest;
 use tungstenite::{Message, WebSocket};
 
-use crate::support::bench::program;
-use crate::support::limits::Limit;
+use crate::support::*;
 
-/// A running server.
+/// A server of an empty folder, and a page of it.
+pub(super) fn served(arguments: &[&str]) -> (Bench, Server, Page) {
+    let bench = Bench::new();
+    let server = Server::start(bench.path(), arguments);
+    let page = server.page();
+    (bench, server, page)
+}
+
 pub(super) struct Server {
     child: Child,
     _limit: Limit,
@@ -28,7 +32,6 @@ impl Server {
         Self::run(program().args(["play", "--no-open"]).args(arguments).current_dir(folder))
     }
 
-    /// Runs a command that is a server.
     pub(super) fn run(command: &mut Command) -> Self {
         let mut child = command.stdout(Stdio::piped()).spawn().unwrap();
         let limit = Limit::of(&child);
@@ -45,7 +48,6 @@ impl Server {
         Self { child, _limit: limit, address: address.trim().to_owned(), teacher }
     }
 
-    /// The number of the process.
     pub(super) fn process(&self) -> u32 {
         self.child.id()
     }
@@ -103,7 +105,6 @@ impl Drop for Server {
     }
 }
 
-/// A page that is connected.
 pub(super) struct Page {
     pub(super) socket: WebSocket<TcpStream>,
     next: u64,
@@ -111,7 +112,6 @@ pub(super) struct Page {
     pub(super) frames: VecDeque<Frame>,
 }
 
-/// What the tests need of a frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Frame {
     pub(super) robots: usize,
@@ -151,7 +151,6 @@ impl Frame {
         self.rest[(usize::from(self.cycles) - 1) * length + 2]
     }
 
-    /// The poses.
     pub(super) fn poses(&self) -> &[u8] {
         &self.rest[usize::from(self.cycles) * (3 + 4 * self.robots)..]
     }
@@ -165,7 +164,6 @@ impl Page {
         self.next
     }
 
-    /// Sends a request as it is.
     pub(super) fn send(&mut self, request: &Value) {
         self.socket.send(Message::text(request.to_string())).unwrap();
     }
@@ -198,12 +196,10 @@ impl Page {
         self.wait(id)
     }
 
-    /// The answer to a request that is done.
     pub(super) fn done(&mut self, request: Value) -> Value {
         self.ask(request).unwrap()
     }
 
-    /// The next event or progress that fits.
     pub(super) fn event(&mut self, fits: impl Fn(&Value) -> bool) -> Value {
         loop {
             if let Some(at) = self.events.iter().position(&fits) {
@@ -214,7 +210,6 @@ impl Page {
         }
     }
 
-    /// The next frame that fits; earlier ones are dropped.
     pub(super) fn frame(&mut self, fits: impl Fn(&Frame) -> bool) -> Frame {
         loop {
             while let Some(frame) = self.frames.pop_front() {
@@ -227,7 +222,6 @@ impl Page {
         }
     }
 
-    /// Checks a text and compiles its last circuit.
     pub(super) fn compile(&mut self, path: &str, text: &str) -> Value {
         let program = self.done(json!({ "do": "program", "path": path, "text": text }));
         assert_eq!(program["errors"], 0, "{program}");

@@ -1,25 +1,21 @@
 //! Strangers, and pages that misbehave.
 
-use std::fs;
-
-use serde_json::{Value, json};
 use tungstenite::Message;
 
 use super::LATCH;
 use super::page::Server;
+use crate::support::*;
 
-fn served() -> (tempfile::TempDir, Server) {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("secret.nb"), "circuit secret(a) -> (b) { b = a }").unwrap();
-    fs::create_dir(folder.path().join("inner")).unwrap();
-    fs::write(folder.path().join("inner/latch.nb"), LATCH).unwrap();
-    let server = Server::start(&folder.path().join("inner"), &["latch.nb"]);
-    (folder, server)
+fn inner() -> (Bench, Server) {
+    let bench = Bench::with("secret.nb", "circuit secret(a) -> (b) { b = a }");
+    bench.file("inner/latch.nb", LATCH);
+    let server = Server::start(&bench.path().join("inner"), &["latch.nb"]);
+    (bench, server)
 }
 
 #[test]
 fn only_the_page_with_the_token_comes_in() {
-    let (_folder, server) = served();
+    let (_folder, server) = inner();
     let host = format!("Host: {}\r\n", server.host());
     let own = format!("/{}/", server.token());
     let (head, body) = server.get(&own, &host);
@@ -51,7 +47,7 @@ fn only_the_page_with_the_token_comes_in() {
 
 #[test]
 fn nothing_outside_of_the_folder_is_read_or_written() {
-    let (folder, server) = served();
+    let (folder, server) = inner();
     let mut page = server.page();
     for path in ["../secret.nb", "/etc/passwd", "inner/../../secret.nb"] {
         let refused = page.ask(json!({ "do": "read", "path": path })).unwrap_err();
@@ -80,7 +76,7 @@ fn nothing_outside_of_the_folder_is_read_or_written() {
 
 #[test]
 fn a_page_that_sends_too_much_is_disconnected_and_others_go_on() {
-    let (_folder, server) = served();
+    let (_folder, server) = inner();
     let mut other = server.page();
     let mut large = server.page();
     // The server may close before all is written.
@@ -97,7 +93,7 @@ fn a_page_that_sends_too_much_is_disconnected_and_others_go_on() {
 
 #[test]
 fn small_texts_that_would_make_much_are_refused_and_the_page_goes_on() {
-    let (_folder, server) = served();
+    let (_folder, server) = inner();
     let mut page = server.page();
     for (name, text) in crate::budget::rows() {
         let program = page.done(json!({ "do": "program", "path": "small.nb", "text": text }));
@@ -111,7 +107,7 @@ fn small_texts_that_would_make_much_are_refused_and_the_page_goes_on() {
 
 #[test]
 fn work_is_limited_and_can_be_stopped() {
-    let (_folder, server) = served();
+    let (_folder, server) = inner();
     let mut page = server.page();
     let evolve = json!({ "do": "evolve", "body": null, "box": [3, 2], "generations": 1000, "seed": 1 });
     let running: Vec<u64> = (0..4).map(|_| page.begin(evolve.clone())).collect();
@@ -122,32 +118,4 @@ fn work_is_limited_and_can_be_stopped() {
         assert_eq!(page.wait(id).unwrap_err()["code"], "cancelled");
     }
     page.compile("latch.nb", LATCH);
-}
-
-#[test]
-fn the_language_server_works_in_the_folder() {
-    let (_folder, server) = served();
-    let mut socket = server.socket("language", &format!("http://{}", server.host())).unwrap();
-    let mut send = |message: Value| socket.send(Message::text(message.to_string())).unwrap();
-    let parameters = json!({ "capabilities": {}, "rootUri": "file:///" });
-    send(json!({ "jsonrpc": "2.0", "id": 1, "method": "initialize", "params": parameters }));
-    send(json!({ "jsonrpc": "2.0", "method": "initialized", "params": {} }));
-    let text = "circuit a(x) -> (y) { y = z }";
-    let document = json!({ "uri": "file:///a.nb", "languageId": "nb", "version": 1, "text": text });
-    send(json!({ "jsonrpc": "2.0", "method": "textDocument/didOpen", "params": { "textDocument": document } }));
-    send(json!({ "jsonrpc": "2.0", "id": 2, "method": "workspace/symbol", "params": { "query": "" } }));
-    let mut found = (None, None);
-    while found.0.is_none() || found.1.is_none() {
-        let Message::Text(text) = socket.read().unwrap() else { continue };
-        let value: Value = serde_json::from_str(&text).unwrap();
-        assert_eq!(value["jsonrpc"], "2.0");
-        if value["method"] == "textDocument/publishDiagnostics" {
-            found.0 = Some(value["params"]["diagnostics"][0]["message"].clone());
-        } else if value["id"] == 2 {
-            found.1 = Some(value["result"].clone());
-        }
-    }
-    assert!(found.0.unwrap().as_str().unwrap().starts_with("no net is called `z`"));
-    let symbols = found.1.unwrap().to_string();
-    assert!(symbols.contains("d_latch") && !symbols.contains("secret"), "{symbols}");
 }

@@ -1,22 +1,17 @@
 //! Programs and their swarms.
 
-use std::fs;
-
-use serde_json::{Value, json};
-
 use super::LATCH;
 use super::page::{Frame, Page, Server};
+use crate::support::*;
 use crate::unstable::{BOOM, names};
 
-fn latch() -> (tempfile::TempDir, Server, Page) {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("latch.nb"), LATCH).unwrap();
-    let server = Server::start(folder.path(), &["latch.nb"]);
+fn latch() -> (Bench, Server, Page) {
+    let bench = Bench::with("latch.nb", LATCH);
+    let server = Server::start(bench.path(), &["latch.nb"]);
     let page = server.page();
-    (folder, server, page)
+    (bench, server, page)
 }
 
-/// Runs the swarm for some cycles, and returns the frame in which they are done.
 fn steps(page: &mut Page, cycles: u32) -> Frame {
     let before = page.frames.back().map_or(0, |frame| frame.now);
     page.done(json!({ "do": "step", "cycles": cycles }));

@@ -1,10 +1,10 @@
 //! Verilog on the page: Yosys ends when the page leaves.
 
-use serde_json::json;
 use tungstenite::Message;
 
 use super::page::Server;
 use crate::support::slow_yosys::{SlowYosys, USER, ended};
+use crate::support::*;
 
 #[test]
 fn yosys_ends_when_the_page_leaves() {

@@ -1,7 +1,6 @@
 //! The processor at the level of logic, with registers and memory around it: 64 machines at once, each in a lane.
 
 use std::fmt::Write;
-use std::fs;
 
 use nbc_base::model::Instance;
 use nbc_base::source::{MemoryWorld, Sources};
@@ -10,6 +9,7 @@ use nbc_circuit::waves::{ClockRun, ClockStep, LANES, StateBit};
 use nbc_lang::check;
 
 use super::reference::{Memory, OUTPUT};
+use crate::support::*;
 
 /// What is outside a processor, for one lane.
 #[derive(Clone, Debug, Default)]
@@ -25,7 +25,6 @@ pub struct Outside {
     pub output: Vec<u8>,
 }
 
-/// Processors and what is outside.
 #[derive(Clone, Debug)]
 pub struct Machine {
     run: ClockRun,
@@ -36,21 +35,9 @@ pub struct Machine {
 /// The places of the ports, of a bus those of its bits, the lowest first.
 #[derive(Clone, Debug)]
 struct Ports {
-    r1: usize,
-    r2: usize,
-    data_in: usize,
-    rs1: Vec<usize>,
-    rs2: Vec<usize>,
-    rd: Vec<usize>,
-    bit: Vec<usize>,
-    r1_place: Vec<usize>,
-    rd_place: Vec<usize>,
-    rd_bit: usize,
-    write: usize,
-    address_bit: usize,
-    data_out: usize,
-    store: usize,
-    halted: usize,
+    inputs: [usize; 3],
+    outputs: [usize; 6],
+    buses: [Vec<usize>; 6],
 }
 
 impl Ports {
@@ -58,30 +45,16 @@ impl Ports {
         let place = |names: &[String], name: &str| {
             names.iter().position(|known| known == name).unwrap_or_else(|| panic!("port `{name}`"))
         };
-        let input = |name: &str| place(&step.inputs, name);
         let output = |name: &str| place(&step.outputs, name);
         let bus = |name: &str| (0..5).map(|bit| output(&format!("{name}[{bit}]"))).collect();
         Self {
-            r1: input("r1"),
-            r2: input("r2"),
-            data_in: input("data_in"),
-            rs1: bus("rs1"),
-            rs2: bus("rs2"),
-            rd: bus("rd"),
-            bit: bus("bit"),
-            r1_place: bus("r1_place"),
-            rd_place: bus("rd_place"),
-            rd_bit: output("rd_bit"),
-            write: output("write"),
-            address_bit: output("address_bit"),
-            data_out: output("data_out"),
-            store: output("store"),
-            halted: output("halted"),
+            inputs: ["r1", "r2", "data_in"].map(|name| place(&step.inputs, name)),
+            outputs: ["rd_bit", "data_out", "write", "store", "address_bit", "halted"].map(output),
+            buses: ["rs1", "rs2", "rd", "bit", "r1_place", "rd_place"].map(bus),
         }
     }
 }
 
-/// The processor of `circuits/riscv.nb` as the step of its clock.
 pub fn processor() -> ClockStep {
     let mut world = MemoryWorld::default();
     world.insert("riscv.nb", &*fs::read_to_string("circuits/riscv.nb").unwrap());
@@ -113,7 +86,6 @@ pub fn with_clocks(program: &[u32], skipped: usize, clocks: usize) -> String {
 }
 
 impl Machine {
-    /// Processors before their first clock.
     pub fn new() -> Self {
         let step = processor();
         let ports = Ports::of(&step);
@@ -127,29 +99,24 @@ impl Machine {
         self.run.advance();
     }
 
-    /// What is outside applies the bits that the processors ask for.
     fn answer(&mut self, lanes: usize) {
         let mut inputs = vec![0; self.run.step().inputs.len()];
+        let Ports { inputs: [one, two, data_in], buses: [rs1, rs2, _, bit, r1_place, _], .. } = &self.ports;
         for (lane, outside) in self.lanes[..lanes].iter().enumerate() {
-            let bit = self.number(&self.ports.bit, lane);
-            let r1 = outside.registers[self.number(&self.ports.rs1, lane) as usize];
-            let r2 = outside.registers[self.number(&self.ports.rs2, lane) as usize];
-            inputs[self.ports.r1] |= u64::from(r1 >> self.number(&self.ports.r1_place, lane) & 1) << lane;
-            inputs[self.ports.r2] |= u64::from(r2 >> bit & 1) << lane;
+            let bit = self.number(bit, lane);
+            let [r1, r2] = [rs1, rs2].map(|port| outside.registers[self.number(port, lane) as usize]);
+            inputs[*one] |= u64::from(r1 >> self.number(r1_place, lane) & 1) << lane;
+            inputs[*two] |= u64::from(r2 >> bit & 1) << lane;
             let byte = outside.memory.byte(outside.address.wrapping_add(bit / 8));
-            inputs[self.ports.data_in] |= u64::from(byte >> (bit % 8) & 1) << lane;
+            inputs[*data_in] |= u64::from(byte >> (bit % 8) & 1) << lane;
         }
         self.run.apply(&inputs);
     }
 
-    /// What is outside stores the bits that come out.
     fn take(&mut self, lanes: usize) {
         for lane in 0..lanes {
-            let bit = self.number(&self.ports.bit, lane);
-            let [rd, store] = [self.ports.rd_bit, self.ports.data_out].map(|port| self.shows(port, lane));
-            let [to, place] = [&self.ports.rd, &self.ports.rd_place].map(|port| self.number(port, lane));
-            let (writes, stores) = (self.shows(self.ports.write, lane), self.shows(self.ports.store, lane));
-            let (address, halted) = (self.shows(self.ports.address_bit, lane), self.shows(self.ports.halted, lane));
+            let [rd, data, writes, stores, address, halted] = self.ports.outputs.map(|port| self.shows(port, lane));
+            let [_, _, to, bit, _, place] = self.ports.buses.each_ref().map(|port| self.number(port, lane));
             let outside = &mut self.lanes[lane];
             if writes {
                 set(&mut outside.registers[to as usize], place, rd);
@@ -157,7 +124,7 @@ impl Machine {
             if stores {
                 let at = outside.address.wrapping_add(bit / 8);
                 let mut byte = u32::from(outside.memory.byte(at));
-                set(&mut byte, bit % 8, store);
+                set(&mut byte, bit % 8, data);
                 outside.memory.set_byte(at, byte as u8);
                 if at == OUTPUT && bit == 7 {
                     outside.output.push(byte as u8);
@@ -197,7 +164,6 @@ impl Machine {
         format!("{} | {}", inputs.collect::<Vec<_>>().join(" "), outputs.collect::<Vec<_>>().join(" "))
     }
 
-    /// The outputs as buses, each with the places of its bits.
     fn buses(&self) -> Vec<(String, Vec<usize>)> {
         let mut buses: Vec<(String, Vec<usize>)> = Vec::new();
         for (place, port) in self.run.step().outputs.iter().enumerate() {
@@ -228,7 +194,6 @@ impl Machine {
         }
     }
 
-    /// The value of a net of registers in the first lane.
     fn state(&self, net: &str) -> u64 {
         let state = &self.run.step().state;
         let shown = |(at, bit): (usize, &StateBit)| {

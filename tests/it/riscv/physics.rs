@@ -1,8 +1,7 @@
 //! Some clocks of the processor in full physics.
 
-use std::fs;
-
 use super::machine::with_clocks;
+use crate::support::*;
 
 /// addi x1, x0, -7
 const PROGRAM: [u32; 1] = [0xff90_0093];

@@ -1,11 +1,9 @@
 //! The programs of `circuits/riscv/`, which a compiler for C made, run as in the reference.
 
-use std::fs;
-
 use super::machine::Machine;
 use super::reference::Reference;
+use crate::support::*;
 
-/// Programs and what they write.
 const PROGRAMS: [(&str, &str); 4] = [
     ("hello", "I am a swarm of robots.\n"),
     ("sort", "-65 -7 -4 2 15 31 35 89 92 93 "),
@@ -13,10 +11,8 @@ const PROGRAMS: [(&str, &str); 4] = [
     ("primes", "2 3 5 7 11 13 17 19 23 29 31 37 41 43 47 "),
 ];
 
-/// The clocks after which a program is given up.
 const MOST_CLOCKS: usize = 400_000;
 
-/// The words of a program.
 fn words(name: &str) -> Vec<u32> {
     let text = fs::read_to_string(format!("circuits/riscv/{name}.hex")).unwrap();
     text.lines().map(|line| u32::from_str_radix(line, 16).unwrap()).collect()

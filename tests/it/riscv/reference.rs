@@ -44,7 +44,6 @@ pub struct Reference {
     pub output: Vec<u8>,
 }
 
-/// The bits of a word from `low` on, `width` of them.
 fn bits(word: u32, low: u32, width: u32) -> u32 {
     word >> low & ((1 << width) - 1)
 }
@@ -138,7 +137,6 @@ impl Reference {
     }
 }
 
-/// An operation of two words; `other` is bit 30.
 fn compute(function: u32, other: bool, a: u32, b: u32) -> u32 {
     match (function, other) {
         (0b000, false) => a.wrapping_add(b),

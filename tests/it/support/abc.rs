@@ -1,13 +1,9 @@
 //! Proofs by ABC.
 
-use std::path::Path;
 use std::process::Command;
 
-use crate::support::bench::Bench;
-use crate::support::limits::InTime;
-use crate::support::tools::ABC;
+use crate::support::*;
 
-/// Lets ABC prove that two files are equal.
 pub fn abc_agrees(bench: &Bench, command: &str, one: &str, two: &str) {
     let Some(said) = abc(bench.path(), &format!("{command} {one} {two}")) else { return };
     assert!(said.contains("Networks are equivalent"), "{said}");

@@ -1,11 +1,9 @@
 //! Runs of the program, each in a folder of its own.
 
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::io::Write;
+use std::process::{Command, Output, Stdio};
 
-use serde_json::Value;
-
-use crate::support::limits::InTime;
+use crate::support::*;
 
 /// A schedule with every pattern for one cycle.
 pub const SHORT: &str = "\
@@ -18,6 +16,10 @@ schedule short(s1, s2) {
 
 ";
 
+/// A robot file of a sound body, and of one that becomes unstable.
+pub const WALKER: &str = "body: [\"00345\", \"33333\"]\n";
+pub const WILD: &str = "body: ['57070', '73873', '00304', '00001', '00861']\n";
+
 /// The program, or that of another machine with what runs it: the words of `NBC_FOREIGN`, such as `wine64 nbc.exe`. It
 /// has one thread, because tests run side by side.
 pub fn program() -> Command {
@@ -28,12 +30,49 @@ pub fn program() -> Command {
     command
 }
 
-/// A folder of its own for one test, with the program run inside it.
+/// The arguments of a program: a list, or a text of words, in which one with spaces is in single quotes.
+pub trait Words {
+    fn words(&self) -> Vec<String>;
+}
+
+impl Words for str {
+    fn words(&self) -> Vec<String> {
+        let parts = self.split('\'').enumerate();
+        parts
+            .flat_map(|(at, part)| if at % 2 == 1 { vec![part] } else { part.split_whitespace().collect() })
+            .map(str::to_owned)
+            .collect()
+    }
+}
+
+impl Words for String {
+    fn words(&self) -> Vec<String> {
+        self.as_str().words()
+    }
+}
+
+impl Words for [&str] {
+    fn words(&self) -> Vec<String> {
+        self.iter().map(|&word| word.to_owned()).collect()
+    }
+}
+
+impl Words for Vec<&str> {
+    fn words(&self) -> Vec<String> {
+        self[..].words()
+    }
+}
+
+impl<const N: usize> Words for [&str; N] {
+    fn words(&self) -> Vec<String> {
+        self[..].words()
+    }
+}
+
 pub struct Bench {
     folder: tempfile::TempDir,
 }
 
-/// The output and exit status of a run of the program.
 pub struct Ran {
     pub status: i32,
     pub out: String,
@@ -45,8 +84,28 @@ impl Bench {
         Self { folder: tempfile::tempdir().unwrap() }
     }
 
+    pub fn with(name: &str, bytes: impl AsRef<[u8]>) -> Self {
+        let bench = Self::new();
+        bench.file(name, bytes);
+        bench
+    }
+
     pub fn path(&self) -> &Path {
         self.folder.path()
+    }
+
+    pub fn has(&self, name: impl AsRef<Path>) -> bool {
+        self.path().join(name).exists()
+    }
+
+    #[track_caller]
+    pub fn read(&self, name: impl AsRef<Path>) -> String {
+        text_of(self.path().join(name))
+    }
+
+    #[track_caller]
+    pub fn bytes(&self, name: impl AsRef<Path>) -> Vec<u8> {
+        fs::read(self.path().join(name)).unwrap()
     }
 
     /// Writes a program into the folder, with the schedule `short` in front: every pattern for one cycle.
@@ -54,23 +113,51 @@ impl Bench {
         self.file(name, format!("{SHORT}{text}"))
     }
 
-    /// Writes a file into the folder.
-    pub fn file(&self, name: &str, bytes: impl AsRef<[u8]>) -> PathBuf {
-        let path = self.folder.path().join(name);
-        std::fs::write(&path, bytes).unwrap();
+    /// Writes a file into the folder, and the folders around it.
+    pub fn file(&self, name: impl AsRef<Path>, bytes: impl AsRef<[u8]>) -> PathBuf {
+        let path = self.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(&path, bytes).unwrap();
         path
     }
 
-    pub fn run(&self, arguments: &[&str]) -> Ran {
-        let Output { status, stdout, stderr } = self.command(arguments).output_in_time();
-        let text = |bytes| String::from_utf8(bytes).expect("the program prints text");
-        Ran { status: status.code().expect("the program ends by itself"), out: text(stdout), err: text(stderr) }
+    pub fn command(&self, words: &(impl Words + ?Sized)) -> Command {
+        let mut command = program();
+        command.args(words.words()).current_dir(self.path()).env_remove("NO_COLOR");
+        command
     }
 
-    pub fn command(&self, arguments: &[&str]) -> Command {
-        let mut command = program();
-        command.args(arguments).current_dir(self.path()).env_remove("NO_COLOR");
-        command
+    pub fn run(&self, words: &(impl Words + ?Sized)) -> Ran {
+        self.command(words).ran()
+    }
+
+    #[track_caller]
+    pub fn ok(&self, words: &(impl Words + ?Sized)) -> Ran {
+        let ran = self.run(words);
+        assert_eq!(ran.status, 0, "{:?}: {}{}", words.words(), ran.out, ran.err);
+        ran
+    }
+
+    pub fn told(&self, words: &(impl Words + ?Sized), text: &str) -> Ran {
+        let mut command = self.command(words);
+        let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
+        child.stdin.take().unwrap().write_all(text.as_bytes()).unwrap();
+        end(child).into()
+    }
+
+    /// Runs the program within limits such as `ulimit -t 5`.
+    pub fn limited(&self, limits: &str, words: &(impl Words + ?Sized)) -> Ran {
+        let script = format!("{limits}; exec \"$0\" \"$@\"");
+        let mut command = Command::new("sh");
+        command.args(["-c", &script, env!("CARGO_BIN_EXE_nbc")]).args(words.words()).current_dir(self.path()).ran()
+    }
+}
+
+impl From<Output> for Ran {
+    /// A program that a signal ended has the status -1.
+    fn from(Output { status, stdout, stderr }: Output) -> Self {
+        let text = |bytes| String::from_utf8(bytes).expect("the program prints text");
+        Self { status: status.code().unwrap_or(-1), out: text(stdout), err: text(stderr) }
     }
 }
 

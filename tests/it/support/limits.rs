@@ -7,8 +7,7 @@ use std::time::{Duration, Instant};
 
 use nbc_base::diag::Code;
 
-use crate::support::bench::Bench;
-use crate::support::tools::signal;
+use crate::support::*;
 
 /// The most time that a program may take. A busy machine needs a small part of it.
 pub const PATIENCE: Duration = Duration::from_secs(300);
@@ -38,7 +37,6 @@ impl Limit {
     }
 }
 
-/// Waits until a program ends; what it wrote.
 pub fn end(program: Child) -> Output {
     end_within(program, PATIENCE)
 }
@@ -49,12 +47,14 @@ fn end_within(program: Child, patience: Duration) -> Output {
 }
 
 pub trait InTime {
-    /// As [`Command::output`], with this limit.
     fn output_within(&mut self, patience: Duration) -> Output;
 
-    /// As [`Command::output`], with the usual limit.
     fn output_in_time(&mut self) -> Output {
         self.output_within(PATIENCE)
+    }
+
+    fn ran(&mut self) -> Ran {
+        self.output_in_time().into()
     }
 }
 
@@ -65,23 +65,22 @@ impl InTime for Command {
     }
 }
 
-/// The program rejects its second argument with this code, within a gigabyte of address space and five seconds of CPU
-/// time, as a build for tests is several times slower than one for users.
+/// The most that a refusal of hostile input may take: a build for tests is several times slower than one for users.
+pub const BOUNDS: &str = "ulimit -t 5; ulimit -v 1048576";
+
+/// The program rejects its second argument with this code, within these bounds.
 #[track_caller]
 pub fn refused_by(bench: &Bench, arguments: &[&str], code: Code) {
-    let file = arguments[1];
-    let mut command = std::process::Command::new("sh");
-    command
-        .args(["-c", "ulimit -t 5; ulimit -v 1048576; exec \"$0\" \"$@\"", env!("CARGO_BIN_EXE_nbc")])
-        .args(arguments);
-    let output = command.current_dir(bench.path()).output_in_time();
-    let said = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(2), "{file}: {:?}, {said:.500}", output.status);
-    assert!(said.contains(code.word()) && !said.contains("panicked"), "{file}: {code} is not in {said:.500}");
-    assert!(said.len() < 100_000, "{file}: {} bytes of messages", said.len());
+    let (file, ran) = (arguments[1], bench.limited(BOUNDS, arguments));
+    assert_eq!(ran.status, 2, "{file}: {:.500}", ran.err);
+    assert!(
+        ran.err.contains(code.word()) && !ran.err.contains("panicked"),
+        "{file}: {code} is not in {:.500}",
+        ran.err
+    );
+    assert!(ran.err.len() < 100_000, "{file}: {} bytes of messages", ran.err.len());
 }
 
-/// Waits until something holds.
 #[track_caller]
 pub fn until(fault: &str, holds: impl Fn() -> bool) {
     let end = Instant::now() + PATIENCE;
@@ -93,12 +92,12 @@ pub fn until(fault: &str, holds: impl Fn() -> bool) {
 
 #[test]
 fn every_wait_for_a_program_has_a_limit() {
-    let files = crate::support::tools::files();
+    let files = files();
     for (path, text) in files.iter().filter(|(path, _)| !path.ends_with("limits.rs")) {
         for word in [".output()", ".wait_with_output()"] {
             assert!(!text.contains(word), "{}: use those of limits.rs, not `{word}`", path.display());
         }
-        let has_limit = ["limits::", "PATIENCE", "recv_timeout"].iter().any(|word| text.contains(word));
+        let has_limit = ["Limit::", "end(", "PATIENCE", "recv_timeout"].iter().any(|word| text.contains(word));
         assert!(has_limit || !text.contains(".spawn()"), "{}: its programs have no limit", path.display());
     }
 }

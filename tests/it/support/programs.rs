@@ -1,19 +1,17 @@
 //! Programs of the language: those of the repository, and texts that are checked and tested.
 
-use std::fs;
-use std::path::PathBuf;
+use std::sync::Arc;
 
 use nbc_base::diag::render;
 use nbc_base::model::{CircuitTest, Program, Stimulation};
 use nbc_base::source::{MemoryWorld, Sources};
 use nbc_circuit::{Logic, elaborate, elaborate_reference};
 use nbc_lang::check::{self, Analysis};
-use nbc_session::{Session, TestOptions};
+use nbc_session::{Checked, Session, TestOptions, TestRun};
 use nbc_swarm::Level;
 
-use crate::support::root;
+use crate::support::*;
 
-/// Every .nb file in a folder of the repository.
 pub fn programs(folder: &str) -> Vec<PathBuf> {
     let mut paths: Vec<_> = fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "nb"));
@@ -70,13 +68,36 @@ pub fn passes(program: &Program, test: &CircuitTest) {
     }
 }
 
-/// Whether more than the rows of a test decides: what its circuit does, or how many rows may fail.
+/// A session with a text called `a.nb`, which has no errors.
+pub fn session_of(text: impl Into<String>) -> (Session, Arc<Checked>) {
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("a.nb", 1, text);
+    let checked = session.open("a.nb").unwrap_or_else(|error| panic!("{error}"));
+    (session, checked)
+}
+
+/// A checked text called `a.nb`, which may have errors.
+pub fn checked(text: impl Into<String>) -> Arc<Checked> {
+    let mut session = Session::new(MemoryWorld::default());
+    session.update("a.nb", 1, text);
+    session.checked("a.nb")
+}
+
+pub fn in_physics() -> TestOptions {
+    TestOptions { level: Some(Level::Physics), ..TestOptions::default() }
+}
+
+/// The runs of the first test of a program in physics.
+pub fn tested(text: &str) -> Vec<TestRun> {
+    let (session, checked) = session_of(text);
+    session.test(&checked, &checked.program.tests[0], &in_physics(), &mut ()).unwrap()
+}
+
 fn depends(test: &CircuitTest) -> bool {
     matches!(test.stimulation, Stimulation::Script(_) | Stimulation::Ever { .. })
         || test.rows_from.as_ref().is_some_and(|from| from.at_least.is_some())
 }
 
-/// Runs the tests of a source that depend on more than their rows, at the level of logic; fails if one fails.
 pub fn performs(session: &mut Session, path: &str) {
     let checked = session.open(path).unwrap_or_else(|error| panic!("{error:?}"));
     let options = TestOptions { level: Some(Level::Logic), ..TestOptions::default() };

